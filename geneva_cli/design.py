@@ -47,9 +47,8 @@ from geneva_cli.spec.tables import (
 if TYPE_CHECKING:
     from geneva_cli.extras.certify.certificate import Certificate
     from geneva_cli.figure import Figure
-    from geneva_cli.geometry.drawing import Drawing
     from geneva_cli.geometry.mass import MassProperties
-    from geneva_cli.geometry.sheet import Sheet
+    from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.loads.cycle import Cycle
     from geneva_cli.loads.load_summary import LoadSummary
     from geneva_cli.motion.peaks import Peaks
@@ -102,7 +101,7 @@ def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any,
 
     It refuses an unknown keyword.
     """
-    known = [name for name in ask.__annotations__ if name != "return"]
+    *known, _ = ask.__annotations__  # the last one is what it returns
 
     @wraps(ask)
     def method(design: Any, /, *values: P.args, **named: P.kwargs) -> T:
@@ -637,7 +636,7 @@ class Design:
 
             picture = with_dog_bones(picture, parts_having(self.parts, part), dog_bones_mm)
         if centre_marks:
-            from geneva_cli.drawings.centre_marks import with_centre_marks
+            from geneva_cli.parts.projection import with_centre_marks
 
             picture = with_centre_marks(picture)
         if kerf_mm is None:

@@ -19,8 +19,8 @@ from geneva_cli import extras, kinds, load, study
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts import flat_parts
 from geneva_cli.parts.outlines import cut_outlines as outline
+from geneva_cli.parts.outlines.walls import chain as curved_walls
 from geneva_cli.parts.outlines.walls import chain as walls_chain
-from geneva_cli.parts.outlines.walls import curved as curved_walls
 from geneva_cli.parts.outlines.walls import path_walls
 from geneva_cli.parts.turn import full_turn
 from geneva_cli.verdict import advice, motion_warnings

@@ -51,6 +51,7 @@ def test_the_page_runs_cell_by_cell_and_prints_what_it_says(capsys):
     assert len(said) == 3 and all(out.startswith(comment.strip()) for out, comment in said)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["two-rollers-side-crank", "spherical-z6", "gear-sector"])
 def test_a_design_shows_its_pictures_and_its_verdict(name):
     html = load(str(DESIGNS / f"{name}.toml"))._repr_html_()

@@ -1,6 +1,7 @@
 """Witnesses of certificates of the full turn, flat or on a sphere: gaps at dense positions."""
 
 import math
+from functools import partial
 
 import numpy as np
 from sampling import some
@@ -42,16 +43,16 @@ def pairs(parts, window):
     every = parts.pairs(-TO_MM)
     if parts.locked:
         ends = window.start, window.end
-        yield ends, every.lock(window), lambda at: parts.gaps.locking(parts.gaps.pose(at))
+        yield ends, partial(every.lock, window), lambda at: parts.gaps.locking(parts.gaps.pose(at))
     for roller in range(len(parts.assembly.rollers)):
 
         def gap(at, roller=roller):
             return parts.gaps.rollers(parts.gaps.pose(at))[:, roller]
 
-        yield (window.start, window.end), every.free(roller, window), gap
+        yield (window.start, window.end), partial(every.free, roller, window), gap
         for span, driver in spans(parts, window):
             if roller == driver:
-                yield span, every.driving(roller, span), gap
+                yield span, partial(every.driving, roller, span), gap
 
 
 def check_bounds(parts, rng):

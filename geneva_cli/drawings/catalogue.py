@@ -16,8 +16,7 @@ from geneva_cli.spec.rules import Range, require_mm
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.drawing import Drawing
-    from geneva_cli.geometry.sheet import Sheet
+    from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.parts.parts import Parts
 
 

@@ -12,11 +12,10 @@ from itertools import pairwise
 import numpy as np
 
 from geneva_cli.drawings.part_drawings import pitch_lines
-from geneva_cli.geometry.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.geometry.measure import turned
-from geneva_cli.geometry.placed import placed
-from geneva_cli.geometry.plates import Group, Member
+from geneva_cli.geometry.plates import Group, Member, placed
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape, about
+from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH

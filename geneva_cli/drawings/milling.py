@@ -10,11 +10,11 @@ import math
 from contextlib import suppress
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.corners import TooWide
 from geneva_cli.geometry.cutter import faults, freed
-from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.inset import TooWide
 from geneva_cli.geometry.plates import Group, Part, Plate, plates
 from geneva_cli.geometry.shapes import Arc, Contour, Layer, Line, Shape
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.roots import boundary

@@ -12,14 +12,12 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.measure import bounds, turned
-from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.plates import Group, Member, Plate, in_place
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, closed, joined
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.crank_solids import arm_plate
+from geneva_cli.parts.arm import arm_plate, crank_arm
 from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled

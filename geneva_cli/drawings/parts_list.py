@@ -24,10 +24,8 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.motion.records import thing
 from geneva_cli.motion.rollers import places
-from geneva_cli.parts.alike import alike
-from geneva_cli.parts.missing import Missing, built_of, or_missing
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.parts.projection import outlines_of
+from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of
 from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields

@@ -12,15 +12,15 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.corners import Bone, TooWide, bone, inner_corners, pieces, with_bones
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.inset import Bone, TooWide, bone, inner_corners, pieces, with_bones
 from geneva_cli.geometry.kerf import Closed, offset
 from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.moments import with_material_left
 from geneva_cli.geometry.pieces import prepared
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Layer, Line, Point, Shape
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_CUT_MM

@@ -14,7 +14,6 @@ import numpy as np
 
 from geneva_cli.geometry.measure import directions
 from geneva_cli.geometry.shapes import Arc, Contour, Line
-from geneva_cli.kept import cached_property
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
@@ -81,7 +80,7 @@ class Polyarc:
         self.arc = self.sense != 0.0
         self.dx, self.dy, self.square, self.length, *rest = rest  # of the chord
         # A circle about the middle of each piece's chord that holds the piece. Then the turn of the
-        # outline at each piece's start and end: left (1), right (-1) or none (0).
+        # outline at each piece's start and end, radians: above 0 to the left, 0 for none.
         self.ox, self.oy, self.size, self.turn_start, self.turn_end = rest
 
     def __len__(self) -> int:
@@ -93,21 +92,6 @@ class Polyarc:
         out._name(self._columns[:, keep])
         return out
 
-    def near(self, points: Array, reach: float) -> Polyarc:
-        """The pieces that may lie within ``reach`` of one of the points; all pieces if none do.
-
-        For points farther away the result has no valid side of the outline.
-        """
-        # sixty points represent all of them here, where pieces are selected
-        grid = points[:: max(1, len(points) // 60)]
-        dx, dy = grid[:, :1] - self.ox, grid[:, 1:] - self.oy
-        away = np.sqrt((dx * dx + dy * dy).min(axis=0)) - self.size
-        # Points between those of the grid are no farther from it than its own spacing.
-        step = np.hypot(*np.diff(points, axis=0).T)
-        spare = float(step.max(initial=0.0)) * (len(points) // len(grid) + 1)
-        keep = np.flatnonzero(away <= reach + spare)
-        return self.subset(keep) if len(keep) else self
-
     def signed(self, points: Array) -> Array:
         """Distance of each of (n, 2) points from the boundary, negative inside the material."""
         size = max(1, BLOCK // len(self))
@@ -116,10 +100,6 @@ class Polyarc:
 
     def _signed(self, points: Array) -> Array:
         x, y = points.T
-        if len(self) < 64:  # with more pieces, selecting those nearby first is faster
-            views = self._upright.distances(x, y)
-            piece = np.argmin(views.distance, axis=0)
-            return self._signs(views.at((piece, np.arange(len(points)))), piece)
         row, pieces = self._nearby(points)
         some = self.subset(pieces)
         views = some.distances(x[row], y[row])
@@ -128,16 +108,6 @@ class Polyarc:
         equal = np.flatnonzero(views.distance == least[row])
         first = equal[_changes(row[equal])]
         return some._signs(views.at(first), first)
-
-    @cached_property
-    def _upright(self) -> Polyarc:
-        """The pieces in a column, so that array rows run along the points.
-
-        There are more points than pieces; rows along the pieces take at least twice as long.
-        """
-        out = object.__new__(Polyarc)
-        out._name(self._columns[:, :, None])
-        return out
 
     def distances(self, x: Array, y: Array) -> PieceDistances:
         """Distances and sides of points relative to pieces; x and y broadcast with the pieces.
@@ -222,4 +192,4 @@ def _row(piece: Line | Arc) -> tuple[float, ...]:
 
 def _corner(before: float, after: float) -> float:
     turn = math.remainder(after - before, math.tau)
-    return math.copysign(1.0, turn) if abs(turn) > SAME_ANGLE else 0.0
+    return turn if abs(turn) > SAME_ANGLE else 0.0

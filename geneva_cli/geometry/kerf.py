@@ -13,12 +13,12 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.measure import at, directions, segment_length
 from geneva_cli.geometry.moments import with_material_left
 from geneva_cli.geometry.pieces import SHORTEST_MM, prepared
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Layer, Line, Point, Segment, closed
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_CUT_MM

@@ -8,9 +8,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 
-from geneva_cli.geometry.helvetica import width
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Point, Segment, about, two_arcs
-from geneva_cli.geometry.sheet import ARROW, BELOW, LARGE, SMALL, Arrow, Label, Measure, polar
+from geneva_cli.geometry.sheet import (
+    ARROW,
+    BELOW,
+    LARGE,
+    SMALL,
+    Arrow,
+    Label,
+    Measure,
+    polar,
+    width,
+)
 
 PAST = 1.5  # length of an extension line beyond the dimension line
 CLEAR = 0.8  # gap from the outline to an extension line, and from a line to its text

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.geometry.hole_walls import require_faces
 from geneva_cli.geometry.moments import Moments, moments, oriented, total
 from geneva_cli.geometry.plates import Plate, Stack
 from geneva_cli.geometry.shapes import Circle, Contour, Point, Shape
+from geneva_cli.geometry.stacks import require_faces
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.cross_holes import CrossHole
+    from geneva_cli.geometry.round_holes import CrossHole
 
 MM = 1e-3  # metres
 
@@ -42,7 +42,7 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
         whole = added(whole, face_properties(edges, 2.0, density_kgm3))  # moments of 1 mm, twice
     if not plate.cross:
         return whole
-    from geneva_cli.geometry.cross_holes import drilled
+    from geneva_cli.geometry.round_holes import drilled
 
     contours = drilled((plate.outline, *plate.holes), plate.cross)
     taken = total(_removed(hole, contours) for hole in plate.cross)

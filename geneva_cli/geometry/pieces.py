@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.measure import mapped, segment_length
 from geneva_cli.geometry.shapes import (
     Arc,
@@ -20,6 +19,7 @@ from geneva_cli.geometry.shapes import (
     closed,
     joined,
 )
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.table import Reading, Table, rows_table
 
 UNITS = {"mm": 1.0, "inch": 25.4}  # millimetres in one

@@ -7,17 +7,17 @@ millimetres, angles in radians.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.geometry.edges import Edge
+from geneva_cli.geometry.measure import S, mapped, turned
 from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.cross_holes import CrossHole
-    from geneva_cli.geometry.round_holes import RoundHole
+    from geneva_cli.geometry.round_holes import CrossHole, RoundHole
     from geneva_cli.geometry.sphere import Region, Rotation, Vector
 
 
@@ -117,9 +117,7 @@ class Shell(NamedTuple):
         """Greatest coordinate of the shell along a direction, mm from the centre."""
         from geneva_cli.geometry.sphere_arcs import SphereArcs
 
-        if any(
-            SphereArcs(r.boundary).signed(np.array([direction]))[0][0] < 0.0 for r in self.regions
-        ):
+        if any(SphereArcs(r.boundary).signed(np.array([direction]))[0] < 0.0 for r in self.regions):
             return self.outer
         most = max(arc.reach(direction) for region in self.regions for arc in region.boundary)
         return most * (self.outer if most > 0.0 else self.inner)
@@ -214,3 +212,24 @@ def lowered(part: Plate | Stack) -> Plate | Stack:
         )
         for one in part.plates
     )
+
+
+def placed(shape: S, at: Point, turn: float) -> S:
+    """Return a shape turned about its own origin, and then moved."""
+    if at == (0.0, 0.0) and not turn:
+        return shape
+    return mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1]))
+
+
+def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
+    """Yield each plate, and each step of a turned part, in its own frame and at its position."""
+    for one in members:
+        if isinstance(one.part, Group):
+            inner = in_place(one.part.members)
+        else:
+            inner = ((step, step) for step in steps_of(one.part))
+        for own, plate in inner:
+            outline, *holes = (
+                placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)
+            )
+            yield own, plate._replace(outline=outline, holes=tuple(holes))

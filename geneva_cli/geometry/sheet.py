@@ -1,4 +1,4 @@
-"""A drawing sheet: shapes, texts and dimensions on layers, in millimetres on paper.
+"""A drawing, and a drawing sheet: shapes, texts and dimensions on layers, in millimetres.
 
 The formats of sheets write it without knowing the part. The origin is the paper's lower left
 corner.
@@ -8,10 +8,102 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
 
-from geneva_cli.geometry.helvetica import width
-from geneva_cli.geometry.shapes import Contour, Layer, Line, Point, Segment, Shape, polygon
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.measure import Box, bounds_of
+from geneva_cli.geometry.shapes import Arc, Contour, Layer, Line, Point, Segment, Shape, polygon
+
+if TYPE_CHECKING:
+    from geneva_cli.geometry.plates import Part
+
+
+class LevelDistance(NamedTuple):
+    """A horizontal distance between two points, and its name."""
+
+    start: Point
+    end: Point
+    name: str
+
+
+class Annotations(NamedTuple):
+    """Annotations of a drawing for people: distances and rotations.
+
+    Rotations are arcs, with an arrow at their end.
+    """
+
+    spans: tuple[LevelDistance, ...] = ()
+    turns: tuple[Arc, ...] = ()
+
+
+class Drawing(NamedTuple):
+    """Shapes and a title.
+
+    ``look`` holds the annotations of a drawing for people; it is None for a drawing to cut from.
+    ``solid`` is the drawing as a solid, for formats of solids. ``shells`` replaces it if the
+    drawing is a flattened shell. ``tolerance`` is the greatest distance from it, in mm, that
+    chords of a mesh may have.
+    """
+
+    title: str
+    shapes: tuple[Shape, ...]
+    look: Annotations | None = None
+    solid: Part | None = None
+    shells: Part | None = None
+    tolerance: float = 0.001
+
+    @property
+    def layers(self) -> tuple[str, ...]:
+        """Layers in use, in the order of their first shape."""
+        return tuple(dict.fromkeys(shape.layer for shape in self.shapes))
+
+
+def extent(drawing: Drawing) -> Box:
+    """Smallest box around all shapes; raises GenevaError if there are none."""
+    if not drawing.shapes:
+        raise GenevaError("nothing to draw: a drawing must have a shape")
+    return bounds_of(drawing.shapes)
+
+
+CAPITALS = 0.718  # height of capital letters, over the font's size
+_ASCII = (  # from the space on
+    *(278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278),
+    *(556,) * 10,
+    *(278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278),
+    *(500, 667, 556, 833, 722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667),
+    *(611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278, 556, 556, 222),
+    *(222, 500, 222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500),
+    *(500, 334, 260, 334, 584),
+)
+_BOLD = (
+    *(278, 333, 474, 556, 556, 889, 722, 238, 333, 333, 389, 584, 278, 333, 278, 278),
+    *(556,) * 10,
+    *(333, 333, 584, 584, 584, 611, 975, 722, 722, 722, 722, 667, 611, 778, 722, 278),
+    *(556, 722, 611, 833, 722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667),
+    *(611, 333, 278, 333, 584, 556, 333, 556, 611, 556, 611, 556, 333, 611, 611, 278),
+    *(278, 556, 278, 889, 611, 611, 611, 611, 389, 556, 333, 611, 556, 778, 556, 556),
+    *(500, 389, 280, 389, 584),
+)
+# equal in both; the first is the non-breaking space
+_OTHERS = {
+    **{"\u00a0": 278, "·": 278, "²": 333, "³": 333, "°": 400},
+    **{"–": 556, "±": 584, "×": 584, "Ø": 778},
+}
+
+
+@lru_cache(maxsize=256)  # a text is tried at many places
+def width(text: str, bold: bool = False) -> float:
+    """Width of a text over the height of its capitals; unlisted letters count as the widest.
+
+    >>> round(width("20 H7"), 3)
+    3.716
+    """
+    known = _BOLD if bold else _ASCII
+    widest = 1000  # for letters that are not listed
+    units = sum(known[ord(c) - 32] if " " <= c <= "~" else _OTHERS.get(c, widest) for c in text)
+    return units / (1000.0 * CAPITALS)
+
 
 ARROW = 3.0, 0.4  # mm: an arrow's length, and half its width (ISO 129-1: filled, 15 degrees)
 SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1)

@@ -7,24 +7,12 @@ has a corner, or the points and the axes of both circles are on one great circle
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.geometry.sphere import SphereArc
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-
-
-class _Nearest(NamedTuple):
-    """Where points are seen from the axes of k arcs: arrays (n, k), radians."""
-
-    off: Array  # from the arc's circle
-    turn: Array  # about the axis, from the arc's start
-    past: Array  # beyond its end, below 0 on the arc
-    short: Array  # of its start
-    beyond: Array  # the smaller of both, 0 on the arc
-    square: Array  # of the half chord to the nearest point of the arc
 
 
 def half_chords(off: Array, across: Array, beyond: Array) -> Array:
@@ -45,7 +33,7 @@ class SphereArcs:
     >>> import math
     >>> from geneva_cli.geometry.sphere import place
     >>> cap = SphereArcs([SphereArc((0.0, 0.0, 1.0), 0.5, place(0.5, 0.0), place(0.5, 0.0))])
-    >>> away, _ = cap.signed(np.array([place(0.7, 1.0), place(0.2, 2.0)]))
+    >>> away = cap.signed(np.array([place(0.7, 1.0), place(0.2, 2.0)]))
     >>> away.round(12).tolist()  # outside, and inside
     [0.2, -0.3]
     """
@@ -82,38 +70,35 @@ class SphereArcs:
         ahead = c * self.x[which] + s * self.y[which]
         return np.cos(self.angle[which])[:, None] * self.axis[which] + flat * ahead
 
-    def signed(self, points: Array) -> tuple[Array, Array]:
-        """Distances of points (n, 3) from the boundary, and the nearest points of it (n, 3).
-
-        Distances are in radians, negative inside.
-        """
-        off, turn, past, short, beyond, square = self._nearest(points)
-        near = np.argmin(square, axis=1)
-        row = np.arange(len(points))
+    def signed(self, points: Array) -> Array:
+        """Distances of points (n, 3) from the boundary, radians, negative inside."""
+        off, past, short, square = self._nearest(points)
+        near, row = np.argmin(square, axis=1), np.arange(len(points))
         away = 2.0 * np.arcsin(np.sqrt(np.minimum(square[row, near], 1.0)))
-        at_start = short[row, near] < past[row, near]
-        corner = np.where(at_start, self.first[near], self.last[near])
-        corner = np.where((beyond[row, near] > 0.0) & (np.abs(corner) > SAME_ANGLE), corner, 0.0)
+        past, short = past[row, near], short[row, near]
+        corner = np.where(short < past, self.first[near], self.last[near])
+        corner = np.where((past > 0.0) & (np.abs(corner) > SAME_ANGLE), corner, 0.0)
         outside = np.where(corner != 0.0, corner > 0.0, off[row, near] > 0.0)
-        end = np.where(at_start, 0.0, self.sweep[near])
-        foot = np.where(past[row, near] <= 0.0, turn[row, near], end)
-        return np.where(outside, away, -away), self.at(near, foot)
+        return np.where(outside, away, -away)
 
     def distances(self, points: Array) -> Array:
         """Distances of points (n, 3) from each arc, radians, (n, k)."""
-        square = self._nearest(points).square
+        *_, square = self._nearest(points)
         return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
 
-    def _nearest(self, points: Array) -> _Nearest:
-        """The nearest points of each arc to points (n, 3)."""
+    def _nearest(self, points: Array) -> tuple[Array, Array, Array, Array]:
+        """How points (n, 3) are seen from the axes of the arcs: four arrays (n, k).
+
+        They are the angles off the arc's circle, past the arc's end (below 0 on the arc), and short
+        of its start, and the square of the half chord to the nearest point of the arc.
+        """
         along, sideways = points @ self.x.T, points @ self.y.T
         across = np.hypot(along, sideways)
         off = np.arctan2(across, points @ self.axis.T) - self.angle
         turn = np.remainder(np.arctan2(sideways, along), 2.0 * np.pi)
         past, short = turn - self.sweep, 2.0 * np.pi - turn
         beyond = np.where(past <= 0.0, 0.0, np.minimum(past, short))
-        square = half_chords(off, np.sin(self.angle) * across, beyond)
-        return _Nearest(off, turn, past, short, beyond, square)
+        return off, past, short, half_chords(off, np.sin(self.angle) * across, beyond)
 
     def facing(self, which: Whole, towards: Array) -> tuple[Whole, Array]:
         """Points of some of the arcs that face directions (n, 3), or face away from them.

@@ -7,11 +7,10 @@ tangent t points away from the wheel's axis: M . t > 0, M being the roller's cen
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 from geneva_cli.loads.forces import Contact, contact_values
 from geneva_cli.motion.engagement import Engagement, Vector
-from geneva_cli.numerics.arrays import Whole, all_true, choose, library
+from geneva_cli.numerics.arrays import all_true, choose, library
 from geneva_cli.numerics.jet import Array, Jet, Number, piecewise, sin_cos, sqrt
 
 NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
@@ -28,32 +27,6 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
     else:
         at = contact(engagement, input_deg)
     return contact_values(at)
-
-
-def column(at: Contact[Jet], number: int) -> Contact[Jet]:
-    """The contact at one of the places (n, k) of each design: (n, 1)."""
-
-    def of(c: Array) -> Array:
-        return c if c.shape[-1] == 1 else c[..., number : number + 1 or None]
-
-    return _changed(at, of)
-
-
-def rows(at: Contact[Jet], which: Whole) -> Contact[Jet]:
-    """The contact of some designs, at all its places."""
-    return _changed(at, lambda c: c[which] if len(c) > 1 else c)
-
-
-def _changed(at: Contact[Jet], change: Callable[[Array], Array]) -> Contact[Jet]:
-    """The contact with a change applied to every array."""
-
-    def of(jet: Jet) -> Jet:
-        return Jet([c if isinstance(c, float) else change(c) for c in jet.c])
-
-    *jets, joints, heading = at
-    turned = heading and tuple(map(of, heading))
-    reactions = joints and tuple(((of(a), of(b)), (of(c), of(d))) for (a, b), (c, d) in joints)
-    return Contact._make([*map(of, jets), reactions, turned])
 
 
 def contact(

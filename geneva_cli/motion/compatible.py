@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial, reduce
+from itertools import chain
 from operator import or_
 from typing import NamedTuple, TypeAlias
 
@@ -45,23 +46,13 @@ _KINDS = tuple(
 
 def refuse_conflicts(spec: Spec) -> None:
     """Raise GenevaError if the spec combines kinds that make no machine together."""
-    _refuse(_of_drive_before(spec), spec)
-    for kind in _KINDS:
-        if _concerns(kind, spec):
-            rules: Rules = load_named(kind.refuses)
-            _refuse(rules(spec), spec)
-    _refuse(_of_gears(spec), spec)
-
-
-def _refuse(conflicts: Iterator[Conflict], spec: Spec) -> None:
-    for conflict in conflicts:
-        when = conflict.when
-        if is_array(when) or when:
-            refuse(when if is_array(when) else True, partial(_error, conflict, spec))
-
-
-def _error(conflict: Conflict, spec: Spec) -> GenevaError:
-    return GenevaError(conflict.text.format(spec=spec), conflict.key)
+    kinds = [load_named(kind.refuses) for kind in _KINDS if _concerns(kind, spec)]
+    rules: list[Rules] = [_of_drive_before, *kinds, _of_gears]
+    for conflict in chain.from_iterable(rule(spec) for rule in rules):
+        if is_array(conflict.when):
+            refuse(conflict.when, partial(GenevaError, conflict.text))
+        elif conflict.when:
+            raise GenevaError(conflict.text.format(spec=spec), conflict.key)
 
 
 def _concerns(kind: Kind, spec: Spec) -> bool:

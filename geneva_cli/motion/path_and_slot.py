@@ -51,12 +51,8 @@ class AnchoredPath(Batchable):
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) on its path at input angles in degrees from mid-motion."""
-        along, across = self.from_middle(input_deg, order)
+        along, across = self.middle.place(input_deg, order)
         return turned(along, across, self.ahead)
-
-    def from_middle(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        """Pin along the middle anchor's ray and across it."""
-        return self.middle.place(input_deg, order)
 
     def nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet, Number]:
         """Pin along the nearest anchor's ray and across it; and the ray's direction, radians."""
@@ -96,7 +92,7 @@ class RadialSlot(Slot):
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) in the wheel, on the slot's straight axis."""
-        depth = _length(self.path.from_middle(input_deg, order))
+        depth = _length(self.path.middle.place(input_deg, order))
         return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:

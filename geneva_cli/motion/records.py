@@ -30,11 +30,11 @@ _DRAWINGS = {
     "groove": "drawings.part_drawings:groove",
     "groove-plate": "drawings.part_drawings:groove_plate",
     "coupon": "drawings.coupon:coupon",
-    "plate": "drawings.print_plate:plate",
+    "plate": "drawings.coupon:plate",
     "sheet": "drawings.sheet.machine_sheet:sheet",
 }
 _TABLES = {
-    "slot": "parts.slots.slot_sampling:profile_table",
+    "slot": "parts.slots.slot_profile:profile_table",
     "gears": "parts.gears.gear_curves:gears_table",
     "groove": "parts.slots.groove:groove_table",
 }

@@ -260,6 +260,11 @@ def columns_taken(values: Arrays, which: Which) -> Arrays:
     return values.take(numbers_of(which), axis=-1)
 
 
+def record_taken(record: Record, which: Which) -> Record:
+    """A record of arrays (..., m) with some of their columns."""
+    return record_of(record, [columns_taken(c, which) for c in cast("tuple[Array, ...]", record)])
+
+
 def rows_taken(values: Array, which: Which) -> Array:
     """Some rows of values (..., m, k), in memory with the m side by side."""
     return columns_taken(values.swapaxes(-1, -2), which).swapaxes(-1, -2)

@@ -22,6 +22,7 @@ from geneva_cli.numerics.arrays import (
     blocks,
     columns_taken,
     joined,
+    record_taken,
     rows_taken,
 )
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
@@ -79,16 +80,15 @@ class Rows(NamedTuple):
 
     def take(self, which: Which) -> Rows:
         """Some of the rows, by a mask or their numbers."""
-        return Rows(*(columns_taken(column, which) for column in self))
+        return record_taken(self, which)
 
     def at(self, t: Array) -> Array:
         """The spread places at positions from -1 to 1 in the rows."""
         a, b = self.u
         return np.asarray(0.5 * (a + b) + 0.5 * (b - a) * t)
 
-    def part(self, low: Array, high: Array, w: Array) -> Rows:
-        """The parts between two positions; ``w`` are the spread widths of all designs."""
-        t = np.stack((low, high))
+    def part(self, t: Array, w: Array) -> Rows:
+        """The parts between two positions (2, m); ``w`` are the spread widths of all designs."""
         inner = np.abs(t) < 1.0
         u = np.where(inner, self.at(t), self.u)
         x = np.clip(gathered(u, w[self.design]), *self.x)
@@ -145,9 +145,8 @@ class Cutter:
 
     def halves(self, rows: Rows) -> Rows:
         """Both halves of rows."""
-        every = np.ones(len(rows.design))
-        both = ((-every, 0.0 * every), (0.0 * every, every))
-        return joined([rows.part(low, high, self.w) for low, high in both])
+        ends = np.array([[-1.0], [0.0], [1.0]]).repeat(len(rows.design), axis=1)
+        return joined([rows.part(ends[:2], self.w), rows.part(ends[1:], self.w)])
 
     def levels(self, rows: Rows) -> Iterator[list[Rows]]:
         """Yield the rows in blocks to be sampled, then those in ``self.todo``, until none is left.
@@ -191,7 +190,7 @@ class Cutter:
             unsure &= ~self.is_settled(here)
             if unsure.any():
                 whole = (part[0] == -1.0) & (part[1] == 1.0)
-                self.again(here.part(*part, self.w), whole, unsure)
+                self.again(here.part(part, self.w), whole, unsure)
             if len(cut):
                 number, part = _between(cut, t, part)
                 own, unsure, q = own[number], unsure[number], rows_taken(q, number)
@@ -205,7 +204,7 @@ class Cutter:
                 sign[kind, flip] *= -1.0
                 there, held = rows_taken(x, own[flip]), sign[:, flip, None]
                 value[:, flip] = f(there, rows.design[own[flip]], 0, held, self.requested)[1][0]
-        cut_rows = rows.take(own).part(*part, self.w)
+        cut_rows = rows.take(own).part(part, self.w)
         return Pieces(cut_rows, sign, part, rows_taken(x, own), value[f.signs :])
 
     def again(self, rows: Rows, whole: Mask, which: Mask) -> None:

@@ -21,8 +21,8 @@ from geneva_cli.numerics.arrays import (
     Which,
     Whole,
     blocks,
-    columns_taken,
     joined,
+    record_taken,
     rows_joined,
     rows_taken,
 )
@@ -162,7 +162,7 @@ class _Candidates(NamedTuple):
 
     def take(self, which: Which) -> _Candidates:
         """Some of the candidates, by a mask or their numbers."""
-        return _Candidates(*(columns_taken(column, which) for column in self))
+        return record_taken(self, which)
 
 
 class _Curves(NamedTuple):

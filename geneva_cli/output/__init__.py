@@ -33,8 +33,7 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from geneva_cli.answer import Answer
     from geneva_cli.figure import Figure
-    from geneva_cli.geometry.drawing import Drawing
-    from geneva_cli.geometry.sheet import Sheet
+    from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.output.document.blocks import Document
     from geneva_cli.output.scene import Scene
 

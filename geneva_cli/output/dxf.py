@@ -10,10 +10,10 @@ import math
 from collections.abc import Callable, Iterator
 
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.geometry.drawing import Drawing, extent
 from geneva_cli.geometry.measure import halved
 from geneva_cli.geometry.pieces import UNITS, prepared
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Segment, Shape
+from geneva_cli.geometry.sheet import Drawing, extent
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace, options
 from geneva_cli.output.formats import DXF_VERSIONS
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks

@@ -8,7 +8,7 @@ from html import escape
 
 from geneva_cli.errors import clean
 from geneva_cli.figure import Figure
-from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.plot import plot_svg
 from geneva_cli.output.svg import drawing_svg as svg
 from geneva_cli.table import Table

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.cross_holes import drilled
-from geneva_cli.geometry.drawing import Drawing
-from geneva_cli.geometry.hole_walls import require_faces
 from geneva_cli.geometry.inset import lines_and_arcs
 from geneva_cli.geometry.pieces import prepared
 from geneva_cli.geometry.plates import Part, Plate, Shell
+from geneva_cli.geometry.round_holes import drilled
 from geneva_cli.geometry.shapes import Circle, Contour, closed
+from geneva_cli.geometry.sheet import Drawing
+from geneva_cli.geometry.stacks import require_faces
 
 
 def solid_part(drawing: Drawing, units: str, format: str) -> Part:

@@ -27,11 +27,6 @@ class Spline(NamedTuple):
         """The first point."""
         return self.poles[0]
 
-    @property
-    def end(self) -> Point:
-        """The last point."""
-        return self.poles[-1]
-
 
 Piece: TypeAlias = Line | Arc | Spline
 

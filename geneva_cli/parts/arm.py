@@ -1,4 +1,4 @@
-"""The crank arm: the plate below the wheel's plane that carries the rollers' pins.
+"""The crank arm, the plate that carries the rollers' pins, and the crank's solids.
 
 Its frame is the crank's, as for the locking disc, which lies on the arm. Its outline is the convex
 hull of circles: a hub about the crank's shaft, and an eye about each pin and each bolt. With one
@@ -16,20 +16,16 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.hole_walls import least_wall
 from geneva_cli.geometry.hull import convex_hull
-from geneva_cli.geometry.shapes import Circle, Contour, Shape
-from geneva_cli.parts.outlines.crank_circles import crank_circles
+from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape
+from geneva_cli.geometry.stacks import least_wall
+from geneva_cli.parts.outlines.crank_outline import crank_circles
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole, keyway_direction, reliefs, sectors
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
-from geneva_cli.parts.sizes import (
-    hub_and_eye,
-    lock_bolt_directions,
-    pin_hole,
-    wall_of_bolts,
-)
+from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole, wall_of_bolts
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.spec.least_wall import eye_about
 
@@ -159,3 +155,49 @@ def walls(arm: CrankArm, parts: Outlines) -> float:
         least_wall([arm.bore, *arm.pins, *arm.bolts], [arm.outline]),
         least_wall(in_disc, parts.crank),
     )
+
+
+def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:
+    """Return the crank arm below the wheel, at a distance of ``pin_gap_mm``."""
+    high = -parts.assembly.mechanism.spec.size.allowances.pin_gap_mm
+    holes = (arm.bore, *arm.pins, *arm.bolts)
+    low = high - parts.sizes.arm_thickness
+    return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
+
+
+def locking_plates(parts: Outlines) -> list[Plate]:
+    """Return the crank's locking disc, or its sectors, with bolts and bore.
+
+    A bore is omitted where the disc has nothing left about the axis: the arm has it.
+    """
+    assembly, sizes = parts.assembly, parts.sizes
+    low = -assembly.mechanism.spec.size.allowances.pin_gap_mm  # the disc stands on the arm
+    high = low + sizes.lock_thickness
+    whole = is_whole(assembly, sizes)
+    bores = [c for c in crank_circles(assembly, sizes) if c.layer == "BORE" and whole]
+    screwed = bolts(parts)
+    each = len(screwed) // max(1, len(parts.crank))
+    name = "locking disc" if whole else "locking sector"
+    return [
+        Plate(
+            name, contour.layer, contour, (*bores, *screwed[k * each : (k + 1) * each]), low, high
+        )
+        for k, contour in enumerate(parts.crank)
+    ]
+
+
+def roller_plates(
+    radius: float, pin_radius: float, low: float, high: float, fit: float
+) -> list[Plate]:
+    """Return a roller in the wheel's plane, up to ``high``, and its pin from ``low`` to there.
+
+    The roller's bore is wider than the pin by ``fit`` mm of the diameter.
+    """
+    outline = Circle("ROLLER", ORIGIN, radius)
+    if not pin_radius:
+        return [Plate("roller", "ROLLER", outline, (), 0.0, high)]
+    pin, bore = (Circle("ROLLER", ORIGIN, r) for r in (pin_radius, pin_radius + 0.5 * fit))
+    return [
+        Plate("roller", "ROLLER", outline, (bore,), 0.0, high),
+        Plate("pin", "ROLLER", pin, (), low, high),
+    ]

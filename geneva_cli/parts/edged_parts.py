@@ -14,7 +14,7 @@ from geneva_cli.parts.parts import Parts
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.gear_teeth import Writer
-    from geneva_cli.parts.framed import FrameAndShafts, Unborne
+    from geneva_cli.parts.mounted_plate import FrameAndShafts, Unborne
     from geneva_cli.parts.shafts.screws import Screws
 
 
@@ -82,7 +82,7 @@ class EdgedParts(Parts):
 
     def require(self) -> None:
         """Raise GenevaError for a part that cannot be built."""
-        from geneva_cli.geometry.hole_walls import require_faces
+        from geneva_cli.geometry.stacks import require_faces
 
         for member in self.required:
             for plate in plates(member.part):

@@ -14,13 +14,13 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.parts.crank_solids import locking_plates
+from geneva_cli.parts.arm import locking_plates
 from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.wheel_circles import wheel_plate
 from geneva_cli.parts.projection import titled
 from geneva_cli.parts.shafts.bores import has_shape, round_bore
 from geneva_cli.parts.sized_by_load import first_spec
-from geneva_cli.parts.wheel import wheel_plate
 from geneva_cli.spec.least_wall import wall_min
 
 

@@ -34,10 +34,10 @@ from geneva_cli.parts.slots.roller_paths import roller_centres
 
 if TYPE_CHECKING:
     from geneva_cli.parts.arm import CrankArm
-    from geneva_cli.parts.framed import FrameAndShafts
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.links.links import Links
-    from geneva_cli.parts.missing import NamedParts
+    from geneva_cli.parts.mounted_plate import FrameAndShafts
+    from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.shafts.screws import Screws
     from geneva_cli.parts.turn.bounds import FlatPairs
     from geneva_cli.parts.turn.gaps import Gaps
@@ -90,7 +90,7 @@ class FlatParts(EdgedParts):
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        from geneva_cli.geometry.extents import farthest
+        from geneva_cli.geometry.hull import farthest
         from geneva_cli.parts.turn.bounds import FlatPairs
 
         gaps, axis = cast("Gaps", self.outlines.gaps), np.zeros((1, 2))
@@ -114,7 +114,7 @@ class FlatParts(EdgedParts):
     @cached_property
     def wheel(self) -> Member:
         """The wheel, with its hub below it if the spec has one."""
-        from geneva_cli.parts.wheel import wheel_part
+        from geneva_cli.parts.outlines.wheel_circles import wheel_part
 
         parts = self.outlines
         walls = {slot: self.walls(slot) for slot in parts.slots}
@@ -150,14 +150,14 @@ class FlatParts(EdgedParts):
     @cached_property
     def arm_plate(self) -> Plate | None:
         """The crank arm as a plate."""
-        from geneva_cli.parts.crank_solids import arm_plate
+        from geneva_cli.parts.arm import arm_plate
 
         return self._plate(arm_plate(self.outlines, self.arm)) if self.arm else None
 
     @cached_property
     def locking(self) -> tuple[Plate, ...]:
         """The locking disc, or its sectors."""
-        from geneva_cli.parts.crank_solids import locking_plates
+        from geneva_cli.parts.arm import locking_plates
 
         return tuple(map(self._plate, locking_plates(self.outlines)))
 
@@ -167,7 +167,7 @@ class FlatParts(EdgedParts):
 
         They are in the crank's frame. Of a wheel that is not drawn, they are those on links.
         """
-        from geneva_cli.parts.crank_solids import roller_plates
+        from geneva_cli.parts.arm import roller_plates
 
         mechanism, low = self.mechanism, self.links.pin_low
         size, r = mechanism.spec.size, mechanism.roller_radius_mm

@@ -25,12 +25,14 @@ from geneva_cli.motion.pivots import AxisPlace
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.bearing_bridge import bearing_bridge
-from geneva_cli.parts.framed import FrameAndShafts, Screwed, Unborne
 from geneva_cli.parts.links.link_planes import crank_stop
 from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_shafts import carried, link_shafts, outside_links
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
+    FrameAndShafts,
+    Screwed,
+    Unborne,
     corner_radius,
     hole_without_shaft,
     mounted_plate,
@@ -38,7 +40,7 @@ from geneva_cli.parts.mounted_plate import (
     shaft_hole,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_hub import wheel_hub
+from geneva_cli.parts.outlines.wheel_circles import wheel_hub
 from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.hub_and_shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 from geneva_cli.parts.shafts.screws import tapped

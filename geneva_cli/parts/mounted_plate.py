@@ -1,20 +1,21 @@
-"""A frame as a plate: holes for shafts and screws, and four mounting holes in its corners."""
+"""A frame as a plate with its holes, and what stands on it: shafts, screws, spacers."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
 from itertools import combinations
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hole_walls import apart
 from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate, Stack
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point
+from geneva_cli.geometry.stacks import apart
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.shafts.bearings import SERIES_60
 from geneva_cli.parts.shafts.bores import around
-from geneva_cli.parts.shafts.screws import screw_through
+from geneva_cli.parts.shafts.screws import Screws, screw_through, tapped
 from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
@@ -103,3 +104,51 @@ def require_walls(holes: list[Circle], least: float, axles: list[Member]) -> Non
                 "smaller bearings",
                 ("size", "shafts"),
             )
+
+
+class Unborne(NamedTuple):
+    """A shaft that turns and does not reach the frame, and the reason."""
+
+    name: str
+    reason: str
+
+
+class Screwed(NamedTuple):
+    """A screw of a part that is fixed to the frame: its clearance hole, and the part's name."""
+
+    hole: Circle
+    part: str
+
+
+class FrameAndShafts(NamedTuple):
+    """The frame, what is on it, and the shafts, whether they reach it or not."""
+
+    plate: Plate
+    shafts: tuple[Member, ...]
+    spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
+    screwed: tuple[Screwed, ...] = ()
+    to_fix: tuple[str, ...] = ()  # names of what the shafts turn, and nothing holds on them
+    bridge: Member | None = None  # bears the crank's shaft from above
+    unborne: tuple[Unborne, ...] = ()
+
+    @property
+    def threads(self) -> tuple[Circle, ...]:
+        """The tapped holes of the frame."""
+        return tuple(tapped(one.hole) for one in self.screwed)
+
+    @property
+    def screws(self) -> tuple[Screws, ...]:
+        """The screws that fix parts to the frame, and those of its mounting holes."""
+        kinds = dict.fromkeys((one.part, one.hole.radius) for one in self.screwed)
+        fixed = (
+            Screws(
+                part,
+                sum((one.part, one.hole.radius) == (part, radius) for one in self.screwed),
+                2.0 * radius,
+                "the frame",
+            )
+            for part, radius in kinds
+        )
+        mounts = mounts_of(self.plate)
+        own = Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base") if mounts else None
+        return (*fixed, own) if own else tuple(fixed)

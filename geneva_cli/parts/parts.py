@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Member
     from geneva_cli.motion.pivots import Dimension
     from geneva_cli.numerics.arrays import Array
-    from geneva_cli.parts.framed import Unborne
     from geneva_cli.parts.gears.gear_blanks import Gear
-    from geneva_cli.parts.missing import NamedParts
+    from geneva_cli.parts.mounted_plate import Unborne
     from geneva_cli.parts.outlines.outlines import Outlines
+    from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.shafts.screws import Screws
     from geneva_cli.parts.turn.full_turn import FullTurn
     from geneva_cli.parts.turn.pairs import Pairs

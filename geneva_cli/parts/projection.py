@@ -1,14 +1,76 @@
-"""What a drawing shows of solids: their outlines and holes at their positions, along the axis."""
+"""Lists of parts: which are alike, which cannot be built, and what a drawing shows of them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple, TypeAlias, TypeVar
 
-from geneva_cli.geometry.drawing import Drawing
-from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.plates import Member, Part
-from geneva_cli.geometry.shapes import Circle, Shape
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.plates import Member, Part, Plate, Shell, Solid, in_place, solids
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.mechanism import Mechanism
+
+Kind: TypeAlias = Solid | tuple[str, str] | tuple[Plate, float]
+
+
+def alike(parts: Iterable[Part]) -> list[list[Solid]]:
+    """Return the solids of some parts: a list for each kind, in the order of its first one.
+
+    Plates of one kind may lie at different heights.
+    """
+    kinds: dict[Kind, list[Solid]] = {}
+    for solid in (one for part in parts for one in solids(part)):
+        kinds.setdefault(_kind(solid), []).append(solid)
+    return list(kinds.values())
+
+
+def _kind(solid: Solid) -> Kind:
+    """Return what is equal for solids of one kind."""
+    if isinstance(solid, Shell):
+        # shells of one kind lie at different places, and may differ by rounding
+        return solid.name, f"{solid.volume:.9g}"
+    if isinstance(solid, Plate) and not solid.cross:
+        # thicknesses are differences of heights: to a nanometre
+        return solid._replace(low=0.0, high=0.0), round(solid.thickness, 6)
+    return solid
+
+
+T = TypeVar("T")
+NamedParts: TypeAlias = "tuple[str, Callable[[], Iterable[Part]]]"
+
+
+class Missing(NamedTuple):
+    """An omitted entry of a list: its name and the reason."""
+
+    name: str
+    why: str
+
+
+def or_missing(name: str, listed: Callable[[], Iterable[T]]) -> Iterator[T | Missing]:
+    """Yield the listed rows; if they cannot be built, the name and the reason instead."""
+    try:
+        rows = list(listed())
+    except GenevaError as error:
+        yield Missing(name, str(error))
+        return
+    yield from rows
+
+
+def built_of(
+    named: Iterable[tuple[str, Callable[[], Iterable[T]]]], missing: list[Missing]
+) -> Iterator[T]:
+    """Yield what can be built; add the others to ``missing``, once for each reason."""
+    failed: dict[str, list[str]] = {}
+    for name, build in named:
+        try:
+            some = list(build())
+        except GenevaError as error:
+            failed.setdefault(str(error), []).append(name)
+            continue
+        yield from some
+    missing += [Missing(", ".join(names), why) for why, names in failed.items()]
+
 
 # in the order of a drawing
 LAYERS = (
@@ -76,3 +138,44 @@ def once(shapes: Iterable[Shape]) -> Iterator[Shape]:
 def circle_key(circle: Circle) -> tuple[float, ...]:
     """Return the centre and radius of a circle, rounded to 1e-6 mm."""
     return tuple(round(value, 6) for value in (*circle.centre, circle.radius))
+
+
+def with_centre_marks(drawing: Drawing) -> Drawing:
+    """Return a drawing with marks in circles and keyed bores, one for concentric ones.
+
+    >>> bore, roller = Circle("BORE", (0.0, 0.0), 4.0), Circle("ROLLER", (0.0, 0.0), 8.0)
+    >>> marked = with_centre_marks(Drawing("disc", (roller, bore)))
+    >>> [mark.segments[0].end for mark in marked.shapes[2:]]
+    [(5.0, 0.0), (0.0, 5.0)]
+    """
+    least: dict[tuple[float, float], Circle] = {}
+    for circle in _circles(drawing.shapes):
+        known = least.get(circle.centre, circle)
+        least[circle.centre] = min(known, circle, key=lambda one: one.radius)
+    return drawing._replace(shapes=(*drawing.shapes, *centre_marks(least.values())))
+
+
+def _circles(shapes: Iterable[Shape]) -> Iterator[Circle]:
+    """Yield circles, and round holes with a keyway as circles."""
+    for shape in shapes:
+        if shape.layer == "PITCH":  # lines that are not cut
+            continue
+        if isinstance(shape, Circle):
+            yield shape
+        elif shape.layer == "BORE":
+            arcs = [piece for piece in shape.segments if isinstance(piece, Arc)]
+            for arc in sorted(arcs, key=lambda one: -one.radius)[:1]:  # dog bones are smaller
+                x, y = (round(v, 9) + 0.0 for v in arc.centre)  # mm; removes rounding errors
+                yield Circle(shape.layer, (x, y), arc.radius)
+
+
+def centre_marks(holes: Iterable[Circle]) -> Iterator[Contour]:
+    """Yield two lines across each hole, horizontal and vertical.
+
+    >>> [mark.segments[0].end for mark in centre_marks([Circle("BORE", (10.0, 0.0), 4.0)])]
+    [(15.0, 0.0), (10.0, 5.0)]
+    """
+    for hole in holes:
+        (x, y), reach = hole.centre, 1.25 * hole.radius  # half the length of a cross
+        for dx, dy in ((reach, 0.0), (0.0, reach)):
+            yield Contour("CENTER", (Line((x - dx, y - dy), (x + dx, y + dy)),), closed=False)

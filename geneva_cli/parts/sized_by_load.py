@@ -141,7 +141,7 @@ def arm_that_holds(
 
     def holds(one: T) -> bool:
         parts = dimensions(one)
-        stress = float(arm_stress_MPa(parts.arm, np.asarray(loads.wheel_N)))
+        stress = float(arm_stress_MPa(parts.arm, loads.wheel_N))
         key = key_holds(spec, parts.crank_key, loads.crank_Nm)
         return key and keeps(stress, "at most", wheel_material(spec).allowed_MPa)
 
@@ -300,8 +300,7 @@ def shaft_holds(spec: Spec, part: str, diameter: float, moment_Nm: float) -> boo
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
     """Return True if a key holds a torque, or where there is none."""
     sides, shear = wheel_material(spec).allowed_MPa, shear_allowed_MPa(spec.shaft)
-    turned = np.asarray(spec.shaft.torsion_factor * torque_Nm)
-    stress = key_stress(key, turned, np.asarray(sides), np.asarray(shear))
+    stress = key_stress(key, spec.shaft.torsion_factor * torque_Nm, sides, shear)
     least = float(stress.least_length_mm)
     return math.isnan(least) or keeps(float(key.length), "at least", least)
 

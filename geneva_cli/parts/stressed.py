@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.arm_strength import ArmDimensions
-from geneva_cli.loads.strength.key_strength import KeyDimensions
+from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
+from geneva_cli.loads.strength.key_strength import NO_KEY, KeyDimensions
 from geneva_cli.loads.tolerance.locking import Lock, loosest
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -74,8 +74,8 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
         usual = size.allowances.pin_gap_mm + sizes.arm_thickness
         length = value_or(size.wheel_hub_length_mm, usual)
-    end = ShaftEnd(_to_frame(assembly, sizes, length), sizes.arm_thickness, assembly.L)
-    crank_shaft = shaft_of(spec, "crank", crank, end)
+    end = (_to_frame(assembly, sizes, length), sizes.arm_thickness, assembly.L)
+    crank_shaft = shaft_of(spec, "crank", crank, *end)
     if sizes.crank_bore and is_bridged(assembly.full):
         middle = bridge_low(size, sizes) + 0.5 * (sizes.arm_thickness - sizes.wheel_thickness)
         own = spec.shaft.crank_diameter_mm, spec.shaft.crank_overhang_mm
@@ -83,7 +83,7 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     return Stressed(
         contact,
         2.0 * sizes.pin,
-        shaft_of(spec, "wheel", sizes.wheel_bore, end),
+        shaft_of(spec, "wheel", sizes.wheel_bore, *end),
         crank_shaft,
         _arm(assembly, sizes, contact),
         key_of(size.wheel_keyway, sizes.wheel_bore, sizes.wheel_thickness + length),
@@ -91,31 +91,23 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     )
 
 
-class ShaftEnd(NamedTuple):
-    """Where shafts leave the machine, mm: from the contact's middle to the frame of plain shafts.
-
-    ``thick`` is that frame's thickness.
-    """
-
-    to_frame: float
-    thick: float
-    L: float
-
-
-def shaft_of(spec: Spec, part: str, bore: float, end: ShaftEnd) -> ShaftSize:
+def shaft_of(
+    spec: Spec, part: str, bore: float, to_frame: float, thick: float, L: float
+) -> ShaftSize:
     """Return a shaft of the spec's dimensions, or else as it is in its bearing; NaN for none.
 
     A plain shaft is as wide as its bore, and borne in the middle of the frame. A turned one is as
-    wide as its bearing's bore, whose middle is half its width below the frame's upper face.
+    wide as its bearing's bore, whose middle is half its width below the frame's upper face. That
+    face is ``to_frame`` mm from the contact's middle, and a frame of plain shafts ``thick``.
     """
     size, table = spec.size, vars(spec.shaft)
-    diameter, overhang = 2.0 * bore or math.nan, end.to_frame + 0.5 * end.thick
+    diameter, overhang = 2.0 * bore or math.nan, to_frame + 0.5 * thick
     if size.shafts == "turned":
         from geneva_cli.parts.shafts.bearings import bearing_within, shoulder_length
 
         if bearing := bearing_within(diameter):
             diameter = bearing.bore
-            overhang = end.to_frame + shoulder_length(size, end.L) + 0.5 * bearing.width
+            overhang = to_frame + shoulder_length(size, L) + 0.5 * bearing.width
     own = table[f"{part}_diameter_mm"], table[f"{part}_overhang_mm"]
     return ShaftSize(value_or(own[0], diameter), value_or(own[1], overhang))
 
@@ -146,7 +138,7 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
     """Return the arm's dimensions; NaN without an arm."""
     size = assembly.full.spec.size
     if not (sizes.arm_bore and sizes.pin):
-        return ArmDimensions.none()
+        return NO_ARM
     _, length = sizes.reaches
     passing = sizes.passing_eye(assembly.L - length)
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
@@ -156,7 +148,7 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
     eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
     offset = 0.5 * (contact + sizes.arm_thickness) + size.allowances.pin_gap_mm
     rows = length, hub, eye, bored, hole, sizes.arm_thickness, offset
-    return ArmDimensions(*map(np.asarray, rows))
+    return ArmDimensions(*rows)
 
 
 def lock_of(where: Assembly, size: Sizes, cut: Sequence[float] = ()) -> Lock:
@@ -192,6 +184,6 @@ def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
     except GenevaError:  # reported where the part is cut
         fitted = None
     if fitted is None:
-        return KeyDimensions.none()
+        return NO_KEY
     bearing = fitted.height - fitted.in_shaft
-    return KeyDimensions(*map(np.asarray, (2.0 * bore, fitted.width, bearing, length)))
+    return KeyDimensions(2.0 * bore, fitted.width, bearing, length)

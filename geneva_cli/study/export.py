@@ -9,12 +9,12 @@ from functools import partial
 from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
-from geneva_cli.drawings.single_parts import SinglePart, single_parts
+from geneva_cli.drawings.coupon import SinglePart, single_parts
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
 from geneva_cli.output.folder import LIST
 from geneva_cli.output.formats import curve_tolerance, usual_curves
-from geneva_cli.parts.missing import Missing
+from geneva_cli.parts.projection import Missing
 from geneva_cli.spec.schema import Points, SpecTable, fields
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.verdict.parts_warnings import gears_without_teeth

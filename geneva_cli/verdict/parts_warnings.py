@@ -20,7 +20,7 @@ from geneva_cli.verdict.checks.play_checks import motion_play_max, slips_deg
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.plates import Solid
-    from geneva_cli.parts.missing import Missing, NamedParts
+    from geneva_cli.parts.projection import Missing, NamedParts
 
 STEEP_DEG = 60.0  # a pressure angle that friction of 0.58 would hold, more than a dry pair has
 
@@ -78,7 +78,7 @@ def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
 def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
     from geneva_cli.geometry.plates import solids
-    from geneva_cli.parts.missing import built_of
+    from geneva_cli.parts.projection import built_of
 
     if not least:
         return
@@ -102,7 +102,7 @@ def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
 
 def _holes(solid: Solid) -> Iterator[tuple[float, float]]:
     """Yield the widths of a part's holes and its thickness, if it is cut out of a plate."""
-    from geneva_cli.drawings.single_parts import is_cut
+    from geneva_cli.drawings.coupon import is_cut
     from geneva_cli.geometry.plates import Plate, Shell
 
     if isinstance(solid, Shell):

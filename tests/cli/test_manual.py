@@ -41,7 +41,10 @@ def searching(file: Path) -> object:
 
     The pages laser, drawing-sheet and write-report are much like mill, spherical-sheet and inches.
     """
-    search, like = ("sweep-front", "dwell-time", "reduce-acceleration"), ("mill", "inches", "ci")
+    search, like = (
+        ("sweep-front", "dwell-time", "reduce-acceleration"),
+        ("mill", "inches", "ci", "laser"),
+    )
     long = file.stem in (*search, *like, "spherical-sheet") and not UPDATE
     return pytest.param(file, marks=pytest.mark.long) if long else file
 

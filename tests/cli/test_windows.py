@@ -152,3 +152,10 @@ def test_a_table_longer_than_is_held_fits_too():
     require_width(lines, 60)
     assert lines[-1].split() == ["19999", "19999", "-1.9999e-5"]
     assert {len(line) for line in lines[-9000:]} == {len(lines[-1])}  # in one column
+
+
+def test_a_page_is_not_for_a_terminal(monkeypatch):
+    """It would fill the screen with half a megabyte of HTML."""
+    monkeypatch.setattr(output, "is_seen", lambda file: True)
+    result = CliRunner().invoke(app, ["animate", str(repo.DESIGNS / "turret.toml")])
+    assert result.exit_code == 2 and "a page is not for a terminal: give -o FILE" in result.stderr

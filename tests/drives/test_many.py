@@ -102,7 +102,7 @@ def test_beyond_what_the_quick_way_is_sure_of(engagement, z):
     assert motion_peaks(motion, ["acceleration"])["acceleration"].max[0] == found.max
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("quantity", PEAKS)
 @pytest.mark.parametrize("gearing", GEARINGS)
 @pytest.mark.parametrize("z", [3, 4, 11, 24, 1000])

@@ -84,7 +84,7 @@ def with_cranks(z, places):
 built = pytest.mark.parametrize(("z", "places"), BUILT)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @built
 def test_motion_and_loads_are_those_of_one_crank(z, places):
     """Equal to the last digit: the same engine, which other tests prove by closed forms."""
@@ -175,7 +175,7 @@ SHAPED = [  # slots of other shapes
 ]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("design", [*(with_cranks(*one) for one in BUILT), *SHAPED])
 def test_no_crank_meets_the_wheel_or_another_one(design):
     """Polygons at dense angles, each crank placed by hand; the program's gaps are of one crank.

@@ -6,9 +6,7 @@ import pytest
 import repo
 from drawing_witness import polygon
 from shapely.ops import unary_union
-from typer.testing import CliRunner
 
-from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.cutter import faults, freed
@@ -100,23 +98,6 @@ def test_no_cutter_comes_into_the_bone_of_an_acute_corner():
     assert "a gap is narrower" in fault.text
 
 
-@pytest.mark.parametrize("width", [2.0, 4.0, 6.5])
-def test_a_keyway_lets_in_what_is_no_wider(width):
-    assert not any(fault.stops for fault in faults(keyed(width), 0.5 * width))
-    (fault,) = faults(keyed(width), 0.505 * width)
-    assert fault.stops
-    assert fault.text.endswith(f"use a cutter up to {width:g} mm")
-
-
-def test_a_bone_never_cuts_a_wall_that_works():
-    corner = notched(90.0)
-    with pytest.raises(GenevaError, match="a wall that guides roller or lock"):
-        boned(corner, 1.0, lambda piece, layer: layer == "ARM")
-    floor = corner.outline.segments[4]
-    with pytest.raises(GenevaError, match=r"at x = 30, y = 12 on ARM"):
-        boned(corner, 1.0, lambda piece, layer: piece == floor)
-
-
 def test_a_bone_that_has_no_room_is_refused():
     with pytest.raises(GenevaError, match="shorter than a dog bone"):
         boned(keyed(4.0), 1.6)  # two of 2.26 mm on a floor of 4
@@ -171,46 +152,3 @@ def test_the_verdict_on_a_part(two_pins):
     refused, _ = design.cutter("wheel", 30.0)
     width = 2.0 * model.outlines.sizes.half_width
     assert refused.endswith(f"is narrower; use a cutter up to {width:g} mm")
-
-
-def test_the_command(tmp_path):
-    path = tmp_path / "wheel.dxf"
-    spec = [str(repo.DESIGNS / "two-pins-z4.toml"), "-o", str(path)]
-
-    def run(*options):
-        return CliRunner().invoke(app, ["profile", *spec, *options])
-
-    wide = run("--part", "wheel", "--cutter", "30")
-    assert wide.exit_code == 1
-    assert not path.exists()
-    assert "not written: --cutter 30: it does not enter wheel, layer WHEEL" in wide.stderr
-    for options, said in {
-        ("--dog-bones",): "--dog-bones needs the cutter's diameter: --cutter MM",
-        ("--cutter", "3", "--format", "csv"): "--cutter is for parts to cut; this one is a table",
-        ("--center-marks", "--format", "csv"): "--center-marks is for drawings; this one is a",
-    }.items():
-        wrong = run(*options)
-        assert wrong.exit_code == 2
-        assert said in wrong.stderr
-
-
-def test_what_is_no_part_to_cut(two_pins):
-    design, *_ = two_pins
-    with pytest.raises(
-        GenevaError, match="--cutter applies only to parts that are cut out of a plate"
-    ):
-        design.cutter("assembly", 3.0)
-    with pytest.raises(GenevaError, match="--cutter 0: must be above 0, at most 1000 mm"):
-        design.cutter("crank", 0.0)
-
-
-def test_a_keyway_without_room_for_two_dog_bones_names_a_cutter_that_has():
-    """Each bites the chord of its corner, a cutter over the root of 2, into a floor of 4 mm."""
-    keyed = ["size.crank_bore_mm=12", 'size.crank_keyway="DIN 6885-1"']
-    design = load(str(repo.DESIGNS / "press-straight.toml"), keyed)
-    with pytest.raises(GenevaError, match=r"shorter than a dog bone; use a cutter up to 2\.8 mm"):
-        design.drawing("crank", dog_bones_mm=3.0)
-    bored = design.drawing("crank", dog_bones_mm=2.8)
-    (bore,) = (s for s in bored.shapes if s.layer == "BORE")
-    assert len(bore.segments) == 5 + 2  # three walls, an arc in two
-    assert 2.8 < 4.0 / math.sqrt(2.0) < 2.9

@@ -8,17 +8,14 @@ from drawing_witness import polygon, vertices
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely.geometry import LinearRing
-from typer.testing import CliRunner
 from words import Spec, Wheel
 
-from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.kerf import offset, paths
-from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.plates import Plate, plates
-from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, about, backwards, closed
+from geneva_cli.geometry.shapes import Arc, Circle, Line, about, backwards, closed
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.cut_outlines import drawn
@@ -53,16 +50,6 @@ def require_cut(shape, outside, kerf, corner=0.0):
     return path
 
 
-def test_round_a_square():
-    square = loop((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0))
-    path = require_cut(square, True, 0.4)
-    assert area(path) == pytest.approx(100.0 + 4 * 10 * 0.2 + math.pi * 0.04, rel=1e-14)
-    assert [type(s) for s in path.segments] == [Line, Arc] * 4
-    # in a hole the corners are where two paths meet
-    path = require_cut(square, False, 0.4, corner=0.2 * (math.sqrt(2.0) - 1.0))
-    assert abs(area(path)) == pytest.approx(9.6**2, rel=1e-14)
-
-
 @pytest.mark.parametrize("turn", [False, True])
 def test_corners_that_stand_in(turn):
     """Line and line, line and arc, arc and arc; whichever way the contour runs."""
@@ -93,20 +80,6 @@ def test_parts_of_machines(name, layer):
                 # a relief's corners stand in, at a right angle or less
                 corner = 0.2 if layer == "CRANK" else 0.0
                 require_cut(shape, shape is plate.outline, 0.2, corner=corner)
-
-
-@settings(max_examples=6)
-@given(
-    st.integers(3, 12),
-    st.floats(0.5, 5.0),
-    st.floats(0.02, 0.5),
-    st.sampled_from(["external", "internal"]),
-)
-def test_wheels_of_any_size(z, roller, kerf, gearing):
-    found = drawn(
-        *machine_sizes(build(Spec(Wheel(z, gearing), size=Size(roller_radius_mm=roller))))
-    )
-    require_cut(found.wheel, gearing == "external", kerf)
 
 
 def tried(corners, kerf, outside):
@@ -185,34 +158,3 @@ def test_a_cut_that_does_not_fit_in_is_refused_with_one_that_does(shape, outside
     # Newton's corners and samples come close to what is left of it, to three digits
     assert 0.99 * most - 0.02 < said <= most
     assert paths(drawing, said).solid is None
-
-
-def test_cubics_are_refused():
-    shape = closed("WHEEL", [Cubic((0, 0), (1, 0), (2, 1), (2, 2)), Line((2, 2), (0, 0))])
-    with pytest.raises(GenevaError, match="omit --curves spline"):
-        offset(shape, True, 0.1)
-
-
-@pytest.mark.sampled(6)
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        (["--part", "wheel", "--kerf", "0"], "--kerf 0: must be above 0, at most 1000 mm"),
-        (["--part", "wheel", "--kerf", "nan"], "--kerf nan: must be above 0, at most 1000 mm"),
-        (["--part", "arm", "--kerf", "1e300"], "--kerf 1e+300: must be above 0, at most 1000"),
-        (["--part", "arm", "--cutter", "1e300"], "--cutter 1e+300: must be above 0, at most 1000"),
-        (["--part", "wheel", "--kerf", "9"], "a kerf up to"),
-        (["--part", "assembly", "--kerf", "0.2"], ", not to assembly"),
-        (["--part", "wheel", "--kerf", "0.2", "--format", "step"], "no solid"),
-        (["--part", "slot", "--kerf", "0.2", "--format", "csv"], "this one is a table"),
-    ],
-)
-def test_wrong_options(options, said):
-    output = [] if "--format" in options else ["--format", "svg"]
-    found = CliRunner().invoke(
-        app, ["profile", str(repo.DESIGNS / "limits.toml"), "--set", "size.roller_radius_mm=4",
-              *options, *output]
-    )  # fmt: skip
-    assert found.exit_code == 2
-    assert said in found.stderr
-    assert found.stdout == ""

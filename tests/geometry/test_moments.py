@@ -4,10 +4,7 @@ import math
 
 import mpmath
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.moments import area, moments, total
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, backwards, closed
 
@@ -103,11 +100,3 @@ def test_a_cubic_is_its_polynomial():
     )
     assert moments(outline).polar == pytest.approx(float(arc + line) / 4, rel=1e-13)
     assert moments(outline).area == pytest.approx(area(outline), rel=1e-14)
-
-
-@given(st.floats(-math.pi, math.pi), st.floats(-0.9, 0.9))
-def test_turning_about_the_origin_changes_neither_area_nor_polar_moment(angle, bulge):
-    outline = closed("W", [Arc((2.0, 0.0), (0.0, 3.0), bulge), Line((0.0, 3.0), (2.0, 0.0))])
-    one, other = moments(outline), moments(turned(outline, angle))
-    assert other.area == pytest.approx(one.area, rel=1e-12, abs=1e-13)
-    assert other.polar == pytest.approx(one.polar, rel=1e-12, abs=1e-12)

@@ -9,13 +9,9 @@ import pytest
 from drawing_witness import apart, drawn_shapes
 from test_dxf import MANY, bow, of, smooth
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.pieces import pieces_table, prepared
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line
-from geneva_cli.output import draw, dxf, show
-from geneva_cli.output.formats import format_of
-from geneva_cli.output.svg import drawing_svg as svg
-from geneva_cli.table import rows_table
+from geneva_cli.output import draw
 
 
 def rows(drawing, units="mm"):
@@ -84,81 +80,3 @@ def test_csv_and_json_hold_the_drawing(capsys):
     ]
     assert apart(drawn_shapes(again(values)), wanted) < 1e-12
     assert apart(drawn_shapes(again(values[1:])), wanted) > 0.1  # it can fail
-
-
-def test_formats_by_name_and_extension(tmp_path, capsys):
-    for name, module in (("dxf", dxf), ("svg", svg)):
-        wanted = "".join(module.chunks(MANY, "mm"))
-        draw(MANY, str(tmp_path / f"a.{name.upper()}"))
-        assert (tmp_path / f"a.{name.upper()}").read_text(encoding="utf-8") == wanted
-        draw(MANY, format=name)
-        assert capsys.readouterr().out == wanted
-        draw(MANY, str(tmp_path / "a.csv"), format=name)
-        assert (tmp_path / "a.csv").read_text(encoding="utf-8") == wanted
-    draw(MANY, str(tmp_path / "a.csv"))
-    assert (tmp_path / "a.csv").read_text().startswith("layer,contour,piece,kind,x_mm,")
-    draw(MANY)
-    assert "contour" in capsys.readouterr().out
-    draw(MANY, str(tmp_path / "a.md"), units="inch")
-    assert "| x_in |" in (tmp_path / "a.md").read_text(encoding="utf-8")
-
-
-def test_an_input_is_not_overwritten(tmp_path):
-    spec = tmp_path / "spec.dxf"
-    spec.write_text("mine")
-    with pytest.raises(GenevaError, match="this file is an input"):
-        draw(MANY, str(spec), inputs=[str(spec)])
-    assert spec.read_text() == "mine"
-
-
-def test_a_refused_drawing_leaves_the_old_file(tmp_path):
-    old = tmp_path / "old.svg"
-    old.write_text("mine")
-    with pytest.raises(GenevaError, match="nothing to draw"):
-        draw(of(), str(old))
-    assert [p.name for p in tmp_path.iterdir()] == ["old.svg"]
-    assert old.read_text() == "mine"
-
-
-TABLE = rows_table(("a",), [(1.0,)])
-
-
-@pytest.mark.parametrize(
-    ("call", "said"),
-    [
-        (
-            lambda: show(TABLE, format="dxf"),
-            "--format dxf: dxf holds a drawing, and this is a table; "
-            "it must be one of table, csv, json, md",
-        ),
-        (
-            lambda: show(TABLE, "a.svg"),
-            '-o "a.svg": svg holds a drawing, and this is a table; '
-            "it must end in .txt, .csv, .json, .md",
-        ),
-        (
-            lambda: show(TABLE, "a.dwg"),
-            '-o "a.dwg": the extension names no format (.txt, .csv, .json, .md); '
-            "add one, or --format",
-        ),
-        (
-            lambda: draw(MANY, "a.dwg"),
-            '-o "a.dwg": the extension names no format (.txt, .csv, .json, .md, .dxf, .svg, .step, '
-            ".stl, .3mf, .obj, .stp); add one, or --format",
-        ),
-        (
-            lambda: draw(MANY, format="dwg"),
-            "--format dwg: it must be one of dxf, svg, step, stl, 3mf, obj, table, csv, json, md",
-        ),
-        (lambda: draw(MANY, units="cm"), "--units cm: it must be one of mm, inch"),
-    ],
-)
-def test_refusals(call, said):
-    with pytest.raises(GenevaError) as refusal:
-        call()
-    assert str(refusal.value) == said
-
-
-def test_a_table_s_formats_are_as_before():
-    assert format_of("-") == "table"
-    assert format_of("A.JSON") == "json"

@@ -13,18 +13,13 @@ from sampling import some
 from shapely.geometry import Polygon
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.shapes import Arc, Contour, Line, about, backwards, closed
+from geneva_cli.geometry.shapes import Arc, Contour, Line, backwards, closed
 
 FINE = 1e-5  # mm, how far the witnesses' polygons stray from the arcs
 QUICK = settings(max_examples=some(40, 12))
 SIDE = np.linspace(-150, 150, some(37, 19))
 GRID = np.stack(np.meshgrid(SIDE, SIDE), -1)
 GRID = GRID.reshape(-1, 2) + np.array([0.0371, 0.0129])  # off the corners' own coordinates
-
-
-def square(side: float = 10.0) -> Contour:
-    points = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)]
-    return closed("X", [Line(p, q) for p, q in zip(points, points[1:] + points[:1], strict=True)])
 
 
 def polygon_distances(polygons: list[Polygon], points: np.ndarray) -> np.ndarray:
@@ -52,40 +47,6 @@ def test_random_contours_against_polygons(contour: Contour) -> None:
     # A point nearer to the outline than the polygon strays may be on either side of it.
     assert np.abs(np.abs(found) - np.abs(wanted)).max() < FINE
     assert np.array_equal(found < 0.0, wanted < 0.0) or np.abs(found - wanted).max() < 2.0 * FINE
-
-
-@QUICK
-@given(contours("la"), st.integers(0, 400), st.floats(1.0, 60.0), st.floats(0.0, math.tau))
-def test_no_nearest_piece_is_lost(contour: Contour, count: int, reach: float, start: float) -> None:
-    """A way of points, few or many, smooth or with a leap: of all that come within reach of the
-    outline the distance is the same, and what lies farther is said to be farther."""
-    assume(polygon(contour, 1e-3).is_valid)
-    contour = counterclockwise(contour)
-    t = start + np.linspace(0.0, 2.5, count + 1)
-    way = np.column_stack((90.0 * np.cos(t), 70.0 * np.sin(2.0 * t)))
-    way[count // 2 :] -= [17.0, 9.0]
-    whole = Polyarc([contour])
-    wanted, found = whole.signed(way), whole.near(way, reach).signed(way)
-    close = np.abs(wanted) <= reach
-    assert np.array_equal(wanted[close], found[close])
-    assert (np.abs(found[~close]) > reach).all()
-
-
-@QUICK
-@given(contours("la"), st.floats(1.0, 60.0))
-def test_no_nearest_piece_is_lost_to_a_single_point(contour: Contour, reach: float) -> None:
-    """As of a way of points, whose spacing is allowed for; a point by itself has none to spare."""
-    whole = Polyarc([contour])
-    for point in GRID[:: len(GRID) // 150]:
-        wanted = whole.signed(point[None])
-        if abs(wanted) <= reach:
-            assert whole.near(point[None], reach).signed(point[None]) == wanted
-
-
-def test_no_piece_within_reach() -> None:
-    whole = Polyarc([square()])
-    far = np.array([[500.0, 300.0]])
-    assert whole.near(far, 1.0).signed(far) == whole.signed(far)
 
 
 @QUICK
@@ -188,55 +149,6 @@ def _edge(start: tuple[float, float], end: tuple[float, float], bend: float) -> 
     return Arc(start, end, bend) if bend else Line(start, end)
 
 
-def test_a_hole_is_outside() -> None:
-    """Several contours: a ring, and the part in its hole."""
-    ring = [
-        closed("X", [about((0.0, 0.0), 50.0, k, math.pi) for k in (0.0, math.pi)]),
-        backwards(closed("X", [about((3.0, 0.0), 20.0, k, math.pi) for k in (0.0, math.pi)])),
-    ]
-    found = Polyarc(ring).signed(GRID)
-    rho, hole = np.hypot(*GRID.T), np.hypot(GRID[:, 0] - 3.0, GRID[:, 1])
-    # two units in the last place of 200 mm
-    assert found == pytest.approx(np.maximum(rho - 50.0, 20.0 - hole), abs=6e-14)
-
-
-def test_smooth_joints_have_no_corner() -> None:
-    """Beside the joints of a slot the side is the piece's own, to the last digit: on the flank and
-    at the round end, inside and out by a hundred-thousandth of a micrometre."""
-    w, mouth = 7.3, 60.0
-    pieces = [
-        Line((mouth, -w), (11.0, -w)),
-        about((11.0, 0.0), w, 1.5 * math.pi, -math.pi),
-        Line((11.0, w), (mouth, w)),
-        Arc((mouth, w), (mouth, -w), 1.4),
-    ]
-    slot = Polyarc([closed("X", pieces)])
-    for turn in np.concatenate((-np.geomspace(1e-12, 1e-2, 11), [0.0], np.geomspace(1e-12, 1e-2))):
-        for by in (-1e-8, 1e-8, 1.0):
-            x = 11.0 + (turn * 50.0 if turn > 0.0 else (w + by) * math.sin(turn))
-            y = -(w + by) * (math.cos(turn) if turn < 0.0 else 1.0)
-            # 1e-14 is a unit in the last place of 60 mm
-            assert slot.signed(np.array([[x, y]]))[0] == pytest.approx(-by, abs=2e-14)
-
-
-def test_blocks_of_points_agree() -> None:
-    """More distances than are held at once come in blocks; none is lost or moved."""
-    boundary = Polyarc([square()])
-    rng = np.random.default_rng(3)
-    points = 20.0 * rng.random((700_000, 2)) - 5.0
-    found = boundary.signed(points)
-    assert len(found) == len(points)
-    x, y = points.T
-    inside = np.minimum(np.minimum(x, 10.0 - x), np.minimum(y, 10.0 - y))
-    outside = np.hypot(np.maximum(np.abs(x - 5.0) - 5.0, 0), np.maximum(np.abs(y - 5.0) - 5.0, 0))
-    wanted = np.where(inside > 0.0, -inside, outside)
-    assert np.abs(found - wanted).max() < 1e-14  # a few units in the last place of 10 mm
-
-
-def test_no_points_no_distances() -> None:
-    assert Polyarc([square()]).signed(np.empty((0, 2))).shape == (0,)
-
-
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("sagitta", [10.0**-n for n in range(1, 14)])
 @pytest.mark.parametrize("flip", [1.0, -1.0])
@@ -275,9 +187,3 @@ def exact_side(arc: Arc, x: float, y: float) -> tuple[mpmath.mpf, mpmath.mpf, fl
     side = radius - abs(z - centre)
     away = abs(side) if off <= half else min(abs(z - a), abs(z - b))
     return mpmath.sign(arc.bulge) * side, away, float(radius * (half - off))
-
-
-def test_a_piece_without_length_is_a_point() -> None:
-    wall = Polyarc([Contour("X", (Line((1.0, 2.0), (1.0, 2.0)),))])
-    found = wall.distances(np.array([4.0]), np.array([6.0]))
-    assert found.distance == pytest.approx([5.0], rel=1e-15)

@@ -6,8 +6,6 @@ import math
 import numpy as np
 import pytest
 import repo
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
@@ -126,41 +124,6 @@ def test_no_sample_is_beyond_the_extremes(name):
         )
 
 
-@settings(max_examples=8)
-@given(st.sampled_from([*LOADED]), st.floats(0.1, 10.0), st.floats(0.1, 10.0))
-def test_scaled_loads_scale_the_forces(name, heavier, larger):
-    """A load so many times as large takes so many times the forces; in a machine so many times as
-    large each force is so many times smaller, and each torque the same. 64 ulp.
-    """
-    spec = LOADED[name]
-    given = spec.load
-    more = given.replace(
-        inertia_kgm2=given.inertia_kgm2 * heavier, torque_Nm=given.torque_Nm * heavier
-    )
-    L = build(spec).center_distance_mm
-    size = spec.size.replace(
-        center_distance_mm=L * larger,
-        roller_radius_mm=spec.roller_radius_mm(L) * larger,
-        pin_mm=None,
-    )
-    wheel = spec.wheel
-    if wheel.as_dict().get("offset_mm"):
-        wheel = wheel.replace(offset_mm=wheel.offset_mm * larger)
-    one = summaries(Cycle(build(spec)))
-    two = summaries(Cycle(build(spec.replace(load=more, size=size, wheel=wheel))))
-    for quantity, share in (
-        ("pin_force_N", heavier / larger),
-        ("crank_bearing_N", heavier / larger),
-        ("input_torque_Nm", heavier),
-        ("power_W", heavier),
-        ("sliding_m_s", larger),
-    ):
-        for key in ("max", "min", "mean", "rms"):
-            a, b = getattr(one[quantity], key), getattr(two[quantity], key)
-            near = 2e-14 * share * one[quantity].max
-            assert b == pytest.approx(a * share, rel=2e-14, abs=near), quantity
-
-
 def test_speed_and_inertia_are_one_number():
     """Twice the speed is four times the inertia for forces; power and speeds double besides."""
     slow, fast = (
@@ -269,19 +232,6 @@ def test_a_row_at_either_end_has_the_sliding_beside_it(law):
     assert (rows >= slides.min).all()
 
 
-@pytest.mark.parametrize("law", ["mcv50", "s-curve"])
-def test_a_row_alone_has_the_values_that_it_has_among_others(law):
-    """Also at the end of a cruise, where a rounding of the torque is no sign of it."""
-    motion = Motion(law, alpha0_deg=10.0)
-    cycle = Cycle(build(Spec(Wheel(6), motion=motion, load=Load(1.0, friction=0.1))))
-    (engagement,) = cycle.mechanism.engagements
-    breaks = np.array(engagement.motion.breaks_deg)
-    together = cycle.moving(engagement, breaks)
-    for i in range(len(breaks)):
-        alone = cycle.moving(engagement, breaks[i : i + 1])
-        assert alone.sliding_m_s[0] == together.sliding_m_s[i]
-
-
 def test_without_a_load_no_force_is_0():
     found = run("--format", "json", text=WHEEL)
     tree = json.loads(found.stdout)
@@ -291,17 +241,6 @@ def test_without_a_load_no_force_is_0():
     assert "set inertia_kgm2 or torque_Nm in [load], or a [[mass]]" in tree["warnings"][0]
     row = run("--format", "csv", "--samples", "3", text=WHEEL).stdout.splitlines()[1]
     assert ",," in row
-
-
-def test_a_table_that_is_made_while_it_is_written_has_empty_fields(tmp_path, monkeypatch):
-    monkeypatch.setattr("geneva_cli.table.WHOLE_ROWS", 100)
-    path = tmp_path / "cycle.csv"
-    assert run("--samples", "102", "-o", str(path), text=WHEEL).exit_code == 0
-    with open(path) as file:
-        head = next(file).rstrip().split(",")
-        row = next(file).rstrip("\n").split(",")
-    assert row[head.index("pin_force_N")] == ""
-    assert float(row[head.index("omega_rad_s")]) == 0.0
 
 
 def test_each_null_names_its_key():

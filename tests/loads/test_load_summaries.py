@@ -4,17 +4,16 @@ import load_witness
 import numpy as np
 import pytest
 import repo
-from design_arrays import MACHINES, alone, drawn
+from design_arrays import MACHINES, alone
 from load_states import state
-from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, dense_means, loaded, missed
+from loaded_arrays import MISSED, NAMES, beyond, dense_means, loaded, missed
 from scipy.integrate import quad
 
 from geneva_cli import design
-from geneva_cli.loads.cycle import Cycle, greatest
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.load_peaks import load_peaks, load_summaries
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
-from geneva_cli.numerics.extremes import BLOCK
 from geneva_cli.spec.tables import Load
 
 ULP = 2.0**-52
@@ -81,21 +80,6 @@ NARROW = {  # features that a sum's first terms hide: the law, a quantity, and w
         },
     ),
 }
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("case", NARROW)
-@pytest.mark.parametrize("told", [("rms",), ("mean", "rms")])
-def test_means_beside_narrow_features(case, told):
-    """Of each quantity alone, as others of a batch may have its motion halved for it."""
-    law, name, varied = NARROW[case]
-    spec, _ = MACHINES[law]
-    load = Load(inertia_kgm2=1.0, friction=0.1, friction_at="pin")
-    spec = spec.replace(load=load, size=spec.size.replace(face_width_mm=10.0))
-    columns = {key: np.array([value]) for key, value in varied.items()}
-    _, dense = dense_means(Cycle(alone(spec, columns, 0)), name)
-    found = many(spec, columns).machine
-    assert load_summaries(found, [name], told)[name].rms == pytest.approx(dense, rel=2e-12)
 
 
 @pytest.mark.sampled(16)
@@ -203,49 +187,6 @@ def test_greatest_against_bodies_cut_free(name):
         inwards = 1.0 - 1e-12  # the witness knows no contact before the entry
         assert true(one.at_deg[0] * inwards)[k] == pytest.approx(one.max[0], rel=1e-11)
         assert dense[k] <= one.max[0] * (1.0 + 64 * ULP)
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("name", ["side-crank", "unequal steps", "cycloidal", "matched"])
-def test_greatest_sizes_as_the_report_tells_them(name):
-    spec, varied, found = loaded(name, 8, 11)
-    names = {"torque_Nm": "wheel_torque_Nm"} | {q: q for q in NAMES if q != "sliding_m_s"}
-    together = load_peaks(found.machine, list(names.values()))
-    for row, i in list(enumerate(found.which))[:2]:
-        machine = alone(spec, varied, i)
-        for told, name_ in names.items():
-            one = greatest(machine, name_)
-            assert together[name_].max[row] == pytest.approx(one.max, rel=32 * ULP), (told, i)
-            if np.isfinite(one.max):
-                assert together[name_].at_deg[row] == pytest.approx(one.at_deg, abs=1e-4)
-
-
-@pytest.mark.parametrize("name", ["crank", "cycloidal"])
-def test_blocks_of_designs_answer_as_each_does(name):
-    """More than are sampled at a time."""
-    spec, rules = MACHINES[name]
-    spec = spec.replace(load=LOAD, size=spec.size.replace(face_width_mm=10.0))
-    names = ("pin_force_N", "contact_stress_MPa")
-    n, few = BLOCK + 40, 8
-    varied = drawn([*rules, *CARRIED], n, 4)
-    found = many(spec, {key: np.tile(values[:few], n // few) for key, values in varied.items()})
-    together = load_peaks(found.machine, names)
-    repeated = len(found.which) // (n // few)
-    for one in together.values():
-        for values in one:
-            first = values[:repeated]
-            assert np.array_equal(values, np.tile(first, n // few), equal_nan=True)
-
-
-@pytest.mark.parametrize("name", ["crank", "elliptical gears", "spherical", "gear sector"])
-def test_sizes_of_half_a_motion_are_those_of_the_whole(name):
-    """Without friction the second half has none greater, and greatest sizes do not look there."""
-    names = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
-    _, _, found = loaded(name, 30, 9, friction=0.0, torque_Nm=0.0)
-    sizes = load_peaks(found.machine, names)
-    for load, whole in load_summaries(found.machine, names, requested=()).items():
-        most = np.maximum(whole.max, -whole.min)
-        assert sizes[load].max == pytest.approx(most, rel=32 * ULP), load
 
 
 def test_a_torque_alone_has_no_sign_that_counts():

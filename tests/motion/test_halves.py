@@ -13,7 +13,7 @@ from geneva_cli.drawings.sheet.points import tables
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.peaks import worst
-from geneva_cli.parts.slots.slot_sampling import chord_errors, nodes
+from geneva_cli.parts.slots.slot_profile import chord_errors, nodes
 
 SWING = 0.3  # of the ratio 1 + SWING sin 6 phi
 

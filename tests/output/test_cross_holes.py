@@ -12,14 +12,14 @@ from step_witness import File
 
 from geneva_cli import Design, External, Size
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.cross_holes import CrossHole
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.round_holes import CrossHole
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, closed
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
-from geneva_cli.parts.outlines.wheel_hub import wheel_hub
+from geneva_cli.parts.outlines.wheel_circles import wheel_hub
 
 BORES = [{}, {"wheel_bore": "D"}, {"wheel_bore": "hex"}, {"wheel_keyway": "DIN 6885-1"}]
 

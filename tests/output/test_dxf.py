@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 from sampling import some
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import Drawing, extent
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
+from geneva_cli.geometry.sheet import Drawing, extent
 from geneva_cli.output.dxf import FLOAT_CODES, chunks
 from geneva_cli.output.svg import drawing_svg as svg
 
@@ -252,3 +252,9 @@ def test_refusals():
         text(of(Circle("BORE", (0.0, 0.0), math.nan)))
     with pytest.raises(GenevaError, match="nothing to draw"):
         text(of())
+
+
+def test_a_nearly_straight_arc_keeps_its_ends_beside_cubics():
+    arc = Arc((0.0, 0.0), (100.0, 0.0), 1e-9)  # 5e-8 mm high: its centre is 25 000 km off
+    drawing = of(closed("WHEEL", [arc, Cubic((100.0, 0.0), (90.0, 50.0), (0.0, 50.0), (0.0, 0.0))]))
+    assert apart(dxf_shapes(text(drawing)), drawn_shapes(drawing)) < SAME

@@ -14,13 +14,13 @@ from step_witness import File
 
 from geneva_cli import Design, External, Internal, Size
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.edges import Edge
 from geneva_cli.geometry.inset import inset, lines_and_arcs
 from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.moments import with_material_left
 from geneva_cli.geometry.plates import Plate, plates
-from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, closed
+from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, as_contour, closed
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
 
@@ -153,3 +153,29 @@ def test_a_chamfer_wider_than_half_a_wall_fails():
     assert failed.name == "parts" and "edge_chamfer_mm = 1.5: the arm has a wall" in failed.why
     with pytest.raises(GenevaError, match="the arm has a wall of"):
         list(chunks(wide.drawing("arm"), "mm"))
+
+
+def test_roundings_of_a_step_file():
+    """A cylinder over each line and a torus over each arc; the material is inside of their tube."""
+    (wheel,) = plates(design_of(External(6), KINDS[1]).drawing("wheel").solid)
+    file = File("".join(chunks(drawing(wheel), "mm")))
+    pieces = [piece for shape in (wheel.outline, *wheel.holes) for piece in lines_and_arcs(shape)]
+    arcs = [piece for piece in pieces if isinstance(piece, Arc)]
+    assert len(file.all("ADVANCED_FACE")) == 3 * len(pieces) + 2
+    tori = [file.values(n) for n in file.all("TOROIDAL_SURFACE")]
+    tori += [file.values(n) for n in file.all("DEGENERATE_TOROIDAL_SURFACE")]
+    assert len(tori) == 2 * len(arcs)
+    assert {minor for _, _, _, minor, *_ in tori} == {CUT}
+    outer = plates(design_of(External(6)).drawing("wheel").solid)[0]
+    sides = [
+        with_material_left(as_contour(s), i == 0)
+        for i, s in enumerate((outer.outline, *outer.holes))
+    ]
+    wanted = [
+        arc.radius - math.copysign(CUT, arc.bulge)
+        for side in sides
+        for arc in lines_and_arcs(side)
+        if isinstance(arc, Arc)
+    ]
+    majors = sorted(major for _, _, major, *_ in tori)
+    assert majors == pytest.approx(sorted(one for one in wanted for _ in "12"), rel=1e-9)

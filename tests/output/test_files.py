@@ -135,6 +135,7 @@ def stopped(number):
     return process.returncode
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
 )
@@ -322,3 +323,9 @@ def clean_title(text, format, title):
         strict(text)
     if format == "md":
         assert "<script>" not in text, title
+
+
+def test_output_is_a_folder():
+    os.mkdir("peaks.csv")
+    clean_failure(geneva(*SHORT, "-o", "peaks.csv"), "peaks.csv", "directory")
+    assert os.listdir("peaks.csv") == []

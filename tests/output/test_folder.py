@@ -48,6 +48,7 @@ def texts(folder):
     return {p.name: p.read_text() for p in folder.iterdir() if p.is_file() and p.name != LIST}
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("n", range(8))
 def test_a_killed_run_is_made_good_by_the_next(folder, n):
     """Killed before each renaming: of both new files, the list, both to their places, the list.

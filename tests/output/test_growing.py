@@ -207,3 +207,8 @@ def test_an_input_is_not_written_over(path):
     put(path, "")
     with pytest.raises(GenevaError, match="is an input"):
         GrowingFile(path, HEADER, KEY, False, [path])
+
+
+def test_no_device():
+    with pytest.raises(GenevaError, match="not a file that can grow"):
+        GrowingFile("/dev/null", HEADER, KEY, False)

@@ -12,11 +12,13 @@ from geneva_cli import load
 from geneva_cli.cli.app import app
 from geneva_cli.names import UNITS, unit_of
 from geneva_cli.output.inches import (
+    document_in_inches,
     figure_in_inches,
     table_in_inches,
     text_in_inches,
     value_in_inches,
 )
+from geneva_cli.study.document import document
 from geneva_cli.table import Table, pieces
 
 # What one of a unit is in SI units.
@@ -167,3 +169,13 @@ def test_what_stays_in_si_units_is_refused(words, wants):
 )
 def test_a_sentence_is_in_inches(text, shown):
     assert text_in_inches(text) == shown
+
+
+def test_a_document_keeps_the_keys_of_the_spec():
+    page = document(load(TURRET))
+    other = document_in_inches(page)
+    texts = repr(other.blocks)
+    assert "'size.center_distance_mm', 250.0, 'mm'" in texts  # the spec's own key and value
+    assert "Fact(name='Centre distance', value=9.8425196" in texts
+    for block, before in zip(other.blocks, page.blocks, strict=True):
+        assert type(block) is type(before)

@@ -17,12 +17,12 @@ from hypothesis import strategies as st
 from geneva_cli import Design, External, Size
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.mass import face
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.plates import Plate, Shell, solids
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, as_contour, closed
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.mesh import obj, stl, threemf
 from geneva_cli.output.mesh.polygons import DECIMALS, chord_points

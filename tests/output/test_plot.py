@@ -258,3 +258,14 @@ def test_a_failing_picture_leaves_the_old_file(pressed, tmp_path, monkeypatch):
     with pytest.raises(GenevaError, match=r"geneva-cli\[plot\]"):
         show_figure(pressed, str(file))
     assert file.read_text() == "old" and list(tmp_path.iterdir()) == [file]
+
+
+def test_a_chart_of_several_has_letters_for_each():
+    x = [0.0, 1.0]
+    curves = tuple(Curve(n, f"design {n}", ((x, [n, n]),)) for n in range(12))
+    panel = Panel(Axis("velocity", "Velocity"), curves)
+    text = lines_of(Figure("all", Axis("x", "x"), (panel,), (0.0, 1.0)))
+    for n, mark in enumerate(plot_text.MARKS):
+        assert f"  {mark}  design {n}" in text
+    body = "".join(line[12:] for line in text if line[11:12] == "|")
+    assert set(plot_text.MARKS) <= set(body)

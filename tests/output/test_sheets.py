@@ -14,8 +14,7 @@ from words import Motion, Spec, Wheel
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.helvetica import CAPITALS, width
-from geneva_cli.geometry.sheet import WIDTHS
+from geneva_cli.geometry.sheet import CAPITALS, WIDTHS, width
 from geneva_cli.output import draw_sheet
 from geneva_cli.output.formats import DXF_VERSIONS, is_drawn, sheet_as
 from geneva_cli.output.sheets import sheet_dxf, sheet_pdf, sheet_svg

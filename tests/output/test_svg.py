@@ -10,8 +10,8 @@ from sampling import some
 from test_dxf import MANY, of
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import extent
 from geneva_cli.geometry.shapes import Circle, Line, closed
+from geneva_cli.geometry.sheet import extent
 from geneva_cli.output import dxf
 from geneva_cli.output.inks import INKS, OTHERS
 from geneva_cli.output.svg.drawing_svg import MARGIN, STROKE, chunks

@@ -12,8 +12,11 @@ from words import Drive, Spec, Wheel
 
 from geneva_cli.cli.app import app
 from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import face
 from geneva_cli.geometry.plates import plates
+from geneva_cli.output import draw
+from geneva_cli.output.formats import FILLS
 from geneva_cli.output.svg.drawing_svg import chunks
 from geneva_cli.spec.tables import Size
 
@@ -93,3 +96,22 @@ def test_the_command(tmp_path):
         result = CliRunner().invoke(app, ["profile", str(spec), *more])
         assert result.exit_code != 0
         assert said in result.output
+
+
+def test_fills(assembly):
+    assert "FILL" not in groups(root(assembly, fill="none"))
+    hatched = root(assembly, fill="hatch")
+    patterns = {p.get("id"): p for p in hatched.iter(f"{NAME}pattern")}
+    turns = [p.get("patternTransform") for p in patterns.values()]
+    assert len(set(turns)) == len(turns) > 2
+    used = {re.match(r"url\(#(.*)\)", p.get("fill"))[1] for p in groups(hatched)["FILL"]}
+    assert used == set(patterns)
+    wheel = design().drawing("wheel", 0.01)
+    assert len(list(groups(root(wheel, fill="tint"))["FILL"])) == 1
+    with pytest.raises(GenevaError, match="--fill blue: it must be one of none, tint, hatch"):
+        root(assembly, fill="blue")
+    with pytest.raises(GenevaError, match="--fill: this drawing has no plates"):
+        root(design().drawing("slot", 0.01), fill="tint")
+    with pytest.raises(GenevaError, match=r"--fill is for .svg, and this is dxf; leave it out"):
+        draw(wheel, "-", "dxf", fill="tint")
+    assert FILLS == ("none", "tint", "hatch")

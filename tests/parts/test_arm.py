@@ -1,7 +1,6 @@
 """The crank arm: its outline, its holes, and what fixes the locking disc to it."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,21 +8,15 @@ from drawing_witness import polygon
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely.geometry import Point
-from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel
 
-from geneva_cli.cli.app import app
-from geneva_cli.design import Design, load
-from geneva_cli.errors import GenevaError
+from geneva_cli.design import Design
 from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.measure import segment_length
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
+from geneva_cli.geometry.shapes import Arc, Circle
 from geneva_cli.parts.arm import crank_arm, walls
-from geneva_cli.spec.keyways import DIN_6885_1, TABLES, key
-from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 
-ROOT = Path(__file__).parents[2] / "designs"
 LAW = Motion("modified-sine", ratio="matched")
 
 
@@ -124,125 +117,6 @@ def test_the_disc_is_fixed_to_the_arm():
     assert check.passes and check.value <= inside + 1e-3
 
 
-def test_sectors_away_from_the_axis_have_no_wall_about_the_bore():
-    """By shapely: the bore is in the arm alone, whose wall to the outline is the least."""
-    design = of(Wheel(6, "internal"), crank_bore_mm=60.0, lock_bolts=0, arm_eye_mm=30.0)
-    arm = design.drawing("arm")
-    outline, *holes = (polygon(s) for s in arm.shapes)
-    expected = min(h.distance(outline.exterior) for h in holes)
-    apart = min(a.distance(b) for a in holes for b in holes if a is not b)
-    assert walls(crank_arm(design.parts.outlines), design.parts.outlines) == pytest.approx(
-        min(expected, apart), abs=1e-3
-    )
-
-
-@pytest.mark.sampled(12)
-@pytest.mark.parametrize(("z", "gearing", "rollers"), [*crews()])
-def test_bolts_join_disc_and_arm_by_default(z, gearing, rollers):
-    """Two in each sector, with walls all round by shapely; the arm still passes the wheel's hub.
-
-    From 28 slots on, the disc is too small for bolts with their walls.
-    """
-    found = of(Wheel(z, gearing), drive=Drive(rollers=rollers)).parts.outlines
-    made, wall = crank_arm(found), found.sizes.wall_min
-    if z < 28:
-        assert len(made.bolts) in (rollers, 2 * rollers)
-    holes = [polygon(h) for h in (made.bore, *made.pins, *made.bolts)]
-    discs = [polygon(sector) for sector in found.crank]
-    for i, hole in enumerate(holes):
-        assert all(hole.distance(other) > 0.999 * wall for other in holes[:i])
-    for bolt in holes[-len(made.bolts) :] if made.bolts else ():
-        (disc,) = [one for one in discs if one.contains(bolt)]
-        assert bolt.distance(disc.exterior) > 0.999 * wall
-        assert polygon(made.outline).contains(bolt)
-    if gearing == "external":
-        # the arm's farthest points turn past the wheel's hub
-        away = Point(0.0, 0.0).hausdorff_distance(polygon(made.outline))
-        assert away <= found.assembly.L - found.sizes.wheel_hub + 1e-6
-
-
-@pytest.mark.parametrize("edge", ["edge_chamfer_mm", "edge_fillet_mm"])
-def test_bolts_leave_walls_between_their_edges(edge):
-    """By shapely: two edges of 1 mm and the least wall stay around each bolt, in both parts."""
-    parts = of(Wheel(6), **{edge: 1.0}).parts.outlines
-    arm, (disc,) = crank_arm(parts), parts.crank
-    assert len(arm.bolts) == 2
-    for bolt in map(polygon, arm.bolts):
-        for outline in (arm.outline, disc):
-            left = bolt.distance(polygon(outline).exterior)
-            assert left > 2.0 + 0.999 * parts.sizes.wall_min
-
-
-def test_a_key_needs_no_bolts():
-    """A key, a flat or a hexagon in both bores holds the disc; sectors have no bore."""
-    for size in ({"crank_keyway": "DIN 6885-1"}, {"crank_bore": "D"}, {"crank_bore": "hex"}):
-        assert not crank_arm(of(Wheel(4), **size).parts.outlines).bolts
-        assert crank_arm(of(Wheel(6, "internal"), **size).parts.outlines).bolts
-    assert not crank_arm(of(Wheel(4), lock_bolts=0).parts.outlines).bolts
-
-
-def test_sectors_stand_on_the_hub():
-    """Inside the locking sectors hang together by the arm alone, which is below them all."""
-    found = of(Wheel(6, "internal"), lock_bolts=2).parts.outlines
-    made = crank_arm(found)
-    plate = polygon(made.outline, 1e-6).buffer(1e-5)
-    assert not found.sizes.crank_bore  # overhung: no shaft goes through the wheel's plane
-    assert all(plate.contains(polygon(sector)) for sector in found.crank)
-    assert all(any(polygon(s).contains(polygon(b)) for s in found.crank) for b in made.bolts)
-
-
-def test_keyways_of_the_standard():
-    """DIN 6885-1: b = 6, t2 = 2.8 for a shaft of 20 mm; b = 14, t2 = 3.8 for one of 50."""
-    assert [(row.width, row.in_hub) for row in DIN_6885_1 if 20 <= row.up_to <= 22] == [(6, 2.8)]
-    assert key("DIN 6885-1", 25.0)[2:] == (14, 9, 5.5, 3.8)
-    assert all(a.up_to == b.above for a, b in zip(DIN_6885_1, DIN_6885_1[1:], strict=False))
-    for row in DIN_6885_1:  # some play is left over the key, and none is deeper than half the shaft
-        assert 0.0 < row.in_shaft + row.in_hub - row.height < 1.0
-    (field,) = [f for f in fields(Size) if f.key == "crank_keyway"]
-    assert set(field.rule) == set(TABLES)
-
-    design = of(Wheel(4), center_distance_mm=200.0, crank_bore_mm=20.0, crank_keyway="DIN 6885-1")
-    for part in ("crank", "arm"):
-        (bore,) = [s for s in design.drawing(part).shapes if isinstance(s, Contour)][1:]
-        shape = polygon(bore, 1e-7)
-        # the keyway points away from the roller: from its top to the far side is d + t2
-        low, bottom, high, top = shape.bounds
-        assert (high - low, top - bottom) == (pytest.approx(22.8), pytest.approx(20.0, abs=1e-5))
-        assert low == pytest.approx(-12.8) and bore.layer == "BORE"
-        slit = [p.start[1] for p in bore.segments if isinstance(p, Line)]
-        assert max(slit) - min(slit) == pytest.approx(6.0)
-    assert all(c.passes for c in design.checks)
-
-
-@pytest.mark.usefixtures("no_advice")
-@pytest.mark.parametrize(
-    ("size", "said"),
-    [
-        ({"crank_keyway": "DIN 6885-1", "crank_bore_mm": 5.0}, "above 6 and up to 230"),
-        ({"arm_eye_mm": 4.0}, "arm_eye_mm = 4: the eye must be above 5, the pin's hole"),
-        ({"arm_hub_mm": 5.0, "arm_bore_mm": 5.5}, "arm_hub_mm = 5: the hub must be above 5.5"),
-        ({"arm_bore_mm": 96.0, "arm_hub_mm": 99.0}, "cuts the pin's hole; with its keyway"),
-        ({"press_fit_mm": 5.0}, "no hole for a pin of pin_mm = 5 with press_fit_mm = 5"),
-        ({"pin_mm": 0.0}, "no hole for a pin of pin_mm = 0"),
-        ({"lock_bolts": 2, "lock_radius_mm": 0.0}, "no locking disc to fix"),
-    ],
-)
-def test_what_leaves_no_arm_is_refused(size, said):
-    design = of(Wheel(6), **size)
-    with pytest.raises(GenevaError, match=said) as caught:
-        design.drawing("arm")
-    assert caught.value.key[0] == "size"
-    rows = [c for c in design.checks if c.name.startswith("arm_")]
-    assert all(c.passes is False and said in c.why for c in rows)
-    assert rows or "pin_mm" in size
-
-
-def test_machines_without_a_crank_have_no_arm():
-    for name in ("cam-geneva", "four-bar-z4", "epicyclic-z4"):
-        with pytest.raises(GenevaError, match="carries its roller on no crank arm"):
-            load(str(ROOT / f"{name}.toml")).drawing("arm")
-
-
 def test_an_arm_that_meets_the_hub_is_told():
     design = of(Wheel(6), arm_eye_mm=90.0)
     (check,) = [c for c in design.checks if c.name == "arm_to_hub_mm"]
@@ -252,21 +126,3 @@ def test_an_arm_that_meets_the_hub_is_told():
     name, value = check.nearest.split(" = ")
     fixed = design.with_(f"size.{name}", float(value))
     assert name == "arm_eye_mm" and all(c.passes for c in fixed.checks)
-
-
-def test_written_files(tmp_path):
-    """The assembly has the arm on its layer, to look at; the arm's own file is closed contours."""
-    out = tmp_path / "arm.dxf"
-    spec = str(ROOT / "three-rollers-z4.toml")
-    assert (
-        CliRunner().invoke(app, ["profile", spec, "--part", "arm", "-o", str(out)]).exit_code == 0
-    )
-    import ezdxf
-
-    entities = list(ezdxf.readfile(out).modelspace())
-    (outline,) = [e for e in entities if e.dxf.layer == "ARM"]
-    assert outline.dxftype() == "LWPOLYLINE" and outline.closed
-    assert sum(1 for p in outline.get_points() if p[4]) == 3  # an arc about each roller
-    assert {e.dxftype() for e in entities if e.dxf.layer == "BORE"} == {"CIRCLE"}
-    drawn = load(spec).drawing("assembly")
-    assert drawn.look and "ARM" in drawn.layers

@@ -11,8 +11,7 @@ from shapely.geometry import Point
 from geneva_cli import Design, External, Size, Spherical, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.moments import area
-from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.plates import in_place, plates
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.bores import bore_of, radius_of
@@ -51,6 +50,7 @@ def test_their_area(size, inside, direction):
     assert math.remainder(math.atan2(y + v, x + u) - direction, math.tau) == pytest.approx(0.0)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("shape", ["D", "hex"])
 def test_walls_are_those_of_the_shape(shape):
     """In arm, disc and wheel, by shapely's distances of polygons."""

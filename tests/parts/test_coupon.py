@@ -1,7 +1,5 @@
 """The fit coupon as its files have it: widths, what lies in what, and the numbers beside."""
 
-import math
-
 import ezdxf
 import ezdxf.path
 import pytest
@@ -9,7 +7,7 @@ import repo
 from shapely.geometry import LineString, Point, Polygon
 
 from geneva_cli.design import load
-from geneva_cli.drawings.coupon import CLEARANCES, DIGITS, STROKES, number
+from geneva_cli.drawings.coupon import CLEARANCES, DIGITS, STROKES
 from geneva_cli.output import draw
 
 FLAT = 0.01  # mm, of chords; ends of arcs and quarters of circles are kept
@@ -53,16 +51,6 @@ def test_slots_are_wider_than_the_disc_by_their_clearance(tmp_path, name, kerf):
     assert all(s.bounds[3] - s.bounds[1] + 2.0 * half > 3.99 * sizes.roller for s in slots)
 
 
-def test_a_thick_plate_has_steps_about_its_own_clearance(tmp_path):
-    """18 mm by laser: 0.4 mm a side and 0.4 of press fit, with 0.3 and 0.5 beside them."""
-    sizes, found = written(tmp_path, "turret", settings=("size.process=laser",))
-    _, *slots = sorted(found["COUPON"], key=lambda shape: -shape.area)
-    clear = [0.5 * (s.bounds[2] - s.bounds[0]) - sizes.roller for s in slots]
-    assert sorted(round(c, 6) for c in clear)[-3:] == [0.3, 0.4, 0.5]
-    wide = min(s.bounds[2] - s.bounds[0] for s in found["BORE"])
-    assert round(2.0 * sizes.pin - wide, 6) == 0.5
-
-
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("kerf", [None, 1.0])
 @pytest.mark.parametrize("name", ["turret", "three-slots"])
@@ -92,11 +80,6 @@ def test_holes_for_the_pin_become_smaller(tmp_path):
     assert across[-1] == pytest.approx(2.0 * sizes.pin - 0.15, abs=SAME)
 
 
-def test_the_specs_own_clearance_is_among_them(tmp_path):
-    _, found = written(tmp_path, "turret", settings=["size.slot_clearance_mm=0.07"])
-    assert len(found["COUPON"]) == 2 + len(CLEARANCES)
-
-
 def test_numbers_read_as_they_should():
     """Where strokes are lit, in a picture of three columns and five rows."""
     pictures = {
@@ -114,8 +97,3 @@ def test_numbers_read_as_they_should():
             for i, mark in enumerate(row):
                 at = Point(0.5 * i, 2.0 - 0.5 * j)
                 assert (min(at.distance(line) for line in lit) < 1e-9) == (mark == "#"), digit
-
-
-def test_numbers_stand_about_their_middle():
-    xs = [x for shape in number("0.05", 3.0, 1.0, 2.0) for x, _ in shape.segments[0]]
-    assert math.isclose(0.5 * (min(xs) + max(xs)), 3.0)

@@ -8,10 +8,9 @@ from shapely.geometry import Polygon
 from words import Spec, Wheel
 
 from geneva_cli.design import Design
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import mass_properties
-from geneva_cli.geometry.shapes import Circle, Contour, Line
-from geneva_cli.parts.wheel import wheel_plate
+from geneva_cli.geometry.shapes import Contour, Line
+from geneva_cli.parts.outlines.wheel_circles import wheel_plate
 from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.spec.tables import Size
 
@@ -80,27 +79,3 @@ def test_the_mass_is_without_them():
     cut = 7850.0 * 10e-9 * (4 * math.pi * 9.0 + slit)
     assert masses[0] - masses[1] == pytest.approx(cut, rel=1e-9)
     assert masses == pytest.approx([wheel_body(d.mechanism).mass_kg for d in (whole, holed)])
-
-
-@pytest.mark.parametrize(
-    ("gearing", "size", "said"),
-    [
-        (
-            "external",
-            {"wheel_bore_mm": 5.0, "wheel_keyway": DIN},
-            "the wheel's bore of 5 mm; set w",
-        ),
-        ("internal", {"wheel_keyway": DIN}, "the wheel's bore of 0 mm; set wheel_bore_mm above"),
-    ],
-)
-def test_keyways_that_are_refused(gearing, size, said):
-    with pytest.raises(GenevaError, match=said) as caught:
-        of(6, gearing, **size).drawing("wheel")
-    assert caught.value.key == ("size", "wheel_keyway")
-
-
-def test_bolts_that_meet_a_slot_are_told():
-    design = of(dial_bolts=12, dial_bolt_circle_mm=130.0)
-    (row,) = [c for c in design.checks if c.name == "dial_wall_mm"]
-    assert row.passes is False and row.value < 0.0 and row.nearest
-    assert sum(isinstance(s, Circle) for s in design.drawing("wheel").shapes) == 13

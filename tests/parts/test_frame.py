@@ -3,7 +3,6 @@
 import cmath
 import math
 from functools import cache
-from itertools import combinations
 
 import numpy as np
 import pytest
@@ -12,11 +11,10 @@ from drawing_witness import polygon
 from shapely.affinity import rotate, translate
 from shapely.geometry import Point
 
-from geneva_cli import Design, External, Internal, SideCrank, Size, load
-from geneva_cli.geometry.hole_walls import least_wall
-from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.plates import plates
+from geneva_cli import load
+from geneva_cli.geometry.plates import in_place, plates
 from geneva_cli.geometry.shapes import Circle
+from geneva_cli.geometry.stacks import least_wall
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.stressed import stressed
@@ -107,40 +105,6 @@ def test_a_hole_for_every_shaft_that_reaches_it(name):
     assert middles == [pytest.approx(hole.centre) for hole in holes]
 
 
-def drilled(design):
-    """The frame and its holes for shafts, which come first."""
-    (plate,) = plates(design.drawing("frame").solid)
-    return plate, [(hole.centre, hole.radius) for hole in plate.holes[:-MOUNTS]]
-
-
-@pytest.mark.parametrize(
-    ("z", "A"), [(6, 0.05), (6, 0.15), (6, 0.19), (12, 0.3), (16, 0.3), (24, 0.3), (6, -0.1)]
-)
-def test_no_two_holes_cross_where_the_crank_ends_above_its_input(z, A):
-    """The base offset of the input crank is A times the crank, R = L sin(pi/z)."""
-    plate, holes = drilled(Design(External(z), SideCrank(A=A)))
-    offset = 100.0 * math.sin(math.pi / z) * A
-    standing, posts = [at for at, _ in holes][:2], [at for at, _ in holes][2:]
-    assert standing == [(0.0, 0.0), (pytest.approx(100.0 - offset), 0.0)]
-    # a bridge bears the shaft where it leaves through the locking disc, which needs a bore
-    assert [x for x, _ in posts] == ([100.0, 100.0] if z == 6 else [])
-    for one, other in combinations(plate.holes, 2):
-        assert math.dist(one.centre, other.centre) > one.radius + other.radius
-
-
-def test_a_shaft_that_ends_above_it_has_no_hole():
-    """The frame of a plain crank is from -20 to -10 mm, L/10 below the wheel and as thick."""
-    assert [at for at, _ in drilled(Design(Internal(6)))[1]] == [(100.0, 0.0)]
-    plate, holes = drilled(Design(External(6)))
-    assert (plate.low, plate.high) == (-20.0, -10.0)
-    assert [at for at, _ in holes] == [(0.0, 0.0), (100.0, 0.0)]
-    for low, count in ((-9.0, 1), (-10.0, 1), (-10.5, 2), (-30.0, 2)):
-        ends = Design(External(6), size=Size(wheel_shaft_low_mm=low))
-        assert len(drilled(ends)[1]) == count
-        # it goes as far along the line of centres
-        assert drilled(ends)[0].holes[-1].centre[0] == plate.holes[-1].centre[0]
-
-
 @pytest.mark.parametrize("name", ["side-crank-z6", "slider-crank", "turret"])
 def test_it_is_below_all_that_moves_and_has_walls(name):
     design, _, drawing = made(name)
@@ -152,29 +116,6 @@ def test_it_is_below_all_that_moves_and_has_walls(name):
     assert own["z_high_mm"] == plate.high == min(lows)
     L = design.mechanism.center_distance_mm
     assert least_wall(plate.holes, [plate.outline]) > wall_min(design.spec.size, L)
-
-
-def test_a_guide_is_screwed_on_where_its_own_holes_are():
-    """M8 passes 9 mm in the guide, and its thread of 1.25 mm pitch is in the frame."""
-    design, _, drawing = made("slider-crank")
-    holes = [s for s in drawing.shapes if isinstance(s, Circle)][2:4]
-    bars = design.drawing("assembly").shapes
-    for hole in holes:
-        assert hole.radius == 0.5 * (8.0 - 1.25)
-        assert any(
-            s.centre == pytest.approx(hole.centre) and s.radius == pytest.approx(4.5)
-            for s in bars
-            if isinstance(s, Circle) and s.layer == "LINK"
-        )
-
-
-def test_shafts_have_the_size_of_what_they_carry():
-    _, proof, drawing = made("turret")
-    wheel, crank = [s.radius for s in drawing.shapes if isinstance(s, Circle)][:2]
-    assert wheel == proof.outlines.sizes.wheel_bore
-    assert crank == proof.outlines.sizes.crank_bore
-    thick = Design(External(6)).with_("shaft.crank_diameter_mm", 30.0).drawing("frame")
-    assert [s.radius for s in thick.shapes if isinstance(s, Circle)][1] == 15.0
 
 
 def outline_at(link, plate, index):

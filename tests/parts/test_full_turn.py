@@ -6,11 +6,9 @@ The witnesses: polygons of shapely at some positions of a turn, and closed forms
 import math
 import random
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
-import repo
 import shapely
 from drawing_witness import polygon
 from hypothesis import given, settings
@@ -20,20 +18,15 @@ from sampling import some
 from shapely import affinity
 from shapely.geometry import Point
 from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, turned
-from words import LAWS, Motion, load
+from words import LAWS, Motion
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import turned as turned_contour
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, about, closed
+from geneva_cli.geometry.shapes import Contour, Line, about, closed
 from geneva_cli.parts.outlines.reliefs import reliefs
-from geneva_cli.parts.outlines.walls.straight import straight_walls
-from geneva_cli.parts.outlines.wheel_outline import wheel_contour
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.parts.turn import gaps
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.machine_parts import WorkLimit
-from geneva_cli.parts.turn.smallest import positions
 
 
 def overlaps(found: Parts, count: int = 60) -> Iterator[float]:
@@ -56,20 +49,6 @@ def overlaps(found: Parts, count: int = 60) -> Iterator[float]:
         parts += [affinity.translate(turned(crank, poses[i]), assembly.L) for crank in cranks]
         if any(wheel.intersects(turned(part, -turns[i])) for part in parts):
             yield float(at[i])
-
-
-@pytest.mark.parametrize("file", ["press-curved", "internal-z6", "cam-geneva", "three-rollers-z4"])
-def test_the_crank_is_as_near_to_some_pieces_of_the_wheel_as_to_all(file, monkeypatch):
-    """With the wheel in place, where most gaps are 0, and turned on, where parts overlap."""
-    parts = parts_of(load(str(repo.DESIGNS / f"{file}.toml")))
-    pose = parts.gaps.pose(positions(parts)[::5])
-    leads = (0.0, 0.003, 0.05)
-    some = [parts.gaps.locking(pose, lead) for lead in leads]
-    monkeypatch.setattr(gaps, "nearest_pieces", lambda own, near, *rest: near)
-    every = [parts.gaps.locking(pose, lead) for lead in leads]
-    assert np.min(every) < -0.1
-    # a contact at a corner of two pieces may be rounded as that of the other
-    np.testing.assert_allclose(some, every, rtol=0.0, atol=1e-12 * parts.assembly.L)
 
 
 def finds_slot(found: Parts) -> float:
@@ -137,28 +116,6 @@ def test_curved_slots_turn(case: dict) -> None:
     assert turn.smallest.mm >= -found.close
     assert turn.driving.mm == pytest.approx(case.get("slot_clearance_mm", 0.0), abs=found.close)
     assert not list(overlaps(found))
-
-
-DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
-FLAT = [path for path in DESIGNS if load(str(path)).spec.is_flat]
-
-
-@pytest.mark.sampled(8)
-@pytest.mark.usefixtures("made_once")
-@pytest.mark.parametrize("path", FLAT, ids=lambda p: p.stem)
-def test_every_flat_design_turns(path: Path) -> None:
-    """As all commands have its parts and their turn."""
-    parts = parts_of(load(str(path)))
-    found, turn = parts, parts.turn
-    assert passes(found, turn)
-    assert not list(overlaps(found, 20))
-    mechanism = found.assembly.full
-    one = len(mechanism.engagements) == 1 and mechanism.spec.drive.turns == 1
-    if one and mechanism.engagements[0].motion.symmetric:
-        # what is as small or as great on the way out is told of the way in
-        for told in (turn.driving, turn.lock, turn.dwell, turn.hand_over, turn.motion):
-            half = 0.5 * mechanism.period_deg
-            assert told is None or told.at_deg <= 0.0 or told.at_deg in (half, 180.0)
 
 
 def opening(rim: float, radius: float) -> float:
@@ -268,17 +225,6 @@ def test_random_machines(rng: random.Random) -> None:
     turns_as_polygons_do(random_case(rng))
 
 
-def test_few_random_machines_are_refused() -> None:
-    """In a fixed sample; mostly laws that no R/L matches inside."""
-    refused = 0
-    for seed in range(10):
-        try:
-            made(**random_case(random.Random(seed)))
-        except GenevaError:
-            refused += 1
-    assert refused <= 3
-
-
 # --- spoilt machines
 
 
@@ -302,134 +248,6 @@ def test_a_rim_too_large_fouls_the_roller_before_it_enters(z: int, by: float) ->
     # the place of the smallest gap is found to a share of the half degree that it lasts
     assert turn.driving.mm == pytest.approx(R - r - math.hypot(R - r, s), rel=1e-3, abs=1e-12)
     assert turn.smallest.mm < -found.close
-
-
-def test_a_larger_rim_goes_with_a_clearance() -> None:
-    """0.2 mm more rim need less than a micrometre of clearance."""
-    plain = made(6, slot_clearance_mm=0.001)
-    found = made(6, slot_clearance_mm=0.001, wheel_radius_mm=plain.sizes.rim + 0.2)
-    assert passes(found, full_turn(found))
-
-
-@pytest.mark.parametrize("z", [4, 6, 8])
-def test_a_relief_about_the_wheels_axis_collides(z: int) -> None:
-    """An arc of the wheel's radius about its axis at mid-motion: the horns reach past it."""
-    found = made(z)
-    rk, rim = found.sizes.lock, found.sizes.rim
-    half = math.acos((L * L + rk * rk - rim * rim) / (2.0 * L * rk))
-    seen = opening(rim, rk)
-    bad = closed(
-        "CRANK",
-        [
-            about((0.0, 0.0), rk, half, math.tau - 2.0 * half),
-            about((L, 0.0), rim, math.pi + seen, -2.0 * seen),
-        ],
-    )
-    wrong = spoilt(found, crank=[bad])
-    turn = full_turn(wrong)
-    assert turn.lock is not None
-    assert turn.lock.mm < -0.05
-    assert list(overlaps(wrong))
-
-
-def with_recesses(found: Parts, rests: list[float], turned_by: float = 0.0) -> Contour:
-    """The wheel with recesses only at some rests, all turned by an angle."""
-    rests = [(at + turned_by) % math.tau for at in rests]
-    turned = found.assembly._replace(rests=tuple(rests))
-    return wheel_contour(turned, found.sizes, found.outlines.slots)
-
-
-def with_one_recess(found: Parts, kept: int) -> Contour:
-    """The wheel with the rim closed over its recesses but one."""
-    axes = [(L * math.cos(at), L * math.sin(at)) for at in found.assembly.rests]
-    del axes[kept]
-
-    def filled(piece: Segment) -> Segment:
-        if isinstance(piece, Arc) and min(math.dist(piece.centre, axis) for axis in axes) < 1e-6:
-            first, last = (math.atan2(y, x) for x, y in (piece.start, piece.end))
-            return about((0.0, 0.0), found.sizes.rim, first, (last - first) % math.tau)
-        return piece
-
-    pieces = [filled(piece) for piece in found.outlines.wheel.segments]
-    assert sum(a != b for a, b in zip(pieces, found.outlines.wheel.segments, strict=True)) == len(
-        axes
-    )
-    return closed("WHEEL", pieces)
-
-
-@pytest.mark.parametrize("kept", [0, 5])
-def test_recesses_that_are_missing(kept: int) -> None:
-    """With one recess only the disc meets the rim at rest, by all that it reaches past it, or by
-    as much as the rim is then from the relief."""
-    found = made(6)
-    wrong = spoilt(found, with_one_recess(found, kept))
-    turn = full_turn(wrong)
-    assert turn.lock is not None
-    deep = found.sizes.lock - (L - found.sizes.rim)
-    assert -deep <= turn.lock.mm < -0.9 * deep
-
-
-@pytest.mark.parametrize("by_deg", [1.0, -1.0, 0.05])
-def test_recesses_turned_against_the_slots(by_deg: float) -> None:
-    """The disc is fouled by the way of the recess's corner: L sin(by) sin(beta), some per cent off
-    for 1 degree."""
-    found = made(6)
-    size = found.sizes
-    wrong = spoilt(found, with_recesses(found, list(found.assembly.rests), math.radians(by_deg)))
-    turn = full_turn(wrong)
-    beta = math.asin(size.rim / size.recess * math.sin(opening(size.rim, size.recess)))
-    assert turn.lock is not None
-    wanted = L * math.sin(math.radians(abs(by_deg))) * math.sin(beta)
-    assert turn.lock.mm == pytest.approx(-wanted, rel=0.1)
-
-
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-def test_a_slot_cut_one_degree_off(gearing: str) -> None:
-    """At the mouth a roller without clearance meets the wall by L cos b sin(1 deg)."""
-    found = made(6, gearing, roller_radius_mm=3.0)
-    engagement = found.assembly.slots[0][0]
-    off = {engagement: turned_contour(found.outlines.slots[engagement], math.radians(1.0))}
-    wrong = spoilt(found, wheel_contour(found.assembly, found.sizes, off))
-    turn = full_turn(wrong)
-    assert turn.driving.mm < -0.9 * L * math.cos(math.pi / 6) * math.sin(math.radians(1.0))
-    assert list(overlaps(wrong))
-
-
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-def test_a_slot_too_short(gearing: str) -> None:
-    """0.1 mm short: the roller is in its end by that, at mid-motion."""
-    found = made(6, gearing, roller_radius_mm=3.0)
-    engagement = found.assembly.slots[0][0]
-    sizes = found.sizes._replace(slot_bottom=-0.1)
-    short = wheel_contour(
-        found.assembly, sizes, {engagement: straight_walls(found.assembly, sizes, engagement)}
-    )
-    turn = full_turn(spoilt(found, short))
-    assert turn.driving.mm == pytest.approx(-0.1, abs=1e-9)  # the search's own end
-    assert turn.driving.at_deg == pytest.approx(0.0, abs=1e-2)
-
-
-@pytest.mark.parametrize("k", [0, 3])
-def test_one_slot_askew_among_good_ones(k: int) -> None:
-    """Three rollers use three of four slots in a turn: each is looked at by itself. Turned by 0.01
-    about the wheel's axis, its end lies off by that share of its distance."""
-    found = made(4, rollers=3, roller_radius_mm=7.0)
-    pieces = list(found.outlines.wheel.segments)
-    first = k * len(pieces) // 4
-    walls = Contour("WHEEL", tuple(pieces[first : first + 3]), closed=False)
-    pieces[first : first + 3] = turned_contour(walls, 0.01).segments
-    turn = full_turn(spoilt(found, closed("WHEEL", pieces)))
-    assert turn.driving.mm < -0.009 * (L - L * math.sin(math.pi / 4))
-
-
-def test_a_disc_without_relief() -> None:
-    """The horns come as near to the crank's axis as L - Rw."""
-    found = made(6)
-    whole = [about((0.0, 0.0), found.sizes.lock, k * math.pi, math.pi) for k in (0, 1)]
-    turn = full_turn(spoilt(found, crank=[closed("CRANK", whole)]))
-    assert turn.lock is not None
-    deep = found.sizes.lock - (L - found.sizes.rim)
-    assert turn.lock.mm == pytest.approx(-deep, rel=1e-3)
 
 
 def sector_crank(found: Parts, locked: float) -> Contour:
@@ -479,18 +297,6 @@ def test_a_thin_horn_is_not_stepped_over() -> None:
     assert turn.lock.at_deg == pytest.approx(phi, abs=0.3)
     assert wrong.gaps.locking(wrong.gaps.pose(np.arange(-60.0, 300.0))).min() >= -found.close
     assert passes(found, full_turn(found))
-
-
-def test_the_positions_are_never_coarser_than_the_rule() -> None:
-    """A quarter of the roller between two positions; where that takes too many, nothing is said."""
-    found = made(6, roller_radius_mm=0.2)  # 8,097 by that rule
-    at = positions(found)
-    crank, wheel = (np.unwrap(turn(at)) for turn in (found.assembly.crank, found.assembly.wheel))
-    travel = found.sizes.arm * np.abs(np.diff(crank)) + found.sizes.rim * np.abs(np.diff(wheel))
-    # they are spaced by a table of 721 rows: one per cent more is its interpolation
-    assert travel.max() <= 0.25 * 0.2 * 1.01
-    with pytest.raises(WorkLimit, match=r"takes 16,\d+ positions, more than 10,000"):
-        full_turn(made(6, roller_radius_mm=0.1))
 
 
 def test_a_turn_that_is_not_proved_is_not_tried_again(monkeypatch):

@@ -11,24 +11,20 @@ from sampling import some
 from shapely.affinity import rotate, translate
 
 from geneva_cli import (
-    Crank,
     Design,
     EllipticalGears,
     Epicyclic,
     External,
     NoncircularGears,
-    SideCrank,
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import fit
-from geneva_cli.geometry.gear_teeth import Rack, RoundTeeth, circle
+from geneva_cli.geometry.gear_teeth import Rack, RoundTeeth
 from geneva_cli.geometry.measure import at, turned
-from geneva_cli.geometry.rolling_teeth import teeth_along
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.motion.pivots import Joint, Link, Teeth
+from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.gears.gear_mesh import gear_mesh
-from geneva_cli.parts.gears.gear_pair import driven_curve, driver_curve
 from geneva_cli.spec.tables import Size
 
 WRITE = {
@@ -73,52 +69,6 @@ def test_a_published_pair_with_profile_shift():
         assert 2.0 * one.teeth.base == pytest.approx(base, abs=5e-5)
         assert 2.0 * one.teeth.tip == pytest.approx(tip, abs=3e-3)
         assert 2.0 * one.teeth.root == pytest.approx(root, abs=3e-3)
-
-
-@pytest.mark.parametrize(
-    ("counts", "distance", "backlash", "small"),
-    [
-        ((20, 40), 92.0, 0.0, "half"),
-        ((12, 36), 73.0, 0.0, "undercut"),
-        ((12, 36), 73.0, 0.3, "undercut"),
-        ((20, 40), 89.7, 0.0, "none"),
-        ((20, 40), 89.7, 0.3, "none"),
-        ((14, 40), -39.6, 0.0, "undercut"),
-        ((20, 60), -60.6, 0.0, "none"),
-    ],
-)
-def test_shifts_without_a_key(counts, distance, backlash, small):
-    """The smaller gear has half of the sum, and no less than 0 or what undercut needs.
-
-    Module 3. The sum of both shifts is that of the distance a, (z1 + z2)(inv w - inv 20°)/(2 tan
-    20°), cos w = 3 (z1 + z2) cos 20°/(2 a). A gear in a ring (a below 0) has the difference: the
-    larger one's shift less its own, and half of it is no reason. A rack of ISO 53 is straight for
-    1.25 - 0.38 (1 - sin 20°) modules. A shift x makes a tooth 2 x m tan 20° thicker, and a backlash
-    makes each tooth thinner by half of it, so that undercut needs more shift.
-    """
-    m, (z1, z2), alpha = 3, counts, mpmath.radians(20)
-    inside = distance < 0.0
-    sign, a = (-1, -distance) if inside else (1, distance)
-    both = z2 + sign * z1
-    at_work = mpmath.acos(mpmath.mpf(m * both) / 2 * mpmath.cos(alpha) / a)
-    inv = lambda w: mpmath.tan(w) - w  # noqa: E731
-    total = both * (inv(at_work) - inv(alpha)) / (2 * mpmath.tan(alpha))
-    # j/2 off the tooth at the working circle is less at the reference circle, by cos w/cos 20°
-    off = mpmath.mpf(backlash) / 4 * (mpmath.mpf(m * both) / (2 * a)) / (m * mpmath.tan(alpha))
-    straight = mpmath.mpf("1.25") - mpmath.mpf("0.38") * (1 - mpmath.sin(alpha))
-    least = straight - z1 * mpmath.sin(alpha) ** 2 / 2 + off
-    wanted = {"half": total / 2, "undercut": least, "none": mpmath.mpf(0)}
-    # the case is what its name says: it is the greatest of those that count
-    assert wanted[small] == max(wanted["undercut"], 0, 0 if inside else wanted["half"])
-    links = [link("one", a * z1 / both), link("two", a * z2 / both)]
-    if inside:
-        links[1] = links[1]._replace(teeth=Teeth(inside=True))
-    size = Size(gear_module_mm=float(m), gear_teeth=z1, gear_backlash_mm=backlash)
-    mesh = gear_mesh(*links, ((0.0, 0.0), (distance, 0.0)), size)
-    own, other = mesh.gears["one"].shift, mesh.gears["two"].shift
-    # an involute of 20° loses two digits in tan w - w
-    assert own == pytest.approx(float(wanted[small]), abs=1e-13)
-    assert other == pytest.approx(float(total - sign * wanted[small]), abs=1e-13)
 
 
 def test_a_published_span():
@@ -217,15 +167,6 @@ def test_a_rack_that_rolls_leaves_these_teeth(count, shift):
     assert shapely.hausdorff_distance(one.boundary, other.boundary) < 1e-3 * m
 
 
-def test_teeth_along_a_circle_are_a_round_gears():
-    """Both ways to write a gear give one outline."""
-    rack, radius, count = Rack(1.5, 0.1), 15.0, 20
-    teeth = RoundTeeth(rack, radius, radius + 1.65)
-    along = teeth_along(circle(radius), rack, rack.pitch * np.arange(count), 1.65, WRITE["arcs"])
-    one, other = polygon([*along]), polygon(whole(teeth, count))
-    assert shapely.hausdorff_distance(one.exterior, other.exterior) < 3e-5  # twice the tolerance
-
-
 RING = Epicyclic(planet_ratio=0.02, fixed="ring")
 SOFT = Epicyclic(planet_ratio="shockless")
 
@@ -298,17 +239,6 @@ def pair(drive, **keys):
     return design, [(polygon(m.part.outline.segments, 3), m.at) for m in flat.gear_pair]
 
 
-@pytest.mark.parametrize("curve", [driven_curve, driver_curve])
-def test_tangents_of_pitch_curves_are_those_of_their_points(curve):
-    """Against differences of points: their error is h² = 1e-8 of the radius, times a few."""
-    points = curve(NoncircularGears(A=0.4, gear_distance_mm=80.0).gears, 1.0)
-    phi, h = np.array([0.3, 1.7, 3.5, 5.9]), 1e-4
-    (after, _), (before, _), (_, tangent) = points(phi + h), points(phi - h), points(phi)
-    step = after - before
-    step /= np.linalg.norm(step, axis=1)[:, None]
-    assert np.abs(step - tangent).max() < 1e-7
-
-
 @pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("kind", ["elliptical", "side-crank"])
@@ -341,55 +271,3 @@ def test_noncircular_gears_mesh(kind):
         # normal to the flanks half the backlash is 0.03 cos 20 deg
         gap = one.distance(other)
         assert gap == pytest.approx(0.03 * math.cos(math.radians(20.0)), abs=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("drive", "z", "keys", "said"),
-    [
-        (SOFT, 4, {"gear_module_mm": 5.0}, "pointed; gear_module_mm = 4 is small enough"),
-        (SOFT, 4, {"gear_module_mm": 2.0, "gear_shift": -0.5}, "gear_shift = -0.5.*undercut"),
-        (SOFT, 4, {"gear_module_mm": 0.5, "gear_teeth": 3}, "; remove gear_teeth"),
-        (EllipticalGears(eccentricity=0.3), 6, {"gear_module_mm": 2.0}, "for 49 teeth"),
-        (
-            EllipticalGears(eccentricity=0.3),
-            6,
-            {"gear_module_mm": 12.210, "gear_teeth": 8},
-            "bends",
-        ),
-    ],
-)
-def test_refusals(drive, z, keys, said):
-    with pytest.raises(GenevaError, match=said) as error:
-        Design(External(z), drive, size=Size(**keys)).drawing("gears")
-    assert error.value.key[0] == "size"
-
-
-@pytest.mark.parametrize(("key", "value"), [("gear_shift", 0.2), ("gear_teeth", 20)])
-def test_teeth_without_a_module_are_refused(key, value):
-    with pytest.raises(GenevaError, match="set gear_module_mm, or remove"):
-        _ = Design(External(4), SOFT, size=Size(**{key: value})).mechanism
-
-
-@pytest.mark.parametrize("drive", [Crank(), SideCrank(A=0.3)])
-def test_a_module_without_gears_is_refused(drive):
-    with pytest.raises(GenevaError, match="gear_module_mm cuts the teeth of gears") as caught:
-        _ = Design(External(4), drive, size=Size(gear_module_mm=2.0)).mechanism
-    assert caught.value.key == ("size", "gear_module_mm")
-
-
-def test_solids_lists_and_drawings_have_the_teeth():
-    """One group of parts is shown everywhere; the mass is the outline's."""
-    design, drawn = gears(SOFT, 4, gear_module_mm=2.0)
-    rows = {
-        row["name"]: row for row in design.part_table("parts").to_rows() if row["row"] == "part"
-    }
-    for outline, gear in drawn:
-        holes = sum(math.pi * h.radius**2 for h in gear.plate.holes)
-        mass = 7850e-9 * gear.plate.thickness * (outline.area - holes)
-        assert rows[gear.name]["mass_kg"] == pytest.approx(mass, rel=5e-5)  # chords of the polygon
-    shown = [s for s in design.drawing("assembly").shapes if isinstance(s, Contour)]
-    assert sum(len(s.segments) > 300 for s in shown) == 2
-    names = {row["name"]: row["value"] for row in design.part_table("parts").to_rows()}
-    assert (names["planet: teeth"], names["fixed gear: teeth"]) == (18, 72)
-    planet = rows["planet"]
-    assert planet["size_x_mm"] == pytest.approx(names["planet: tip diameter"], abs=1e-3)

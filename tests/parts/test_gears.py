@@ -12,10 +12,8 @@ from shapely.geometry import LineString, Point, Polygon
 from words import Drive, Keys, Motion, Spec, Wheel, points
 
 from geneva_cli import Design, External, Internal, NoncircularGears, load
-from geneva_cli.drawings.centre_marks import with_centre_marks
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import segment_length
-from geneva_cli.geometry.shapes import Circle, Contour, Cubic
+from geneva_cli.geometry.shapes import Contour, Cubic
 from geneva_cli.motion import registry
 from geneva_cli.motion.groove_path import distances
 from geneva_cli.motion.mechanism import build
@@ -130,18 +128,6 @@ def test_drawn_gears_mesh_as_the_crank_turns(gearing):
         assert one.intersection(other).area < 1e-4
 
 
-def test_gears_have_bores_at_their_axes_and_marks():
-    _, drawing = drawn("noncircular-gears", "arcs")
-    bores = [shape for shape in drawing.shapes if isinstance(shape, Circle)]
-    assert [bore.centre for bore in bores] == [(0.0, 0.0), (120.0, 0.0)]
-    marked = with_centre_marks(drawing)
-    marks = [shape for shape in marked.shapes if shape.layer == "CENTER"]
-    assert len(marks) == 2 * len(bores)
-    assert marked.layers == (*drawing.layers, "CENTER") == ("PITCH", "BORE", "CENTER")
-    with pytest.raises(GenevaError, match='--part gears: kind = "crank" has no gears'):
-        Design(External(6)).drawing("gears")
-
-
 def ratio_file(tmp_path, change=lambda ratio: ratio):
     lines = ["input_deg,ratio"]
     for k in range(0, 361, 2):
@@ -163,15 +149,6 @@ def test_a_ratio_from_a_file(tmp_path):
     for order, digits in ((0, 1e-11), (1, 1e-10), (2, 1e-8), (3, 1e-6)):
         a, b = (s.motion(x).derivatives()[order] for s in (ours, theirs))
         assert a == pytest.approx(b, abs=digits)
-
-
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [(lambda r: r - 0.6, "not realisable"), (lambda r: 1.1 * r, "do not close")],
-)
-def test_a_ratio_that_no_gears_have(tmp_path, change, said):
-    with pytest.raises(GenevaError, match=said):
-        gears(ratio=ratio_file(tmp_path, change))
 
 
 def test_the_groove_against_the_law_of_sines():
@@ -234,35 +211,6 @@ def test_the_groove_table_keeps_its_tolerance(tolerance):
         for side, off in (("", 0.0), ("left_", 5.0), ("right_", -5.0))
     ]
     assert 0.5 * tolerance < max(worst) <= 1.005 * tolerance
-
-
-@pytest.mark.parametrize("samples", [2, 4, 5, 100])
-def test_the_crank_is_at_0_where_the_input_is(samples):
-    """However many rows, a turn of the crank goes from -180 to 180 deg: the ratio is even."""
-    crank = columns(gears_table(gears(0.6), TOL, samples))["crank_deg"]
-    assert (crank[0], crank[-1]) == pytest.approx((-180.0, 180.0), abs=1e-12)
-
-
-@pytest.mark.parametrize("table", [gears_table, groove_table])
-def test_a_plain_crank_has_neither(table):
-    with pytest.raises(GenevaError, match="has no"):
-        table(build(Spec(Wheel(6))), TOL, None)
-
-
-@pytest.mark.parametrize(("z", "alpha0"), [(6, 0.0), (4, -20.0), (8, 10.0)])
-def test_the_groove_keeps_close_in_the_dwell(z: int, alpha0: float) -> None:
-    """No bulge, and no jump of its second derivative; derivatives against differences."""
-    spec = Spec(Wheel(z), Drive("cam"), motion=Motion("cycloidal", alpha0_deg=alpha0))
-    engagement = build(spec).engagements[0]
-    x = engagement.exit_deg + np.linspace(-1.0, 361.0 - engagement.motion_deg, 20001)
-    R, slope, bend = distances(engagement.groove, x)
-    end = float(engagement.groove.distances(engagement.exit_deg, 0)[1].c[0])
-    assert np.abs(R - end).max() < 0.15 * end
-    # Differences against the mean of both sides: their error is h times a bounded derivative.
-    h = np.radians(x[1] - x[0])
-    assert np.abs(np.diff(R) / h - 0.5 * (slope[1:] + slope[:-1])).max() < 1e-4
-    assert np.abs(np.diff(slope) / h - 0.5 * (bend[1:] + bend[:-1])).max() < 1e-2
-    assert np.abs(np.diff(bend)).max() < 100.0 * h
 
 
 @pytest.mark.parametrize(("z", "law", "alpha0"), [(6, "cycloidal", 0.0), (4, "3-4-5", -20.0)])

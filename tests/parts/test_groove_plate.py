@@ -3,12 +3,10 @@
 import pytest
 import repo
 from drawing_witness import polygon, vertices
-from other_shape import with_shape
 from shapely.geometry import LineString
 
-from geneva_cli import Design, External, load
+from geneva_cli import load
 from geneva_cli.drawings.parts_list import parts_list
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Circle
@@ -54,25 +52,3 @@ def test_it_lies_about_its_roller_and_below_the_crank(cam):
     for hole in ring.holes[1:]:
         at = hole.centre[0] + L, hole.centre[1]
         assert any(isinstance(s, Circle) and s.centre == pytest.approx(at) for s in held)
-
-
-def test_machines_without_such_a_plate(cam):
-    _, proof, _ = cam
-    wide = proof.outlines.sizes._replace(wheel_hub=200.0)
-    with pytest.raises(GenevaError, match="up to the wheel's hub, less than four times wall_min"):
-        _ = with_shape(proof, sizes=wide).groove_plate
-    with pytest.raises(GenevaError, match='kind = "crank" has no groove; "cam" has one'):
-        Design(External(6)).drawing("groove-plate")
-
-
-@pytest.mark.usefixtures("no_advice")
-def test_a_machine_without_room_for_its_groove_plate_fails():
-    """The rim needs four walls of 20 mm; the machine is not drawn or listed without the plate."""
-    design = load(str(repo.DESIGNS / "tuned-dial.toml")).with_("size.wall_min_mm", 20.0)
-    why = "--part groove-plate: the groove reaches 130.7 mm"
-    (row,) = [c for c in design.checks if c.name == "parts"]
-    assert row.passes is False and row.why.startswith(why)
-    with pytest.raises(GenevaError, match=why):
-        design.drawing("assembly")
-    (missing,) = [r for r in design.part_table("parts").to_rows() if r["row"] == "missing"]
-    assert missing["why"].startswith(why)

@@ -10,20 +10,13 @@ import repo
 from shapely import affinity
 from shapely.geometry import LineString
 from typer.testing import CliRunner
-from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.cli.app import app
-from geneva_cli.design import Design
-from geneva_cli.drawings.single_parts import single_parts
-from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hole_walls import plate_wall
-from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.links.links import drawn_links
-from geneva_cli.spec.tables import Shaft, Size
 
 # rounding of a few sines of lengths of some hundred mm
 NEAR = 1e-10
@@ -56,15 +49,6 @@ def shown(name, part):
 
 def holes(plate):
     return [complex(*hole.centre) for hole in plate.holes if isinstance(hole, Circle)]
-
-
-def test_every_link_is_cut(made):
-    name, _, links = made
-    assert {plate.name for plate in links.plates} == NAMES[name]
-    for plate in links.plates:
-        # a wall all round, which the defaults leave: at least a quarter of a hole's radius
-        least = min(hole.radius for hole in plate.holes if isinstance(hole, Circle))
-        assert plate_wall(plate) > 0.25 * least
 
 
 def test_holes_are_where_the_joints_are(made):
@@ -154,164 +138,6 @@ def test_the_drawing_has_the_lengths_of_the_list(name):
         # a shaft's bore is listed after the pins'
         length = sorted(abs(a - b) for k, a in enumerate(bores) for b in bores[:k])
         assert min(abs(x - float(numbers[dimension])) for x in length) < 1e-9, (link, i, j)
-
-
-@pytest.mark.sampled(3)
-def test_rows_of_the_list(made):
-    """A row each, with its mass and its place along the axis; planes do not overlap."""
-    name, _, links = made
-    rows = {r["name"]: r for r in shown(name, "parts") if r["row"] == "part"}
-    for plate in links.plates:
-        row = rows[plate.name]
-        mass = mass_properties(plate, 7850.0).mass_kg
-        assert float(row["mass_kg"]) == pytest.approx(mass, rel=1e-12)
-        assert (float(row["z_low_mm"]), float(row["z_high_mm"])) == (plate.low, plate.high)
-    spans = sorted({(p.low, p.high) for p in links.plates})
-    assert all(a[1] <= b[0] + 1e-9 for a, b in zip(spans, spans[1:], strict=False))
-    assert spans[-1][1] <= 0.0
-
-
-@pytest.mark.parametrize("name", ["side-crank-z6", "four-bar-z4", "slider-crank"])
-def test_pins_are_turned_from_the_rollers_material(name):
-    """Those between links as that of the roller: no plate is as thick as a pin is long."""
-    design = load(str(repo.DESIGNS / f"{name}.toml"))
-    parts, _ = single_parts(design.parts, 0.1, "arcs")
-    pins = {one.name for one in parts if one.name.startswith("pin")}
-    assert pins > {"pin"}
-    assert not pins & {one.name for one in parts if one.is_cut}
-    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
-    assert {rows[pin]["material"] for pin in pins} == {"material.roller"}
-
-
-def four_bar(**size):
-    keys = Keys("four-bar", 40.0, 90.0, 100.0, 100.0, 161.51903573811165, -36.13836508095113)
-    return Design.of(
-        Spec(Wheel(4), Drive("four-bar"), keys | {"entry_deg": 123.3}, size=Size(**size))
-    )
-
-
-def test_sizes_as_given():
-    design = four_bar(
-        roller_radius_mm=2.0,
-        link_pin_mm=8.0,
-        link_bore_mm=14.0,
-        link_width_mm=20.0,
-        link_thickness_mm=5.0,
-        washer_mm=0.5,
-    )
-    links = drawn_links(design.mechanism, design.parts.outlines)
-    crank = next(p for p in links.plates if p.name == "crank")
-    assert sorted(2.0 * hole.radius for hole in crank.holes) == [8.0, 14.0]
-    rocker = next(p for p in links.plates if p.name == "rocker")
-    assert {round(2.0 * s.radius, 9) for s in rocker.outline.segments if hasattr(s, "bulge")} == {
-        20.0
-    }
-    assert [(p.low, p.high) for p in links.plates] == [
-        pytest.approx(z) for z in ((-10.5, -5.5), (-5.0, 0.0), (-16.0, -11.0))
-    ]
-    rings = {p.part.name: p.part for p in links.joined if len(p.part.holes)}
-    assert {(n, round(p.thickness, 9)) for n, p in rings.items()} == {
-        ("washer of coupler and crank", 0.5),
-        ("spacer of coupler and rocker", 6.0),
-    }
-
-
-def test_the_crank_is_bored_for_its_shaft():
-    keys = Keys("slider-crank", 40.0, 100.0, 80.0, 90.0)
-    design = Design.of(
-        Spec(Wheel(8), Drive("slider-crank"), keys, shaft=Shaft(crank_diameter_mm=15.0))
-    )
-    links = drawn_links(design.mechanism, design.parts.outlines)
-    assert 7.5 in {hole.radius for hole in links.plates[0].holes if isinstance(hole, Circle)}
-    # the side-crank's coulisse is on the arm's shaft
-    side = load(str(repo.DESIGNS / "side-crank-z6.toml"))
-    (bore,) = [
-        h
-        for h in drawn_links(side.mechanism, side.parts.outlines).plates[1].holes
-        if h[0] == "BORE" and isinstance(h, Circle)
-    ]
-    arm = side.drawing("arm").shapes[1]
-    assert bore.radius == arm.radius
-
-
-@pytest.mark.parametrize(
-    ("size", "said"),
-    [
-        (
-            {"link_pin_mm": 44.0, "link_bore_mm": 40.0},
-            "no plate is left around the holes of the crank: it lacks",
-        ),
-        ({"link_pin_mm": 6.0, "link_width_mm": 6.0}, "link_width_mm = 6: it must be above 6"),
-        ({"link_pin_mm": 900.0}, "link_pin_mm = 900: it must be below"),
-        (
-            {"pin_mm": 2.0, "roller_radius_mm": 2.0, "press_fit_mm": 2.0},
-            "the pin must be the larger",
-        ),
-    ],
-)
-def test_what_leaves_no_link_is_refused(size, said):
-    with pytest.raises(GenevaError, match=said) as caught:
-        four_bar(**{"roller_radius_mm": 2.0} | size).drawing("links")
-    assert caught.value.key[0] == "size"
-
-
-def test_machines_without_links():
-    with pytest.raises(GenevaError, match='kind = "crank" has no links: its crank is --part arm'):
-        Design.of(Spec(Wheel(6))).drawing("links")
-
-
-def test_a_pin_may_be_left_out():
-    design = four_bar(roller_radius_mm=2.0, pin_mm=0.0)
-    assert len(holes(drawn_links(design.mechanism).plates[1])) == 3
-
-
-def test_rollers_on_links_are_listed_without_a_wheel():
-    """Wheels of more than 360 slots are not drawn; what moves their roller is."""
-    keys = Keys("slider-crank", 40.0, 100.0, 80.0, 90.0)
-    size = Size(roller_radius_mm=1.0)
-    table = Design.of(Spec(Wheel(400), Drive("slider-crank"), keys, size=size)).part_table("parts")
-    count = dict(zip(*(table.to_dict()[name] for name in ("name", "count")), strict=True))
-    assert count["wheel"] is None  # a dimension alone
-    assert (count["rod"], count["roller"], count["pin"]) == (1, 1, 1)
-
-
-SHAFTS = {
-    "side-crank-z6": {"input crank's shaft": ("input crank", "frame")},
-    "four-bar-z4": {"crank's shaft": ("crank", "frame"), "rocker's pivot": ("rocker", "frame")},
-    "slider-crank": {"crank's shaft": ("crank", "frame")},
-    "geneva-pair": {"first crank's shaft": ("first locking disc", "frame")},
-    "epicyclic-soft-z6": {"shaft of carrier, planet's arm, planet": ("carrier", None)},
-    "gear-sector": {"wheel's shaft": ("wheel", "frame")},
-    "noncircular-gears": {"driver gear's shaft": (None, "frame")},
-}
-
-
-@pytest.mark.parametrize("name", SHAFTS)
-def test_shafts_that_carry_links_are_parts(name):
-    """From the frame's lower face to the upper one of the link, and as wide as its bore."""
-    rows = {r["name"]: r for r in shown(name, "parts") if r["row"] == "part"}
-    for shaft, (link, frame) in SHAFTS[name].items():
-        row = rows[shaft]
-        if link:
-            assert float(row["z_high_mm"]) == pytest.approx(float(rows[link]["z_high_mm"]))
-        if frame:
-            assert float(row["z_low_mm"]) == pytest.approx(float(rows[frame]["z_low_mm"]))
-        assert float(row["z_low_mm"]) < float(row["z_high_mm"])
-
-
-def test_nothing_passes_below_a_link_that_stands_beside_the_crank():
-    """So its shaft reaches the frame: it lies in the lowest plane, with every design's drive."""
-    for path in sorted(repo.DESIGNS.glob("*.toml")):
-        mechanism = load(str(path)).mechanism
-        L, turn = mechanism.center_distance_mm, np.linspace(-180.0, 180.0, 25)
-        links = links_at(mechanism, turn)
-        for link in links:
-            for (x, y), kind in zip(link.joints, link.kinds, strict=True):
-                at = x + 1j * y + 0.0 * turn
-                stands = np.ptp(at.real) + np.ptp(at.imag) < 1e-9 * L
-                beside = abs(at[0] - L) > 1e-9 * L and abs(at[0]) > 1e-9 * L
-                if stands and beside and kind in (Joint.SHAFT, Joint.PIN):
-                    assert link.plane == max(one.plane for one in links), (path.stem, link.name)
 
 
 def test_kerf_and_solids(tmp_path):

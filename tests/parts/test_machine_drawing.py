@@ -11,7 +11,6 @@ from shapely.geometry import Polygon
 from geneva_cli import load
 from geneva_cli.drawings.parts_list import parts_list
 from geneva_cli.geometry.plates import Group
-from geneva_cli.geometry.shapes import Circle
 
 CHORDS = 1e-4  # mm, by which what shapely sees lies off arcs
 # Of the centre distance, times it: 1e-6 along parts that touch all the way, as a pin in its hole.
@@ -77,12 +76,3 @@ def test_the_arrow_of_a_link_crank_runs_as_the_list_says(name, said):
     assert wheel.bulge > 0.0  # the wheel's own sense
     assert (crank.bulge > 0.0) == (said == "counterclockwise")
     assert crank.centre == pytest.approx((design.mechanism.center_distance_mm, 0.0))
-
-
-def test_the_frames_holes_are_the_frames():
-    """But for those that a bore above them covers, which is drawn once."""
-    shapes = load(str(repo.DESIGNS / "press-straight.toml")).drawing("assembly", 0.01).shapes
-    circles = [s for s in shapes if isinstance(s, Circle) and s.layer in ("FRAME", "BORE")]
-    assert sum(s.layer == "FRAME" for s in circles) == 4  # those that mount it
-    places = {(*s.centre, s.radius) for s in circles}
-    assert len(places) == len(circles)

@@ -18,7 +18,7 @@ from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.motion.wheels.spherical import Spherical
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.one_motion import one_motion
+from geneva_cli.parts.turn.turn_certificate import one_motion
 from geneva_cli.spec.tables import Size
 
 SMALL = Size(roller_radius_mm=3.0, slot_clearance_mm=0.02, lock_clearance_mm=0.01)
@@ -80,13 +80,3 @@ def test_a_crank_or_wheel_that_is_not_alike_all_round_is_looked_at_all_round():
     pieces[:first] = turned(closed("WHEEL", pieces[:first]), 0.01).segments
     wheel = spoilt(parts, closed("WHEEL", pieces))
     assert one_motion(wheel) is wheel
-
-
-def test_sectors_that_are_not_alike_are_all_looked_at():
-    """On a sphere: one of two sectors narrower."""
-    parts = parts_of(build(SPECS["spherical"]))
-    assert parts.gaps.repeats(2)
-    assert not parts.gaps.repeats(3)
-    narrow = parts_of(build(SPECS["spherical"].with_("size.lock_clearance_mm", 0.3)))
-    parts.gaps.sectors[1] = narrow.gaps.sectors[1]
-    assert one_motion(parts) is parts

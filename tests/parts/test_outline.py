@@ -28,13 +28,10 @@ from geneva_cli.motion.motion import Motion as Given
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.machine_sizes import sizes
 from geneva_cli.parts.outlines.cut_outlines import CURVED
-from geneva_cli.parts.outlines.walls.path_walls import _free
 from geneva_cli.parts.outlines.walls.straight import straight_walls
 from geneva_cli.parts.outlines.wheel_outline import wheel_contour
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.checks.all_checks import turn_checks
 
 L = 100.0
 FLAT = 1e-5 * L  # how far the witnesses' polygons stray from the arcs
@@ -246,15 +243,6 @@ def test_mouths_of_any_height(lock: float | None) -> None:
     assert drawn > 0.8 * len(LOW_MOUTHS)
 
 
-@pytest.mark.parametrize("steps", [(90.0, 30.0), (85.0, 35.0)])
-def test_a_low_mouth_is_locked(steps: tuple[float, float]) -> None:
-    """The disc of the short arm holds the wheel beside the mouth of the long one too."""
-    found = made(z=6, steps=steps)
-    rows = {c.name: c for c in turn_checks(found, full_turn(found))}
-    assert all(c.passes for c in rows.values())
-    assert rows["dwell_play_deg"].value < 1e-3
-
-
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", STRAIGHT, ids=name)
 def test_straight_slots_against_cutting(case: dict) -> None:
@@ -326,19 +314,6 @@ def horn(found: Parts) -> float:
     return min(wall.distance(axis) for wall in walls) - found.sizes.recess
 
 
-@pytest.mark.parametrize("case", STRAIGHT, ids=name)
-def test_every_part_of_the_wheel_comes_again(case: dict) -> None:
-    """After a period of slots every corner stands again: to some units in the last place of L."""
-    found = made(**case)
-    z, steps = case["z"], case.get("steps", (0.0,))
-    per = len(found.outlines.wheel.segments) * len(steps) // z
-    turn = math.tau * len(steps) / z
-    corners = np.array([s.start for s in found.outlines.wheel.segments]) @ [1.0, 1j]
-    assert np.abs(np.roll(corners, -per) - corners * np.exp(1j * turn)).max() < 1e-13 * L
-    bulges = [getattr(s, "bulge", 0.0) for s in found.outlines.wheel.segments]
-    assert np.roll(bulges, -per) == pytest.approx(bulges, rel=1e-11)
-
-
 # --- the crank
 
 
@@ -404,13 +379,6 @@ def test_from_which_disc_on_the_relief_arc_clears(z: int, least: float) -> None:
     assert low == pytest.approx(least, abs=0.02)
     for share, kind in ((low - 0.002, "sector"), (high + 0.002, "arc")):
         assert made(z, roller_radius_mm=r, lock_radius_mm=share * R).outlines.relief == kind
-
-
-def test_of_many_slots_the_relief_arc_never_clears() -> None:
-    for share in (0.3, 0.4, 0.5, 0.6):
-        found = made(24, roller_radius_mm=5.0, lock_radius_mm=share * L * math.sin(math.pi / 24))
-        assert arc_clears(24, 5.0, share) < 0.0
-        assert found.outlines.relief == "sector"
 
 
 RELIEF = [(3, 0.7), (4, 0.45), (4, 0.7), (5, 0.4), (6, 0.31), (6, 0.6), (7, 0.27), (7, 0.8)]
@@ -585,15 +553,3 @@ def test_curved_slots_against_every_place_of_the_roller(case: dict) -> None:
     assert shape.is_valid
     assert apart(found, wanted) < FLAT + CURVED * L
     assert worst(found, wanted) < 2.0 * (FLAT + CURVED * L)
-
-
-def test_which_samples_are_free() -> None:
-    """Block by block as against the whole way at once, by shapely; a random walk among points."""
-    draw = np.random.default_rng(1)
-    way = np.cumsum(draw.normal(size=(300, 2)), axis=0)
-    points = np.cumsum(draw.normal(size=(500, 2)), axis=0)
-    apart_from = shapely.distance(shapely.points(points), LineString(way))
-    for w in (0.5, 2.0, 8.0):
-        free = _free(points, way, w - 1e-4)
-        assert 0 < free.sum() < len(free)
-        assert np.array_equal(free, apart_from > w - 1e-4)

@@ -3,7 +3,6 @@
 import csv
 import io
 import math
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +19,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.moments import moments
 from geneva_cli.motion import registry
 from geneva_cli.motion.records import of_wheel
-from geneva_cli.output.finite import only
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))
 SAME = 1e-9  # radians, as far as a machine must come out from its printed dimensions
@@ -285,40 +283,6 @@ def test_a_machine_is_rebuilt_from_what_is_printed(path):
             )
 
 
-SPECS = {
-    "side-crank inside": 'z = 6\ngearing = "internal"\n[drive]\nkind = "side-crank"\nA = 0.4',
-    "gears inside": 'z = 8\ngearing = "internal"\n[drive]\nkind = "noncircular-gears"\nA = -0.3',
-    "ring": 'z = 6\n[drive]\nkind = "epicyclic"\nplanet_ratio = 0.02\nfixed = "ring"',
-    "planet behind gears": 'z = 6\n[drive]\nkind = "epicyclic"\nplanet_ratio = 0.01\n'
-    '[drive.before]\nkind = "noncircular-gears"\nA = 0.3',
-    "slider behind gears": 'z = 8\n[drive]\nkind = "slider-crank"\ncrank_mm = 40\nrod_mm = 100\n'
-    "point_mm = 80\npoint_deg = 90\n"
-    '[drive.before]\nkind = "elliptical-gears"\neccentricity = 0.2\nphase = "quick"',
-    "sector": 'z = 3\n[drive]\nkind = "gear-sector"\nsector_deg = 150\ngear_ratio = 0.6',
-    "pair": 'z = 6\n[drive]\nkind = "geneva-pair"\nfirst_z = 3',
-    "cam inside": 'z = 6\ngearing = "internal"\n[drive]\nkind = "cam"\n[motion]\nlaw = "3-4-5"',
-}
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("name", SPECS)
-def test_kinds_in_other_sizes(name, tmp_path):
-    path = tmp_path / "spec.toml"
-    path.write_text(f"[wheel]\n{SPECS[name]}\n[size]\nroller_radius_mm = 2\n")
-    test_a_machine_is_rebuilt_from_what_is_printed(path)
-
-
-@pytest.mark.parametrize("drive", ["side-crank", "elliptical-gears", "noncircular-gears"])
-def test_no_pivots_where_the_shafts_meet(drive, tmp_path):
-    """The crank's axis of a spherical wheel is in no plane with that of a gear beside it."""
-    key = "eccentricity = 0.3" if drive == "elliptical-gears" else "A = 0.4"
-    path = tmp_path / "spec.toml"
-    path.write_text(f'[wheel]\nz = 6\ngearing = "spherical"\n[drive]\nkind = "{drive}"\n{key}\n')
-    _, pivots, numbers = printed(path)
-    assert pivots == {}
-    assert numbers["sphere's radius"] == 100.0
-
-
 def test_every_kind_is_rebuilt():
     """No drive, and no gearing with a parts list, is left out of the designs."""
     specs = [load(str(path)).spec for path in DESIGNS]
@@ -382,40 +346,6 @@ def test_every_part_has_its_count_and_mass():
         assert float(row["size_x_mm"]) > 0.0
 
 
-def nose(cap, eye, th):
-    """The solid angle by which a belt goes beyond its cap towards an eye, by an integral.
-
-    The great circle that touches both, on the side of rising azimuths, has its pole on the other
-    side, at an azimuth by the law of cosines.
-    """
-    pole = -math.acos((math.sin(eye) - math.sin(cap) * math.cos(th)) / math.cos(cap) / math.sin(th))
-    n = math.cos(cap) * math.cos(pole), math.cos(cap) * math.sin(pole)
-    touch = math.atan2(-math.sin(eye) * n[1], math.sin(th) - math.sin(eye) * n[0])
-
-    def beyond(azimuth):
-        """Of the eye, on its far side, or of that circle."""
-        along = math.sin(th) * math.cos(azimuth)
-        if azimuth < touch:
-            reach = math.hypot(math.cos(th), along)
-            far = math.atan2(along, math.cos(th)) + math.acos(math.cos(eye) / reach)
-        else:
-            far = math.atan(-math.tan(cap) / math.cos(azimuth - pole))
-        return math.cos(cap) - math.cos(far)
-
-    halves = (0.0, touch), (touch, pole + math.pi)
-    return 2.0 * sum(quad(beyond, *ends, epsabs=1e-14)[0] for ends in halves)
-
-
-def core(diameter, inner, outer):
-    """A cylinder between two spheres: its volume, and the moment about its axis."""
-
-    def long(s):
-        return math.sqrt(outer * outer - s * s) - math.sqrt(inner * inner - s * s)
-
-    ways = (quad(lambda s, n=n: math.tau * s**n * long(s), 0.0, 0.5 * diameter) for n in (1, 3))
-    return np.array([value for value, _ in ways])
-
-
 def around(angle, inner, outer):
     """A cone between two spheres, likewise."""
     c = math.cos(angle)
@@ -423,49 +353,6 @@ def around(angle, inner, outer):
     return math.tau * np.array(
         ((1.0 - c) * (outer**3 - inner**3) / 3.0, squares * (outer**5 - inner**5) / 5.0)
     )
-
-
-def tube(outside, inside, long):
-    """A round part with a bore, likewise."""
-    return math.pi * long * np.array([(outside**n - inside**n) / k for n, k in ((2, 4), (4, 32))])
-
-
-@pytest.mark.parametrize("name", ["spherical-60deg", "spherical-z6"])
-def test_a_sphere_is_weighed_from_what_is_printed(name):
-    """Each part of the crank, by integrals over its printed dimensions, and the turned ones."""
-    parts, _, d = printed(next(p for p in DESIGNS if p.stem == name))
-    low, high = d["shells' inner radius"], d["shells' outer radius"]
-    under, over = d["arm's inner radius"], d["arm's outer radius"]
-    rollers = int(parts["roller"]["count"])
-    cap = math.radians(d["arm's cap, from the crank's axis"])
-    th = math.asin(d["roller 1: crank radius"] / d["sphere's radius"])
-    seen = math.tau * (1.0 - math.cos(cap))
-    seen += rollers * nose(cap, math.radians(d["arm's eyes, half angle"]), th)
-    pins = core(d["pins' holes in the arm"], under, over)
-    arm = seen * (over**3 - under**3) / 3.0 - core(d["arm's hub"], under, over)[0]
-    sector, inner = d["locking sector 1: width"] / 360.0, d["locking sectors' inner radius"]
-    edges = [d["lock, from the crank's axis"], d["locking sector 1: inner edge"]]
-    lock = [sector * around(math.radians(edge), inner, under) for edge in edges]
-    bolts = [core(d["lock's bolt 1: hole"], *span)[0] for span in ((inner, under), (under, over))]
-    cone = around(math.radians(d["roller's cone, half angle"]), low, high)
-    wanted = {
-        "arm": (arm - rollers * (pins[0] + 2.0 * bolts[1]), None),
-        "arm's hub": tube(d["arm's hub"], d["arm's bore"], over - under),
-        "locking sector": (lock[0][0] - lock[1][0] - 2.0 * bolts[0], None),
-        "roller": cone - core(d["pins"], low, high),
-        "pin": tube(d["pins"], 0.0, over - low),
-        "wheel's hub": tube(d["wheel's hub"], d["wheel's bore"], over - low),
-        "wheel's shaft": tube(d["wheel's bore"], 0.0, 2.0 * over - under - low),
-        "crank's shaft": tube(d["arm's bore"], 0.0, 2.0 * (over - under)),
-    }
-    assert parts.keys() == {"wheel", *wanted}
-    for name, (volume, polar) in wanted.items():
-        row = parts[name]
-        assert float(row["mass_kg"]) == pytest.approx(7850e-9 * volume, rel=1e-11)
-        if polar is not None:
-            assert float(row["inertia_kgm2"]) == pytest.approx(7850e-15 * polar, rel=1e-11)
-        ends = [high - float(row[f"z_{end}_mm"]) for end in ("high", "low")]
-        assert ends[1] - ends[0] == pytest.approx(float(row["thickness_mm"]), rel=1e-12)
 
 
 LINKED = "rollers, links, gears, shafts, frame"  # all that needs the links
@@ -494,39 +381,3 @@ def test_what_cannot_be_built_is_listed_with_the_reason(name, key, value, why, m
     assert any(why in c.why for c in design.checks if c.passes is False)
     with pytest.raises(GenevaError, match=why):
         design.drawing("assembly")
-
-
-@pytest.mark.usefixtures("no_advice")
-def test_a_part_without_walls_for_its_edges_leaves_the_others_listed():
-    """The locking disc has 8.256 mm beside its bore, and a chamfer of 6 mm takes 4.128 at most."""
-    (turret,) = (str(path) for path in DESIGNS if path.stem == "turret")
-    whole, chamfered = (
-        load(turret, keys).part_table("parts").to_rows()
-        for keys in ([], ["size.edge_chamfer_mm=6"])
-    )
-    names, left = (
-        [row["name"] for row in rows if row["row"] == "part"] for rows in (whole, chamfered)
-    )
-    rows = [row for row in chamfered if row["row"] == "missing"]
-    unbuilt = {name: row["why"] for row in rows for name in row["name"].split(", ")}
-    assert "the locking disc has a wall of 8.256 mm" in unbuilt["locking disc"]
-    assert "wheel" in left and sorted([*left, *unbuilt]) == sorted(names)
-
-
-@pytest.mark.sampled(8)
-@pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
-def test_nothing_is_missing_from_a_machine_that_is_built(path):
-    rows = load(str(path)).part_table("parts").to_rows()
-    assert "missing" not in {row["row"] for row in rows}
-
-
-def test_chosen_columns_leave_out_the_kinds_of_rows_that_have_none_of_them():
-    table = load(str(next(path for path in DESIGNS if path.stem == "four-bar-z4"))).part_table(
-        "parts"
-    )
-    count = Counter(row["row"] for row in table.to_rows())
-    assert len(only(table, ["name", "mass_kg"])) == count["part"]
-    assert len(only(table, ["x_mm"])) == count["pivot"]
-    assert len(only(table, ["name", "unit", "y_mm"])) == count["dimension"] + count["pivot"]
-    assert len(only(table, ["row", "name"])) == len(table)
-    assert len(only(table, ["why"])) == 0

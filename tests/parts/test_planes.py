@@ -8,10 +8,8 @@ import repo
 from drawing_witness import polygon
 from shapely import affinity
 from shapely.geometry import Point
-from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import load
-from geneva_cli.design import Design
 from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.links.links import drawn_links
@@ -74,26 +72,6 @@ def test_a_crank_past_the_guides_pin():
     assert found.passing == "the pin of rod and guide"
     # a long slider crank comes no nearer than rod less crank, less the eyes
     assert found.gap >= 100.0 - 40.0 - sizes.ring - 1.7 * sizes.bore(math.inf, 211.918)
-
-
-def test_a_shaft_that_cannot_get_out():
-    """Inside, the coulisse's shaft has the wheel above it and the input crank below."""
-    keys = Keys("side-crank", 0.4)
-    inside = Design.of(Spec(Wheel(6, "internal"), Drive("side-crank"), keys))
-    (row,) = [c for c in inside.checks if c.name == "link_gap_mm"]
-    assert row.passes is False and "the crank's shaft meets the input crank" in row.why
-    outside = Design.of(Spec(Wheel(6), Drive("side-crank"), keys))
-    (row,) = [c for c in outside.checks if c.name == "link_gap_mm"]
-    assert (
-        row.passes and planes(outside.parts.outlines, outside.parts.flat.links).blocked is None
-    )  # through the locking disc
-
-
-@pytest.mark.parametrize("name", ["cam-geneva", "epicyclic-z4", "epicyclic-soft-z6"])
-def test_designs_are_clear(name):
-    design = of(name)
-    found = planes(design.parts.outlines, design.parts.flat.links)
-    assert found.blocked is None and found.nearest.gap > 0.0
 
 
 def test_links_with_walls_too_thin_are_told():

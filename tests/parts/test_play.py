@@ -15,11 +15,8 @@ from test_outline import disc, made, turned
 from words import Motion, load
 
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.parts.turn.free_angles import free_angles
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.machine_parts import WorkLimit
-from geneva_cli.parts.turn.play import windows
+from geneva_cli.parts.turn.play import free_angles, windows
 from geneva_cli.verdict.checks.all_checks import turn_checks
 
 DESIGNS = repo.DESIGNS
@@ -230,18 +227,6 @@ def test_play_where_the_roller_changes_walls(name: str) -> None:
     assert full_turn(parts).motion.deg > dense * (1.0 - 1e-9)
 
 
-def test_a_hair_of_overlap_is_contact(tmp_path: Path) -> None:
-    """2 nm: a rim too large by 0.013 mm, s^2 / (2 (R - r)) deep, at r = 5."""
-    for more, fits in ((0.0136, True), (0.5, False)):
-        rim = math.hypot(100.0 * math.cos(math.pi / 6), 5.0) + more
-        found = machine(tmp_path, f"[wheel]\nz = 6\n[size]\nwheel_radius_mm = {rim!r}\n")
-        turn = full_turn(found)
-        assert turn.driving.mm < -1e-6
-        row = next(c for c in turn_checks(found, turn) if c.name == "gap_mm")
-        assert row.passes == fits
-        assert (row.value == 0.0) == fits
-
-
 @pytest.mark.parametrize(("name", "entry"), [("side-crank-z6", -91.306), ("press-straight", -60.0)])
 def test_angles_are_the_inputs(name: str, entry: float) -> None:
     """Straight slots without clearance touch first at entry: where `report` says it is."""
@@ -250,25 +235,3 @@ def test_angles_are_the_inputs(name: str, entry: float) -> None:
     assert engagement.entry_deg == pytest.approx(entry, abs=1e-3)
     turn = full_turn(parts_of(mechanism))
     assert turn.driving.at_deg == pytest.approx(engagement.entry_deg, abs=1e-6)
-
-
-def test_angles_of_a_longer_period_begin_at_its_entry() -> None:
-    mechanism = load(str(DESIGNS / "geneva-pair.toml"))
-    assembly = parts_of(mechanism).assembly
-    entry = mechanism.engagements[0].entry_deg
-    assert assembly.shown_deg(assembly.start_deg) == pytest.approx(entry, abs=1e-9)
-    turns = [assembly.shown_deg(assembly.start_deg + x) for x in np.linspace(0.0, 359.0, 60)]
-    assert turns == sorted(turns)
-    assert entry <= turns[0]
-    assert turns[-1] < entry + mechanism.period_deg
-
-
-def test_work_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = made(6)
-    monkeypatch.setattr("geneva_cli.parts.turn.gaps.WORK", 1e4)
-    with pytest.raises(WorkLimit, match="it takes more than 1e\\+04 distances"):
-        full_turn(found)
-    monkeypatch.undo()
-    full_turn(found)
-    assert isinstance(found.gaps, Gaps)
-    assert found.gaps.left > 0.0

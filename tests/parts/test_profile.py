@@ -10,8 +10,7 @@ from words import Drive, Motion, Spec, Wheel, named
 from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.pitch_curve import retraces
-from geneva_cli.parts.slots.slot_profile import slot
-from geneva_cli.parts.slots.slot_sampling import chord_errors, nodes, profile_table
+from geneva_cli.parts.slots.slot_profile import chord_errors, nodes, profile_table, slot
 from geneva_cli.spec.tables import Size
 
 L = 200.0
@@ -88,16 +87,6 @@ def test_a_slow_pin_near_the_centre_does_not_retrace() -> None:
         assert abs(complex(place) - complex(*point)) < 4.0 * far
 
 
-def test_quick_gears_with_a_matched_ratio_retrace() -> None:
-    """However fast the pin is: what is left of its motion is rounding beside that."""
-    for e in (0.3, 1.0 - 1e-6, 1.0 - 1e-9):
-        for phase in ("slow", "quick"):
-            drive = registry.drive("elliptical-gears")(eccentricity=e, phase=phase)
-            motion = Motion("3-4-5", ratio="matched")
-            m = build(Spec(Wheel(6), drive, motion=motion, size=Size(center_distance_mm=L)))
-            assert retraces(m.engagements[0]), (e, phase)
-
-
 def test_straight_slots_are_straight() -> None:
     table = profile_table(build(Spec(Wheel(6), size=SIZE)), 0.001, None)
     rows = list(table.rows())
@@ -128,20 +117,6 @@ def test_no_chord_misses_by_more_than_the_tolerance(
     assert 0.0 in x
 
 
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-@pytest.mark.parametrize("law", ["cycloidal", "modified-trapezoid"])
-def test_few_rows(law: str, gearing: str) -> None:
-    """The longest chords, taken one by one, are the fewest there can be; slow, so not ours.
-
-    The way out is the way in, mirrored: both take as many.
-    """
-    mechanism = curved(law, "matched", 8, gearing)
-    found = nodes(mechanism, 1e-3)
-    assert np.abs(found + found[::-1]).max() < 1e-9
-    assert len(found) - 1 <= 1.05 * 2 * greedy(mechanism, 1e-3)
-
-
 def dense_error(mechanism: Mechanism, x: np.ndarray) -> float:
     """The greatest distance of 31 points a chord from it, by another formula than the program's."""
     return float(dense_errors(mechanism, x[:-1], x[1:]).max())
@@ -157,27 +132,6 @@ def dense_errors(mechanism: Mechanism, first: np.ndarray, last: np.ndarray) -> n
         turned = (p - p[:, :1]) * np.exp(-1j * np.angle(p[:, -1:] - p[:, :1]))
         worst = np.maximum(worst, np.abs(turned.imag).max(axis=1))
     return worst
-
-
-def greedy(mechanism: Mechanism, tolerance: float) -> int:
-    """How many of the longest chords that stay within the tolerance cover the way in.
-
-    Each is found to a thousandth of its length, or less.
-    """
-    engagement = mechanism.engagements[0]
-    count, a = 0, engagement.entry_deg
-    while a < 0.0:
-        low, high = a, 0.0
-        for _ in range(5):  # 16 parts of the rest of the way, five times over
-            ends = np.linspace(low, high, 17)[1:]
-            good = dense_errors(mechanism, np.full(16, a), ends) <= tolerance
-            if good.all():
-                low = high
-                break
-            i = int(np.argmin(good))
-            low, high = (low, ends[0]) if i == 0 else (ends[i - 1], ends[i])
-        a, count = low, count + 1
-    return count
 
 
 def test_internal_slots_run_outwards() -> None:

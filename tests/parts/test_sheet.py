@@ -1,16 +1,13 @@
 """Drawing sheets: nothing stands on anything else, and the sizes on them are the machine's."""
 
-import io
 import math
 import re
 from functools import cache
 
-import ezdxf
 import pytest
 import repo
 import shapely
 from drawing_witness import vertices
-from shapely import affinity
 from shapely.geometry import LineString, Polygon
 from sheet_witness import (
     assert_as_listed,
@@ -19,17 +16,14 @@ from sheet_witness import (
     crossings,
     overlaps,
 )
-from words import Motion, Spec, Wheel
+from words import Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.design import Design
-from geneva_cli.drawings.sheet.cut import faces
+from geneva_cli.drawings.sheet.content import faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
-from geneva_cli.drawings.sheet.points import gear_tables, tables
-from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.sheet import Label
-from geneva_cli.output.sheets import sheet_dxf
+from geneva_cli.drawings.sheet.points import tables
+from geneva_cli.geometry.plates import in_place
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, Tolerance, WheelMaterial
 
@@ -100,11 +94,6 @@ def test_the_sizes_of_a_plain_wheel():
         "Ø 12 h6 (0/-0.011)",
     ]
     assert [text for text in wanted if text not in texts] == []
-
-
-def test_without_clearance_the_fit_gives_it():
-    texts = [m.label.text for m in of(Spec(Wheel(6), size=Size(120.0, 6.0))).measures]
-    assert {"6× 12 H7 (+0.018/0)", "Ø 12 g6 (-0.006/-0.017)"} <= set(texts)
 
 
 def test_the_title_block_says_what_is_there(sheets):
@@ -197,20 +186,6 @@ def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
             assert length == pytest.approx(chord.length, abs=0.3)
 
 
-def test_the_assembly_shows_where_the_section_is(sheets):
-    """An arrow beyond each end of the line of centres, upwards, with the section's letter."""
-    _, found = sheets("turret")
-    marks_ = [m for m in found.measures if m.label.text == "A"]
-    assert "A-A (1:5)" in {label.text for label in found.labels}
-    (left,), (right,) = ([m.arrows[0] for m in one] for one in (marks_[:1], marks_[1:]))
-    assert left.tip[1] == right.tip[1]
-    assert left.turn == right.turn == 0.5 * math.pi
-    (L,) = (m for m in found.measures if m.label.text.startswith("L = "))
-    assert left.tip[0] < min(p[0] for p in L.points[:2])
-    assert right.tip[0] > max(p[0] for p in L.points[:2])
-    assert L.points[0][1] == pytest.approx(left.tip[1])
-
-
 LENGTHS = {
     "four-bar-z4": ("crank a", "coupler b", "rocker c"),
     "slider-crank": ("crank a", "rod b"),
@@ -239,42 +214,6 @@ def test_links_have_their_views(name, sheets):
     assert len(pressed) == (2 if name == "geneva-pair" else 1)
 
 
-def test_a_gears_pitch_curves_are_on_the_sheet(sheets):
-    """The printed points of both: they touch on the line of centres, C apart, and never cross."""
-    design, found = sheets("noncircular-gears")
-    L = design.mechanism.center_distance_mm
-    driven, driver = gear_tables(design.mechanism, 0.01)
-    rings = []
-    for block in (driven, driver):
-        points = printed(block)
-        assert "mirror image" in " ".join(label.text for label in block.labels)
-        turns = [math.atan2(y, x) for x, y in points]
-        points = [p for _, p in sorted(zip(turns, points, strict=True))]
-        rings.append(points + [(x, -y) for x, y in reversed(points)])
-    C = design.spec.drive.gears.distance_mm
-    one, other = Polygon(rings[0]), affinity.translate(Polygon(rings[1]), C)
-    close = 1e-4 * L  # of the table's chords
-    assert one.distance(other) < 2.0 * close
-    assert one.intersection(other).area < close * C
-    assert round(one.bounds[2] - other.bounds[0], 3) == 0.0
-    assert any(m.value == pytest.approx(C) for m in found.measures if m.kind == "length")
-    titles = {label.text for label in found.labels}
-    assert any("driven gear, t = 16" in text for text in titles)
-
-
-def test_small_machines_are_enlarged_and_large_ones_fill_their_paper(sheets):
-    _, pair = sheets("geneva-pair")
-    assert (pair.scale, pair.width) == (2.0, 594.0)
-    for name in ("geneva-pair", "side-crank-z6", "epicyclic-z4"):
-        _, found = sheets(name)
-        reach = [at for label in found.labels for at in label.corners]
-        reach += [p for m in found.measures for p in m.points]
-        reach = [p for p in reach if p[0] < found.width - 190.0]  # beside list and title block
-        x, y = zip(*reach, strict=True)
-        filled = (max(x) - min(x)) * (max(y) - min(y))
-        assert filled > 0.5 * (found.width - 190.0) * found.height
-
-
 def test_points_of_a_curved_slot_are_on_it():
     """The table as it is printed: chords within what it says, of the points that `slot` gives."""
     design = load(str(repo.DESIGNS / "press-curved.toml"))
@@ -297,81 +236,3 @@ def printed(block):
     downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
     texts = [label.text for label in downwards if re.fullmatch(r"-?\d+\.\d{3}", label.text)]
     return [(float(x), float(y)) for x, y in zip(texts[::2], texts[1::2], strict=True)]
-
-
-def test_the_comparison_can_fail():
-    found = of(Spec(Wheel(6)))
-    on = found.measures[0].lines[0].start
-    wrong = found._replace(labels=(*found.labels, Label("on a line", on, 2.5)))
-    assert [text for text, _ in overlaps(wrong)] != []
-    m = found.measures[0]
-    with pytest.raises(AssertionError):
-        assert_measured(found._replace(measures=(m._replace(value=2.0 * m.value),)))
-    twice = (*found.measures, m._replace(label=m.label._replace(text="again")))
-    assert ("again", m.label.text) in crossings(found._replace(measures=twice))
-
-
-@pytest.mark.sampled(64)
-@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
-def test_sheets_in_inches(path, sheets):
-    """At a scale of the same series; texts stand free, and each is its millimetres over 25.4."""
-    design, metric = sheets(path.stem)
-    found = design.sheet(TOLERANCE, units="inch")
-    assert overlaps(found) == []
-    assert beyond(found) == []
-    assert_measured(found)
-    texts = {label.text for label in found.texts}
-    assert "inch, degrees" in texts
-    assert "inch, degrees" not in {label.text for label in metric.texts}
-    # shorter texts may find a place for a larger scale
-    assert found.scale >= metric.scale
-    # a gear's module is in millimetres everywhere
-    assert not [text for text in texts if re.search(r"\d mm", text) and "m = " not in text]
-
-
-def test_a_dxf_in_inches_measures_inches():
-    """The factor of each style makes inches of the paper's millimetres."""
-    found = load(str(repo.DESIGNS / "turret.toml")).sheet(TOLERANCE, units="inch")
-    document = ezdxf.read(io.StringIO("".join(sheet_dxf.chunks(found))))
-    measures = [m for m in found.measures if m.kind in sheet_dxf.KINDS]
-    dimensions = list(document.modelspace().query("DIMENSION"))
-    for dimension, m in zip(dimensions, measures, strict=True):
-        if m.kind != "angular":
-            factor = document.dimstyles.get(dimension.dxf.dimstyle).dxf.dimlfac
-            inches = dimension.get_measurement() * factor
-            assert inches == pytest.approx(m.value / 25.4, rel=1e-8)
-            assert dimension.dxf.actual_measurement == pytest.approx(m.value / 25.4, rel=1e-12)
-
-
-def test_refusals():
-    slots = Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(5e7))
-    with pytest.raises(GenevaError, match="do not fit on one A1 sheet"):
-        Design.of(slots).sheet(1e3)
-
-
-@pytest.mark.parametrize(
-    ("key", "across", "note"),
-    [
-        # the corners of a hexagon are on a circle 1/cos 30° wider than its flats
-        ("wheel_bore=hex", f"Ø {40.0 / math.cos(math.pi / 6.0):.3f}", "hexagon 40 across flats"),
-        ("wheel_bore=D", "Ø 40 h6 (0/-0.016)", "flat, 36 to the far side"),
-        # DIN 6885-1, 38 to 44 mm: 12 wide, 5 deep in the shaft
-        ("wheel_keyway=DIN 6885-1", "Ø 40 h6 (0/-0.016)", "keyway 12 P9, 5 deep"),
-    ],
-)
-def test_a_plain_shaft_says_what_its_section_is(key, across, note):
-    """A hexagonal shaft once had the fit of a round one, 46.188 h6, and no word of its flats."""
-    sheet = load(str(repo.DESIGNS / "turret.toml"), [f"size.{key}"]).sheet(TOLERANCE)
-    texts = [label.text for label in sheet.texts]
-    assert across in texts
-    assert note in texts[texts.index("6 wheel's shaft") :][:3]
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(("fit_mm", "bore"), [(0.0, "Ø 20 F7"), (0.1, "Ø 20.1 H7")])
-def test_both_rollers_of_a_cam_have_bores_of_one_fit(fit_mm, bore):
-    """Those in slot and groove are on pins of 20 mm; a bore that is wider already takes no F7."""
-    design = load(str(repo.DESIGNS / "cam-geneva.toml"), [f"size.shaft_fit_mm={fit_mm}"])
-    texts = [label.text for label in design.sheet(TOLERANCE).texts]
-    assert sum(text.startswith(bore) for text in texts) >= 2
-    assert not any("F7" in text and not text.startswith(bore) for text in texts)

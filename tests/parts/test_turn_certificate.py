@@ -20,8 +20,7 @@ from words import load
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.extents import farthest, from_segments, short_pieces
+from geneva_cli.geometry.hull import farthest, from_segments
 from geneva_cli.geometry.shapes import Line, about, closed
 from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
@@ -29,11 +28,10 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
-from geneva_cli.numerics.arrays import Undecided
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn import turn_certificate as halving
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.travel import UNKNOWN, Travel, curve_rates, path_travel, slot_travel
+from geneva_cli.parts.turn.travel import path_travel, slot_travel
 from geneva_cli.parts.turn.turn_certificate import certificate
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.proved import least_gap as least_gap_check
@@ -159,17 +157,6 @@ def test_nearest_and_farthest_distances_against_dense_points(name):
     assert (from_segments(wheel, start, end, reach) == np.minimum(from_all, reach)).all()
 
 
-def test_short_pieces_are_the_same_outline():
-    for name in ("turret.toml", "quick-index.toml", "offset-slots.toml"):
-        crank = named(name).outlines.crank
-        whole, short = Polyarc(crank), short_pieces(crank, math.radians(1.0))
-        points = np.random.default_rng(2).uniform(-80.0, 80.0, (200, 2))
-        apart = np.abs(whole.signed(points)) - np.abs(short.signed(points))
-        assert np.abs(apart).max() < ROUNDING
-        arcs = short.arc
-        assert np.arccos(short.cos_half[arcs]).max() <= math.radians(0.5) * (1.0 + 1e-9)
-
-
 @pytest.mark.parametrize("name", FLAT)
 @pytest.mark.sampled(8)
 def test_a_roller_travels_no_farther_than_its_bound(name):
@@ -201,28 +188,11 @@ def test_a_roller_travels_no_farther_than_its_bound(name):
                 assert np.hypot(*(at - chord).T).max() <= off + ROUNDING
 
 
-def test_a_path_that_is_unknown_closes_no_interval():
-    def curve(x, order):
-        raise Undecided
-
-    ends = np.array([0.0, 1.0]), np.array([1.0, 2.0])
-    assert np.isinf(curve_rates(curve, *ends)).all()
-    travel = Travel([0.0, 1.0, 2.0], np.array([[math.inf, 1.0], [math.inf, 1.0]]), 100.0)
-    at = np.array([0.5])
-    assert travel.most(at, at + 1e-9) == travel.most(at, at + 1.0) == UNKNOWN
-    assert travel.aside(at, at + 1e-6) > 1e12
-
-
 @pytest.mark.parametrize("name", FLAT)
 @pytest.mark.sampled(8)
 def test_no_gap_within_an_interval_is_below_its_bound(name):
     parts = named(name)
     check_bounds(parts, np.random.default_rng(3))
-
-
-def test_no_gap_of_a_random_machine_is_below_its_bound():
-    for i, parts in enumerate(random_machines(1000)):
-        check_bounds(parts, np.random.default_rng(i))
 
 
 @pytest.mark.sampled(8)
@@ -285,16 +255,6 @@ def test_a_spike_that_collides_for_a_moment_is_never_proved_free():
     assert free
 
 
-def test_an_interval_that_is_left_open_is_named(monkeypatch):
-    monkeypatch.setattr(halving, "MOST", 100)
-    found = proved(named("turret.toml"))
-    assert not found.proved
-    assert found.between == "locking disc and wheel"
-    start, end, gap, least = found.open
-    assert -67.5 <= start < end <= 67.5
-    assert least < -TO_MM <= gap
-
-
 def checked(parts, turn_of=None, to_mm=None):
     """The check of parts whose sampled turn may be that of other parts."""
     own = with_shape(parts)
@@ -314,12 +274,3 @@ def test_the_check_passes_with_its_proof_and_fails_where_samples_missed_a_collis
     check = checked(worse, turn_of=parts)
     assert check.passes is False
     assert check.value == pytest.approx(-0.5)
-
-
-def test_the_wheel_lies_within_the_circle_that_gaps_are_counted_from():
-    """A roller beyond the rim is as far from the wheel as from the rim, or farther."""
-    for name in FLAT:
-        parts = named(name)
-        rim = parts.pairs(0.0).rim
-        # the corners of a mouth are rounded to 1e-7 mm, the ends of curved walls
-        assert parts.assembly.sign * (parts.sizes.rim - rim) > -1e-7

@@ -10,7 +10,6 @@ from geneva_cli import (
     Crank,
     Design,
     External,
-    Internal,
     Load,
     Mass,
     Motor,
@@ -20,8 +19,6 @@ from geneva_cli import (
     WheelMaterial,
     load,
 )
-from geneva_cli.drawings.parts_list import parts_table
-from geneva_cli.geometry.mass import MassProperties
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -78,21 +75,6 @@ def test_the_mass_that_is_suggested_adds_the_wheel():
     assert design.loads_table.to_dict()["sizing.wheel_inertia_kgm2"] == own
 
 
-def test_behind_gears_the_wheel_is_no_mass_on_the_table():
-    spec = Spec(External(6), load=Load(inertia_kgm2=0.1), support=Support(gear_ratio=2.0))
-    (said,) = told(spec, MassProperties(2.0, (0.0, 0.0), 0.05))
-    assert "add 0.05 on inertia_kgm2 in [load]" in said
-
-
-def test_a_wheel_that_hardly_counts_is_not_mentioned():
-    """From 5 % of the load's inertia on it is: 0.005 of 0.1 kg m²."""
-    plate = MassProperties(2.0, (0.0, 0.0), 0.005)
-    for inertia, names in ((0.1001, []), (0.0999, ["wheel-left-out"])):
-        spec = Spec(External(6), load=Load(inertia_kgm2=inertia))
-        assert [one.name for one in told(spec, plate)] == names
-    assert not told(Spec(External(6)), MassProperties(2.0, (0.0, 0.0), 0.005))
-
-
 @pytest.mark.parametrize("gearing", ["external", "internal", "spherical", "linear"])
 def test_lengths_in_metres_are_said(gearing):
     """A quarter of a metre is 250 mm, and no machine is below 5 mm."""
@@ -103,20 +85,6 @@ def test_lengths_in_metres_are_said(gearing):
     assert f"in inches, {0.25 * 25.4:.4g}" in said
     assert unlikely_warnings(build(Spec(wheel, size=Size(4.99))))
     assert not unlikely_warnings(build(Spec(wheel, size=Size(5.0))))
-
-
-def test_without_a_thickness_nothing_is_known():
-    assert Design(Internal(6)).wheel_plate is None
-    sphere = load(str(repo.DESIGNS / "spherical-z6.toml"))
-    assert sphere.wheel_plate is None
-    # its shell and its hub, as the list of parts has them
-    thick = sphere.with_("size.wheel_thickness_mm", 8.0)
-    rows = [r for r in parts_table(thick.mechanism, 0.1, None).to_rows() if r["row"] == "part"]
-    own = [r for r in rows if r["name"] in ("wheel", "wheel's hub")]
-    assert len(own) == 2
-    found = thick.wheel_plate
-    assert found.mass_kg == pytest.approx(sum(r["mass_kg"] for r in own), rel=1e-14)
-    assert found.inertia_kgm2 == pytest.approx(sum(r["inertia_kgm2"] for r in own), rel=1e-14)
 
 
 def test_a_weight_to_one_side_of_a_horizontal_axis():
@@ -201,8 +169,3 @@ def test_a_material_in_another_unit_is_said():
     )
     assert heavy.endswith("in [[mass]] is heavier than osmium: if it is in g/m³, write 7850")
     assert light.endswith("[material.roller] is lighter than foam: if it is in g/cm³, write 7850")
-
-
-def test_no_design_of_ours_is_out_of_all_measure():
-    for file in repo.DESIGNS.glob("*.toml"):
-        assert not carried_warnings(load(str(file)).mechanism, None), file.stem

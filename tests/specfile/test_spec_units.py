@@ -101,7 +101,7 @@ def same_kind():
                 yield from ((endings[own], own, other) for other in units)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(("key", "own", "unit"), list(same_kind()))
 @given(number=st.floats(-1e6, 1e6, allow_subnormal=False))
 def test_units_against_codata(key, own, unit, number):

@@ -31,6 +31,7 @@ def best(tmp_path, *vary, **asked):
     return lines, load(str(path))
 
 
+@pytest.mark.long
 def test_the_bound_that_binds_is_met_exactly(tmp_path):
     """Peak acceleration falls with A, and so does the dwell: the best A leaves a dwell of 0.55 s.
 

@@ -18,8 +18,8 @@ from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.shapes import Line, closed
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output import jsonfile
 from geneva_cli.output.document import document_markdown, document_pdf, html, pdf_table
 from geneva_cli.output.document.blocks import (

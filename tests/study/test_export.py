@@ -159,6 +159,7 @@ def test_its_own_folder_is_replaced(spec, tmp_path):
     assert sorted(os.listdir(tmp_path)) == ["out", "spec.toml"]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["spec.toml", "contents.csv"])
 def test_a_persons_file_is_refused_by_name(spec, tmp_path, name):
     """Changed after it was written, or there before; ``--force`` replaces it."""

@@ -349,6 +349,7 @@ def test_the_spec_may_come_from_a_pipe():
     assert len(found.stdout.splitlines()) == 3
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

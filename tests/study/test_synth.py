@@ -165,7 +165,7 @@ def test_k_of_internal_wheels():
         assert candidate.k == pytest.approx((z + 2) / (z - 2), rel=1e-13)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(("k", "z", "m"), [(3, 4, 3), (9, 5, 3), (1, 4, 2), (5, 3, 5), (2, 6, 2)])
 def test_k_above_1_outside(k, z, m):
     assert (z, m) in {
@@ -692,6 +692,7 @@ def test_a_replacement_stands_where_its_own_peak_belongs(monkeypatch):
     assert 1 not in [one.no for one in turned(found, len(shown) - 1, buildable=True)]
 
 
+@pytest.mark.long
 def test_a_row_that_was_not_turned_is_written_with_its_own_numbers():
     """Its parts fail: the file was once that of another machine, of 151 degrees."""
     words = ["--dwell-s", "0.8..", "--cycle", "1.5", "--z", "8", "--check", "2"]
@@ -765,6 +766,7 @@ def test_machines_of_one_name_show_their_rollers_at_60_columns():
     assert "rollers" not in "".join(chunks(one, Window(60))).split("\n\n")[2].splitlines()[1]
 
 
+@pytest.mark.long
 def test_the_lowest_of_a_range_is_the_lowest_in_time():
     """A motion of 0.2 s at any speed: in rad/s2 a side-crank's peak is least at another angle than
     as an invariant, of which the longest motion has the least."""

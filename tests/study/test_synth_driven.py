@@ -34,6 +34,7 @@ def test_a_search_marks_a_machine_that_is_not_driven(tmp_path):
     assert ("cam", "modified-sine", "maybe") in found  # straight slots drive any law
 
 
+@pytest.mark.long
 def test_buildable_rows_are_driven(tmp_path):
     found = rows(tmp_path, "--buildable", "--check", "1")
     assert found == [("cam", "modified-sine", "yes")]

@@ -251,6 +251,7 @@ def test_no_dense_sweep_finds_a_gentler_machine(z, low, high, gearing):
     assert mine <= min(peak for _, peak in gears) * (1 + NEAR)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "sort", ["min:jerk.max", "max:timing.dwell_s", "min:loads.input_torque_Nm.rms"]
@@ -452,6 +453,7 @@ def test_a_frame_s_sizes_stay(tmp_path):
         build(row.spec)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "options",

@@ -13,7 +13,7 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.glance import gap_about, play_about
+from geneva_cli.parts.turn.full_turn import gap_about, play_about
 from geneva_cli.spec.tables import Size
 from geneva_cli.study.synth.built import built
 from geneva_cli.study.synth.fast_parts import USUAL, exact, parts, with_roller
@@ -104,6 +104,7 @@ MENDED = [  # what is found to fail with the usual roller, and the roller that m
 ]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("drive, wheel, name, radius", MENDED, ids=["gear-sector", "two rollers"])
 def test_the_first_roller_that_passes_every_check_is_taken(drive, wheel, name, radius):

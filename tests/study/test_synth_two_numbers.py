@@ -91,6 +91,7 @@ def test_elliptical_gears_move_alike_on_shafts_at_any_angle():
         assert value == pytest.approx(value[0], rel=1e-11)
 
 
+@pytest.mark.long
 def test_bounds_that_no_number_keeps_alone_two_may():
     """Without a wish for a motion two numbers are shown where one does not do."""
     target = {"z": "6", "spherical": True, "rollers": 1}

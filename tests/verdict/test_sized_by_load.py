@@ -119,9 +119,9 @@ def test_an_arm_under_a_force_from_all_directions():
     The arm narrows from hub to eye; its holes are as small as if there were none.
     """
     R, hub, eye, bored, hole, h, c = 60.0, 16.0, 8.0, 0.02, 0.01, 10.0, 12.0
-    dims = ArmDimensions(*map(np.asarray, (R, hub, eye, bored, hole, h, c)))
+    dims = ArmDimensions(R, hub, eye, bored, hole, h, c)
     F = 700.0
-    bound = float(arm_stress_MPa(dims, np.asarray(F)))
+    bound = float(arm_stress_MPa(dims, F))
     worst = 0.0
     for x in np.linspace(hole, R - bored, 101):
         w = 2.0 * (eye + (hub - eye) * x / R)
@@ -157,25 +157,25 @@ def test_an_arm_bears_the_wheel_alone_behind_gears_and_coulisses():
         # crank radius, hub, eye, bore, pin's hole, thickness; from mid-roller to mid-arm
         R = 100.0 * math.sin(math.pi / 5.0)
         dims = (R, 11.0, 5.5, 7.5, 2.5, 9.0, 0.5 * (8.0 + 9.0))
-        stress = float(arm_stress_MPa(ArmDimensions(*map(np.asarray, dims)), np.asarray(force)))
+        stress = float(arm_stress_MPa(ArmDimensions(*dims), force))
         # a peak between two of the positions, 0.05 degrees apart, is flat to 1e-5
         assert design.strength["strength.arm.stress_MPa"] == pytest.approx(stress, rel=1e-5)
 
 
 def test_the_least_thickness_of_an_arm_has_the_allowed_stress():
-    dims = ArmDimensions(*map(np.asarray, (60.0, 16.0, 8.0, 10.0, 4.0, 10.0, 12.0)))
+    dims = ArmDimensions(60.0, 16.0, 8.0, 10.0, 4.0, 10.0, 12.0)
     force, allowed = np.array([300.0, 3000.0, 3e7]), np.array([165.0] * 3)
     least = least_thickness_mm(dims, force, allowed)
     for F, thick in zip(force[:2], least[:2], strict=True):
         other = dims._replace(thickness=np.asarray(thick), offset=np.asarray(7.0 + thick / 2.0))
         # 50 halvings from 320 mm leave 3e-13
-        assert float(arm_stress_MPa(other, np.asarray(F))) == pytest.approx(165.0, rel=1e-10)
+        assert float(arm_stress_MPa(other, F)) == pytest.approx(165.0, rel=1e-10)
     assert math.isinf(least[2])  # 32 times as thick is not enough
 
 
 def test_a_key_by_hand():
     """50 N m on a shaft of 20 mm, key 6 x 6 x 25: 5 kN on 2.5 x 25 mm² and 6 x 25 mm²."""
-    key = KeyDimensions(*map(np.asarray, (20.0, 6.0, 6.0 - 3.5, 25.0)))
+    key = KeyDimensions(20.0, 6.0, 6.0 - 3.5, 25.0)
     stress = key_stress(key, np.asarray(50.0), np.asarray(165.0), np.asarray(82.5))
     assert float(stress.pressure_MPa) == pytest.approx(80.0, rel=1e-15)
     assert float(stress.shear_MPa) == pytest.approx(100.0 / 3.0, rel=1e-15)

@@ -403,6 +403,7 @@ def test_plays_in_motion_are_the_greatest_over_it(distribution):
     assert plays.rss_deg[1] == pytest.approx(free + math.hypot(0.02, *parts[1:]), rel=1e-6)
 
 
+@pytest.mark.long
 def test_clearances_too_small_for_the_tolerances_fail():
     """R 0.05 and L 0.05 sin 30° add up in the slot; disc, recess and L in the lock."""
     every = ("tolerance_slot_mm", "tolerance_lock_mm", "tolerance_turns")

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bore_dimensions import bolted, bored, circle_of, holes_of
-from geneva_cli.drawings.sheet.standing import draw_hub
+from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hub, holes_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.geometry.measure import at, legs
 from geneva_cli.geometry.plates import plates

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bore_dimensions import bolted, bored, circle_of
+from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of
 from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.geometry.measure import legs
 from geneva_cli.geometry.plates import Group, Member, plates

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bore_dimensions import bored
 from geneva_cli.drawings.sheet.paper import table
+from geneva_cli.drawings.sheet.standing import bored
 from geneva_cli.drawings.sheet.view import Block, View, grouped
 from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.plates import Member, Plate

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from geneva_cli.drawings.sheet.view import Block
-from geneva_cli.geometry.helvetica import width
 from geneva_cli.geometry.shapes import Circle, Point, Shape
 from geneva_cli.geometry.sheet import (
     FRAME,
@@ -19,6 +18,7 @@ from geneva_cli.geometry.sheet import (
     line,
     polar,
     rectangle,
+    width,
 )
 
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others

@@ -1,21 +1,23 @@
-"""The views of frame and groove plate, which stand still, and of hubs and shafts."""
+"""The views of frame, groove plate, hubs and shafts, and dimensions of bores and bolts."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bore_dimensions import bolted, circle_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
-from geneva_cli.geometry.measure import bounds
+from geneva_cli.geometry.measure import at, bounds
 from geneva_cli.geometry.plates import Plate, Stack
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, polygon
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.mounted_plate import mounts_of
-from geneva_cli.parts.shafts.bores import around, radius_of, section_note
-from geneva_cli.spec.written import length
+from geneva_cli.parts.outlines.wheel_circles import about_axis
+from geneva_cli.parts.shafts.bores import Bore, around, bore_in, radius_of, section_note
+from geneva_cli.spec.tables import Size
+from geneva_cli.spec.written import length, number
 
 
 def draw_frame(
@@ -123,3 +125,55 @@ def _diameter(view: View, section: Shape) -> str:
     radius = around(section)
     has_corners = radius > radius_of(section) + SAME_ON_SHEET
     return sized.plain(2.0 * radius, "Ø ") if has_corners else sized.shaft(view.fits, radius)
+
+
+class Holes(NamedTuple):
+    """The round holes of plates on one axis: bores about it, and others, such as bolts."""
+
+    bores: tuple[Shape, ...]
+    bolts: tuple[Circle, ...]
+
+
+def holes_of(plates: Iterable[Plate]) -> Holes:
+    """Return the bores and bolts of plates that lie on each other, each once."""
+    holes = [hole for plate in plates for hole in plate.holes if hole.layer == "BORE"]
+    bores = dict.fromkeys(about_axis(holes))
+    bolts = (hole for hole in holes if isinstance(hole, Circle) and hole not in bores)
+    return Holes(tuple(bores), tuple(dict.fromkeys(bolts)))
+
+
+def bored(view: View, bores: Sequence[Shape], size: Size, part: str, axis: Point = ORIGIN) -> None:
+    """Draw the diameter of a part's bore, and what else its shape needs; a remark has its angle.
+
+    The bores are about the part's own origin, which is drawn at ``axis``.
+    """
+    for shape in bores[:1]:
+        form: Bore = Bore(radius_of(shape))
+        if isinstance(shape, Contour):
+            form = bore_in(size, part, shape).cut
+        if form.is_round:
+            view.diameter([Circle("", axis, form.radius)], sized.bore(view.fits, form.radius))
+        if isinstance(shape, Contour):
+            x, y = at(shape.segments[0], 0.5)
+            turn = math.degrees(math.atan2(y, x))
+            note = form.note if view.fits.is_iso else form.note.replace(" JS9", "")
+            view.note((x + axis[0], y + axis[1]), note)
+            what = note.split()[0].rstrip(",")
+            view.remark(f"{what} at {number(turn, 2)}°, counterclockwise from the right")
+
+
+def circle_of(view: View, screwed: Sequence[Circle]) -> None:
+    """Draw the circles that bolts lie on, as centre lines."""
+    for far in {round(math.hypot(*c.centre), 6) for c in screwed}:
+        view.draw(Circle("", (0.0, 0.0), far), CENTRE)
+
+
+def bolted(view: View, screwed: Sequence[Circle], tapped: bool = False) -> None:
+    """Draw the diameters of the bolts' holes and of their circle."""
+    if not screwed:
+        return
+    far = math.hypot(*screwed[0].centre)
+    hole = sized.screw_hole(screwed[0].radius, tapped)
+    view.diameter(screwed, times(len(screwed), f"{hole} on Ø {length(2.0 * far)}"))
+    angles = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
+    view.notes.append("holes at " + ", ".join(f"{number(angle, 2)}°" for angle in angles))

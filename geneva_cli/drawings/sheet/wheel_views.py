@@ -7,8 +7,7 @@ from collections.abc import Iterator
 
 from geneva_cli.drawings.part_drawings import pitch_lines
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bore_dimensions import bolted, bored, circle_of, holes_of
-from geneva_cli.drawings.sheet.standing import draw_hub
+from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hub, holes_of
 from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.plates import plates

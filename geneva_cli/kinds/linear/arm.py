@@ -9,14 +9,13 @@ from __future__ import annotations
 import math
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hole_walls import least_wall
 from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Circle
+from geneva_cli.geometry.stacks import least_wall
 from geneva_cli.kinds.linear.rack import locking_sector, rack_sizes
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.parts.arm import CrankArm
-from geneva_cli.parts.crank_solids import roller_plates
+from geneva_cli.parts.arm import CrankArm, roller_plates
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
 from geneva_cli.parts.sizes import (

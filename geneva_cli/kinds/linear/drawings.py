@@ -1,19 +1,34 @@
-"""Drawings of the parts of a linear Geneva, each in its own frame, and of the whole machine."""
+"""Drawings of the parts of a linear Geneva and of the whole machine, and its animated scene."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
-from geneva_cli.geometry.drawing import Annotations, Drawing, LevelDistance
+from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import Group
-from geneva_cli.geometry.shapes import Contour, Line, closed
+from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, closed
+from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.kinds.linear.arm import rack_arm
 from geneva_cli.kinds.linear.frame import rack_dimensions
 from geneva_cli.kinds.linear.parts import RackParts
-from geneva_cli.kinds.linear.rack import slot_walls
+from geneva_cli.kinds.linear.rack import rack_sizes, slot_walls
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.parts.missing import Missing, or_missing
-from geneva_cli.parts.projection import drawing_of, outlines_of, titled, with_frame
+from geneva_cli.output.scene import Body, Box, Track
+from geneva_cli.parts.projection import (
+    Missing,
+    drawing_of,
+    or_missing,
+    outlines_of,
+    titled,
+    with_frame,
+)
+from geneva_cli.study.animation.animated_turn import MachineTurn
+from geneva_cli.study.animation.shown_wheels import WheelScene
+from geneva_cli.study.animation.tracks import still
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.outlines.outlines import Outlines
 
 
 def arm(parts: RackParts) -> Drawing:
@@ -53,3 +68,38 @@ def assembly(parts: RackParts) -> Drawing:
 def dimensions(parts: RackParts) -> Iterator[Dimension | Missing]:
     """Yield the dimensions of the rack, or the reason why there are none."""
     return or_missing("dimensions of the rack", lambda: rack_dimensions(parts.sizes))
+
+
+class RackScene(WheelScene):
+    """What a page shows of a rack."""
+
+    def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
+        """Yield the rack, with a dot behind the end of its first slot to tell the slots apart."""
+        mechanism = turn.mechanism
+        pinion, R = turn.wheel(mechanism.wheel_places[0]), mechanism.output.per_radian
+        values, slopes = (tuple(R * x for x in column) for column in (pinion.value, pinion.slope))
+        travel = Track(pinion.at, values, slopes, R * pinion.gain)
+        sizes = rack_sizes(mechanism)
+        behind = -(sizes.slot_bottom + sizes.half_width + 0.5 * sizes.back)
+        mark = Circle("PITCH", (behind, 0.0), 0.15 * sizes.back)
+        yield Body("wheel", (*shapes, mark), (0.0, 0.0), still(), travel)
+
+    def view(self, wheel: Body, box: Box, turn: MachineTurn) -> Box:
+        """Return the box that a page shows: the rack's width, and the slots next to the crank.
+
+        A rack of many slots is much longer than its machine. 3 R on either side stay full of any
+        rack in the first turn: the shortest one has 4 R on either side, and travels by R from its
+        middle.
+        """
+        R = turn.mechanism.output.per_radian
+        own = bounds(wheel.shapes[0])
+        x0, y0, x1, y1 = box
+        return min(x0, own.x0), min(y0, -3.0 * R), max(x1, own.x1), max(y1, 3.0 * R)
+
+    def stops(self, outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float]:
+        """Return the input angles from the start between which all slots of the rack have passed.
+
+        The middle slot is the first to pass.
+        """
+        z, step_deg = turn.mechanism.spec.wheel.z, turn.turn_deg / len(turn.passages)
+        return -step_deg * (z // 2), step_deg * ((z + 1) // 2)

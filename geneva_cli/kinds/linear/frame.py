@@ -23,9 +23,10 @@ from geneva_cli.kinds.linear.arm import rack_bore
 from geneva_cli.kinds.linear.rack import RackSizes, rack_ends, rack_sizes, slot_places
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.parts.framed import FrameAndShafts, Screwed
 from geneva_cli.parts.gears.gear_pair import gear_seats, gear_shafts
 from geneva_cli.parts.mounted_plate import (
+    FrameAndShafts,
+    Screwed,
     corner_radius,
     hole_without_shaft,
     mounted_plate,

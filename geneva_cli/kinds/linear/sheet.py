@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from functools import partial
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bore_dimensions import bolted, circle_of, holes_of
 from geneva_cli.drawings.sheet.content import (
     SheetContent,
     Views,
@@ -16,9 +15,9 @@ from geneva_cli.drawings.sheet.content import (
     shown_on_sheet,
 )
 from geneva_cli.drawings.sheet.crank_views import draw_arm
-from geneva_cli.drawings.sheet.linked import flat_plates, geared, rolling, shafted, titled
+from geneva_cli.drawings.sheet.machine_sheet import flat_plates, geared, rolling, shafted, titled
 from geneva_cli.drawings.sheet.paper import scale_name
-from geneva_cli.drawings.sheet.standing import draw_frame
+from geneva_cli.drawings.sheet.standing import bolted, circle_of, draw_frame, holes_of
 from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import Plate, plates

@@ -11,17 +11,18 @@ the path: as an entry at the angle pi/2 - b from the tangent to one side, as an 
 side. A line is a point in a plane of its angle and its offset from an origin. So entries and exits
 are two curves in that plane, and the pairs are the crossings of the curves.
 
-Each path is sampled until its direction is known between the samples. A cell is an arc of the path
-for the entry and one for the exit. In the plane of lines each arc is a cubic. Newton's method leads
-from the crossing of the cubics to the pair. Where both are nearly parallel it starts at both ends
-of the cell, since there may be two pairs.
+Each path is sampled until its direction is known between the samples, and at its inflections. So an
+arc between two samples is a cubic in that plane, and angles rise or fall along it. Where an arc of
+the entries and one of the exits have angles in common, the difference of their offsets changes its
+sign at a pair. If it does not, but falls from an end, it may do so twice. From there Newton's
+method leads to the pairs.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple, TypeAlias, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -34,11 +35,8 @@ SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 DOUBLE_ROOT_SLOPE = 1e-5
 STEPS = 24  # samples of a turn that every path has
 FIRST, LAST = slice(None, -1), slice(1, None)  # ends of intervals
-# Possible error of a quantity's cubics, as a fraction of their range in a cell. It is ample: of
-# 184,000 wheels of random linkages none is lost with 0, and 9 % are with -0.05.
-CUBIC_ERROR = 0.03
+CUBIC_ERROR = 0.01  # of an offset, as a fraction of its range in an arc
 
-Cells: TypeAlias = tuple[Whole, Whole, Array]  # arcs of entry and exit, and turns of the exit
 R = TypeVar("R", bound=tuple[object, ...])
 
 
@@ -141,19 +139,40 @@ def sampled(path: LinkPath, count: int) -> Iterator[PathSamples]:
         again = np.flatnonzero(_bends(left, right))
         row = np.concatenate((row, row))[again]
         left, right = taken(left, again), taken(right, again)
-    whose, *motion = joined(found)
-    # by designs and crank angles: a turn and the first step are less than 8 radians
-    place = np.argsort(8.0 * whose + motion[0])
+    found.append(_inflections(path, *_in_order(found)))
+    whose, at = _in_order(found)
     counts = np.bincount(whose, minlength=count)
     starts = np.cumsum(counts) - counts
     order = closes[np.argsort(counts[closes], kind="stable")]
     for block in blocks(len(order), 256) if len(order) else ():
         which = np.sort(order[block])
-        columns = np.arange(counts[which].max())
-        number = place[starts[which, None] + np.minimum(columns, counts[which, None] - 1)]
-        at = _points(*(x.take(number) for x in motion))
-        turned = _turned(taken(at, (slice(None), FIRST)), taken(at, (slice(None), LAST)))
-        yield PathSamples(which, at, np.cumsum(np.pad(turned, ((0, 0), (1, 0))), axis=1))
+        columns = np.minimum(np.arange(counts[which].max()), counts[which, None] - 1)
+        some = taken(at, starts[which, None] + columns)
+        turned = _turned(taken(some, (slice(None), FIRST)), taken(some, (slice(None), LAST)))
+        yield PathSamples(which, some, np.cumsum(np.pad(turned, ((0, 0), (1, 0))), axis=1))
+
+
+def _in_order(found: Sequence[tuple[Any, ...]]) -> tuple[Whole, PathPoints]:
+    """Designs and points of samples, by designs and crank angles."""
+    whose, *motion = joined(found)
+    # a turn and the first step are less than 8 radians
+    place = np.argsort(8.0 * whose + motion[0])
+    return whose[place], _points(*(x[place] for x in motion))
+
+
+def _inflections(path: LinkPath, whose: Whole, at: PathPoints) -> tuple[Any, ...]:
+    """Inflections between samples of designs: on each side of them the tangent turns one way."""
+    i = np.flatnonzero((whose[1:] == whose[:-1]) & (at.turn[1:] * at.turn[:-1] < 0.0))
+    which, low, high = path.of(whose[i]), at.phi[i], at.phi[i + 1]
+    left, right = ((at.v[k].conj() * at.a[k]).imag for k in (i, i + 1))
+    for _ in range(12):  # false position, with half of a value that stays (Illinois)
+        phi = low + (high - low) * (left / (left - right))
+        middle = points(which, phi[:, None])
+        bend = (middle.v.conj() * middle.a).imag[:, 0]
+        ahead = bend * left > 0.0
+        left, right = np.where(ahead, bend, 0.5 * left), np.where(ahead, 0.5 * right, bend)
+        low, high = np.where(ahead, phi, low), np.where(ahead, high, phi)
+    return (whose[i], *(x[:, 0] for x in middle[:4]))
 
 
 def _turned(left: PathPoints, right: PathPoints) -> Array:
@@ -167,188 +186,132 @@ def _bends(left: PathPoints, right: PathPoints) -> Mask:
     half, turned = 0.5 * (right.phi - left.phi), _turned(left, right)
     # radians; an arc turns by less than a pair for three slots does, which is pi/3
     wrong = (np.abs(turned - half * (left.turn + right.turn)) > 0.05) | (np.abs(turned) > 1.0)
+    # the tangent may turn back and forth
+    back = left.turn * (turned - half * (left.turn + right.turn) / 1.5)
+    wrong |= (left.turn * right.turn > 0.0) & (back < 0.0)
     # Rates that differ this much belong to a sharp bend, whose turn they predict by chance only.
     return wrong | (half * np.abs(right.turn - left.turn) > 0.25)  # radians
 
 
-class Arcs(NamedTuple):
-    """Arcs between samples, and the lines of their points as (angle, offset) in a plane.
-
-    ``cubics`` are the Bernstein coefficients of both. ``strip`` is the vector from the first line
-    to the last, with the least and greatest cross product of it and the coefficients.
-    """
-
-    cubics: Array  # (2, 4, n)
-    strip: Array  # (4, n)
-
-    def taken(self, where: Whole) -> Arcs:
-        """Select some of the arcs."""
-        return Arcs(self.cubics.take(where, axis=-1), self.strip.take(where, axis=-1))
-
-    def at(self, place: Array) -> tuple[Array, Array]:
-        """Lines at fractions of the arcs, and their slopes: (2, n)."""
-        rest, rows = 1.0 - place, self.cubics.swapaxes(0, 1)
-        a, b, c = (rows[i] * rest + rows[i + 1] * place for i in range(3))
-        a, b = a * rest + b * place, b * rest + c * place
-        return a * rest + b * place, 3.0 * (b - a)
-
-
-class Side(NamedTuple):
-    """All arcs of designs as entries or as exits, and the spans of their lines."""
-
-    arcs: Arcs
-    spans: list[Array]
+def bernstein(third: Array, value: Array, slope: Array) -> tuple[Array, Array, Array, Array]:
+    """Bernstein coefficients of cubics between adjacent columns, and a third of their width."""
+    a, d = value[:, FIRST], value[:, LAST]
+    return a, a + third * slope[:, FIRST], d - third * slope[:, LAST], d
 
 
 def pairs(path: LinkPath, samples: Sequence[PathSamples], b: Array) -> Pairs:
     """All pairs of designs with half index angles b, (n, 1), from samples of their paths."""
     if not samples:
         return Pairs(np.empty(0, dtype=int), np.empty((0, 2)), np.empty(0))
-    which, sense, low, wide, place = joined(
-        [start for some in samples for start in _starts(some, b)]
-    )
+    senses = (1.0, -1.0)
+    starts = joined([_starts(some, b, sense) for some in samples for sense in senses])
+    which, sense, low, wide, place = starts
     return _solved(path, Pairs(which, (low + place * wide).T, sense), low.T, wide.T, b)
 
 
-def _starts(samples: PathSamples, b: Array) -> Iterator[tuple[Whole, Array, Array, Array, Array]]:
-    """Starts of Newton's method for each sense of the wheel.
+def _starts(samples: PathSamples, b: Array, sense: float) -> tuple[Any, ...]:
+    """Starts of Newton's method for a sense of the wheel.
 
     They are designs, senses, the beginnings and widths of the arcs for entry and exit, and places
     in them, (2, n) each.
     """
-    at, count = samples.at, len(samples.which)
-    lean = 0.5 * math.pi - b[samples.which]
+    at, lean = samples.at, 0.5 * math.pi - b[samples.which]
+    width = np.diff(at.phi)
+    # The tangent turns against the wheel: the lines' angles rise along the arcs that can be used.
+    angle = -sense * (samples.angle + np.angle(at.t[:, :1]))
     # Near a sharp bend all lines pass one point. Measured from there their offsets are small.
     origin = np.take_along_axis(at.p, np.abs(at.turn).argmax(axis=1)[:, None], axis=1)
-    angle = samples.angle + np.angle(at.t[:, :1])
-    both = [_arcs(at, angle, origin, side * lean) for side in (-1.0, 1.0)]
-    size = np.max([np.abs(arcs.cubics[1]).reshape(4, count, -1) for arcs in both], axis=(0, 1, 3))
-    sides = [Side(arcs, _spans(arcs, count, 32000.0 / size[:, None])) for arcs in both]
-    begin, width = at.phi[:, :-1].ravel(), np.diff(at.phi).ravel()
-    for sense, (entries, exits) in ((1.0, sides), (-1.0, sides[::-1])):
-        first, last, turn = _cells(sense, entries, exits, samples.angle[:, -1], width)
-        cell, place = _crossings(entries.arcs.taken(first), exits.arcs.taken(last), turn)
-        ends = np.stack((first[cell], last[cell]))
-        which = samples.which[ends[0] // (len(begin) // count)]
-        yield which, np.full(len(which), sense), begin[ends], width[ends], place
-
-
-def _arcs(at: PathPoints, angle: Array, origin: Complex, lean: Array) -> Arcs:
-    """Lines of all arcs; ``lean`` is the angle from the tangent."""
-    from_origin = (at.p - origin) * (at.t * np.exp(1j * lean)).conj()
-    slope = -np.abs(at.v) * np.sin(lean) - at.turn * from_origin.real
-    third = np.diff(at.phi) / 3.0
-    cubics = np.empty((2, 4, third.size))
-    for rows, value, by_phi in (
-        (cubics[0], angle + lean, at.turn),
-        (cubics[1], from_origin.imag, slope),
-    ):
-        for row, part in zip(rows, bernstein(third, value, by_phi), strict=True):
-            row[:] = part.ravel()
-    along = cubics[:, 3] - cubics[:, 0]
-    across = along[0] * cubics[1] - along[1] * cubics[0]
-    return Arcs(cubics, np.stack((*along, across.min(axis=0), across.max(axis=0))))
-
-
-def bernstein(third: Array, value: Array, slope: Array) -> tuple[Array, Array, Array, Array]:
-    """Bernstein coefficients of cubics between adjacent columns, and a third of their width."""
-    a, d = value[:, :-1], value[:, 1:]
-    return a, a + third * slope[:, :-1], d - third * slope[:, 1:], d
-
-
-def _cells(sense: float, entries: Side, exits: Side, whole: Array, width: Array) -> Cells:
-    """Arcs for entry and exit of each design whose lines may agree."""
-    # The tangent turns against the wheel, or not at all; it does alike for both sides.
-    turns = np.diff(entries.arcs.cubics[0], axis=0) * sense
-    use = ((turns.min(axis=0) <= 0.0) & (width > 0.0)).reshape(len(whole), -1)
-    (low, high, down, up), (low2, high2, down2, up2) = entries.spans, exits.spans
-    up, up2 = np.where(use, up, -32768), np.where(use, up2, -32768)  # below all others
-    both = (high - low)[:, :, None] + (high2 - low2)[:, None]
-    may = high2[:, None] - low[:, :, None] <= both
-    may &= (down2[:, None] <= up[:, :, None]) & (up2[:, None] >= down[:, :, None])
-    place, n = np.flatnonzero(may), use.shape[1]
-    first, last = place // n, place // (n * n) * n + place % n
-    # the path's whole turn, for an exit that is before the entry in the order of samples
-    one, two = entries.arcs, exits.arcs
-    turn = np.where(last < first, -whole[first // n], 0.0)
-    off = two.cubics[0, 0].take(last) - one.cubics[0, 0].take(first) - turn
-    near = np.flatnonzero((np.abs(off) < math.pi) & (first != last))
-    first, last, turn = first[near], last[near], turn[near]
-    near = np.flatnonzero(_may_cross(one.strip.take(first, -1), two.cubics.take(last, -1), turn))
-    first, last, turn = first[near], last[near], turn[near]
-    near = np.flatnonzero(_may_cross(two.strip.take(last, -1), one.cubics.take(first, -1), -turn))
-    return first[near], last[near], turn[near]
-
-
-def _may_cross(strip: Array, cubics: Array, turn: Array) -> Mask:
-    """True if an arc of lines, turned back by ``turn``, may cross the strip of another arc."""
-    across = strip[0] * cubics[1] - strip[1] * (cubics[0] - turn)
-    least, most = across.min(axis=0) - strip[3], across.max(axis=0) - strip[2]
-    margin = CUBIC_ERROR * (most - least)
-    may: Mask = (least <= margin) & (most >= -margin)
-    return may
-
-
-def _spans(arcs: Arcs, count: int, scale: Array) -> list[Array]:
-    """Least and greatest angles and offsets of designs' arcs, as whole numbers of 16 bits.
-
-    An angle returns to 0 after a turn, and a comparison takes little time.
-    """
-    low, high = arcs.cubics.min(axis=1), arcs.cubics.max(axis=1)
-    margin = CUBIC_ERROR * (high - low)
-    parts = ((low - margin).reshape(2, count, -1), (high + margin).reshape(2, count, -1))
-    angles = [np.floor(part[0] * (65536.0 / math.tau)) + end for end, part in enumerate(parts)]
-    offsets = [np.floor(part[1] * scale) + end for end, part in enumerate(parts)]
-    turned = [x.astype(np.int32).astype(np.uint16) for x in angles]
-    return [*turned, *(np.clip(x, -32767.0, 32767.0).astype(np.int16) for x in offsets)]
-
-
-def _crossings(entry: Arcs, exit_: Arcs, turn: Array) -> tuple[Whole, Array]:
-    """Numbers of cells, and the fractions (2, n) of their arcs at which the cubics may cross."""
-    (x, y), (u, v) = (np.diff(arcs.cubics, axis=1) for arcs in (entry, exit_))
-    cross = x[:, None] * v - y[:, None] * u
-    cross *= np.sign(cross[1, 1])
-    # the directions of both are apart, by more than the error of the cubics
-    once = cross.min(axis=(0, 1)) > 0.1 * cross.max(axis=(0, 1))
-    one, two = np.flatnonzero(once), np.flatnonzero(~once)
-    place = _refined(entry.taken(one), exit_.taken(one), turn[one], np.full((2, len(one)), 0.5))
-    near = (np.abs(place - 0.5) < 0.8).all(axis=0)
-    cells, places = [one[near]], [place[:, near]]
-    entry, exit_, turn = entry.taken(two), exit_.taken(two), turn[two]
-    tried: list[Array] = []
-    for start in (*_common_ends(entry, exit_, turn), np.full((2, len(two)), 0.5)):
-        place = _refined(entry, exit_, turn, start)
-        place = np.where((np.abs(place - 0.5) < 0.8).all(axis=0), place, start)
-        new = np.ones(len(two), dtype=bool)
-        for other in tried:
-            new &= np.abs(place - other).max(axis=0) > 1e-4  # often all lead to one crossing
-        tried.append(place)
-        cells.append(two[new])
-        places.append(place[:, new])
-    return np.concatenate(cells), np.concatenate(places, axis=1)
-
-
-def _common_ends(entry: Arcs, exit_: Arcs, turn: Array) -> list[Array]:
-    """Places in cells at the ends of the angles that entry and exit have in common."""
-    ahead, (x, *_), (u, *_) = (
-        exit_.cubics[0, 0] - turn - entry.cubics[0, 0],
-        entry.strip,
-        exit_.strip,
+    sides = []
+    for side in (-sense, sense):
+        from_origin = (at.p - origin) * (at.t * np.exp(1j * side * lean)).conj()
+        slope = -np.abs(at.v) * np.sin(side * lean) - at.turn * from_origin.real
+        rows = ((angle, -sense * at.turn), (from_origin.imag, slope))
+        parts = [
+            part.ravel()
+            for value, by_phi in rows
+            for part in (
+                value[:, FIRST],
+                value[:, LAST],
+                width * by_phi[:, FIRST],
+                width * by_phi[:, LAST],
+            )
+        ]
+        sides.append(np.stack(parts))
+    # Entries and exits after them whose lines have an angle in common, in this turn or the next.
+    low, high, n = angle[:, FIRST], angle[:, LAST], width.shape[1]
+    use = np.where(high > low, 0.0, np.nan)
+    later = np.tri(n, k=-1) * (angle[:, -1:] - angle[:, :1])[:, None] - 2.0 * lean[:, None]
+    # with inflections at both ends the arcs touch: a double root
+    touching = high + SAME_ENTRY
+    may = (low + use)[:, None] + later < touching[:, :, None]
+    may &= (touching + use)[:, None] + later > (low + use)[:, :, None]
+    place = np.flatnonzero(may)
+    row = place // (n * n)
+    first, last = place // n, row * n + place % n
+    entry, exit_ = sides[0].take(first, axis=1), sides[1].take(last, axis=1)
+    exit_[:2] += later.ravel().take(place)
+    ends = [_common_end(entry, exit_, end) for end in (0, 1)]
+    (low, gap, slope), (high, last_gap, last_slope) = ends
+    span, ahead, behind = high - low, -gap / slope, last_gap / last_slope
+    # Both ends of the difference's tangents; where it changes its sign, one of them is enough.
+    left, right = (ahead >= 0.0) & (ahead <= span), (behind >= 0.0) & (behind <= span)
+    once = gap * last_gap <= 0.0
+    near = np.minimum(
+        gap * (gap + slope * span / 3.0), last_gap * (last_gap - last_slope * span / 3.0)
     )
-    spans = np.sort((0.0 * x, x), axis=0), np.sort((ahead, ahead + u), axis=0)
-    ends = np.maximum(spans[0][0], spans[1][0]), np.minimum(spans[0][1], spans[1][1])
-    return [np.clip(np.stack((end / x, (end - ahead) / u)), 0.0, 1.0) for end in ends]
+    twice = ~once & (near < 0.0)
+    # the cubics' error may hide a pair near an end
+    error = CUBIC_ERROR * (np.abs(entry[5] - entry[4]) + np.abs(exit_[5] - exit_[4]))
+    starts = (
+        (left & (once | twice), low + ahead),
+        (right & (twice | (once & ~left)), high - behind),
+        (once & ~left & ~right, low + span * gap / (gap - last_gap)),
+        (np.abs(gap) < error, low),
+        (np.abs(last_gap) < error, high),
+    )
+    cells = np.concatenate([np.flatnonzero(where) for where, _ in starts])
+    angles = np.concatenate([at_[where] for where, at_ in starts])
+    place = np.stack([_inverse(arcs[:4, cells], angles) for arcs in (entry, exit_)])
+    arcs = np.stack((first[cells], last[cells]))
+    which = samples.which[row[cells]]
+    return (
+        which,
+        np.full(len(which), sense),
+        at.phi[:, FIRST].ravel()[arcs],
+        width.ravel()[arcs],
+        place,
+    )
 
 
-def _refined(entry: Arcs, exit_: Arcs, turn: Array, place: Array) -> Array:
-    """Places (2, n) in cells after Newton's method for the crossing of the cubics."""
-    for _ in range(3):  # the pair itself may be off the crossing by 0.05
-        (p, (x, y)), (q, (u, v)) = entry.at(place[0]), exit_.at(place[1])
-        off, up = q - p
-        off -= turn
-        step = np.stack((off * v - up * u, off * y - up * x)) / (x * v - y * u)
-        place = np.clip(place + step, -0.5, 1.5)
+def _common_end(entry: Array, exit_: Array, end: int) -> tuple[Array, Array, Array]:
+    """First or last angle that lines of both arcs have; the difference of offsets and its slope."""
+    inner = (exit_[end] > entry[end]) if end == 0 else (exit_[end] < entry[end])
+    angle = np.where(inner, exit_[end], entry[end])
+    place = _inverse(np.where(inner, entry[:4], exit_[:4]), angle)
+    values = []
+    for arcs, at in ((entry, np.where(inner, place, end)), (exit_, np.where(inner, end, place))):
+        (_, turn), (offset, slope) = _cubic(arcs[:4], at), _cubic(arcs[4:], at)
+        values.append((offset, slope / turn))
+    (one, slope), (two, other) = values
+    return angle, one - two, slope - other
+
+
+def _inverse(arcs: Array, angle: Array) -> Array:
+    """Fractions of arcs at which lines have an angle, which rises along them."""
+    place = np.clip((angle - arcs[0]) / (arcs[1] - arcs[0]), 0.0, 1.0)
+    for _ in range(4):  # Newton steps
+        value, slope = _cubic(arcs, place)
+        place = np.clip(place - np.nan_to_num((value - angle) / slope), 0.0, 1.0)
     return place
+
+
+def _cubic(arcs: Array, place: Array) -> tuple[Array, Array]:
+    """Value and slope of cubics from values and slopes at both ends."""
+    a, d, first, last = arcs
+    rise = d - a
+    square, cube = 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise
+    value = a + place * (first + place * (square + place * cube))
+    return value, first + place * (2.0 * square + 3.0 * place * cube)
 
 
 def residual(at: PathPoints, b: Array, sense: Array) -> Residual:
@@ -386,7 +349,7 @@ def _solved(path: LinkPath, starts: Pairs, low: Array, wide: Array, b: Array) ->
             move, cell = newton(at, rest), wide[some]
             move *= np.minimum(1.0, (cell / np.abs(move)).min(axis=1))[:, None]
             phi[some] = after = at.phi + move
-            near = (np.abs((after - low[some]) / cell - 0.5) < 1.5).all(axis=1)
+            near = (np.abs((after - low[some]) / cell - 0.5) < 4.0).all(axis=1)
             done = near & (np.abs(move).max(axis=1) < 1e-9)  # radians: the next step is rounding
             level = np.abs(rest.det) < DOUBLE_ROOT_SLOPE * np.abs(rest.by_exit)
             steep[some] = done & ~level

@@ -10,7 +10,7 @@ KINDS = (
         drawings={
             "wheel": "kinds.spherical.drawings:wheel",
             "crank": "kinds.spherical.drawings:crank",
-            "arm": "kinds.spherical.arm_drawing:arm",
+            "arm": "kinds.spherical.drawings:arm",
             "assembly": "kinds.spherical.drawings:assembly",
             "sheet": "kinds.spherical.sheet:sheet",
         },
@@ -18,7 +18,7 @@ KINDS = (
         dimensions="kinds.spherical.dimensions:dimensions",
         stressed="kinds.spherical.sizes:stressed",
         wheel_body="kinds.spherical.parts:shell_body",
-        cut_parts="kinds.spherical.cut_shells:CutShells",
+        cut_parts="kinds.spherical.locking:CutShells",
         horn_sizes="kinds.spherical.sizes:horn_sizes",
         horns="kinds.spherical.horn:sphere_horns",
         roller="kinds.spherical.roller:ball_roller",

@@ -13,7 +13,7 @@ from geneva_cli.kinds.spherical.dial import dial_holes
 from geneva_cli.kinds.spherical.laid_flat import crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.motion.pivots import Dimension
-from geneva_cli.parts.missing import Missing, or_missing
+from geneva_cli.parts.projection import Missing, or_missing
 
 
 def dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:

@@ -12,13 +12,12 @@ from geneva_cli.geometry.sphere import Region, opposite, place
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.crank import at_mid_motion
-from geneva_cli.kinds.spherical.stops import WheelCaps, about, caps, polar, round_cap
+from geneva_cli.kinds.spherical.stops import SphereStops, about, polar
 from geneva_cli.kinds.spherical.wheel import edge
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.pairs import Pose, Stop
-from geneva_cli.parts.turn.touch import first_stops
 
 # Fractions of an arc at which it is sampled: its start and middle, and points next to its corners.
 # A corner itself may lie on an edge where all else overlaps.
@@ -35,9 +34,9 @@ class BallGaps:
         self.wheel = SphereArcs(edges)
         self.around = SphereArcs(edge(ball), closed=False)  # one slot; all others are equal
         self.sectors = [SphereArcs(region.boundary) for region in sectors]
-        self._turning = WheelCaps(self.around, 2.0 * ball.half_step)
-        self._roller = round_cap(ball.roller)
-        self._sides = caps(self.sectors) if self.sectors else None
+        self._stops = SphereStops(
+            self.around, 2.0 * ball.half_step, self.sectors, self._out_each, ball.roller
+        )
         self.crank_frame = np.array(
             at_mid_motion(ball)
         )  # rows: the crank's axes in the wheel's frame
@@ -70,7 +69,7 @@ class BallGaps:
         near = self.near if near is None else near
         columns = []
         for i in range(pose.pins.shape[1]):
-            away, _ = self.to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
+            away = self.to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
             columns.append(self.ball.radius_mm * (away - self.ball.roller))
         return np.minimum(np.column_stack(columns), near)
 
@@ -87,19 +86,7 @@ class BallGaps:
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and on, as ``Clearances`` describes."""
-        deep, wheel, rolling, locking = close / self.ball.radius_mm, pose.wheel, [], []
-        for i in range(pose.pins.shape[1]):
-            one, axis = self._roller, pose.pins[:, i : i + 1]
-            rolling.append(self._turning.touches(one, axis, _same, wheel, most, deep))
-        if self._sides:
-            axes = [self._out(axis, pose.crank) for axis in self._sides.axis]
-
-            def on_crank(points: Array, n: Whole) -> Array:
-                return self.in_crank(points, pose.crank[n])
-
-            axis = np.stack(axes, axis=1)
-            locking.append(self._turning.touches(self._sides, axis, on_crank, wheel, most, deep))
-        return first_stops(rolling, locking, len(wheel), most)
+        return self._stops.first(pose, most, close / self.ball.radius_mm)
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap between the locking sectors and the wheel, mm (n,); see ``rollers``."""
@@ -128,14 +115,14 @@ class BallGaps:
         close = polar(on_crank) < self.ball.lock + least[0]
         which_, on_crank = which_[close], on_crank[close]
         for sector in self.sectors if len(on_crank) else ():
-            np.minimum.at(least, which_, sector.signed(on_crank)[0])
+            np.minimum.at(least, which_, sector.signed(on_crank))
         # ... and the sectors' corners against the wheel.
         owner = np.repeat(np.arange(len(turn)), len(self._corners))
         corner = np.tile(self._corners, (len(turn), 1))
         at = about(self._out(corner, pose.crank[owner]), -turn[owner])
         here = np.flatnonzero(polar(at) - self.ball.rim < least[owner])
         if len(here):
-            np.minimum.at(least, owner[here], self.to_wheel(at[here])[0])
+            np.minimum.at(least, owner[here], self.to_wheel(at[here]))
         return self.ball.radius_mm * least
 
     def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
@@ -146,16 +133,14 @@ class BallGaps:
         pose = self.pose(input_deg)
         return about(pose.pins[:, motion], -(pose.wheel + lead))
 
-    def to_wheel(self, points: Array) -> tuple[Array, Array]:
-        """Return distances from the wheel's edge, radians, and the nearest points of the edge.
+    def to_wheel(self, points: Array) -> Array:
+        """Return the distances of points in the wheel's frame from its edge, radians.
 
-        ``points`` are in the wheel's frame. Each is turned to the first slot's sector, whose edge
-        is nearest.
+        Each is turned to the first slot's sector, whose edge is nearest.
         """
         step = 2.0 * self.ball.half_step
         back = step * np.round(np.arctan2(points[:, 1], points[:, 0]) / step)
-        away, foot = self.around.signed(about(points, -back))
-        return away, about(foot, back)
+        return self.around.signed(about(points, -back))
 
     def _out(self, of_crank: Array, turn: Array) -> Array:
         """Return directions (n, 3) of the crank's frame in the wheel's frame, at crank angles.
@@ -165,10 +150,11 @@ class BallGaps:
         """
         return about(np.broadcast_to(of_crank, (len(turn), 3)), -turn) @ self.crank_frame
 
+    def _out_each(self, of_crank: Array, turn: Array) -> Array:
+        """Return k directions of the crank's frame in the wheel's frame, at n angles, (n, k, 3)."""
+        many = [self._out(one, turn) for one in of_crank]
+        return np.stack(many, axis=1) if many else np.zeros((len(turn), 0, 3))
+
     def in_crank(self, points: Array, turn: Array) -> Array:
         """Return directions in the crank's frame at crank angles."""
         return about(points @ self.crank_frame.T, turn)
-
-
-def _same(points: Array, _: Whole) -> Array:
-    return points

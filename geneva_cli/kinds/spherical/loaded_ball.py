@@ -42,10 +42,8 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.shaft_stress import ShaftForces
 
 
-import numpy as np
-
-from geneva_cli.loads.strength.arm_strength import ArmDimensions
-from geneva_cli.parts.stressed import ShaftEnd, Stressed, key_of, shaft_of
+from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
+from geneva_cli.parts.stressed import Stressed, key_of, shaft_of
 from geneva_cli.spec.default_sizes import half_or, value_or
 from geneva_cli.spec.least_wall import eye_about
 
@@ -196,12 +194,12 @@ def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
     size = spec.size
     inside, outside = ball.span_mm
     under, over = ball.arm_span_mm
-    end = ShaftEnd(ball.shafts_end_mm(size) - ball.radius_mm, over - under, ball.radius_mm)
+    end = (ball.shafts_end_mm(size) - ball.radius_mm, over - under, ball.radius_mm)
     return Stressed(
         value_or(size.face_width_mm, outside - inside),
         2.0 * ball.pin_mm,
-        shaft_of(spec, "wheel", ball.bore_mm, end),
-        shaft_of(spec, "crank", ball.arm_bore_mm, end),
+        shaft_of(spec, "wheel", ball.bore_mm, *end),
+        shaft_of(spec, "crank", ball.arm_bore_mm, *end),
         _arm(spec, ball),
         key_of(size.wheel_keyway, ball.bore_mm, ball.hub_length_mm(size)),
         key_of(size.crank_keyway, ball.arm_bore_mm, over - under),
@@ -212,7 +210,7 @@ def _arm(spec: Spec, ball: Ball) -> ArmDimensions:
     """Return the dimensions of the flat arm that stands for the bent one; NaN without an arm."""
     size, L = spec.size, ball.radius_mm
     if not ball.arm_bore_mm:
-        return ArmDimensions.none()
+        return NO_ARM
     middle, thick = 0.5 * sum(ball.arm_span_mm), ball.arm_span_mm[1] - ball.arm_span_mm[0]
     wall, hole = wall_min(size, L), hole_radius(size, ball.pin_mm)
     bored = reach_or_bore(size, "crank", ball.arm_bore_mm)
@@ -221,4 +219,4 @@ def _arm(spec: Spec, ball: Ball) -> ArmDimensions:
     eye = half_or(size.arm_eye_mm, eye_about(hole, wall, ball.passing_mm(ball.opening_mm)))
     offset = middle - L * math.cos(ball.arm)
     rows = L * ball.arm, middle * cap, middle * eye / L, bored, hole, thick, offset
-    return ArmDimensions(*map(np.asarray, rows))
+    return ArmDimensions(*rows)

@@ -30,8 +30,8 @@ from geneva_cli.kinds.spherical.sizes import ball
 from geneva_cli.kinds.spherical.wheel import web_angle, web_region, wheel_regions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.missing import NamedParts
 from geneva_cli.parts.parts import Parts
+from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.held_hubs import held_hub

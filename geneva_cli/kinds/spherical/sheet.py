@@ -14,22 +14,26 @@ import numpy as np
 
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bore_dimensions import bored
 from geneva_cli.drawings.sheet.composed import on_paper
-from geneva_cli.drawings.sheet.linked import shafted
+from geneva_cli.drawings.sheet.machine_sheet import shafted
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.points import COARSE, MIRRORED, point_table, polyline
-from geneva_cli.drawings.sheet.standing import draw_hub
+from geneva_cli.drawings.sheet.standing import bored, draw_hub
 from geneva_cli.drawings.sheet.view import Block, View, grouped, times
 from geneva_cli.geometry.measure import at, mapped
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE, Sheet
 from geneva_cli.kinds.spherical.arm import CapArm
-from geneva_cli.kinds.spherical.arm_drawing import arm_cone, arm_flat
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.dimensions import dimensions
-from geneva_cli.kinds.spherical.drawings import crank_flat, slot_flat, wheel_flat
+from geneva_cli.kinds.spherical.drawings import (
+    arm_cone,
+    arm_flat,
+    crank_flat,
+    slot_flat,
+    wheel_flat,
+)
 from geneva_cli.kinds.spherical.laid_flat import Cone, crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.section import section

@@ -1,105 +1,131 @@
-"""Stops of a turning wheel on a sphere, in closed form.
+"""Outlines of circles' arcs on the sphere of a wheel that turns about z: branches for ``stops``.
 
-The region to the left of an arc lies in a cap about the arc's axis. A roller is a cap, and a corner
-is a cap of no size. Two caps touch where the angle between their axes is the sum of their angles. A
-hollow is the rim of a cap of more than half the sphere, so this also holds for parts inside it. As
-the wheel turns, the axes of its caps move on circles about its own axis. So a stop is a spherical
-triangle of known sides.
+The region to the left of an arc lies in a cap about the arc's axis. A hollow is the rim of a cap of
+more than half the sphere.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
 from geneva_cli.geometry.sphere_arcs import SphereArcs
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.turn.pairs import SLACK
-from geneva_cli.parts.turn.touch import WAYS, Touch, triangles, within
+from geneva_cli.parts.turn.stops import CONCENTRIC, Branches, Stops, cut, masked, merged
 
-ALL_ROUND = 7.0  # radians, more than a whole turn: the sweep of an edge without ends
-
-
-class Caps(NamedTuple):
-    """k caps about axes (k, 3), of angles (k,), and the part of each rim that is an edge."""
-
-    axis: Array
-    angle: Array
-    x: Array  # (k, 3), normal to the axis, towards the start of the edge
-    y: Array  # (k, 3), normal to both, onwards along the edge
-    sweep: Array  # length of the edge, radians about the axis
-
-    def edge(self, which: Whole, points: Array) -> Mask:
-        """Return True where points (n, 3) on the rims of caps lie on their edges."""
-        along = (points * self.x[which]).sum(axis=1)
-        across = (points * self.y[which]).sum(axis=1)
-        turn = np.remainder(np.arctan2(across, along) + SLACK, 2.0 * np.pi)
-        return turn <= self.sweep[which] + 2.0 * SLACK
+Placed = Callable[[Array], Array]
 
 
-def caps(boundaries: Sequence[SphereArcs]) -> Caps:
-    """Return the caps of arcs, and caps of the convex corners between them."""
-    columns = []
-    for one in boundaries:
-        corner = np.flatnonzero(one.first > SAME_ANGLE)
-        at, none = one.at(corner, np.zeros(len(corner))), np.zeros(len(corner))
-        columns.append(Caps(one.axis, one.angle, one.x, one.y, one.sweep))
-        columns.append(Caps(at, none, at, at, none + ALL_ROUND))
-    return Caps(*[np.concatenate(each) for each in zip(*columns, strict=True)])
+class SphereStops(Stops):
+    """Stops of one machine's wheel on a sphere, whose ``edge`` repeats after ``pitch`` radians.
 
+    Levels are angles from z. Of a branch, ``size`` is the angle of its cap, and ``excess`` that of
+    the cap's axis from z. ``out`` transforms directions (k, 3) of the crank's frame to the fixed
+    one at n angles of the crank: (n, k, 3). A ``roller`` is a cap of this angle.
+    """
 
-def round_cap(angle: float) -> Caps:
-    """Return a roller's cap, at no position in particular."""
-    nowhere = np.zeros((1, 3))
-    return Caps(nowhere, np.array([angle]), nowhere, nowhere, np.array([ALL_ROUND]))
-
-
-class WheelCaps:
-    """A wheel's caps, which repeat after ``pitch`` radians about z."""
-
-    def __init__(self, edge: SphereArcs, pitch: float) -> None:
-        self.caps, self.pitch = caps([edge]), pitch
-        self.polar, self.azimuth = polar(self.caps.axis), _azimuth(self.caps.axis)
-
-    def touches(
+    def __init__(
         self,
-        others: Caps,
-        axis: Array,
-        own: Callable[[Array, Whole], Array],
-        wheel: Array,
-        most: float,
-        close: float,
-    ) -> Touch:
-        """Return contacts with other caps in n poses, within ``most`` radians back and on.
+        edge: SphereArcs,
+        pitch: float,
+        crank: Sequence[SphereArcs],
+        out: Callable[[Array, Array], Array],
+        roller: float,
+    ) -> None:
+        self.edge, self.pitch, self.crank, self.out = edge, pitch, crank, out
+        self.roller = roller
 
-        ``wheel`` is the wheel's angle in each pose, (n,). The axes of the other caps are ``axis``,
-        (n, k, 3). ``own`` transforms points (m, 3), each with the index of its pose, to the frame
-        in which the other caps are defined.
-        """
-        apart = self.caps.angle[:, None] + others.angle - close
-        ps, qs = np.nonzero((apart > 0.0) & (apart < np.pi))
-        away, towards = polar(axis), _azimuth(axis)
-        far, d, rho = away[:, qs], apart[ps, qs], self.polar[ps]
-        (n, pair), h, g = triangles(d - rho, rho, far, np.sin)
-        p, q = ps[pair], qs[pair]
-        angle = 2.0 * np.arctan2(h, g)  # between the axes, about z
-        turn = towards[n, q] - WAYS * angle - self.azimuth[p]
-        on, i, lead = within(turn - wheel[n], self.pitch, most)
-        n, p, q, d, turn = n[i], p[i], q[i], d[pair[i]], turn[on, i]
-        one, other = about(self.caps.axis[p], turn), axis[n, q]
-        angle = self.caps.angle[p]
-        point = np.sin(d - angle)[:, None] * one + np.sin(angle)[:, None] * other
-        point /= np.sin(d)[:, None]
-        good = self.caps.edge(p, about(point, -turn)) & others.edge(q, own(point, n))
-        point, other = point[good], other[good]
-        along = np.column_stack((-point[:, 1], point[:, 0], np.zeros(len(point))))
-        normal = other - (other * point).sum(axis=1)[:, None] * point
-        size = np.linalg.norm(normal, axis=1) * np.linalg.norm(along, axis=1)
-        cosine = np.abs((normal * along).sum(axis=1)) / np.maximum(size, 1e-300)
-        return Touch((n + len(wheel) * on)[good], lead[good], cosine)
+    def wheel(self, inset: float) -> Branches:
+        """Return the branches of the wheel, ``inset`` radians within its edge."""
+        return _branches(self.edge, inset, lambda points: points[None])
+
+    def rollers(self, centres: Array, inset: float) -> Branches:
+        """Return the branches of rollers about n centres, directions (n, 3)."""
+        far, ahead, zero = polar(centres), azimuth(centres), np.zeros(len(centres))
+        cap = zero + self.roller - inset, far, ahead
+        (low, at_low), (high, at_high) = _extremes(far, cap[0])
+        ends, row = (low, high, at_low, at_high), np.arange(len(centres))
+        return merged(Branches(row, *ends, *cap, zero + sign, zero) for sign in (1.0, -1.0))
+
+    def locking(self, crank: Array, inset: float) -> Iterator[tuple[Branches, Branches]]:
+        """Yield the branches of each sector at n angles of the crank: sides and convex corners."""
+        for sector in self.crank:
+            points = self.out(sector.start[sector.first > SAME_ANGLE], crank)
+            row = np.repeat(np.arange(len(crank)), points.shape[1])
+            level, at = polar(points).ravel(), azimuth(points).ravel()
+            zero = np.zeros(len(row))
+            yield (
+                _branches(sector, inset, lambda points: self.out(points, crank)),
+                Branches(row, level, level, zero, zero, zero, level, at, zero, zero),
+            )
+
+    def place(self, branch: Branches, level: Array) -> Array:
+        """Return the places of branches at levels: azimuths."""
+        size, far = branch.size, branch.excess
+        sine = np.sin(0.5 * (size - level + far)) * np.sin(0.5 * (size + level - far))
+        cosine = np.sin(0.5 * (level + far - size)) * np.sin(0.5 * (level + far + size))
+        angle = 2.0 * np.arctan2(np.sqrt(np.maximum(sine, 0.0)), np.sqrt(np.maximum(cosine, 0.0)))
+        angle = np.where(level <= branch.low, branch.at_low, angle)
+        return branch.ahead + branch.sign * np.where(level >= branch.high, branch.at_high, angle)
+
+    def tangents(self, one: Branches, two: Branches) -> Iterator[Array]:
+        """Yield the levels at which branches may be tangent."""
+        p, q = np.cos(one.excess) * np.sin(two.size), np.cos(two.excess) * np.sin(one.size)
+        yield np.arccos((p + q) / np.sin(two.size + one.size))
+        yield np.arccos((p - q) / np.sin(two.size - one.size))
+
+    def lean(self, level: Array, pins: Array, close: float) -> Array:
+        """Return the sine of the pressure angle where rollers touch, ``close`` inside them."""
+        radius, far = self.roller - close, polar(pins)
+        lean: Array = np.cos(far) - np.cos(radius) * np.cos(level)
+        return lean / (np.sin(radius) * np.sin(level))
+
+
+def _branches(arcs: SphereArcs, inset: float, placed: Placed) -> Branches:
+    """Return the branches of a boundary, ``inset`` radians inside it, ``placed`` at n angles."""
+    trims = inset * np.tan(0.5 * np.clip((arcs.first, arcs.last), 0.0, 3.0)) / np.sin(arcs.angle)
+    size = arcs.angle - inset
+    axis, x, y = (placed(each) for each in (arcs.axis, arcs.x, arcs.y))
+    far, ahead = polar(axis), azimuth(axis)
+    start = np.arctan2(y[..., 2], -x[..., 2]) + trims[0]
+    sweep, zero = arcs.sweep - trims.sum(axis=0), 0.0 * far
+    same = np.sin(far) < CONCENTRIC
+    at = np.abs(far - size)
+    middle = azimuth(_point(axis, x, y, size, trims[0] + 0.5 * sweep))
+    parts = [masked(same, at, at, zero, zero, zero + size, far, middle, zero, zero + 0.5 * sweep)]
+    known = []
+    for turn in (trims[0], trims[0] + sweep):
+        point = _point(axis, x, y, size, turn)
+        off = np.remainder(azimuth(point) - ahead + np.pi, 2.0 * np.pi) - np.pi
+        known.append((polar(point), np.abs(off)))
+    levels = np.array(known).swapaxes(0, 1)
+    for there, low, high, sign in cut(start, start + sweep, levels, _extremes(far, size)):
+        (a, b), (at_a, at_b) = zip(low, high, strict=True)
+        cap = zero + size, far, ahead, zero + sign
+        parts.append(masked(there & ~same, a, b, at_a, at_b, *cap, zero))
+    return merged(parts)
+
+
+def _extremes(far: Array, size: Array) -> Array:
+    """Return level and angle from the axis' azimuth of the nearest and farthest points of rims."""
+    least, most, zero = far - size, far + size, 0.0 * far
+    over = most > np.pi
+    return np.array(
+        (
+            (np.abs(least), np.where(least < 0.0, np.pi, zero)),
+            (np.where(over, 2.0 * np.pi - most, most), np.where(over, np.pi, zero)),
+        )
+    )
+
+
+def _point(axis: Array, x: Array, y: Array, size: Array, turn: Array) -> Array:
+    """Return the points of rims (n, k, 3) at angles about their axes."""
+    flat = np.sin(size)
+    c, s = (flat * np.cos(turn))[:, None], (flat * np.sin(turn))[:, None]
+    point: Array = np.cos(size)[:, None] * axis + c * x + s * y
+    return point
 
 
 def polar(points: Array) -> Array:
@@ -107,7 +133,7 @@ def polar(points: Array) -> Array:
     return np.arctan2(np.hypot(points[..., 0], points[..., 1]), points[..., 2])
 
 
-def _azimuth(points: Array) -> Array:
+def azimuth(points: Array) -> Array:
     """Return the angles of directions (..., 3) about z, from x."""
     return np.arctan2(points[..., 1], points[..., 0])
 

@@ -22,7 +22,7 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Truth, parameter
+from geneva_cli.numerics.arrays import Number, Truth, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import boundary
 
@@ -30,22 +30,21 @@ from geneva_cli.numerics.roots import boundary
 class ArmDimensions(NamedTuple):
     """An arm's dimensions, mm: radii but for lengths along and across it; (m,) for m designs."""
 
-    length: Array  # from the shaft's axis to the pin's
-    hub: Array
-    eye: Array
-    bored: Array  # of the shaft's bore, with its keyway
-    hole: Array  # of the pin
-    thickness: Array
-    offset: Array  # c, from the force to the arm's mid-plane
-
-    @classmethod
-    def none(cls) -> ArmDimensions:
-        """Return the dimensions of a machine without an arm, all NaN."""
-        return cls(*[np.asarray(math.nan)] * len(cls._fields))
+    length: Number  # from the shaft's axis to the pin's
+    hub: Number
+    eye: Number
+    bored: Number  # of the shaft's bore, with its keyway
+    hole: Number  # of the pin
+    thickness: Number
+    offset: Number  # c, from the force to the arm's mid-plane
 
 
-def arm_stress_MPa(arm: ArmDimensions, force_N: Array) -> Array:
+NO_ARM = ArmDimensions(*[math.nan] * 7)
+
+
+def arm_stress_MPa(dimensions: ArmDimensions, force_N: Number) -> Array:
     """The greatest von Mises stress in an arm, over the directions of the force."""
+    arm = ArmDimensions(*map(np.asarray, dimensions))
     taper = (arm.hub - arm.eye) / arm.length
     with np.errstate(divide="ignore"):
         twice = np.minimum(arm.length, arm.eye / np.maximum(taper, 0.0))
@@ -61,7 +60,7 @@ def arm_stress_MPa(arm: ArmDimensions, force_N: Array) -> Array:
     return most
 
 
-def _section(arm: ArmDimensions, force: Array, x: Array, width: Array, hole: Array) -> Array:
+def _section(arm: ArmDimensions, force: Number, x: Number, width: Number, hole: Number) -> Array:
     """The von Mises stress of the section at x, a width with a hole in its middle.
 
     It is infinite where the hole leaves nothing of the width.
@@ -80,7 +79,7 @@ def _section(arm: ArmDimensions, force: Array, x: Array, width: Array, hole: Arr
     return stress
 
 
-def torsion_MPa(torque_Nmm: Array, width: Array, height: Array) -> Array:
+def torsion_MPa(torque_Nmm: Number, width: Number, height: Number) -> Array:
     """The greatest shear stress of a rectangle in torsion, in the middle of its longer side.
 
     Roark, Formulas for Stress and Strain, table of torsion: its polynomial in the ratio of the

@@ -14,33 +14,30 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.numerics.arrays import Number, choose
-from geneva_cli.numerics.jet import Array
 from geneva_cli.spec.tables import Shaft
 
 
 class KeyDimensions(NamedTuple):
     """A key, mm; (m,) for m designs, NaN for those without."""
 
-    shaft: Array  # diameter
-    width: Array
-    bearing: Array  # height that stands in the hub, h - t1
-    length: Array
+    shaft: Number  # diameter
+    width: Number
+    bearing: Number  # height that stands in the hub, h - t1
+    length: Number
 
-    @classmethod
-    def none(cls) -> KeyDimensions:
-        """Return the dimensions of a part without a key, all NaN."""
-        return cls(*[np.asarray(math.nan)] * len(cls._fields))
+
+NO_KEY = KeyDimensions(*[math.nan] * 4)
 
 
 class KeyStress(NamedTuple):
     """Stresses of a key, MPa, and the least length, mm, that keeps both allowable ones."""
 
-    pressure_MPa: Array
-    shear_MPa: Array
-    least_length_mm: Array
+    pressure_MPa: Number
+    shear_MPa: Number
+    least_length_mm: Number
 
 
-def key_stress(key: KeyDimensions, torque_Nm: Array, pressure: Array, shear: Array) -> KeyStress:
+def key_stress(key: KeyDimensions, torque_Nm: Number, pressure: Number, shear: Number) -> KeyStress:
     """The stresses of keys under a torque; ``pressure`` and ``shear`` are the allowable ones."""
     force = 2e3 * torque_Nm / key.shaft
     sides, section = key.bearing * key.length, key.width * key.length

@@ -11,7 +11,7 @@ from geneva_cli.table import NO_BOUND, in_digits
 
 if TYPE_CHECKING:
     from geneva_cli.figure import Figure
-    from geneva_cli.geometry.drawing import Drawing
+    from geneva_cli.geometry.sheet import Drawing
 
 
 Value: TypeAlias = float | int | str | bool | None

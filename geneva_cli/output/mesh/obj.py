@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.mesh.polygons import DECIMALS
 from geneva_cli.output.mesh.solids import bodies
 

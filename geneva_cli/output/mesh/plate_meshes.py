@@ -13,11 +13,11 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.cross_holes import CrossHole, Opening
 from geneva_cli.geometry.inset import away, inset, lines_and_arcs
 from geneva_cli.geometry.measure import fraction_at
 from geneva_cli.geometry.moments import oriented
 from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.round_holes import CrossHole, Opening
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.output.mesh.polygons import (
     Fans,

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import Drawing
 from geneva_cli.geometry.plates import Group, Member, Part, Shell, Solid, Stack
 from geneva_cli.geometry.shapes import Layer, Point
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.stacks import Run, Side, levels, outline_of, sides
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.mesh.plate_meshes import plate_mesh

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.mesh.solids import bodies
 

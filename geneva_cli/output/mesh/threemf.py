@@ -12,7 +12,7 @@ from html import escape
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.inks import inks
 from geneva_cli.output.mesh.polygons import DECIMALS
 from geneva_cli.output.mesh.solids import Body, Place, bodies

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 from geneva_cli import output
-from geneva_cli.geometry.drawing import Annotations, Drawing, extent
 from geneva_cli.geometry.measure import mapped
 from geneva_cli.geometry.pieces import UNITS, prepared
 from geneva_cli.geometry.plates import Part
 from geneva_cli.geometry.shapes import Point, Shape
+from geneva_cli.geometry.sheet import Annotations, Drawing, extent
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.notes import LETTERS, Notes, notes
 from geneva_cli.output.pdf.pdf_file import outline, point, tint

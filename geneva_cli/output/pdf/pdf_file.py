@@ -14,7 +14,7 @@ from itertools import chain
 from typing import NamedTuple
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry import helvetica
+from geneva_cli.geometry import sheet
 from geneva_cli.geometry.measure import as_cubic, halved
 from geneva_cli.geometry.shapes import Arc, Cubic, Point, Segment, Shape, as_contour
 from geneva_cli.table import in_decimals
@@ -103,8 +103,8 @@ def wide(words: str, size: float, bold: bool = False) -> float:
     """A text's width in Helvetica, as ``text`` shows it."""
     parts = EXPONENT.split(words)
     sizes = (EXPONENT_SIZE * size if i % 2 else size for i in range(len(parts)))
-    widths = (helvetica.width(part, bold) * tall for part, tall in zip(parts, sizes, strict=True))
-    return helvetica.CAPITALS * sum(widths)
+    widths = (sheet.width(part, bold) * tall for part, tall in zip(parts, sizes, strict=True))
+    return sheet.CAPITALS * sum(widths)
 
 
 def _escaped(words: str) -> str:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli.geometry.helvetica import CAPITALS
-from geneva_cli.geometry.sheet import DASHED, WIDTHS, Arrow, Sheet
+from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Arrow, Sheet
 from geneva_cli.output.pdf import pdf_file
 from geneva_cli.output.pdf.pdf_file import POINT, Page, number, outline, point
 

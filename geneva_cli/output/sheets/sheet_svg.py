@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from html import escape
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.helvetica import CAPITALS
-from geneva_cli.geometry.sheet import DASHED, WIDTHS, Arrow, Label, Sheet
+from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Arrow, Label, Sheet
 from geneva_cli.output.svg.drawing_svg import element, number, place, point
 
 STYLE = """<style>

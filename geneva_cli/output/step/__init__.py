@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.drawing import Drawing
+from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.solid_part import solid_part
 from geneva_cli.output.step.entities import Entities, words
 from geneva_cli.output.step.step_product import Products

@@ -11,11 +11,9 @@ from html import escape
 from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.geometry.drawing import Drawing, extent
 from geneva_cli.geometry.measure import Box, halved, mapped
 from geneva_cli.geometry.pieces import SUFFIX, UNITS, prepared
-from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.plates import Member, Part
+from geneva_cli.geometry.plates import Member, Part, in_place
 from geneva_cli.geometry.shapes import (
     Circle,
     Contour,
@@ -27,6 +25,7 @@ from geneva_cli.geometry.shapes import (
     Shape,
     as_contour,
 )
+from geneva_cli.geometry.sheet import Drawing, extent
 from geneva_cli.output.formats import FILLS
 from geneva_cli.output.inks import CENTRE_LINES, DARK, DASHES, INKS, LIGHT, Paper, inks, mixed
 from geneva_cli.output.notes import LETTERS, Notes, notes

@@ -1,4 +1,4 @@
-"""The pins, washers, spacers and rollers between links.
+"""The pins, washers, spacers and rollers between links, and the axes of links.
 
 Pins that stand in the frame belong to the frame, like shafts, and are omitted here.
 """
@@ -11,10 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Circle
+from geneva_cli.geometry.shapes import Circle, Point
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.links.link_sizes import LinkSizes, places, point_at_zero
+from geneva_cli.parts.shafts.shaft_bores import ShaftBore
 
 
 class SharedJoint(NamedTuple):
@@ -83,3 +84,36 @@ def rollers(
                 yield Member(
                     Plate("roller in the groove", "ROLLER", whole, (hole,), low, high), where
                 )
+
+
+class LinkAxis(NamedTuple):
+    """An axis that links turn about: their names and joints, and its position at input angle 0."""
+
+    names: tuple[str, ...]
+    kinds: tuple[Joint, ...]
+    at: Point
+    stands: bool  # it does not move with the input angle
+    bore: ShaftBore = ShaftBore()  # for its shaft or pivot; of radius 0 until that is known
+    one_piece: frozenset[str] = frozenset()  # names of the links that have no bore for it
+
+    @property
+    def radius(self) -> float:
+        """Radius of its bore."""
+        return self.bore.bore.radius
+
+
+def axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
+    """Yield each axis once; ``near`` is the distance, mm, below which two axes are one."""
+    left: list[tuple[str, Joint, Array]] = [
+        (link.name, kind, at)
+        for link in links
+        for at, kind in zip(places(link), link.kinds, strict=True)
+        if kind in (Joint.SHAFT, Joint.PIN)
+    ]
+    while left:
+        path = left[0][2]
+        here = [one for one in left if bool(np.abs(one[2] - path).max() < near)]
+        left = [one for one in left if not bool(np.abs(one[2] - path).max() < near)]
+        at = point_at_zero(path)
+        names, kinds, _ = zip(*here, strict=True)
+        yield LinkAxis(names, kinds, at, bool(np.abs(path - complex(*at)).max() < near))

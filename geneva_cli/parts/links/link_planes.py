@@ -26,7 +26,7 @@ from geneva_cli.parts.links.link_positions import gear_plane, links_at, same, tu
 from geneva_cli.parts.links.link_sizes import LinkSizes, places
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_hub import wheel_hub_length
+from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
 from geneva_cli.parts.shafts.hub_and_shafts import wheel_shaft_ends, wheel_shaft_radius
 from geneva_cli.parts.shafts.shaft_bores import bore_at
 

@@ -15,11 +15,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hole_walls import apart, plate_wall
 from geneva_cli.geometry.hull import convex_hull
-from geneva_cli.geometry.placed import placed
-from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.plates import Member, Plate, placed
 from geneva_cli.geometry.shapes import Circle, Layer, Point, Shape
+from geneva_cli.geometry.stacks import apart, plate_wall
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.preferred import bore_radius
@@ -40,7 +39,7 @@ from geneva_cli.parts.shafts.shaft_bores import ShaftBore, bore_at
 if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.gears.gear_mesh import GearMesh
-    from geneva_cli.parts.links.link_axes import LinkAxis
+    from geneva_cli.parts.links.link_pins import LinkAxis
 
 SHAFT = Joint.SHAFT
 
@@ -103,7 +102,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     links = links_at(mechanism, turn_deg(mechanism))
     if not links:
         return Links()
-    from geneva_cli.parts.links.link_axes import axes as axes_of
+    from geneva_cli.parts.links.link_pins import axes as axes_of
     from geneva_cli.parts.links.link_pins import pins, rollers
 
     sizes = link_sizes(mechanism, links, parts)

@@ -1,4 +1,4 @@
-"""The crank's outline in the wheel's plane: the locking disc and its relief.
+"""The crank's outline in the wheel's plane: the locking disc, its relief and its round holes.
 
 It is in the crank's frame: its axis is the origin, and x is through the first roller at
 mid-motion. The disc is whole where it locks, and relieved where a roller moves the wheel.
@@ -7,9 +7,10 @@ mid-motion. The disc is whole where it locks, and relieved where a roller moves 
 from __future__ import annotations
 
 import math
+from itertools import combinations
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Contour, Line, Segment, about, closed
+from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, Shape, about, closed
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.locking_rings import Swept, rings
@@ -18,11 +19,13 @@ from geneva_cli.parts.outlines.reliefs import (
     arc_floor,
     followed,
     is_whole,
+    keyway_direction,
     reliefs,
     widened,
 )
+from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.sizes import Sizes, crank_reach_and_hub
-from geneva_cli.parts.slots.roller_paths import mouth_corners
+from geneva_cli.parts.slots.roller_paths import mouth_corners, roller_centres
 
 
 def crank_contours(
@@ -97,3 +100,26 @@ def _sector(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
     start = (sizes.lock * math.cos(relief.start), sizes.lock * math.sin(relief.start))
     end = (sizes.lock * math.cos(relief.end), sizes.lock * math.sin(relief.end))
     return [Line(start, bottom.start), bottom, Line(bottom.end, end)]
+
+
+def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
+    """Return rollers, pins and bore in its shape."""
+    shapes: list[Shape] = []
+    for centre in roller_centres(assembly):
+        shapes += [Circle("ROLLER", centre, sizes.roller)]
+        shapes += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
+    if sizes.crank_bore:
+        own = bore_of(assembly.mechanism.spec.size, "crank", sizes.crank_bore)
+        shapes.append(own.shape("BORE", keyway_direction(assembly)))
+    return shapes
+
+
+def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
+    """Return the gap between the roller that starts the wheel and that which stops it, mm.
+
+    It is negative where they overlap, and None if each roller does both.
+    """
+    if len(assembly.rollers) == len(assembly.motions):
+        return None
+    pairs = combinations(roller_centres(assembly), 2)
+    return min(math.dist(one, other) for one, other in pairs) - 2.0 * sizes.roller

@@ -1,11 +1,17 @@
-"""The circles of the wheel's outline: its outside, its bore, and the bolts of a dial."""
+"""The wheel's circles, its hub, and the wheel as a solid."""
 
 from __future__ import annotations
 
-from geneva_cli.geometry.shapes import Circle, Shape
+import math
+from collections.abc import Iterable
+
+from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
+from geneva_cli.parts.shafts.held_hubs import held_hub
 from geneva_cli.parts.sizes import Sizes
+from geneva_cli.spec.tables import Size
 
 
 def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
@@ -33,3 +39,53 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
     if sizes.outer:
         ring = max(sizes.slot_end, assembly.L + sizes.recess), sizes.outer
     return bolt_circle(size, "dial", assembly.L, ring, assembly.rests[0]).holes
+
+
+def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
+    """Return the hub below the wheel; None unless the spec has its diameter or its length.
+
+    Raises GenevaError for a set screw that it does not hold.
+    """
+    hub = _plate(assembly, sizes)
+    return held_hub(assembly.mechanism.spec.size, "wheel", hub, assembly.rests[0])
+
+
+def _plate(assembly: Assembly, sizes: Sizes) -> Plate | None:
+    size = assembly.mechanism.spec.size
+    if not size.has_hub("wheel") or sizes.wheel_hub <= sizes.wheel_bore:
+        return None
+    bores = about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
+    outline = Circle("HUB", ORIGIN, sizes.wheel_hub)
+    return Plate("wheel's hub", "HUB", outline, bores, -wheel_hub_length(size, sizes), 0.0)
+
+
+def wheel_hub_length(size: Size, sizes: Sizes) -> float:
+    """Return the length of the wheel's hub: by default as far down as the crank arm."""
+    if size.wheel_hub_length_mm is not None:
+        return size.wheel_hub_length_mm
+    return size.allowances.pin_gap_mm + sizes.arm_thickness
+
+
+def about_axis(circles: Iterable[Shape]) -> tuple[Shape, ...]:
+    """Return the bore among some shapes: the one about the axis."""
+    bores = (shape for shape in circles if shape.layer == "BORE")
+    return tuple(
+        shape
+        for shape in bores
+        if not isinstance(shape, Circle) or math.hypot(*shape.centre) == 0.0
+    )
+
+
+def wheel_plate(assembly: Assembly, sizes: Sizes, contour: Contour) -> Plate:
+    """Return the wheel as a plate; an internal wheel's contour is the opening in its disc."""
+    circles = wheel_circles(assembly, sizes)
+    bores = [circle for circle in circles if circle.layer == "BORE"]
+    outside = [circle for circle in circles if circle.layer != "BORE"]
+    outline, *openings = [*outside, contour]
+    return Plate("wheel", contour.layer, outline, (*openings, *bores), 0.0, sizes.wheel_thickness)
+
+
+def wheel_part(assembly: Assembly, sizes: Sizes, contour: Contour) -> Plate | Group:
+    """Return the wheel, with its hub below it if the spec has one."""
+    plate, hub = wheel_plate(assembly, sizes, contour), wheel_hub(assembly, sizes)
+    return Group(plate.name, (Member(plate), Member(hub))) if hub else plate

@@ -35,7 +35,7 @@ class _CurvedSlot:
 # drawings, sheet and solids of one machine have the same walls, and so do machines of other locks
 @lru_cache(maxsize=16)
 def _curved(slot: _CurvedSlot) -> Contour:
-    from geneva_cli.parts.outlines.walls.curved import curved_walls
+    from geneva_cli.parts.outlines.walls.chain import curved_walls
 
     return curved_walls(slot.assembly, slot.sizes, slot.engagement, *slot.form)
 

@@ -11,9 +11,9 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.cross_holes import CrossHole, drilled
 from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.round_holes import CrossHole, drilled
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Line, about, closed
 from geneva_cli.parts.shafts.bores import around
 from geneva_cli.parts.shafts.screws import SCREWS, Screw, change_for_hub, screw
@@ -142,7 +142,7 @@ def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Pl
             f"{part}_screw_mm: the clamp holds the shaft; remove one of {key} and {part}_screw_mm",
             ("size", f"{part}_screw_mm"),
         )
-    from geneva_cli.geometry.cross_holes import CrossHole
+    from geneva_cli.geometry.round_holes import CrossHole
 
     clamp = Clamp(screw(key, values[key]), bore.radius, hub.outline.radius)
     if not clamp.fits or hub.thickness < clamp.screw.head:

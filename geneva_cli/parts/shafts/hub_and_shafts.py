@@ -19,10 +19,10 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.links.link_positions import links_at
-from geneva_cli.parts.outlines.crank_circles import crank_circles
+from geneva_cli.parts.outlines.crank_outline import crank_circles
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole, keyway_direction
-from geneva_cli.parts.outlines.wheel_hub import about_axis, wheel_hub
+from geneva_cli.parts.outlines.wheel_circles import about_axis, wheel_hub
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.shafts.held_hubs import held_hub
 from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends

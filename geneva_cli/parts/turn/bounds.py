@@ -16,49 +16,94 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.extents import farthest, from_segments, short_pieces
+from geneva_cli.geometry.hull import farthest, from_segments, short_pieces
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.pairs import Bounds, Intervals, Pair, Pose, Window, raised
+from geneva_cli.parts.turn.pairs import Bounds, Intervals, Pose, Window, raised
 from geneva_cli.parts.turn.travel import Travel, path_travel, slot_travel
+
+
+class Segments(NamedTuple):
+    """Segments in the wheel's frame, and how far from them a roller's centre may be, mm."""
+
+    start: Array  # (n, 2)
+    end: Array
+    aside: Array  # (n,)
 
 
 class FlatPairs:
     """Pairs of flat parts, and the distances of parts from their axes, mm.
 
     ``rim`` is the level that the wheel reaches: the circle about its axis, or that which an
-    internal wheel leaves, or the edge of a rack.
+    internal wheel leaves, or the edge of a rack. Gaps are bounded up to ``target``.
     """
 
     def __init__(self, gaps: Gaps, crank: Sequence[Contour], target: float, rim: float) -> None:
         self.gaps, self.crank, self.target, self.rim = gaps, crank, target, rim
-        self.moves = gaps.assembly.plane_motion
+        self.moves, self.L = gaps.assembly.plane_motion, gaps.assembly.L
+        self.apart = max(target, 0.0)  # the distance up to which parts matter
         self._paths: dict[Engagement, Travel] = {}
+        self._slots: dict[Engagement, Travel] = {}
 
-    def path(self, engagement: Engagement) -> Travel:
-        """Return the travel of an engagement's roller, which several rollers share."""
-        if engagement not in self._paths:
-            turn_deg = self.gaps.assembly.turn_deg
-            self._paths[engagement] = path_travel(engagement, self.L, turn_deg)
-        return self._paths[engagement]
+    def lock(self, window: Window, on: Intervals) -> Bounds:
+        """Return the gap of locking disc and wheel: bounds up to ``apart``.
 
-    def lock(self, window: Window) -> Pair:
-        """Return the crank's locking disc and the wheel, in a motion or dwell."""
-        return Lock(self, window)
+        The wheel leaves a circle free about the middle of each recess. In the dwell and beside it,
+        the part of the crank that is within the wheel's rim lies in that circle.
+        """
+        gap = self.gaps.locking(on.at_middle)
+        far = self.rim if self.gaps.assembly.sign > 0.0 else self.L + self.disc + self.apart
+        moved = self.moves.lever(far) * on.wheel + (self.disc + self.apart) * on.crank
+        least = gap - moved
 
-    def free(self, roller: int, window: Window) -> Pair:
-        """Return a roller and the wheel, outside the slot that the roller drives."""
-        return FreeRoller(self, roller, window)
+        def in_recess(which: Whole) -> Array:
+            return self._in_recess(window, on.at(which))
 
-    def driving(self, roller: int, span: tuple[float, float]) -> Pair:
-        """Return a roller and the wheel, while it is in its slot between two input angles."""
+        least = raised(least, least < self.target, in_recess)
+        return Bounds(gap, np.minimum(least, self.apart))
+
+    def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
+        """Return the gap of a roller outside the slot that it drives.
+
+        It is the gap in the middle, less the roller's travel in the wheel's frame. While the wheel
+        rests, the centre is also near the chord of its path.
+        """
+        centre, path = self._centre(roller, on.at_middle), self._path(roller)
+        gap = np.maximum(self._gap(roller, on), self._beyond(centre) - self.gaps.sizes.roller)
+        least = gap - self._travel(roller, on, centre)
+
+        def near_chord(which: Whole) -> Array:
+            some = on.at(which)
+            start, end = (self._centre(roller, pose) for pose in (some.at_start, some.at_end))
+            segments = Segments(start, end, path.aside(*self._own(roller, some)))
+            return self._along(segments, centre[which], gap[which])
+
+        return Bounds(gap, raised(least, window.rests & (least < self.target), near_chord))
+
+    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds:
+        """Return the gap of a roller in its slot between two input angles.
+
+        Its centre is on the axis of a straight slot, or near a chord of the pitch curve.
+        """
         engagement, _ = self.gaps.assembly.rollers[roller]
-        slot = CurvedSlot if engagement.slot.curved else StraightSlot
-        return slot(self, roller, span)
+        centre, gap = self._centre(roller, on.at_middle), self._gap(roller, on)
+        if engagement.slot.curved:
+            moving, middle = self.gaps.assembly.motions[roller]
+            if moving not in self._slots:
+                self._slots[moving] = slot_travel(moving, self.L)
+            aside = self._slots[moving].aside(on.start - middle, on.end - middle)
+            start, end = (self._centre(roller, pose) for pose in (on.at_start, on.at_end))
+            return Bounds(gap, self._along(Segments(start, end, aside), centre, gap))
+        places = self.gaps.pose(np.array([span[0], 0.5 * (span[0] + span[1])]))
+        first, other = self._centre(roller, places)
+        axis = (first - other) / math.dist(first, other)
+        half = self._travel(roller, on, centre)[:, None] * axis
+        aside = np.abs((centre - first) @ (-axis[1], axis[0]))
+        return Bounds(gap, self._along(Segments(centre - half, centre + half, aside), centre, gap))
 
     @cached_property
     def pieces(self) -> Polyarc:
@@ -70,57 +115,37 @@ class FlatPairs:
         """The greatest distance of the crank from its axis, mm."""
         return float(farthest(self.pieces, 0.0, 0.0).max())
 
-    @property
-    def apart(self) -> float:
-        """The distance up to which parts matter, mm."""
-        return max(self.target, 0.0)
-
-    @property
-    def L(self) -> float:
-        """The centre distance."""
-        return self.gaps.assembly.L
-
-    def beyond(self, points: Array) -> Array:
+    def _beyond(self, points: Array) -> Array:
         """Return the distance of points (..., 2) from the level that the wheel reaches, mm."""
         return self.gaps.assembly.sign * (self.moves.level(points) - self.rim)
 
+    def _path(self, roller: int) -> Travel:
+        """Return the travel of a roller in the fixed frame, which several rollers share."""
+        engagement, _ = self.gaps.assembly.rollers[roller]
+        if engagement not in self._paths:
+            turn_deg = self.gaps.assembly.turn_deg
+            self._paths[engagement] = path_travel(engagement, self.L, turn_deg)
+        return self._paths[engagement]
 
-class Segments(NamedTuple):
-    """Segments in the wheel's frame, and how far from them a roller's centre may be, mm."""
-
-    start: Array  # (n, 2)
-    end: Array
-    aside: Array  # (n,)
-
-
-class Roller:
-    """A roller and the wheel; ``path`` bounds the roller's travel in the fixed frame."""
-
-    def __init__(self, reach: FlatPairs, number: int) -> None:
-        self.reach, self.number = reach, number
-        self.gaps = reach.gaps
-        engagement, self.behind = self.gaps.assembly.rollers[number]
-        self.path = reach.path(engagement)
-
-    def own(self, on: Intervals) -> tuple[Array, Array]:
+    def _own(self, roller: int, on: Intervals) -> tuple[Array, Array]:
         """Return the ends of intervals as angles of the roller's own engagement."""
-        start = self.gaps.assembly.from_mid(on.start, self.behind)
+        start = self.gaps.assembly.from_mid(on.start, self.gaps.assembly.rollers[roller][1])
         return start, start + (on.end - on.start)
 
-    def centre(self, pose: Pose) -> Array:
-        """Return the centre in the wheel's frame, (n, 2)."""
-        return self.reach.moves.into(pose.pins[:, self.number], pose.wheel)
+    def _centre(self, roller: int, pose: Pose) -> Array:
+        """Return a roller's centre in the wheel's frame, (n, 2)."""
+        return self.moves.into(pose.pins[:, roller], pose.wheel)
 
-    def travel(self, on: Intervals, centre: Array) -> Array:
+    def _travel(self, roller: int, on: Intervals, centre: Array) -> Array:
         """Return how far the centre is at most from its place in the middle, ``centre``."""
-        moves = self.reach.moves
-        return self.path.most(*self.own(on)) + moves.lever(moves.level(centre)) * on.wheel
+        moved = self.moves.lever(self.moves.level(centre)) * on.wheel
+        return self._path(roller).most(*self._own(roller, on)) + moved
 
-    def gap(self, on: Intervals) -> Array:
-        """Return the gap to the wheel in the middle of intervals."""
-        return self.gaps.rollers(on.at_middle)[:, self.number]
+    def _gap(self, roller: int, on: Intervals) -> Array:
+        """Return a roller's gap to the wheel in the middle of intervals."""
+        return self.gaps.rollers(on.at_middle)[:, roller]
 
-    def along(self, segments: Segments, centre: Array, gap: Array) -> Array:
+    def _along(self, segments: Segments, centre: Array, gap: Array) -> Array:
         """Return the gap of a roller whose centre moves along segments.
 
         In the middle of an interval it is at ``centre`` and has the gap ``gap``.
@@ -137,114 +162,25 @@ class Roller:
             least[short] = free - aside[short] - radius
         return least
 
-
-class FreeRoller(Roller):
-    """A roller outside the slot that it drives: the wheel's outline may be anywhere about it."""
-
-    def __init__(self, reach: FlatPairs, number: int, window: Window) -> None:
-        super().__init__(reach, number)
-        self.rests = window.rests
-
-    def __call__(self, on: Intervals) -> Bounds:
-        """Return the gap in the middle, less the roller's travel in the wheel's frame.
-
-        While the wheel rests, the centre is also near the chord of its path.
-        """
-        centre = self.centre(on.at_middle)
-        far = self.reach.beyond(centre) - self.gaps.sizes.roller
-        gap = np.maximum(self.gap(on), far)
-        least = gap - self.travel(on, centre)
-
-        def near_chord(which: Whole) -> Array:
-            some = on.at(which)
-            aside = self.path.aside(*self.own(some))
-            segments = Segments(self.centre(some.at_start), self.centre(some.at_end), aside)
-            return self.along(segments, centre[which], gap[which])
-
-        return Bounds(gap, raised(least, self.rests & (least < self.reach.target), near_chord))
-
-
-class StraightSlot(Roller):
-    """A roller in its own straight slot: its centre is on the slot's axis."""
-
-    def __init__(self, reach: FlatPairs, number: int, span: tuple[float, float]) -> None:
-        super().__init__(reach, number)
-        ends = np.array([span[0], 0.5 * (span[0] + span[1])])
-        self.first, other = self.centre(self.gaps.pose(ends))
-        self.axis = (self.first - other) / math.dist(self.first, other)
-
-    def __call__(self, on: Intervals) -> Bounds:
-        """Return the gap along the part of the axis that the centre may reach."""
-        centre, gap = self.centre(on.at_middle), self.gap(on)
-        half = self.travel(on, centre)[:, None] * self.axis
-        aside = np.abs((centre - self.first) @ (-self.axis[1], self.axis[0]))
-        segments = Segments(centre - half, centre + half, aside)
-        return Bounds(gap, self.along(segments, centre, gap))
-
-
-class CurvedSlot(Roller):
-    """A roller in its own curved slot: its centre is near a chord of the pitch curve."""
-
-    def __init__(self, reach: FlatPairs, number: int, span: tuple[float, float]) -> None:
-        super().__init__(reach, number)
-        engagement, self.middle = self.gaps.assembly.motions[number]
-        self.slot = slot_travel(engagement, reach.L)
-
-    def __call__(self, on: Intervals) -> Bounds:
-        """Return the gap along the chord, less the greatest distance of the curve from it."""
-        start, end = self.centre(on.at_start), self.centre(on.at_end)
-        aside = self.slot.aside(on.start - self.middle, on.end - self.middle)
-        gap = self.gap(on)
-        chord = self.along(Segments(start, end, aside), self.centre(on.at_middle), gap)
-        return Bounds(gap, chord)
-
-
-class Lock:
-    """The crank's locking disc and the wheel: bounds up to ``FlatPairs.apart``.
-
-    The wheel leaves a circle free about the middle of each recess. In the dwell and beside it, the
-    part of the crank that is within the wheel's rim lies in that circle.
-    """
-
-    def __init__(self, reach: FlatPairs, window: Window) -> None:
-        self.reach, self.window = reach, window
-        self.pieces, self.disc = reach.pieces, reach.disc
-        # the middles of the recesses at both ends of the window, in the wheel's frame
-        turn = reach.gaps.assembly.wheel(np.array((window.start, window.end)))
-        self.recesses = reach.moves.into(np.array(((reach.L, 0.0), (reach.L, 0.0))), turn)
-        self.free = reach.gaps.wheel.signed(self.recesses)
-
-    def __call__(self, on: Intervals) -> Bounds:
-        """Return the better of two bounds: from the gap, and from the recess's circle."""
-        gaps, reach = self.reach.gaps, self.reach
-        gap = gaps.locking(on.at_middle)
-        far = reach.rim if gaps.assembly.sign > 0.0 else reach.L + self.disc + reach.apart
-        wheel = reach.moves.lever(far) * on.wheel
-        least = gap - wheel - (self.disc + reach.apart) * on.crank
-
-        def in_recess(which: Whole) -> Array:
-            return self._in_recess(on.at(which))
-
-        least = raised(least, least < reach.target, in_recess)
-        return Bounds(gap, np.minimum(least, reach.apart))
-
-    def _in_recess(self, on: Intervals) -> Array:
+    def _in_recess(self, window: Window, on: Intervals) -> Array:
         """Return how far the crank stays within the circle of the nearer recess, mm."""
-        moves, L = self.reach.moves, self.reach.L
-        wheel, crank, _ = on.at_middle
-        nearer = (on.middle - self.window.start >= self.window.end - on.middle).astype(int)
-        middle = moves.into(self.recesses[nearer], -wheel)
+        moves, L, (wheel, crank, _) = self.moves, self.L, on.at_middle
+        # the middles of the recesses at both ends of the window, in the wheel's frame
+        turn = self.gaps.assembly.wheel(np.array((window.start, window.end)))
+        recesses = moves.into(np.array(((L, 0.0), (L, 0.0))), turn)
+        nearer = (on.middle - window.start >= window.end - on.middle).astype(int)
+        middle = moves.into(recesses[nearer], -wheel)
         offset = turned_points(middle - (L, 0.0), -crank)
         row, piece = np.nonzero(self._within_rim(crank, on))
         far = np.zeros(len(wheel))
         np.maximum.at(far, row, farthest(self.pieces.subset(piece), *offset[row].T))
         moved = moves.lever(L) * on.wheel + np.hypot(*offset.T) * on.crank
-        return self.free[nearer] - far - moved
+        return self.gaps.wheel.signed(recesses)[nearer] - far - moved
 
     def _within_rim(self, crank: Array, on: Intervals) -> Mask:
         """Return a mask (n, k) of the pieces of the crank that may come within the wheel's rim."""
         pieces = self.pieces
         c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
-        x, y = self.reach.L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
-        moved = self.disc * on.crank[:, None] + self.reach.apart
-        return self.reach.beyond(np.stack((x, y), axis=-1)) - pieces.size <= moved
+        x, y = self.L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
+        moved = self.disc * on.crank[:, None] + self.apart
+        return self._beyond(np.stack((x, y), axis=-1)) - pieces.size <= moved

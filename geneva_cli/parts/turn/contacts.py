@@ -1,4 +1,4 @@
-"""The points at which two outlines of lines and arcs may touch.
+"""The points at which two outlines of lines and arcs may touch, and an index of places nearby.
 
 Two boundaries are nearest to each other at a corner of one of them, or where their normals
 coincide. On an arc that is in the direction of the other arc's centre, or of the other line's
@@ -10,6 +10,7 @@ contact between two samples is missed.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TypeAlias
 
@@ -21,44 +22,19 @@ from geneva_cli.numerics.arrays import Array, Whole
 Near: TypeAlias = tuple[Whole, Whole]
 
 
-def nearest_pieces(
-    own: Polyarc, near: Near, other: Polyarc, origin: Array, angle: Array, reach: float
-) -> Near:
-    """Return the pieces of ``near`` that may hold the nearest point to ``other``.
-
-    ``other`` is placed with its origin at n points, (n, 2), and turned by n angles. It extends to
-    less than ``reach`` from its origin. ``near`` selects pieces of ``own``, each with the index of
-    the position that it belongs to.
-
-    A piece is no nearer than the middle of its chord, less its size, and no farther than that plus
-    its size.
-    """
-    owner, piece = near
-    dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
-    close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
-    owner, piece = owner[close], piece[close]
-    # with fewer pieces, computing all contacts takes no longer than their selection
-    if len(own) < 64:
-        return owner, piece
-    dx, dy = dx[close], dy[close]
-    c, s = np.cos(angle)[owner], np.sin(angle)[owner]
-    away = other.signed(np.column_stack((dx * c + dy * s, dy * c - dx * s)))
-    most, size = np.full(len(origin), np.inf), own.size[piece]
-    np.minimum.at(most, owner, away + size)
-    # 1e-9 of the reach is more than the rounding of a distance
-    kept = away - size <= most[owner] + 1e-9 * reach
-    return owner[kept], piece[kept]
-
-
 def candidates(
     own: Polyarc, near: Near, other: Polyarc, origin: Array, angle: Array, reach: float
 ) -> tuple[Whole, Array]:
     """Return points of ``own`` that may touch ``other``, within ``reach`` of its origin.
 
-    The arguments are those of ``nearest_pieces``. Returns the index of the position of each point,
-    and the points in the frame of ``own``.
+    ``other`` is placed with its origin at n points, (n, 2), and turned by n angles. ``near``
+    selects pieces of ``own``, each with the index of the position that it belongs to. Returns the
+    index of the position of each point, and the points in the frame of ``own``.
     """
     owner, piece = near
+    dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
+    close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
+    near = owner, piece = owner[close], piece[close]
     c, s = np.cos(angle)[owner], np.sin(angle)[owner]
     # one row for each of the other's pieces, which are few
     arcs, lines = np.flatnonzero(other.arc)[:, None], np.flatnonzero(~other.arc)[:, None]
@@ -118,3 +94,23 @@ def _on_lines(own: Polyarc, near: Near, centres: tuple[Array, Array]) -> tuple[W
     which, pair = np.nonzero((fraction > 0.0) & (fraction < 1.0))
     t, i = fraction[which, pair], i[pair]
     return owner[flat[pair]], own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]
+
+
+def places_within(place: Array, period: float, middle: Array, half: float) -> tuple[Whole, Whole]:
+    """Return the places (k,) within ``half`` radians on either side of each of n middles.
+
+    Returns the index of the middle that each belongs to, ascending, and its own. With a finite
+    ``period``, a whole turn, places are directions.
+
+    >>> there = np.array([0.0, 3.1, -3.1])
+    >>> owner, which = places_within(there, math.tau, np.array([0.1, 3.14]), 0.2)
+    >>> owner.tolist(), which.tolist()
+    ([0, 1, 1], [0, 1, 2])
+    """
+    if math.isfinite(period):
+        ahead, away = (np.array((np.cos(x), np.sin(x))) for x in (middle, place))
+        # 1e-12 is more than the rounding of a cosine
+        owner, which = np.nonzero(ahead.T @ away >= math.cos(min(half, math.pi)) - 1e-12)
+    else:
+        owner, which = np.nonzero(np.abs(place - middle[:, None]) <= half)
+    return owner, which

@@ -15,10 +15,9 @@ from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.turn.contacts import candidates, nearest_pieces
+from geneva_cli.parts.turn.contacts import candidates, places_within
 from geneva_cli.parts.turn.machine_parts import Lengths, WorkLimit
 from geneva_cli.parts.turn.pairs import Pose, Stop
-from geneva_cli.parts.turn.place_index import PlaceIndex
 from geneva_cli.parts.turn.stops import Stops
 from geneva_cli.parts.turn.turning_stops import TurningStops
 
@@ -82,25 +81,14 @@ class Gaps:
         alike = self.crank is None or _repeats(self.crank, count, SAME_LENGTH * self.assembly.L)
         return bool(self.pitch) and alike
 
-    def _to_wheel(self, points: Array, reach: float) -> Array:
+    def _to_wheel(self, points: Array) -> Array:
         """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
         whole, at = self.wheel, points
         if self.pitch:
             slot = np.round(self.plane_motion.place(points) / self.pitch)
             whole, at = self.around, self.plane_motion.into(points, self.pitch * slot)
-        near = whole.near(at, reach)
-        if 2 * len(near) > len(whole):  # then leaving out the others saves less than it costs
-            near = whole
-        self._work(len(at) * len(near))
-        out = near.signed(at)
-        if near is whole:
-            return out
-        # Beyond this distance the nearest piece may have been left out, and the sign may be wrong.
-        far = np.abs(out) > reach
-        if far.any():
-            self._work(int(far.sum()) * len(whole))
-            out[far] = whole.signed(at[far])
-        return out
+        self._work(len(at) * len(whole))
+        return whole.signed(at)
 
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
@@ -128,12 +116,12 @@ class Gaps:
         out: Array = np.minimum(far, near)
         close = far < near
         if close.any():
-            out[close] = np.minimum(self._to_wheel(centres[close], r + near) - r, near)
+            out[close] = np.minimum(self._to_wheel(centres[close]) - r, near)
         return out
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and on; see ``Stops.first``."""
-        self._work(2 * len(pose.wheel) * self._stops.pairs)
+        self._work(2 * len(pose.wheel) * len(self.wheel) * (1 + len(self.crank or ())))
         return self._stops.first(pose, most, close)
 
     @cached_property
@@ -153,10 +141,10 @@ class Gaps:
         # Points of the wheel against the crank ...
         axis = self._axis(turn)
         self._work(len(axis) * len(self.wheel))
-        reach, (places, size) = self.sizes.lock + near, self._pieces
-        nearby = places.within(-turn, self.plane_motion.half_span(reach + size, self.assembly.L))
+        reach, moves = self.sizes.lock + near, self.plane_motion
+        half = moves.half_span(reach + float(self.wheel.size.max()), self.assembly.L)
+        nearby = places_within(self._places, moves.PERIOD, -turn, half)
         angle = pose.crank - self.plane_motion.angle(turn)
-        nearby = nearest_pieces(self.wheel, nearby, self.crank, axis, angle, reach)
         owner, points = candidates(self.wheel, nearby, self.crank, axis, angle, reach)
         seen = turned_points(points - axis[owner], -angle[owner])
         self._work(len(seen) * len(self.crank))
@@ -170,7 +158,7 @@ class Gaps:
         owner, which = np.nonzero(inward < near)
         points = np.column_stack((qx[owner, which], qy[owner, which]))
         if len(points):
-            signed = self._to_wheel(points, self.near)
+            signed = self._to_wheel(points)
             out = np.minimum(out, _least(len(turn), owner, signed, near))
         return out
 
@@ -201,8 +189,9 @@ class Gaps:
         # an overlap below 1e-7 of the locking disc counts as touching
         reach = self.sizes.lock * (1.0 - 1e-7)
         # Only points near the direction of the crank's axis can be within reach of it.
-        points, places = self._wheel_points
-        owner, which = places.within(-turn, self.plane_motion.half_span(reach, self.assembly.L))
+        (points, places), moves = self._wheel_points, self.plane_motion
+        half = moves.half_span(reach, self.assembly.L)
+        owner, which = places_within(places, moves.PERIOD, -turn, half)
         px, py = points.T
         ax, ay = self._axis(turn).T
         x, y = px[which] - ax[owner], py[which] - ay[owner]
@@ -212,21 +201,19 @@ class Gaps:
         return x * c - y * s, x * s + y * c
 
     @cached_property
-    def _wheel_points(self) -> tuple[Array, PlaceIndex]:
-        """Points along the wheel's outline that come near the locking disc, (n, 2)."""
+    def _wheel_points(self) -> tuple[Array, Array]:
+        """Points along the wheel's outline that come near the locking disc, (n, 2), and places."""
         L = self.assembly.L
         # arcs: chords within 2e-6 of the centre distance
         # lines: samples at most 0.02 of it apart
         points = self.wheel.samples(2e-6 * L, 0.02 * L)
         points = points[np.hypot(*points.T) >= L - self.sizes.lock]
-        return points, PlaceIndex(self.plane_motion.place(points), self.plane_motion.PERIOD)
+        return points, self.plane_motion.place(points)
 
     @cached_property
-    def _pieces(self) -> tuple[PlaceIndex, float]:
-        """Places of the pieces of the wheel's outline, and the size of the largest."""
-        middles = np.column_stack((self.wheel.ox, self.wheel.oy))
-        index = PlaceIndex(self.plane_motion.place(middles), self.plane_motion.PERIOD)
-        return index, float(self.wheel.size.max())
+    def _places(self) -> Array:
+        """Places of the pieces of the wheel's outline."""
+        return self.plane_motion.place(np.column_stack((self.wheel.ox, self.wheel.oy)))
 
     def _axis(self, turn: Array) -> Array:
         """Return the crank's axis in the wheel's frame, (n, 2)."""

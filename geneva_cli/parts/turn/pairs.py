@@ -9,8 +9,6 @@ import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 
-SLACK = 1e-9  # radians, and of a length: smoothly joined pieces leave no gap between them
-
 
 class Window(NamedTuple):
     """A motion, or the dwell after it: the input angles at its ends, and the motion's number."""
@@ -74,24 +72,17 @@ class Bounds(NamedTuple):
     least: Array
 
 
-class Pair(Protocol):
-    """Two parts, whose gap is bounded on intervals."""
-
-    def __call__(self, on: Intervals) -> Bounds:
-        """Return the bounds of the gap on intervals."""
-
-
 class Pairs(Protocol):
-    """The pairs of parts that may meet."""
+    """The pairs of parts that may meet, whose gaps are bounded on intervals."""
 
-    def lock(self, window: Window) -> Pair:
-        """Return the crank's locking surfaces and the wheel, in a motion or dwell."""
+    def lock(self, window: Window, on: Intervals) -> Bounds:
+        """Return the gap of the crank's locking surfaces and the wheel, in a motion or dwell."""
 
-    def free(self, roller: int, window: Window) -> Pair:
-        """Return a roller and the wheel, outside the slot that the roller drives."""
+    def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
+        """Return the gap of a roller and the wheel, outside the slot that the roller drives."""
 
-    def driving(self, roller: int, span: tuple[float, float]) -> Pair:
-        """Return a roller and the wheel, while it is in its slot between two input angles."""
+    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds:
+        """Return the gap of a roller and the wheel, in its slot between two input angles."""
 
 
 def raised(least: Array, doubtful: Mask, closer: Callable[[Whole], Array]) -> Array:

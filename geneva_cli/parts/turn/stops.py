@@ -1,98 +1,172 @@
-"""What stops a wheel or rack in the plane: rollers and crank, whose outlines it meets.
+"""How far a wheel can turn until its outline meets others: exact intervals of its angle.
 
-Outlines consist of lines, arcs and corners. A corner is an arc of radius 0, a roller is a full
-circle. Two arcs touch when the distance of their centres is the sum of their radii, or the
-difference if one of them is hollow. An arc and a line touch when the centre is one radius away from
-the line. So each contact is a triangle of known sides. No stop needs a search, and none is missed.
+A wheel's motion leaves the level of its points as it is, their distance from the axis, and changes
+their place, the polar angle. Each piece of an outline is cut where its level is least or greatest.
+So each branch has one place at a level. A branch of the wheel and one of another outline meet at
+the differences of their places at common levels. These angles of the wheel are an interval. Its
+ends are at an end of the common levels, where a corner touches, or at a level where both are
+tangent, which has a closed form. A formula's other solution lies in the interval too. The wheel is
+free up to the first interval on either side: no search, no inside and outside.
+
+The same holds on a sphere, whose levels are angles from the axis, and for a rack, whose levels are
+positions across it.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.parts.turn.contact_pieces import Lines, Rounds, lines, rounds
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 from geneva_cli.parts.turn.pairs import Pose, Stop
-from geneva_cli.parts.turn.touch import Touch, first_stops
+
+BLOCK = 1 << 18  # pairs of branches that are compared together
+CONCENTRIC = 1e-9  # of the radius: an arc about the axis has one level
 
 
-class NearbyArcs(NamedTuple):
-    """The arcs that wheel or rack may meet, in n poses: the rollers first, then the crank's."""
+class Branches(NamedTuple):
+    """Pieces with one place at each level, an array (k,) of each quantity.
 
-    rounds: Rounds
-    x: Array  # (n, k), the centres
-    y: Array
-    turn: Array  # (n,), the crank's angle against its own frame
+    ``size`` and ``excess`` describe the curve, as the motion needs it. ``ahead`` is the place of
+    its centre, or of a line's foot. The branch is on the side ``sign`` of it, and away from it by
+    ``at_low`` and ``at_high`` at its ends. A piece at one level has places up to ``half`` from
+    ``ahead``.
+    """
+
+    row: Whole  # the pose
+    low: Array
+    high: Array
+    at_low: Array
+    at_high: Array
+    size: Array
+    excess: Array
+    ahead: Array
+    sign: Array
+    half: Array
+
+    def at(self, which: Which) -> Branches:
+        """Return some of the branches."""
+        row, *columns = self
+        return Branches(row[which], *(each[which] for each in columns))
 
 
 class Stops(ABC):
-    """Stops of one machine's wheel or rack against its rollers and its crank.
+    """Stops of one machine's wheel, which repeats after ``pitch`` radians."""
 
-    ``outline`` is that of the wheel or rack, or one sector of it that repeats after ``pitch``
-    radians. The crank is in its own frame, with its axis at (L, 0). ``pairs`` is the number of
-    pairs of pieces that one roller and the crank can form with the outline.
-    """
-
-    def __init__(
-        self, outline: Polyarc, pitch: float, crank: Polyarc | None, L: float, roller: float
-    ) -> None:
-        self.pitch, self.L, self.roller = pitch, L, roller
-        self.rounds, self.lines = rounds(outline), lines(outline)
-        self.crank = rounds(crank) if crank else None
-        self.edges = lines(crank) if crank else None
-        self.pairs = (len(self.rounds.x) + len(self.lines.off)) * (1 + len(crank or ()))
-
-    @abstractmethod
-    def _at_rounds(
-        self, others: NearbyArcs, pose: Pose, most: float, close: float
-    ) -> Iterator[tuple[Touch, Whole]]:
-        """Yield contacts of arcs with arcs, and the index of the other arc of each.
-
-        Both are convex, or one of them lies in the other's hollow.
-        """
-
-    @abstractmethod
-    def _at_lines(
-        self, others: NearbyArcs, pose: Pose, most: float, close: float
-    ) -> Iterator[tuple[Touch, Whole]]:
-        """Yield contacts of own lines with convex arcs, and the index of each arc."""
-
-    @abstractmethod
-    def _at_edges(self, edges: Lines, pose: Pose, most: float, close: float) -> Iterator[Touch]:
-        """Yield contacts of own convex arcs with the crank's lines."""
+    pitch: float
 
     def first(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and turned on from n poses.
 
-        The parts overlap by at most ``close`` mm at first, and the wheel turns until some overlap
-        by more. Where nothing stops it, it turns by ``most`` radians, which is less than the pitch.
+        The parts overlap by at most ``close`` at first, and the wheel turns until some overlap by
+        more. Where nothing stops it, it turns by ``most`` radians, which is less than the pitch.
         """
         count = pose.pins.shape[1]
-        others = self._nearby(pose)
-        rolling: list[Touch] = []
-        locking: list[Touch] = []
-        for at in (self._at_rounds, self._at_lines):
-            for touch, which in at(others, pose, most, close):
-                rolling.append(touch.at(which < count))
-                locking.append(touch.at(which >= count))
-        if self.edges is not None:
-            locking += self._at_edges(self.edges, pose, most, close)
-        return first_stops(rolling, locking, len(pose.wheel), most)
+        wheel, inset = self.wheel(0.0), self.wheel(close)
+        rollers = self.rollers(pose.pins.reshape(-1, pose.pins.shape[2]), close)
+        leads, levels = self._blocked(rollers, wheel, np.repeat(pose.wheel, count), most)
+        lock = np.full((2, len(pose.wheel)), most)
+        for sides, corners in self.locking(pose.crank, close):
+            for others, own in ((sides, wheel), (corners, inset)):
+                lock = np.minimum(lock, self._blocked(others, own, pose.wheel, most)[0])
+        leads, levels = leads.reshape(2, -1, count), levels.reshape(2, -1, count)
+        which = np.argmin(leads, axis=2)[..., None]
+        lead = np.take_along_axis(leads, which, axis=2)[..., 0]
+        level = np.take_along_axis(levels, which, axis=2)[..., 0]
+        pins = np.take_along_axis(pose.pins[None], which[..., None], axis=2)[:, :, 0]
+        with np.errstate(all="ignore"):
+            lean = np.arcsin(np.minimum(np.abs(self.lean(level, pins, close)), 1.0))
+        pressure = np.where((lead < most) & (lead <= lock), lean, 0.0)
+        back, on = (Stop(*each) for each in zip(np.minimum(lead, lock), pressure, strict=True))
+        return back, on
 
-    def _nearby(self, pose: Pose) -> NearbyArcs:
-        x, y = pose.pins[..., 0], pose.pins[..., 1]
-        one, no = np.ones(x.shape[1]), np.zeros(x.shape[1])
-        rollers = Rounds(no, no, self.roller * one, one, one, no, no, -one, no)
-        if self.crank is None:
-            return NearbyArcs(rollers, x, y, 0.0 * pose.crank)
-        own = self.crank
-        c, s = np.cos(pose.crank)[:, None], np.sin(pose.crank)[:, None]
-        x = np.concatenate((x, self.L + (own.x * c - own.y * s)), axis=1)
-        y = np.concatenate((y, own.x * s + own.y * c), axis=1)
-        arcs = Rounds(*[np.concatenate(both) for both in zip(rollers, own, strict=True)])
-        return NearbyArcs(arcs, x, y, pose.crank)
+    def _blocked(
+        self, others: Branches, wheel: Branches, turn: Array, most: float
+    ) -> tuple[Array, Array]:
+        """Return how far the wheel turns back and on until branches meet, and their level there.
+
+        Both are (2, n), for wheels at the angles ``turn``, (n,).
+        """
+        leads, levels = np.full((2, len(turn)), most), np.zeros((2, len(turn)))
+        step = max(1, BLOCK // max(1, len(wheel.low)))
+        for block in range(0, len(others.low), step):
+            some = others.at(slice(block, block + step))
+            common = (some.low[:, None] <= wheel.high) & (some.high[:, None] >= wheel.low)
+            i, j = np.nonzero(common)
+            one, two = some.at(i), wheel.at(j)
+            ends = np.maximum(one.low, two.low), np.minimum(one.high, two.high)
+            with np.errstate(all="ignore"):
+                tangents = (np.nan_to_num(level) for level in self.tangents(one, two))
+                tries = np.array((*ends, *(np.clip(level, *ends) for level in tangents)))
+                place = np.array([self.place(one, x) - self.place(two, x) for x in tries])
+            low, high, every = np.argmin(place, axis=0), np.argmax(place, axis=0), np.arange(len(i))
+            spare, place = one.half + two.half, place - turn[one.row]
+            start, end = place[low, every] - spare, place[high, every] + spare
+            shift = self.pitch * np.round(0.5 * (start + end) / self.pitch)
+            start, end = start - shift, end - shift
+            for k, (near, far, at) in enumerate(((-end, -start, high), (start, end, low))):
+                lead = np.where(far < 0.0, near + self.pitch, np.maximum(near, 0.0))
+                hit = np.flatnonzero(lead < most)
+                np.minimum.at(leads[k], one.row[hit], lead[hit])
+                hit = hit[lead[hit] == leads[k, one.row[hit]]]
+                levels[k, one.row[hit]] = tries[at[hit], hit]
+        return leads, levels
+
+    @abstractmethod
+    def wheel(self, inset: float) -> Branches:
+        """Return the branches of the wheel, ``inset`` within its outline, in its own frame."""
+
+    @abstractmethod
+    def rollers(self, centres: Array, inset: float) -> Branches:
+        """Return the branches of rollers about n centres, in the fixed frame."""
+
+    @abstractmethod
+    def locking(self, crank: Array, inset: float) -> Iterator[tuple[Branches, Branches]]:
+        """Yield branches of the crank at n angles: sides, ``inset`` within it, and its corners.
+
+        The corners stand for themselves: against them the wheel is inset.
+        """
+
+    @abstractmethod
+    def place(self, branch: Branches, level: Array) -> Array:
+        """Return the places of branches at levels."""
+
+    @abstractmethod
+    def tangents(self, one: Branches, two: Branches) -> Iterator[Array]:
+        """Yield the levels at which branches may be tangent; not a number where none is."""
+
+    @abstractmethod
+    def lean(self, level: Array, pins: Array, close: float) -> Array:
+        """Return the sine of the pressure angle where rollers touch, ``close`` inside them."""
+
+
+def cut(
+    start: Array, end: Array, known: Array, extremes: Array
+) -> Iterator[tuple[Mask, Array, Array, float]]:
+    """Yield arcs cut at their nearest and farthest points: which, both ends, and the side.
+
+    ``start`` and ``end`` are angles about an arc's centre, from the farthest point on. ``known``
+    has the levels (2, n, k) of these ends, and their angles from the place of the centre.
+    ``extremes`` has level and angle of the nearest point and of the farthest.
+    """
+    least, most = extremes
+    for k in (-2, -1, 0, 1, 2):
+        sign = 1.0 if k % 2 == 0 else -1.0
+        first, last = (most, least) if sign > 0.0 else (least, most)
+        low, high = k * np.pi, (k + 1) * np.pi
+        a, b = np.where(start > low, known[:, 0], first), np.where(end < high, known[:, 1], last)
+        there, rises = np.maximum(start, low) < np.minimum(end, high), a[0] <= b[0]
+        yield there, np.where(rises, a, b), np.where(rises, b, a), sign
+
+
+def masked(mask: Mask, *columns: Array) -> Branches:
+    """Return branches where a mask (n, k) is True; their rows are the poses."""
+    return Branches(np.nonzero(mask)[0], *(each[mask] for each in columns))
+
+
+def merged(parts: Iterable[Branches]) -> Branches:
+    """Return all branches of some parts."""
+    return Branches(*(np.concatenate(each) for each in zip(*parts, strict=True)))

@@ -8,15 +8,15 @@ rounding.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.turn.machine_parts import MachineParts
-from geneva_cli.parts.turn.one_motion import one_motion
-from geneva_cli.parts.turn.pairs import Clearances, Intervals, Pair, Window
+from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, Window
 from geneva_cli.parts.turn.play import windows
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
@@ -42,7 +42,12 @@ class Settled(NamedTuple):
     open: Open | None
 
 
-def settled(gaps: Clearances, pair: Pair, ends: tuple[float, float], target: float) -> Settled:
+def settled(
+    gaps: Clearances,
+    pair: Callable[[Intervals], Bounds],
+    ends: tuple[float, float],
+    target: float,
+) -> Settled:
     """Return a lower bound of a pair's gap between two input angles, at least ``target`` mm.
 
     Intervals are halved until the bound on each is at least ``target``. Without success the most
@@ -135,12 +140,14 @@ def _gaps(parts: MachineParts, target: float) -> Iterator[tuple[str, Settled]]:
     for window in windows(parts):
         ends = window.start, window.end
         if parts.locked:
-            yield "locking disc and wheel", settled(parts.gaps, pairs.lock(window), ends, target)
+            lock = partial(pairs.lock, window)
+            yield "locking disc and wheel", settled(parts.gaps, lock, ends, target)
         for span, driver in spans(parts, window):
             for roller in range(len(parts.assembly.rollers)):
-                driving = roller == driver
-                pair = pairs.driving(roller, span) if driving else pairs.free(roller, window)
-                between = "roller and slot" if driving else "roller and wheel"
+                if roller == driver:
+                    between, pair = "roller and slot", partial(pairs.driving, roller, span)
+                else:
+                    between, pair = "roller and wheel", partial(pairs.free, roller, window)
                 yield between, settled(parts.gaps, pair, span, target)
 
 
@@ -165,3 +172,22 @@ def spans(parts: MachineParts, window: Window) -> Iterator[tuple[tuple[float, fl
         yield (start, leaves), first
         yield (leaves, meets), None
         yield (meets, end), last
+
+
+Parts = TypeVar("Parts", bound=MachineParts)
+
+
+def one_motion(parts: Parts) -> Parts:
+    """Return the parts, checked over one motion and its dwell if all rollers move alike.
+
+    Otherwise the parts are returned unchanged. This is for pass or fail: input angles refer to the
+    first motion, and values may differ from those of the whole turn by rounding.
+    """
+    assembly = parts.assembly
+    motions, m = assembly.motions, assembly.mechanism.spec.drive.rollers
+    one = len(assembly.mechanism.engagements) == 1
+    alike = one and len(motions) == len(assembly.rollers) == m > 1
+    if not (alike and parts.gaps.repeats(m)):
+        return parts
+    once = assembly._replace(motions=motions[:1], span_deg=assembly.turn_deg / m)
+    return parts.over(once)

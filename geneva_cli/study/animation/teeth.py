@@ -10,8 +10,7 @@ import numpy as np
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.placed import placed
-from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.plates import Member, Plate, placed
 from geneva_cli.geometry.shapes import Shape
 from geneva_cli.motion.pivots import Link
 from geneva_cli.numerics.tolerances import SAME_LENGTH

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hole_walls import plate_wall
+from geneva_cli.geometry.stacks import plate_wall
 from geneva_cli.parts.arm import CrankArm, walls
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.link_planes import planes

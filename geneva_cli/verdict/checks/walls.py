@@ -8,15 +8,14 @@ from itertools import combinations
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.hole_walls import apart, beyond
 from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.shapes import Arc, Circle, Line, Point, Segment, backwards, closed
+from geneva_cli.geometry.stacks import apart, beyond
 from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.outlines.crank_circles import rollers_gap
+from geneva_cli.parts.outlines.crank_outline import rollers_gap
 from geneva_cli.parts.outlines.reliefs import is_whole
-from geneva_cli.parts.outlines.wheel_circles import wheel_circles
-from geneva_cli.parts.outlines.wheel_hub import wheel_hub
+from geneva_cli.parts.outlines.wheel_circles import wheel_circles, wheel_hub
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.verdict.checks.check import Check, compared

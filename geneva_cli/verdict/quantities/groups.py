@@ -328,14 +328,16 @@ _REPORT = (
     _group(
         "life",
         "slot_travel_m roller_turns_per_motion equivalent_force_N friction_work_J",
-        batch="verdict.quantities.life:wear",
+        batch="verdict.quantities.part_strength:wear",
     ),
-    _group("life", "pv_max_W_m2", batch="verdict.quantities.life:pressure_speed"),
-    _group("life", "pin_stress_MPa horn_stress_MPa", batch="verdict.quantities.life:bending"),
+    _group("life", "pv_max_W_m2", batch="verdict.quantities.part_strength:pressure_speed"),
+    _group(
+        "life", "pin_stress_MPa horn_stress_MPa", batch="verdict.quantities.part_strength:bending"
+    ),
     _group(
         "life",
         "roller_life_turns roller_life_motions roller_life_h slot_wear_mm_per_million",
-        batch="verdict.quantities.life:wear",
+        batch="verdict.quantities.part_strength:wear",
     ),
     _group("strength", "", "verdict.report.load_report:needs"),
     _group("", "", "verdict.both_directions:differences"),

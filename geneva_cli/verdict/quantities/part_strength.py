@@ -1,4 +1,4 @@
-"""Strength of designs: pin, horn, lock, shafts, arm and keys."""
+"""Strength and life of designs: pin, horn, lock, shafts, arm, keys, and the roller's wear."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ import numpy as np
 from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.strength import arm_strength as arms
 from geneva_cli.loads.strength import pin as pins
-from geneva_cli.loads.strength import shaft_stress
+from geneva_cli.loads.strength import roller, shaft_stress
 from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength.roller import wears_mm
 from geneva_cli.loads.strength.shaft_stress import LoadedShaft, ShaftForces
 from geneva_cli.loads.unbalance import centrifugal_N
 from geneva_cli.motion.machine_spec import Spec
@@ -230,3 +231,48 @@ def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
         "margin": margin(pressure, _known(allowed)),
         "least_length_mm": _known(stress.least_length_mm),
     }
+
+
+def pressure_speed(of: Designs) -> Columns:
+    """The greatest contact pressure times sliding speed; it needs a face width."""
+    return {} if of.spec.size.face_width_mm is None else {"pv_max_W_m2": under_load(of).pv_W_m2}
+
+
+def bending(of: Designs) -> Columns:
+    """The stresses of pin and horn."""
+    parts = {"pin_stress_MPa": pin, "horn_stress_MPa": horn}
+    return {name: of.once(part).get("stress_MPa") for name, part in parts.items()}
+
+
+def wear(of: Designs) -> Columns:
+    """The roller as a bearing, the work of friction, and the slot's walls."""
+    friction = np.ravel(of.load_case.friction)
+    passages = roller.passages(of.machine)
+    paired = any(one.paired for one in of.machine.engagements)
+    # an engagement has two of its own if one roller starts and one stops it
+    by_roller = roller.by_roller(of.machine) if paired else passages
+    lasts = roller.lives(of.machine, by_roller)
+    force = np.ravel(lasts.equivalent_force_N)
+    with np.errstate(invalid="ignore"):  # without friction, of a force without a bound
+        work = friction * sum(passage.work for passage in passages) / len(passages)
+    under: dict[str, Number | None] = {
+        "roller_turns_per_motion": lasts.turns_per_motion,
+        "equivalent_force_N": force,
+        "friction_work_J": np.where(friction > 0.0, work, np.inf),
+        "roller_life_turns": lasts.turns,
+        "roller_life_motions": lasts.motions,
+        "roller_life_h": lasts.hours,
+        # a roller that turns on its pin does not rub in the slot
+        "slot_wear_mm_per_million": (
+            wears_mm(of.machine, [passage.rubbing_N for passage in passages])
+            if of.spec.load.rubs_in_slot
+            else None
+        ),
+    }
+    bound = np.where(np.isfinite(force), of.loaded, np.inf * of.loaded)
+    out: dict[str, Number | None] = {
+        name: np.where(np.isfinite(bound), value, bound)
+        for name, value in under.items()
+        if value is not None
+    }
+    return out | {"slot_travel_m": sum(passage.travel_m for passage in passages) / len(passages)}

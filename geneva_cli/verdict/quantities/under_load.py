@@ -19,6 +19,7 @@ from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
+from geneva_cli.loads.strength.part_loads import PartLoads, own_loads, part_loads, sizing_loads
 from geneva_cli.loads.strength.pin import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
@@ -36,7 +37,6 @@ from geneva_cli.spec.materials import roller_material
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.horn_search import HornStress, Sides, Sizes
     from geneva_cli.loads.strength.lock import LockUnderTorque
-    from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.motion.mechanism import Mechanism
     from geneva_cli.verdict.quantities.batch_designs import Designs
 
@@ -175,8 +175,6 @@ class UnderLoad:
     @cached_property
     def sizing_loads(self) -> PartLoads:
         """The loads for which the parts are sized: the greatest of all directions."""
-        from geneva_cli.loads.strength.part_loads import sizing_loads
-
         return sizing_loads(self.machine, self.part_loads)
 
     @cached_property
@@ -242,8 +240,6 @@ class UnderLoad:
     @cached_property
     def part_loads(self) -> PartLoads:
         """The greatest loads on arm, keys and shafts."""
-        from geneva_cli.loads.strength.part_loads import own_loads, part_loads
-
         return (own_loads if self.designs.single else part_loads)(self.machine)
 
     @cached_property

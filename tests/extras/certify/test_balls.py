@@ -3,6 +3,7 @@
 import math
 
 import mpmath
+import numpy as np
 import pytest
 
 from geneva_cli.extras.certify.balls import Ball, precision
@@ -98,3 +99,11 @@ def test_a_curve_without_bounds_is_left_open():
     assert found.open is not None
     assert found.open.start <= 1.0 <= found.open.end
     assert found.high == math.inf
+
+
+@pytest.mark.parametrize(
+    "take", [float, bool, int, round, math.sin, math.floor, np.sin, np.float64]
+)
+def test_no_float_comes_of_a_ball(take):
+    with pytest.raises(TypeError):
+        take(Ball.between(0.5, 1.0))

@@ -191,3 +191,17 @@ def test_without_flint_the_extra_is_named(monkeypatch):
     monkeypatch.setattr(module, "find_spec", lambda name: None)
     with pytest.raises(GenevaError, match=r'pip install "geneva-cli\[certify\]"'):
         Design(External(6)).certificate("velocity")
+
+
+def test_few_intervals_are_not_proved_and_the_open_one_is_named():
+    found = Design(External(6), SideCrank(A=0.6)).certificate("jerk", intervals=3)
+    assert not found.proved and found.high is None and found.places == ()
+    assert found.low > 0.0
+    assert "not proved: open from " in found.text
+    assert found.open.from_deg < found.open.to_deg
+    assert not found.confirms(1.40625, 0.0)
+
+
+def test_another_quantity_is_refused_with_the_nearest():
+    with pytest.raises(GenevaError, match=r'"accelaration".*acceleration'):
+        Design(External(6)).certificate("accelaration")

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 import repo
 from scipy.interpolate import BPoly, PPoly
+from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
+from geneva_cli.cli.app import app
 from geneva_cli.extras.servo.cam_files import cam, rounded_up
 from geneva_cli.manual import page
 from geneva_cli.output.formats import CONTROLLERS
@@ -134,3 +136,21 @@ def test_the_manual_shows_these_numbers(controller):
     """The table of the manual's page."""
     _, rows, error_deg = cam(load("designs/turret.toml"), controller, None, TOLERANCE)
     assert f"| {controller} | {rows} | {rounded_up(error_deg)} |" in page("electronic-cam")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "said"),
+    [
+        ("--for beckhoff", 0, "degrees of the wheel\n"),
+        ("--for beckhoff --tolerance 1e-9", 1, "more than --tolerance 1e-09: its table has 360"),
+        ("--for codesys --tolerance 1e-9", 1, "more than --tolerance 1e-09: a jump becomes a ramp"),
+        ("--for codesys --tolerance 1e-7", 0, "degrees of the wheel\n"),
+        ("--tolerance 1e-12", 0, "degrees of the wheel\n"),
+    ],
+)
+def test_a_tolerance_that_is_not_met_is_said(arguments, status, said, tmp_path):
+    """The cam is written all the same; without --tolerance nothing is demanded of it."""
+    words = f"motion designs/turret.toml --format cam {arguments} -o {tmp_path / 'cam'}".split()
+    result = CliRunner().invoke(app, words)
+    assert (result.exit_code, said in result.stderr) == (status, True)
+    assert (tmp_path / "cam").stat().st_size > 0

@@ -328,6 +328,7 @@ def test_centrifugal_force_by_newton_s_law():
     assert values_of(Design(wheel, Carousel()))["carousel.centrifugal_N"] is None
 
 
+@pytest.mark.long
 def test_neighbours_by_their_places():
     """Gap and envelope from the places of pivots, and of a block's corners at all angles."""
     L, wheels, z = 100.0, 3, 4

@@ -248,7 +248,7 @@ def test_a_figure_marks_a_load_on_its_curve(wheels, angle):
             assert getattr(state, name)[0] == pytest.approx(mark.y, rel=1e-9)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("z", [4, 5, 6])
 @pytest.mark.parametrize("apart", [None, (0.0, 150.0)])
 def test_two_fingers_meet_the_body_in_all_its_directions(z, apart):

@@ -64,6 +64,7 @@ def residuals(design: Design, *, follows: bool) -> list[float]:
     return out
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("damping", [0.0, 0.05])
 def test_the_force_alone_is_exact(damping):

@@ -14,15 +14,11 @@ import pytest
 from geneva_cli import (
     Design,
     EllipticalGears,
-    External,
     Linear,
     Load,
     NoncircularGears,
-    SideCrank,
     Size,
 )
-from geneva_cli.errors import GenevaError
-from geneva_cli.motion.machine_spec import Spec
 
 R, r, CLEARANCE = 50.0, 6.0, 0.1
 SIZE = Size(center_distance_mm=R, roller_radius_mm=r, slot_clearance_mm=CLEARANCE)
@@ -111,11 +107,6 @@ def test_greatest_force_on_the_guide_and_work(case):
     assert values["guide.length_mm"] == pytest.approx(2.0 * HALF)
 
 
-def test_the_guide_is_as_rough_as_the_slot_by_default():
-    one, other = design(4.0, 30.0, 0.1, None), design(4.0, 30.0, 0.1, 0.1)
-    assert one.loads_table.to_dict() == other.loads_table.to_dict()
-
-
 @pytest.mark.usefixtures("no_advice")
 def test_a_guide_that_locks_leaves_no_bound():
     """At entry it takes all of the push from nu = h/(R - x0) on."""
@@ -129,16 +120,6 @@ def test_a_guide_that_locks_leaves_no_bound():
     (text,) = [one for one in loads[1.001 * locks].warnings if one.name in LOCKED]
     assert "in the guide holds the rack at -90°" in text
     assert "wheel_shaft_stress_MPa" not in rows[1]  # a rack has no shaft, with or without a bound
-
-
-def test_slots_too_wide_for_a_guide_have_none():
-    """Their check fails; the loads are those of a rack without friction in a guide."""
-    wide = Size(center_distance_mm=R, roller_radius_mm=49.95, slot_clearance_mm=0.1)
-    load = Load(mass_kg=4.0, force_N=30.0, guide_friction=0.3)
-    loads = [
-        Design(Linear(6), size=wide, load=one) for one in (load, load.replace(guide_friction=0))
-    ]
-    assert loads[0].loads_table.to_dict() == loads[1].loads_table.to_dict()
 
 
 GEARED = EllipticalGears(eccentricity=0.3)
@@ -162,20 +143,3 @@ def test_behind_gears_the_guide_takes_as_much_at_each_angle_of_the_crank(drive):
     assert here.input_torque_Nm == pytest.approx(there.input_torque_Nm * rate, rel=1e-12)
     values = geared.report.table.to_dict()["guide.force_N"]
     assert values == pytest.approx(plain.report.table.to_dict()["guide.force_N"], rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    "spec",
-    [
-        Spec(External(6), load=Load(torque_Nm=1.0, guide_friction=0.1)),
-        Spec(Linear(6), SideCrank(A=0.3), load=Load(force_N=1.0, guide_friction=0.1)),
-    ],
-)
-def test_what_has_no_guide_has_no_friction_in_it(spec):
-    with pytest.raises(GenevaError, match="guide_friction is of the guide of a rack"):
-        Design.of(spec).mechanism  # noqa: B018
-
-
-def test_certificates_leave_out_what_the_guide_takes():
-    rows = design(4.0, 30.0, 0.1, 0.1).certified_loads().to_dict()["certificate"]
-    assert {row["why"] for row in rows} == {"friction in a rack's guide"}

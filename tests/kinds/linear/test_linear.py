@@ -9,24 +9,17 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 from geneva_cli import (
-    Crank,
     Design,
     External,
     Internal,
-    Limits,
     Linear,
     Load,
     Shaft,
     SideCrank,
     Size,
 )
-from geneva_cli.cli.app import app
-from geneva_cli.errors import GenevaError
-from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import build
 
 ULP = np.finfo(float).eps
 RACK = Design(Linear(6))
@@ -99,16 +92,6 @@ def test_both_kinds_of_wheels_tend_to_a_rack():
     assert abs(extrapolated - true)[0].max() < 1e-9
 
 
-def test_one_wheel_alone_tends_to_it_as_the_first_order():
-    """The external wheel is ahead of the rack by l sin a cos a, the internal one behind."""
-    x = np.linspace(-80.0, 80.0, 33)
-    a, l = np.radians(x), math.sin(math.pi / 1000)
-    for wheel, sign in ((External(1000), 1.0), (Internal(1000), -1.0)):
-        angle = Design(wheel).mechanism.engagements[0].motion(x, 0).c[0] / l
-        off = (angle - np.sin(a)) / l
-        assert off == pytest.approx(sign * np.sin(a) * np.cos(a), abs=2.0 * l)
-
-
 def torque_by_equilibrium(a: float) -> tuple[float, float]:
     """Pin force and input torque of ``LOADED`` from forces in the plane, for a crank angle a.
 
@@ -166,110 +149,12 @@ def test_greatest_loads():
     assert loads["rack_speed_m_s.max"] == pytest.approx(0.05 * 2.0 * math.pi, rel=1e-14)
 
 
-def test_loads_of_wheels_tend_to_those_of_a_rack():
-    """A mass m at the distance L has m L²; the pin force of both wheels is that of a rack + O(l²).
-
-    The mean at mid-motion, where a force alone acts: F L/(L - R) outside and F L/(L + R) inside.
-    """
-    z, R_mm = 1000, 50.0
-    L_mm = R_mm / math.sin(math.pi / z)
-    forces = []
-    for wheel in (External(z), Internal(z)):
-        L = L_mm / 1000.0
-        load = Load(inertia_kgm2=4.0 * L * L, torque_Nm=30.0 * L)
-        size = Size(center_distance_mm=L_mm, roller_radius_mm=6.0)
-        cycle = Design(wheel, size=size, load=load).cycle
-        forces.append(cycle.states(np.array([-60.0, 0.0, 30.0])).pin_force_N)
-    rack = Design(Linear(6), size=SIZE, load=Load(mass_kg=4.0, force_N=30.0)).cycle
-    true = rack.states(np.array([-60.0, 0.0, 30.0])).pin_force_N
-    l = math.sin(math.pi / z)
-    assert (forces[0] + forces[1]) / 2.0 == pytest.approx(true, rel=10.0 * l * l)
-
-
 def test_a_side_crank_moves_a_rack_too():
     """At mid-motion the rack is as much slower as any wheel behind the same side-crank."""
     slow = Design(Linear(6), SideCrank(A=0.5))
     crank = Design(External(6), SideCrank(A=0.5))
     ratio = crank.peaks.velocity.max / Design(External(6)).peaks.velocity.max
     assert slow.peaks.velocity.max == pytest.approx(ratio, rel=1e-12)
-
-
-def test_tables_have_the_travel():
-    table = RACK.motion(5).to_dict()
-    assert list(table) == ["time_s", "input_deg", "rack_mm", "velocity", "acceleration", "jerk"]
-    assert table["rack_mm"].tolist() == pytest.approx([-100.0, 0.0, 100.0, 100.0, 100.0], abs=1e-13)
-    slot = RACK.slot(samples=3).to_dict()
-    assert slot["rack_mm"].tolist() == pytest.approx([-100.0, 0.0, 100.0], abs=1e-13)
-    assert slot["x_mm"].tolist() == pytest.approx([100.0, 0.0, 100.0], abs=1e-13)
-    assert not any(slot["y_mm"])
-
-
-@pytest.mark.parametrize(
-    ("spec", "text"),
-    [
-        (Spec(Linear(6), Crank(rollers=2)), "2 motions of 180 degrees leave no dwell"),
-        (Spec(Linear(6), load=Load(inertia_kgm2=1.0)), "a rack has mass_kg and force_N"),
-        (Spec(External(6), load=Load(mass_kg=1.0)), "a wheel that turns has inertia_kgm2"),
-    ],
-)
-def test_what_a_rack_cannot_have_is_refused(spec, text):
-    with pytest.raises(GenevaError, match=text):
-        build(spec)
-
-
-def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
-    """Angles of a cam, a cam indexer's step, and a search for a wheel among racks."""
-    path = tmp_path / "rack.toml"
-    path.write_text('[wheel]\nz = 6\ngearing = "linear"\n')
-    for words, text in (
-        (["motion", str(path), "--format", "cam"], "this machine moves a rack"),
-        (["compare", str(path), "--against", "cam"], "this machine moves a rack"),
-        (["synth", "--tau", "0.4", "--external", "--from", str(path)], "searched alone"),
-        (["profile", str(path), "--part", "links", "-o", str(tmp_path / "a.dxf")], "has none"),
-        (
-            ["profile", str(path), "--set", "size.wheel_radius_mm=1000"],
-            "wheel_radius_mm = 1000: it must be below 200, twice the crank radius",
-        ),
-        (
-            ["check", str(path), "--set", "support.friction=0.1"],
-            "a rack's load is mass_kg",
-        ),
-        (
-            ["check", str(path), "--set", "tolerance.crank_radius_mm=0.1"],
-            "not available for a rack",
-        ),
-        (["tolerance", str(path)], "computed for a wheel on a shaft, not for a rack"),
-        (["check", str(path), "--set", "load.dwell_torque_Nm=1"], "not available for a rack"),
-        (
-            ["check", str(path), "--set", "motion.law=cycloidal"],
-            'gearing = "linear" has straight slots only',
-        ),
-    ):
-        refused = CliRunner().invoke(app, words)
-        assert refused.exit_code == 2
-        assert text in " ".join(refused.stderr.split())
-        assert "Traceback" not in refused.output
-
-
-def test_the_page_of_a_report_has_the_units_of_a_rack(tmp_path):
-    path = tmp_path / "rack.toml"
-    load = "[load]\nmass_kg = 4\nforce_N = 30\n"
-    path.write_text('[wheel]\nz = 6\ngearing = "linear"\n[size]\ncenter_distance_mm = 50\n' + load)
-    CliRunner().invoke(app, ["report", str(path), "-o", str(tmp_path / "page.md")])
-    page = (tmp_path / "page.md").read_text()
-    assert "| Acceleration | 1 | -90 | 1.97392 | 1 | 1.97392 | 1 | m/s² |" in page  # R w² = 1.974
-    assert "derivatives of the rack's travel over R" in page
-    assert "| Force on the rack | N | 37.8957 | -90 | 22.1043 | 90 |" in page
-
-
-def test_a_long_rack_is_no_reason_for_a_warning():
-    assert not Design(Linear(200)).motion_warnings
-    assert [one.name for one in Design(External(200)).motion_warnings] == ["many-slots"]
-
-
-def test_a_limit_on_force_names_the_load_of_a_rack():
-    with pytest.raises(GenevaError, match=r"set mass_kg or force_N in \[load\]"):
-        Spec(Linear(6), limits=Limits(pin_force_max_N=10.0))
 
 
 def test_certificates_are_of_what_a_rack_has():
@@ -306,18 +191,3 @@ def test_the_crank_shaft_of_a_rack_is_that_of_the_spec():
     assert loads["crank_near_bearing_N.max"] == pytest.approx(1.5 * force[0], rel=1e-13)
     assert loads["crank_far_bearing_N.max"] == pytest.approx(0.5 * force[0], rel=1e-13)
     assert "wheel_near_bearing_N.max" not in loads or loads["wheel_near_bearing_N.max"] is None
-
-
-@pytest.mark.parametrize(
-    "key",
-    [
-        "stiffness_Nm_rad",
-        "damping_ratio",
-        "wheel_diameter_mm",
-        "wheel_overhang_mm",
-        "wheel_span_mm",
-    ],
-)
-def test_keys_of_a_wheels_shaft_are_refused_by_name(key):
-    with pytest.raises(GenevaError, match=f"{key} is of a wheel's shaft, and a rack has none"):
-        build(RACK.spec.with_(f"shaft.{key}", 0.5))

@@ -10,19 +10,15 @@ import pytest
 import repo
 from other_shape import with_shape
 
-from geneva_cli import Design, EllipticalGears, External, Linear, Load, SideCrank, Size
+from geneva_cli import Design, Linear, Load, Size
 from geneva_cli.design import load
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import solids
 from geneva_cli.kinds.linear.outlines import turned_rack
-from geneva_cli.kinds.linear.quantities import guide
 from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.kinds.linear.stressed import rack_stressed
-from geneva_cli.motion.many import many
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.verdict.quantities.batch_designs import Designs
 
 R, r = 50.0, 6.0
 
@@ -74,10 +70,6 @@ def test_smallest_gap(slot, lock, relief):
     bottom = s.slot_bottom + s.half_width - r
     expected = min(slot, lock, passing, bottom)
     assert smallest_gap(s) == pytest.approx(expected, rel=2.0 * relief / R + 1e-3)
-
-
-def test_parts_touch_without_clearance():
-    assert smallest_gap(sizes_of()) == pytest.approx(0.0, abs=1e-12)
 
 
 def test_a_ring_that_reaches_the_axis_collides():
@@ -132,50 +124,6 @@ def test_checks():
     assert thin["rack_horn_mm"].passes is False
 
 
-@pytest.mark.usefixtures("no_advice")
-@pytest.mark.parametrize(
-    ("size", "text"),
-    [
-        ({"roller_radius_mm": 30.0}, "the locking sector does not fit"),
-        ({"lock_radius_mm": 20.0}, "lock_radius_mm = 20: it must be above 25.125"),
-        ({"wheel_radius_mm": 99.0}, "the rack's edge must meet its recesses"),
-    ],
-)
-def test_sizes_that_leave_no_lock_are_refused(size, text):
-    made = Design(Linear(6), size=Size(**{"center_distance_mm": R, **size}))
-    with pytest.raises(GenevaError, match=text):
-        made.drawing("wheel")
-    assert not made.passes
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    "name",
-    [
-        "guide.dxf",
-        "frame.dxf",
-        "plate.3mf",
-        "slot.dxf",
-        "wheel.dxf",
-        "crank.svg",
-        "assembly.step",
-        "wheel.stl",
-        "arm.step",
-    ],
-)
-def test_parts_are_written(name, tmp_path):
-    path = tmp_path / name
-    design(slot_clearance_mm=0.1).save(str(path))
-    assert path.stat().st_size > 500
-
-
-def test_other_parts_are_refused_with_those_that_there_are():
-    with pytest.raises(GenevaError, match="have slot, wheel, crank, arm, frame, guide, parts"):
-        design().drawing("links")
-    with pytest.raises(GenevaError, match=r"guide: .* has none; it may have slot, "):
-        Design(External(6)).drawing("guide")
-
-
 def test_the_assembly_has_the_crank_at_mid_motion():
     """The roller is at the origin, and the sector beyond the crank's axis."""
     shapes = design().drawing("assembly").shapes
@@ -203,31 +151,6 @@ def test_area_of_the_arm():
     assert [(one.centre[0] < 0.0, one.radius) for one in bolts] == [
         (True, 0.8)
     ] * 2  # M2, to be tapped
-
-
-def test_ring_and_roller_stand_on_the_arm():
-    """The arm is pin_gap_mm below the rack; M2 passes the ring (2.4 mm) into the arm (1.6 mm)."""
-    machine = design(slot_clearance_mm=0.1, pin_gap_mm=1.0)
-    rack, _, crank = (one.part for one in machine.drawing("assembly").solid.members[:3])
-    arm, _, pin, ring = (one.part for one in crank.members)
-    assert (rack.low, arm.high, ring.low) == (0.0, -1.0, -1.0)
-    assert pin.low == arm.low
-    assert {hole.radius for hole in ring.holes} == {1.2}
-    assert {hole._replace(radius=0.8) for hole in ring.holes} == set(arm.holes[2:])
-
-
-@pytest.mark.parametrize(
-    ("size", "text"),
-    [
-        ({"arm_bore_mm": 88.0}, "the least wall around the arm's holes is"),
-        ({"arm_eye_mm": 2.0}, "arm_eye_mm = 2: the eye must be above"),
-        ({"lock_bolt_mm": 40.0}, "the least wall around the arm's holes is"),
-        ({"lock_radius_mm": 0.0, "lock_bolts": 2}, "there is no locking disc to fix"),
-    ],
-)
-def test_sizes_that_leave_no_arm_are_refused(size, text):
-    with pytest.raises(GenevaError, match=text):
-        design(**size).drawing("arm")
 
 
 PARTS = {"slot_clearance_mm": 0.1, "pin_gap_mm": 0.5}
@@ -260,17 +183,6 @@ def test_the_bar_slides_between_rail_and_wall():
     assert bar.low == 0.5 * rail.low
 
 
-@pytest.mark.parametrize("sizes", [{}, {"arm_eye_mm": 40.0}, {"lock_radius_mm": 0.0}])
-def test_the_arm_sweeps_past_the_guide(sizes):
-    """Its eye reaches farthest at mid-motion; a quarter of the bar's width, R/40, is between."""
-    s = solids_of(**sizes)
-    farthest = R - max(abs(x) for x in span(s["arm"]))  # from the axis, which is at R
-    assert span(s["guide rail"])[1] <= farthest - R / 40.0 + 1e-12
-    # behind the slots the rack is nearly as wide as bar and rail, R/10 each
-    end = -sizes_of(slot_clearance_mm=0.1, **sizes).slot_bottom - r - 0.1
-    assert end - span(s["rack"])[0] >= 0.19 * R
-
-
 @pytest.mark.parametrize("count", [3, 4, 7])
 @pytest.mark.parametrize("lock", [None, 0.0])
 def test_the_rack_covers_its_guide_in_each_step(count, lock):
@@ -287,124 +199,6 @@ def test_the_rack_covers_its_guide_in_each_step(count, lock):
     assert half == pytest.approx(R - r - 0.1)
     ends = bounds(bar.outline)
     assert (ends.y0, ends.y1) == pytest.approx((box.y0, box.y1), abs=1e-9)
-
-
-def test_screws_hold_the_guide_on_the_frame_and_the_bar_on_the_rack():
-    """M2 passes rail and wall, and its thread is in the frame; bar and rack have through holes."""
-    s = solids_of()
-
-    def holes(name: str) -> set:
-        return {hole for hole in s[name].holes if hasattr(hole, "radius")}
-
-    for name in ("guide rail", "guide wall"):
-        assert len(holes(name)) == 3
-        assert {hole.radius for hole in holes(name)} == {1.2}
-        assert {hole._replace(radius=0.8) for hole in holes(name)} <= holes("frame")
-    assert holes("guide cover") == holes("guide wall")
-    assert holes("guide bar") == holes("rack")
-    assert len(holes("rack")) == 6
-
-
-def test_the_shaft_goes_from_the_frame_into_the_arm():
-    """Its keyway is that of the arm; a turned one has a bearing in the frame and a shoulder."""
-    s = solids_of()
-    shaft, frame = s["crank's shaft"], s["frame"]
-    assert (shaft.low, shaft.high) == (frame.low, s["arm"].high)
-    bored = next(hole for hole in frame.holes if hole.centre == (R, 0.0))
-    assert bored.radius == shaft.outline.radius == s["arm"].holes[0].radius
-    keyed = solids_of(crank_keyway="DIN 6885-1", arm_bore_mm=16.0)
-    assert keyed["crank's shaft"].outline.segments
-    turned = solids_of(shafts="turned", arm_bore_mm=16.0)
-    assert "bearing" in turned["crank's shaft"].plates[2].name
-    bored = next(hole for hole in turned["frame"].holes if hole.centre == (R, 0.0))
-    assert bored.radius == 16.0  # 6002 has an outside diameter of 32 mm (ISO 15)
-    assert turned["frame"].high == turned["arm"].low - R / 25.0
-
-
-def test_a_shaft_that_ends_in_the_racks_plane_fails():
-    """The rack's edge passes through the crank's axis, so the shaft enters it by its radius."""
-    assert "beside_shafts_mm" not in {check.name for check in design().checks}
-    long = design(crank_shaft_high_mm=2.0)
-    (check,) = (check for check in long.checks if check.name == "beside_shafts_mm")
-    radius = long.parts.built.shafts[0].part.outline.radius
-    assert check.value == pytest.approx(-radius, rel=1e-12) and not check.passes
-    assert check.nearest == "leaving out crank_shaft_high_mm"
-    # up to the rack's lower face it is free
-    assert design(crank_shaft_high_mm=0.0).passes
-
-
-def test_a_crank_without_a_pin_is_one_piece_with_its_shaft():
-    s = solids_of(pin_mm=0.0)
-    assert "arm" not in s
-    assert "crank's shaft" not in s
-    assert any(hole.centre == (R, 0.0) for hole in s["frame"].holes)
-
-
-def test_a_rack_behind_gears_has_a_lower_frame():
-    """Heights by hand: arm, gears and frame of R/10. Focal gears reach C (1 + e)/2."""
-    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
-    geared = design().spec.replace(drive=gears)
-    parts = Design.of(geared).parts.built
-    assert [(one.part.low, one.part.high) for one in parts.gear_pair] == [(-10.0, -5.0)] * 2
-    assert (parts.frame.part.low, parts.frame.part.high) == (-15.0, -10.0)
-    crank, driver = parts.shafts
-    assert (crank.at, driver.at) == ((R, 0.0), (R + 60.0, 0.0))
-    assert (crank.part.low, crank.part.high) == (-15.0, 0.0)
-    assert (driver.part.low, driver.part.high) == (-15.0, -5.0)
-    driven = parts.gear_pair[0].part.holes[0]
-    assert driven.radius == crank.part.outline.radius == parts.arm.holes[0].radius
-    assert {hole.centre for hole in parts.frame.part.holes} >= {crank.at, driver.at}
-    checks = {check.name: check for check in Design.of(geared).checks}
-    assert all(check.passes for check in checks.values())
-    # of the shafts, as the guide is farther: driven gear to the driver's shaft
-    least = 60.0 - 0.5 * 60.0 * 1.2 - max(crank.part.outline.radius, driver.part.outline.radius)
-    assert checks["gear_gap_mm"].value == pytest.approx(least, rel=1e-9)
-    # the bearing is a plane of gears lower
-    low, plain = (rack_stressed(Design.of(s).mechanism) for s in (geared, design().spec))
-    assert low.crank_shaft.overhang == pytest.approx(plain.crank_shaft.overhang + 5.0)
-
-
-def test_a_frame_is_as_thick_as_its_widest_bearing():
-    """ISO 15: 5 x 14 x 5 for the crank's shaft, and 20 x 42 x 12 for that of the driver gear."""
-    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=60.0)
-    size = {"shafts": "turned", "arm_bore_mm": 5.0, "link_bore_mm": 20.0}
-    geared = design(**size).spec.replace(drive=gears)
-    parts = Design.of(geared).parts.built
-    assert parts.frame.part.high - parts.frame.part.low == pytest.approx(12.0)
-    radii = {hole.centre: hole.radius for hole in parts.frame.part.holes}
-    assert (radii[R, 0.0], radii[R + 60.0, 0.0]) == (7.0, 21.0)
-    # 26 mm between axes and 28 mm of bearings
-    near = Design.of(geared.replace(drive=gears.replace(gear_distance_mm=26.0)))
-    with pytest.raises(GenevaError, match="crank's shaft and driver gear's shaft leave a wall of"):
-        _ = near.parts.built.frame
-
-
-def test_a_gear_that_reaches_the_guide_fails():
-    """Large gears: the driven one's farthest point is C (1 + e)/2 from its axis."""
-    gears = EllipticalGears(eccentricity=0.2, gear_distance_mm=110.0)
-    wide = Design.of(design().spec.replace(drive=gears))
-    (check,) = (check for check in wide.checks if check.name == "gear_gap_mm")
-    rail = next(p for p in wide.parts.built.guide if p.part.name == "guide rail").part
-    gap = R - bounds(rail.outline).x1 - 0.5 * 110.0 * 1.2
-    assert gap < 0.0 and not check.passes
-    assert check.value == pytest.approx(gap, rel=1e-9)
-
-
-def test_a_rack_behind_links_has_no_frame():
-    machine = Design(Linear(6), SideCrank(A=0.4))
-    (row,) = (one for one in machine.checks if one.name == "parts")
-    assert row.passes is None
-    assert "frame and guide of a rack behind" in row.why
-    rows = machine.part_table("parts").to_rows()
-    assert {"rack", "arm", "coulisse"} <= {one["name"] for one in rows}
-    (missing,) = (one for one in rows if one["row"] == "missing")
-    assert missing["name"] == "shafts, guide, frame"
-    assert missing["why"] == row.why
-
-
-def test_wide_slots_leave_no_guide():
-    with pytest.raises(GenevaError, match="a guide that the rack always covers would be"):
-        design(lock_radius_mm=0.0, roller_radius_mm=46.0).drawing("guide")
 
 
 def test_the_crank_shaft_bears_pin_force_and_torque():
@@ -474,14 +268,6 @@ def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
     assert values["guide.locks_at_friction"] == pytest.approx(half / lever, rel=1e-14)
 
 
-def test_racks_of_a_batch_have_the_guides_of_each():
-    """A sweep of the number of slots ended in a traceback."""
-    racks = np.array([8, 400])
-    values = many(design().mechanism.spec, {"wheel.z": racks}).machine
-    length = guide(Designs(values))["length_mm"]
-    assert length.tolist() == [2.0 * sizes_of().guide.half] * 2
-
-
 def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
     """At entry, without friction in the slot: both ends' friction is nu (|N1| + |N2|)."""
     loaded = design(**PARTS).with_("load.force_N", 10.0)
@@ -510,17 +296,3 @@ def test_a_guide_locks_where_the_loads_lose_their_bound(mu):
         assert (slid.loads["pin_force_N"].max is not None) is bounded
         rows = {one.name: one for one in slid.checks}
         assert rows["guide_locks"].passes is bounded
-
-
-def test_screws_leave_walls_in_the_bars_of_a_small_printed_guide():
-    """Two lines of a nozzle, 0.8 mm, are the least wall of a print: here four of them, not R/10."""
-    small = Design(Linear(4), size=Size(center_distance_mm=20.0, process="print"))
-    s = {one.name: one for one in solids(small.drawing("assembly").solid)}
-    for name in ("guide bar", "guide rail", "guide wall", "guide cover"):
-        low, high = span(s[name])
-        for hole in s[name].holes:
-            x = hole.centre[0]
-            assert min(x - low, high - x) - hole.radius >= 0.8 - 1e-12
-    assert s["guide bar"].high - s["guide bar"].low > 0.0
-    assert np.diff(span(s["guide bar"])) == pytest.approx(3.2)
-    assert span(s["guide rail"])[0] - span(s["guide bar"])[1] == pytest.approx(0.25)  # of a print

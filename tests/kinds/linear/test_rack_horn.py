@@ -3,16 +3,11 @@
 import math
 
 import mpmath
-import numpy as np
 import pytest
 
 from geneva_cli import Design, External, Internal, Linear, Load, Size
 from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import greatest_stress
-from geneva_cli.motion.many import many
-from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.part_strength import horn as horn_of
-from geneva_cli.verdict.strength import strength
 
 R, r, CLEARANCE, RECESS, FORCE, WIDTH = 50.0, 6.0, 0.1, 41.0, 30.0, 12.0
 SIZE = Size(
@@ -79,31 +74,3 @@ def test_inertia_bends_the_horn_behind_the_roller_too():
     )
     assert at_entry.at_deg == pytest.approx(-90.0, abs=1e-6)
     assert at_entry.stress_MPa == pytest.approx(bent, rel=1e-9)
-
-
-def test_a_batch_gives_the_numbers_of_single_designs():
-    radii = np.array([3.0, 6.0, 8.0, 49.95])
-    spec = RACK.spec.with_("size.lock_radius_mm", 40.0)
-    batch = many(spec, {"size.roller_radius_mm": radii, "load.friction": radii / 50.0})
-    stresses = horn_of(Designs(batch.machine, ("strength.horn.stress_MPa",)))["stress_MPa"]
-    for i, radius in enumerate(radii.tolist()):
-        one = spec.with_("size.roller_radius_mm", radius).with_("load.friction", radius / 50.0)
-        own = Design.of(one).report.table.to_dict()["strength.horn.stress_MPa"]
-        if own is None:
-            assert np.isinf(stresses[i])  # no lock fits, and so there are no horns
-        else:
-            assert stresses[i] == pytest.approx(own, rel=1e-12)
-    assert np.isfinite(stresses[:3]).all()
-
-
-def test_a_rack_without_a_lock_has_no_horns():
-    plain = Design(Linear(6), size=SIZE.replace(lock_radius_mm=0.0), load=LOAD)
-    assert plain.report.table.to_dict()["strength.horn.stress_MPa"] is None
-    assert "horn_stress_MPa" not in {one.name for one in plain.checks}
-    assert strength(plain.mechanism).reason("horn_stress_MPa") is None
-
-
-@pytest.mark.usefixtures("no_advice")
-def test_a_weak_horn_fails():
-    weak = RACK.with_("material.wheel.stress_max_MPa", 1.0)
-    assert not {one.name: one for one in weak.checks}["horn_stress_MPa"].passes

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from test_page import ANGLE, PLACE, script_of
 
-from geneva_cli import Design, EllipticalGears, Linear, Load, Size
-from geneva_cli.geometry.measure import bounds
+from geneva_cli import Design, Linear, Load, Size
 from geneva_cli.output import page
 from geneva_cli.study.animation.turning_scene import scene
 
@@ -35,18 +34,6 @@ def test_a_rack_travels_as_the_roller_does_across_its_slots():
     ]
 
 
-def test_all_slots_of_a_rack_pass_between_its_ends():
-    """Before the first end and after the last one there is no slot at the roller's height."""
-    for z in (3, 4, 7):
-        _, data = script_of("".join(page.chunks(scene(RACK.with_("wheel.z", z)))))
-        low, high = data["stops"]
-        assert high - low == 360.0 * z
-        box = bounds(RACK.with_("wheel.z", z).drawing("wheel").shapes[0])
-        beyond = 2.0 * 50.0 - 6.0  # from the last slot to the rack's end
-        assert -low / 3.6 == pytest.approx(box.y1 - beyond, abs=1e-9)
-        assert high / 3.6 - 100.0 == pytest.approx(-box.y0 - beyond, abs=1e-9)
-
-
 def test_the_force_on_a_rack_is_along_its_travel():
     """At entry m R w² and F push it forwards; without F it is braked past mid-motion."""
     w = 2.0 * math.pi
@@ -59,13 +46,3 @@ def test_the_force_on_a_rack_is_along_its_travel():
         wall = np.sign(push.force_y) * 6.0  # the roller touches the wall that it pushes
         middle = -50.0 * np.cos(np.radians(push.at))
         assert np.abs(np.array(push.y) - middle - wall)[np.abs(push.force_y) > 1e-6].max() < 1e-6
-
-
-def test_gears_move_a_rack_on_a_page_too():
-    geared = Design(Linear(6), EllipticalGears(eccentricity=0.3))
-    assert [b.name for b in scene(geared).bodies] == [
-        "wheel",
-        "crank",
-        "driver gear",
-        "driven gear",
-    ]

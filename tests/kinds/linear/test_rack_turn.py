@@ -13,10 +13,9 @@ import pytest
 from other_shape import with_shape
 from sampling import some
 from scipy.spatial import cKDTree
-from turn_witness import TO_MM, check_bounds, check_proof, least_gap, turn_of
+from turn_witness import TO_MM, check_proof, least_gap, turn_of
 
 from geneva_cli import Design, Linear, Size
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.kinds.linear.outlines import turned_rack
 from geneva_cli.kinds.linear.rack import locking_sector, rack_contour
@@ -93,14 +92,6 @@ def test_gaps_are_those_of_points_on_the_outlines(seed):
 
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(MACHINES))
-def test_no_gap_of_a_random_rack_is_below_its_bound(seed):
-    parts = random_parts(seed)
-    parts.gaps.begin()
-    check_bounds(parts, np.random.default_rng(seed))
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("seed", range(MACHINES))
 def test_random_racks_keep_what_is_proved(seed):
     parts = random_parts(seed)
     smallest = full_turn(parts).smallest.mm
@@ -138,12 +129,6 @@ def test_play_is_the_clearance(slot, lock):
     assert turn.holds
 
 
-def test_without_a_lock_nothing_holds_the_rack():
-    turn = full_turn(rack_of(lock_radius_mm=0.0))
-    assert not turn.holds
-    assert turn.free_deg == pytest.approx(math.degrees(1.0))
-
-
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(MACHINES))
 def test_a_stop_is_where_parts_begin_to_overlap(seed):
@@ -165,32 +150,6 @@ def test_a_stop_is_where_parts_begin_to_overlap(seed):
             assert (least(lead)[free] >= -1e-8).all()
         stopped = free & (stop.lead < 1.0)
         assert (least(way * (stop.lead + 1e-3))[stopped] < 0.0).all()
-
-
-def test_rows_of_a_rack_are_in_millimetres():
-    size = Size(
-        center_distance_mm=R, roller_radius_mm=r, slot_clearance_mm=0.1, lock_clearance_mm=0.04
-    )
-    design = Design(Linear(6), size=size)
-    rows = {one.name: one for one in design.checks}
-    assert not [name for name in rows if name.endswith("play_deg")]
-    assert rows["dwell_play_mm"].value == pytest.approx(0.04, rel=1e-5)
-    assert rows["motion_play_mm"].value == pytest.approx(0.1, rel=1e-5)
-    # the roller finds its slot up to half of its width, and a step is 2 R
-    assert rows["hand_over_play_mm"].limit == pytest.approx(r + 0.1)
-    assert rows["motion_play_mm"].limit == pytest.approx(0.05 * 2.0 * R)
-    assert rows["gap_proved_mm"].passes
-    values = design.report.table.to_dict()
-    assert values["parts.dwell_play_mm"] == rows["dwell_play_mm"].value
-    assert values["parts.dwell_play_deg"] is None
-
-
-@pytest.mark.usefixtures("no_advice")
-def test_a_rack_that_jams_is_not_written(tmp_path):
-    size = Size(center_distance_mm=R, roller_radius_mm=r, lock_clearance_mm=15.0)
-    design = Design(Linear(6), size=size)
-    with pytest.raises(GenevaError, match=r"the rack can move by .* mm"):
-        design.save(str(tmp_path / "wheel.dxf"))
 
 
 def test_an_overlap_is_as_deep_at_the_end_of_the_ring():

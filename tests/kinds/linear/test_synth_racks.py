@@ -15,7 +15,6 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.timing import timings
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
-from geneva_cli.study.synth.synth_table import synthesis_table
 
 
 def rows_of(**options):
@@ -62,13 +61,6 @@ def test_no_drive_lowers_the_peak_of_a_rack():
         rows_of(linear=True, subject_to=["acceleration.max <= 0.99"])
 
 
-def test_a_range_of_steps_takes_the_shortest():
-    """R w² grows with the step; without a lower end the present one is kept if it fits."""
-    assert rows_of(index_mm="40..60", tau="0.5")[0].candidate.index_mm == 40.0
-    assert rows_of(index_mm="..60", tau="0.5")[0].candidate.index_mm == 60.0
-    assert rows_of(index_mm="..600", tau="0.5")[0].candidate.index_mm == 200.0
-
-
 def test_a_rack_of_a_spec_keeps_its_sizes_and_loads():
     size, load = Size(center_distance_mm=50.0, slot_clearance_mm=0.1), Load(mass_kg=0.4)
     frame = Spec(Linear(8), size=size, load=load)
@@ -77,11 +69,6 @@ def test_a_rack_of_a_spec_keeps_its_sizes_and_loads():
         assert row.spec.load == load
         assert row.spec.size.center_distance_mm == 50.0
         assert not [one for one in Design.of(row.spec).checks if one.passes is False]
-
-
-def test_racks_are_turned():
-    table = synthesis_table(read_target(index_mm="40", tau="0.45"))
-    assert list(table.to_dict()["parts"]) == ["yes", "yes"]
 
 
 @pytest.mark.parametrize("inside", [False, True])
@@ -112,35 +99,3 @@ def test_the_whole_turn_of_a_carousel_is_a_requirement():
     for row in rows:
         assert 360.0 + 360.0 * row.spec.drive.rollers / row.spec.wheel.z >= 449.9999
         assert row.candidate.wheels == 1
-
-
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [
-        ({"linear": True, "external": True, "tau": "0.4"}, "racks are searched alone"),
-        ({"linear": True, "carousel": "2", "tau": "0.4"}, "racks are searched alone"),
-        ({"linear": True, "rollers": 2, "tau": "0.4"}, "a rack moves for half a turn"),
-        ({"linear": True, "frame": Spec(External(4))}, "the spec has a wheel"),
-        ({"carousel": "2", "spherical": True, "tau": "0.4"}, "external or internal wheels"),
-        ({"carousel": "2.5", "tau": "0.4"}, "write a number of wheels"),
-        ({"carousel": "3..2", "tau": "0.4"}, "the first number must not be above the second"),
-        ({"carousel": "3..", "tau": "0.4"}, "write a number of wheels"),
-        ({"carousel": "2", "frame": Spec(External(4))}, 'set kind = "carousel" in it'),
-        ({"index_mm": "-3"}, "it must be above 0"),
-    ],
-)
-def test_requirements_that_go_together_with_nothing(options, text):
-    with pytest.raises(GenevaError, match=text):
-        read_target(**options)
-
-
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [
-        ({"carousel": "3", "tau": "0.5"}, "out of reach on a carrier"),
-        ({"linear": True, "tau": "0.9999999"}, "out of reach of a rack"),
-    ],
-)
-def test_what_is_out_of_reach_says_why(options, text):
-    with pytest.raises(GenevaError, match=text):
-        rows_of(**options)

@@ -133,6 +133,7 @@ def test_it_keeps_bounds(bounds, name, low, high):
     assert 90.0 * (1 - 1e-9) <= row.candidate.motion_deg <= 200.0 * (1 + 1e-9)
 
 
+@pytest.mark.long
 def test_a_peak_alone_is_kept_in_the_plain_crank_s_motion_or_any():
     """The plain crank of z = 6 has 1.35 in 120 degrees, which four-bars do better."""
     (row,) = four_bars(subject_to=("acceleration.max <= 1.2",), z="6", external=True)

@@ -351,6 +351,7 @@ def test_gears_before_stand_on_the_shaft_that_they_turn():
         assert all(check.passes for check in design.checks), drive.NAME
 
 
+@pytest.mark.long
 def test_gears_lie_below_all_links_and_inside_the_bolts():
     """A sun stands on bolts: gears between it and the frame turn inside them."""
     spec = load(str(repo.DESIGNS / "behind-gears.toml")).spec

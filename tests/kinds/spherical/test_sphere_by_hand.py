@@ -5,8 +5,6 @@ import math
 import numpy as np
 import pytest
 import repo
-import shapely
-from drawing_witness import polygon
 from test_parts_by_hand import L
 from test_sheet import TOLERANCE, printed
 from test_turned_shafts import steps
@@ -15,8 +13,6 @@ from words import Spec, Wheel
 from geneva_cli import Design, Size, Spherical, load
 from geneva_cli.geometry.plates import solids
 from geneva_cli.geometry.sphere import place
-from geneva_cli.kinds.spherical.arm_drawing import arm_cone
-from geneva_cli.kinds.spherical.ball import inner_edge
 from geneva_cli.kinds.spherical.laid_flat import wheel_cone
 from geneva_cli.kinds.spherical.sheet import flat_slot
 from geneva_cli.parts.parts import parts_of
@@ -58,33 +54,6 @@ def test_the_crank_of_a_sphere():
     # a cap about a hub leaves a wall as thick as the hub's, or the least one
     for bore, edge in ((50.0, 70.0), (59.0, 62.0)):
         assert parts.ball.cap(60.0, bore, 2.0) == pytest.approx(math.asin(edge / 105.5))
-
-
-def test_cones_that_shells_are_laid_flat_on():
-    """They touch the arm amid its thickness at the pin, and the wheel amid its slots.
-
-    The pin is 30° off the crank's axis. At entry the roller is 90° off the wheel's.
-    """
-
-    size = Size(L, 6.0, pin_gap_mm=0.5, wheel_thickness_mm=8.0, arm_thickness_mm=5.0)
-    mechanism = Design.of(Spec(Wheel(6, "spherical"), size=size)).mechanism
-    ball = parts_of(mechanism).shells.ball
-    assert arm_cone(ball) == pytest.approx((L + 4.0 + 0.5 + 2.5, math.pi / 6.0))
-    slot = math.pi / 3.0 - 0.003, math.pi / 2.0
-    assert wheel_cone(ball) == pytest.approx((L, 0.5 * sum(slot)))
-
-
-def test_bores_of_a_sphere():
-    """Up to L/6, whose bearings have 15 or 12 mm; the slotted ring ends a roller inside its slots.
-
-    Where a hole is nearer than that, it ends midway between both.
-    """
-
-    for distance, bore in ((90.0, 7.5), (89.9, 6.0)):
-        mechanism = Design.of(Spec(Wheel(6, "spherical"), size=Size(distance))).mechanism
-        assert parts_of(mechanism).shells.ball.bore_mm == bore
-    assert inner_edge(1.0, 0.1, 0.5) == pytest.approx(0.9)
-    assert inner_edge(1.0, 0.1, 0.95) == pytest.approx(0.975)
 
 
 def test_points_of_a_slot_laid_flat_are_on_the_sphere():
@@ -139,16 +108,3 @@ def test_steps_on_a_sphere():
         assert step == (name, wide, pytest.approx(low), pytest.approx(high))
     # the wheel turns inside the arm: no circlip there
     assert steps(crank)[0] == ("seat of crank", 10.0, pytest.approx(under), pytest.approx(over))
-
-
-@pytest.mark.parametrize("shape", ["round", "D", "hex"])
-def test_shafts_of_a_sphere_fit_too(shape):
-
-    size = Size(80.0, 5.0, wheel_bore=shape, wheel_bore_mm=10.0, wheel_hub_mm=16.0, process="print")
-    parts = parts_of(Design(Spherical(6), size=size).mechanism)
-    (bar,) = [m.part for m in parts.shafts if m.part.name == "wheel's shaft"]
-    hub = next(s for s in solids(parts.wheel.part) if s.name == "wheel's hub")
-    body, bore = (polygon(s, 1e-6) for s in (bar.outline, hub.holes[0]))
-    assert bore.contains(body)
-    assert shapely.distance(body.exterior, bore.exterior) == pytest.approx(0.2, abs=1e-4)
-    assert math.isclose(body.centroid.y, bore.centroid.y, abs_tol=0.1)

@@ -3,11 +3,10 @@
 import math
 
 import mpmath as mp
-import numpy as np
 import pytest
 
 from geneva_cli import Crank, Design, Size, Spherical
-from geneva_cli.kinds.spherical.cut_shells import sphere_locks
+from geneva_cli.kinds.spherical.locking import sphere_locks
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
 
 ROUND = [(60.0, 1), (60.0, 2), (90.0, 1), (120.0, 1)]  # the corner's, the end's, both, the end's
@@ -71,12 +70,3 @@ def test_slopes_of_a_lock_on_a_sphere(axes_deg, rollers):
     for i, way in ((5, (1, 0)), (6, (0, 1))):
         true = mp.diff(lambda h, w=way: play(h * w[0], h * w[1]), 0)
         assert abs(lock(slope_of(i)).angle.c[1] - true) < 1e-13
-
-
-def test_a_sector_that_does_not_go_in_jams_on_a_sphere():
-    _, lock = on_sphere(60.0, 1)
-    # 0.1 mm of arc are 0.1 cos(lock's angle) of radius
-    for by, jams in ((0.099, False), (0.101, True)):
-        share = by * math.cos(lock.lock)
-        assert lock(at(lock_radius_mm=share)).jams == jams
-        assert lock(at(lock_radius_mm=np.array([0.0, share]))).jams.tolist() == [False, jams]

@@ -4,11 +4,6 @@ import mpmath as mp
 import pytest
 
 from geneva_cli import Design, Size, Spherical, Tolerance
-from geneva_cli.motion.mechanism import build
-from geneva_cli.study.synth.built import built
-from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.synth_search import search
-from geneva_cli.verdict.checks import checks
 
 
 @pytest.mark.parametrize("axes_deg", [60.0, 90.0])
@@ -27,17 +22,3 @@ def test_the_clearance_of_a_lock_on_a_sphere(axes_deg):
     for share, turns in ((1.001, True), (0.999, False)):
         one = design.with_("size.lock_clearance_mm", share * float(needed)).tolerance(64).to_dict()
         assert one["clearances.turns"] is turns
-
-
-def test_a_sphere_too_small_for_the_usual_roller_gets_one_that_fits():
-    """Of shafts that nearly fall together; once it was never turned."""
-    (row,) = [
-        row
-        for row in search(read_target(motion_deg="120.7", z="6", spherical=True, rollers=1)).rows
-        if row.candidate.axes_deg not in (None, 90.0)
-    ]
-    assert row.candidate.parts == "maybe"
-    assert row.spec.size.roller_radius_mm < 5.0
-    made = built(row.spec)
-    assert made.trouble == ""
-    assert not [c for c in checks(build(made.spec)) if c.passes is False]

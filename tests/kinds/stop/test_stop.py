@@ -1,24 +1,15 @@
 """A Geneva stop: its closed form against the collision engine, and against polygons."""
 
-import json
 import math
-import re
 
 import numpy as np
 import pytest
-import repo
-from drawing_witness import polygon, vertices
+from drawing_witness import polygon
 from shapely.affinity import rotate, translate
-from typer.testing import CliRunner
 
-from geneva_cli import Crank, Design, External, Limits, Load, Size
-from geneva_cli.cli.app import app
-from geneva_cli.drives.side_crank import SideCrank
-from geneva_cli.errors import GenevaError
+from geneva_cli import Design, External, Limits, Load, Size
 from geneva_cli.kinds.stop.parts import clearances_before, wheel_stop
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.synth_search import search
 
 STOPPED = {z: Design(External(z, stop=True)) for z in (3, 4, 5, 6, 8, 12)}
 
@@ -121,71 +112,3 @@ def test_checks_can_fail():
         small = Size(lock_radius_mm=100.0 - rim + overlap_mm)
         checks = Design(External(5, stop=True), size=small).checks
         assert [c.name for c in checks if c.passes is False and "stop" in c.name] == failing
-
-
-def test_a_drive_behind_the_crank_moves_the_stops_of_the_input():
-    plain, quick = STOPPED[5], Design(External(5, stop=True), SideCrank(A=0.3))
-    one, other = stops_of(plain), stops_of(quick)
-    assert other.crank_deg == pytest.approx(one.crank_deg, abs=1e-12)
-    # near mid-motion a side-crank's input turns 1 + A times as far as its crank
-    assert other.last_deg - 1440.0 == pytest.approx(1.3 * one.crank_deg, rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("build", "words"),
-    [
-        (lambda: Design(External(5, stop=True), Crank(rollers=2)).mechanism, "one roller"),
-        (lambda: Design(External(5, offset_mm=5.0, stop=True)).mechanism, "radial slots"),
-        (
-            lambda: Design(External(5, stop=True), size=Size(lock_radius_mm=0.0)).mechanism,
-            "locking disc",
-        ),
-        (lambda: Design(External(5), load=Load(winding_torque_Nm=1.0)).mechanism, "stop = true"),
-        (lambda: Design(External(5, stop=True)).motion(turns=4), "at most 3"),
-        (lambda: External(5, stop=1), "true or false"),
-    ],
-)
-def test_what_has_no_stop_is_refused(build, words):
-    with pytest.raises(GenevaError, match=words):
-        build()
-
-
-def test_check_shows_both_ends_and_the_page_goes_back_and_forth(tmp_path):
-    spec = str(repo.DESIGNS / "geneva-stop.toml")
-    shown = CliRunner().invoke(app, ["check", spec])
-    assert shown.exit_code == 0
-    assert "blocks the crank at -0.8219 and 1440.82°" in " ".join(shown.stdout.split())
-    file = tmp_path / "page.html"
-    assert CliRunner().invoke(app, ["animate", spec, "-o", str(file)]).exit_code == 0
-    data = re.search(r'type="application/json">(.*?)</script>', file.read_text(), re.DOTALL)
-    scene = json.loads(data[1])
-    low, high = scene["stops"]
-    assert high - low == pytest.approx(4.004566 * 360.0, abs=1e-3)
-    # the turn of the page, from the middle engagement's entry, lies between the stops
-    assert low < 0.0
-    assert high > scene["turn"]
-
-
-def test_the_wheel_as_cut_has_one_convex_face():
-    """Only the face reaches the rim between two mouths, opposite the slot ahead."""
-    for z, design in STOPPED.items():
-        points = np.array(vertices(design.parts.outlines.wheel, 1e-3))
-        ahead = np.mod(np.arctan2(points[:, 1], points[:, 0]), math.tau)
-        rim = design.parts.sizes.rim
-        for k in range(z):
-            middle = (2 * k + 1) * math.pi / z
-            far = np.hypot(*points[np.abs(ahead - middle) < 0.3 * math.pi / z].T).max()
-            assert (far > rim - 1e-3) == (k == z // 2)
-
-
-@pytest.mark.long
-def test_synth_grants_turns():
-    frame = Design(External(5, stop=True)).spec
-    rows = search(read_target(z="5..8", frame=frame, subject_to=["stop.turns >= 6"])).rows
-    assert rows
-    for row in rows:
-        assert row.spec.wheel.stopped
-        assert row.spec.wheel.z >= 7  # z - 1 turns, and a little
-    for wrong in ({"internal": True}, {"rollers": 2}):
-        with pytest.raises(GenevaError, match="the spec has a stop"):
-            read_target(frame=frame, **wrong)

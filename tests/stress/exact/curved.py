@@ -18,8 +18,7 @@ from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.path_and_motion import MOTION_MIN
 from geneva_cli.motion.peaks import peaks
-from geneva_cli.parts.slots.slot_profile import slot
-from geneva_cli.parts.slots.slot_sampling import nodes
+from geneva_cli.parts.slots.slot_profile import nodes, slot
 
 
 def law_files(table, sample):

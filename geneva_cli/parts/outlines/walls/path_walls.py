@@ -18,8 +18,7 @@ from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.walls.joint import Curve, Wall
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import rest
-from geneva_cli.parts.slots.slot_profile import heading_at, pitch_at
-from geneva_cli.parts.slots.slot_sampling import nodes
+from geneva_cli.parts.slots.slot_profile import heading_at, nodes, pitch_at
 
 # Of the centre distance, the greatest deviation of the sampled path from the true one: less than
 # half of the overlap that does not count as covered.
