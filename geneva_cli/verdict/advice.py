@@ -296,7 +296,7 @@ def _edge(remedy: Remedy, margin: Margin, start: float, short: float) -> float |
         return None
     good, left, bad, short = bracket
     first, count = good - bad, isinstance(remedy.now, int)
-    reach = 2.0 * first
+    reach = 8.0 * first
     # interpolation, truncated and projected (ITP): it is hardly slower than halving, whatever the
     # margin is, and much faster where that is smooth
     while good - bad > FINE * good:
