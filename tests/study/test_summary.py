@@ -21,8 +21,7 @@ from geneva_cli.output.terminal.layout import Window
 from geneva_cli.output.terminal.summary import chunks
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.study.summary.report_summary import of_report
-from geneva_cli.study.summary.tolerance_summary import of_tolerance
-from geneva_cli.study.summary.vibration_summary import of_vibration
+from geneva_cli.study.summary.vibration_summary import of_tolerance, of_vibration
 
 pytestmark = pytest.mark.usefixtures("made_once")
 TURRET = str(repo.DESIGNS / "turret.toml")

@@ -12,8 +12,8 @@ from geneva_cli.design import load
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
+from geneva_cli.study.synth import group_search as every
 from geneva_cli.study.synth.built import built
-from geneva_cli.study.synth.families import every
 from geneva_cli.study.synth.fast_parts import machine_and_parts
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search

@@ -18,12 +18,12 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.output.text import chunks
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.study.batches import columns
-from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Objective, objective
 from geneva_cli.study.synth.reading import SPANS, read_target, span
 from geneva_cli.study.synth.shown import for_people
 from geneva_cli.study.synth.synth_search import search
 from geneva_cli.study.synth.synth_table import synthesis_table
+from geneva_cli.study.target import AllowedSpan
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")

@@ -22,8 +22,8 @@ from geneva_cli.parts.slots.roller_paths import roller_paths
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.fields import pick
-from geneva_cli.study.synth import synth_search as searching
-from geneva_cli.study.synth.families.every import kinds
+from geneva_cli.study.synth import group_search as searching
+from geneva_cli.study.synth.group_search import kinds
 from geneva_cli.study.synth.parts_data import (
     UNDERCUT_SAMPLES,
     _alike,
@@ -171,9 +171,9 @@ def test_a_search_gives_its_parts_in_their_order(options, monkeypatch):
     every = kinds(target)
     monkeypatch.setattr(searching, "cores", lambda: 1)
     monkeypatch.setattr(searching, "_kind_rows", lambda task, names, how_near: task)
-    assert searching._all_kinds(target, ()) == every
+    assert searching.all_kinds(target, ()) == every
     which = [i % 2 == 1 for i in range(len(every))]
-    assert searching._all_kinds(target, (), which=which) == every[1::2]
+    assert searching.all_kinds(target, (), which=which) == every[1::2]
 
 
 def test_specs_of_one_kind_keep_their_own_loads_and_sizes():

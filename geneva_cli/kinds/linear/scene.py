@@ -10,7 +10,7 @@ from geneva_cli.geometry.shapes import Circle, Shape
 from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.output.scene import Body, Box, Track
 from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.shown_wheels import WheelScene
+from geneva_cli.study.animation.bodies import WheelScene
 from geneva_cli.study.animation.tracks import still
 
 if TYPE_CHECKING:
