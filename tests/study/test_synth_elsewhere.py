@@ -156,13 +156,3 @@ def test_more_rollers_where_only_shorter_motions_can_be_built():
         7,
         8,
     }
-
-
-def test_one_below_the_last_that_may_be_built_is_looked_for_too():
-    """Of those that are to pass, where no other stands in for it."""
-    found = search(read_target(motion_deg="100..200", z="8", **CURVED))
-    alone = found._replace(rows=curved(found)[:1])
-    assert [row.candidate.parts for row in alone.rows] == ["no: island"]
-    ((no, row),) = turned(alone, buildable=True)
-    assert (no, row.candidate.parts) == (1, "yes")
-    assert not [c for c in checks(build(row.spec)) if c.passes is False]
