@@ -52,7 +52,6 @@ stress: stress-numbers
 
 stress-numbers: .venv/dev
 	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress.py
-	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/stress_outline.py
 	PYTHONPATH=tests:tests/motion:tests/parts $(BIN)/python tests/stress/schema_agrees.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_many.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py

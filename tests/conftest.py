@@ -124,8 +124,9 @@ def kept(function, key):
     return once
 
 
-def of_outlines(parts):
-    return parts.assembly.full.spec, getattr(parts, "fine", 0.0)  # shells have no tolerance
+def of_outlines(parts, *refined):
+    # shells have no tolerance
+    return parts.assembly.full.spec, getattr(parts, "fine", 0.0), *refined
 
 
 def of_certificate(parts, gap_mm, to_mm):

@@ -3,11 +3,10 @@
 import numpy as np
 from design_arrays import MACHINES, drawn
 
-from geneva_cli.loads.contact import NEAR_CUSP, contact
+from geneva_cli.loads.contact import NEAR_CUSP
 from geneva_cli.loads.cycle_quantities import QUANTITIES, SQUARED
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadFunctions, signed_instant
-from geneva_cli.loads.load_functions import load_batch as of
+from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import load_summaries
 from geneva_cli.loads.load_summary import LoadSummary
 from geneva_cli.motion.batch import taken
@@ -141,16 +140,13 @@ def beyond(batch, places, seed, names=NAMES, ends=None):
     for engagement in machine.engagements:
         for i in range(0, n, BLOCK):
             part = slice(i, min(i + BLOCK, n))
-            some = taken(of(engagement, load_case(machine), names, {}), part)
-            here, case, *_ = some
+            here, case = taken((engagement, load_case(machine)), part)
             a, b = (np.reshape(x, (-1, 1)) for x in (here.entry_deg, here.exit_deg))
             share = (np.arange(places) + random.random((part.stop - i, places))) / places
             x = np.asfortranarray(a + (b - a) * np.clip(share, 1e-9, 1.0 - 1e-9))
-            load = LoadFunctions(some)
+            load = LoadFunctions(here, case, names)
             with np.errstate(all="ignore"):
-                instant = signed_instant(
-                    load.kinds, case, contact(here, x, reactions=load.reactions), None
-                ).instant
+                instant = load.at(x, slice(0, len(x)))[0].instant
             for k, name in enumerate(names):
                 one = LoadSummary(*[v if v is None else v[part] for v in together[name]])
                 out[part, k] = np.maximum(out[part, k], _passed(instant, name, one, x.shape))

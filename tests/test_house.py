@@ -62,7 +62,7 @@ STREAMS = {"streams", "__main__", "specfile", "output", "manual", "cli"}
 # What commands know besides designs and studies: laws alone, extras, templates, units and names of
 # parts; there is no machine yet.
 ALONE = {
-    "motion.law_values",
+    "study.law_values",
     "spec.load_named",
     "specfile.template",
     "specfile.designs",

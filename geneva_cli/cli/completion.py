@@ -5,32 +5,44 @@ Each function takes the text typed so far. Where none offers a word, the shell o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from typing import TypeAlias
 
-Offer = tuple[str, str]  # a word, and its description
-
-
-def words(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
-    """Offer words that begin with the typed text."""
-
-    def offer(typed: str) -> list[str]:
-        return [name for name in names() if name.startswith(typed)]
-
-    return offer
+Offer: TypeAlias = "Callable[[str], Sequence[str | tuple[str, str]]]"  # also with descriptions
 
 
-def listed(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
+def offer(words: Offer | Iterable[str]) -> Offer:
+    """Offer those of some words that begin with the typed text; a function offers its own."""
+    if callable(words):
+        return words
+
+    def complete(typed: str) -> list[str]:
+        return [word for word in words if word.startswith(typed)]
+
+    return complete
+
+
+def listed(words: Offer | Iterable[str]) -> Offer:
     """Offer one more word of a list separated by commas."""
 
-    def offer(typed: str) -> list[str]:
+    def complete(typed: str) -> list[str]:
         before, comma, begun = typed.rpartition(",")
-        offered = words(names)(begun)
+        offered = map(str, offer(words)(begun))
         return [f"{before}{comma}{name}" for name in offered if name not in before.split(",")]
 
-    return offer
+    return complete
 
 
-def keys(typed: str) -> list[Offer]:
+def _words(names: Callable[[], Iterable[str]]) -> Offer:
+    """Offer words, which are found when the shell asks."""
+
+    def complete(typed: str) -> Sequence[str | tuple[str, str]]:
+        return offer(names())(typed)
+
+    return complete
+
+
+def keys(typed: str) -> list[tuple[str, str]]:
     """The keys of a spec as ``table.key=``; behind the sign, the words that the key may be."""
     from geneva_cli.specfile.keys import full_names, words_of
 
@@ -40,6 +52,7 @@ def keys(typed: str) -> list[Offer]:
     return [(f"{name}=", about) for name, about in full_names().items() if name.startswith(typed)]
 
 
+@_words
 def tables_and_keys() -> Iterable[str]:
     """The arguments of ``geneva keys``."""
     from geneva_cli.specfile.keys import full_names
@@ -48,6 +61,7 @@ def tables_and_keys() -> Iterable[str]:
     return [*dict.fromkeys(name.rpartition(".")[0] for name in names), *names]
 
 
+@_words
 def laws() -> Iterable[str]:
     """The motion laws."""
     from geneva_cli.specfile.keys import words_of
@@ -55,6 +69,7 @@ def laws() -> Iterable[str]:
     return words_of("motion.law")
 
 
+@_words
 def kinds() -> Iterable[str]:
     """The kinds that ``geneva new`` writes."""
     from geneva_cli.specfile.template import KINDS
@@ -62,6 +77,7 @@ def kinds() -> Iterable[str]:
     return KINDS
 
 
+@_words
 def designs() -> Iterable[str]:
     """The designs in the package."""
     from geneva_cli.specfile.designs import titles
@@ -69,6 +85,7 @@ def designs() -> Iterable[str]:
     return titles()
 
 
+@_words
 def topics() -> Iterable[str]:
     """The pages of the manual."""
     from geneva_cli.manual import TOPICS
@@ -76,6 +93,7 @@ def topics() -> Iterable[str]:
     return TOPICS
 
 
+@_words
 def explained() -> Iterable[str]:
     """The words that ``geneva explain`` explains."""
     from geneva_cli.specfile.meanings import names
@@ -83,6 +101,7 @@ def explained() -> Iterable[str]:
     return names()
 
 
+@_words
 def fields() -> Iterable[str]:
     """The quantities of a design."""
     from geneva_cli.verdict.quantities.quantity_names import group_of
@@ -90,6 +109,7 @@ def fields() -> Iterable[str]:
     return group_of()
 
 
+@_words
 def quantities() -> Iterable[str]:
     """The quantities that ``geneva plot`` draws."""
     from geneva_cli.study.figures import QUANTITIES

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
@@ -28,20 +28,20 @@ def option(
     heading: str | None = None,
     *,
     name: str = "",
-    complete: Callable[..., list[str]] | None = None,
+    complete: completion.Offer | Iterable[str] | None = None,
     default: str | bool = True,
 ) -> Any:
     """An option with a value, below a heading of the help.
 
-    ``name`` is its name where the parameter's is another, ``complete`` completes what is typed, and
-    ``default`` is shown as the default.
+    ``name`` is its name where the parameter's is another, and ``default`` is shown as the default.
+    ``complete`` completes what is typed, or has the words that the value may be.
     """
     return typer.Option(
         *([name] if name else []),
         metavar=metavar,
         help=help,
         rich_help_panel=heading,
-        autocompletion=complete,
+        autocompletion=completion.offer(complete) if complete else None,
         show_default=default,
     )
 
@@ -78,7 +78,7 @@ Output: TypeAlias = Annotated[
 ]
 Format: TypeAlias = Annotated[
     str,
-    option("FORMAT", one_of(FORMATS), name="--format", complete=completion.words(lambda: FORMATS)),
+    option("FORMAT", one_of(FORMATS), name="--format", complete=FORMATS),
 ]
 
 

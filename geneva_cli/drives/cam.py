@@ -14,7 +14,7 @@ from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import ConstantRate, Engagement, Vector, cross
-from geneva_cli.motion.law_motion import LawMotion, refuse_alpha0
+from geneva_cli.motion.path_and_motion import LawMotion, refuse_alpha0
 from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter

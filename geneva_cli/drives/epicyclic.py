@@ -176,7 +176,6 @@ class Arms(NamedTuple):
     level: float
     arms: tuple[tuple[float, float], ...]
     c: float
-    cuts: tuple[float, ...] = ()
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """The pin's displacement since the pose, along the ray and across it."""

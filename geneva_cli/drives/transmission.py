@@ -157,8 +157,12 @@ class Transmission(Drive, kw_only=True):
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
-        from geneva_cli.motion.law_motion import LawMotion, refuse_alpha0
-        from geneva_cli.motion.path_and_motion import MiddlePath, SolvedSlot
+        from geneva_cli.motion.path_and_motion import (
+            LawMotion,
+            MiddlePath,
+            SolvedSlot,
+            refuse_alpha0,
+        )
 
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)

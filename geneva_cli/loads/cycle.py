@@ -26,18 +26,17 @@ from geneva_cli.loads.cycle_quantities import (
 from geneva_cli.loads.forces import Contact, LoadCase, is_loaded, wheel_torque
 from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads, values
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadFunctions, load_batch
-from geneva_cli.loads.load_search import search_loads, shown_deg, sums_of
+from geneva_cli.loads.load_functions import LoadFunctions
+from geneva_cli.loads.load_peaks import search_loads, shown_deg, sums_of
 from geneva_cli.loads.load_summary import EngagementExtremes, LoadSummary, summaries_from
 from geneva_cli.loads.stretches import Stretch, refuse_noise, refuse_rounding, to_mid_motion, whole
 from geneva_cli.motion.engagement import Engagement, Peak
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Whole, array
-from geneva_cli.numerics.greatest import first_greatest
+from geneva_cli.numerics.extremes import SearchResult, first_greatest
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.stretch_search import SearchResult
 
 Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
 
@@ -133,8 +132,8 @@ class Cycle:
         refuse_rounding(self.mechanism.engagements)
         names, out = [*known_quantities(self.mechanism), KINETIC], []
         for engagement in self.mechanism.engagements:
-            load = LoadFunctions(load_batch(engagement, self.case, names), ("slides", "feeds"))
-            out.append((load, search_loads(load, 1)))
+            load = LoadFunctions(engagement, self.case, names, more=("slides", "feeds"))
+            out.append((load, search_loads(load)))
         return out
 
     @cached_property
@@ -146,7 +145,7 @@ class Cycle:
             EngagementExtremes(
                 result.most,
                 shown_deg(self.mechanism, load.engagement, result.x),
-                sums_of(load, result, 1, plain=True),
+                sums_of(load, result, plain=True),
             )
             for load, result in self._searches
         ]

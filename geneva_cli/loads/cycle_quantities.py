@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.loads.forces import QuantityValue
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.numerics.greatest import first_greatest
+from geneva_cli.numerics.extremes import first_greatest
 
 if TYPE_CHECKING:
     from geneva_cli.loads.instant import Instant

@@ -25,20 +25,15 @@ from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import (
     LoadFunctions,
     LoadQuantity,
-    SignFunctions,
-    load_batch,
-    signed_instant,
 )
-from geneva_cli.loads.load_groups import parts
 from geneva_cli.loads.stretches import spans_of, to_mid_motion
-from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Whole
+from geneva_cli.numerics.extremes import cuts
 from geneva_cli.numerics.jet import Array, Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.stretch_search import search
 
 
 class Unevenness(NamedTuple):
@@ -63,23 +58,6 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
 
     The mean of an unbounded torque must be infinite.
     """
-    energy, returned = np.empty((2, len(mean)))
-    for part in parts(load_case(mechanism).all_friction, len(mean)):
-        energy[part], returned[part] = _group(taken(mechanism, part), mean[part])
-    return Swings(energy, returned)
-
-
-def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
-    """Inertia that keeps the variation of a mean speed, rad/s, within a limit: dE / (Cs w²), kg m².
-
-    >>> round(flywheel_kgm2(15125.0, 0.02, 1200.0 * DEGREE), 2)  # 1200 degrees a second
-    1724.04
-    """
-    return energy_J / (speed_variation * w * w)
-
-
-def _group(mechanism: Mechanism, mean: Array) -> Swings:
-    """The fluctuation from the works between places where the torque is its mean."""
     bounded = np.isfinite(mean)
     mean = np.where(bounded, mean, 0.0)[:, None]
     case, end = load_case(mechanism), None
@@ -97,22 +75,28 @@ def _group(mechanism: Mechanism, mean: Array) -> Swings:
     return Swings(np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf))
 
 
+def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
+    """Inertia that keeps the variation of a mean speed, rad/s, within a limit: dE / (Cs w²), kg m².
+
+    >>> round(flywheel_kgm2(15125.0, 0.02, 1200.0 * DEGREE), 2)  # 1200 degrees a second
+    1724.04
+    """
+    return energy_J / (speed_variation * w * w)
+
+
 def _works(
     engagement: Engagement, case: LoadCase, mean: Array, bounded: Mask
 ) -> tuple[Array, Array]:
     """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
     n = len(mean)
     own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
-    load = LoadFunctions(load_batch(engagement, case, own, own), ("feeds", "wanted"))
-    spans = spans_of(engagement, n)
-    result = search(SignFunctions(load), spans, n, False)
-    whole = to_mid_motion(engagement, result.stretches, n)
+    load = LoadFunctions(engagement, case, tuple(own), own, ("feeds", "wanted"))
+    whole = to_mid_motion(engagement, cuts(load, spans_of(engagement, n)), n)
     design, _, (a, b), positive = whole
     signs = np.where(positive, 1.0, -1.0)
 
     def rows(x: Array, which: Whole) -> Array:
-        some, at, _, (uneven,) = load.at(x, design[which], 0)
-        here = signed_instant(load.kinds, some, at, signs[:, which, None]).instant
+        (here, *_), (uneven,) = load.at(x, design[which], 0, signs[:, which, None])
         back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
         return np.stack(np.broadcast_arrays(uneven(here).value.c[0], back * back))
 

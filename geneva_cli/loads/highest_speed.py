@@ -17,9 +17,8 @@ from geneva_cli.loads.cycle_quantities import FORCE, SQUARED, STRESS, TORQUE
 from geneva_cli.loads.forces import LoadCase, QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadFunctions, LoadQuantity, load_batch
-from geneva_cli.loads.load_peaks import load_peaks
-from geneva_cli.loads.load_search import search_loads, shown_deg
+from geneva_cli.loads.load_functions import LoadFunctions, LoadQuantity
+from geneva_cli.loads.load_peaks import load_peaks, search_loads, shown_deg
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray
@@ -124,7 +123,7 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
         for factor in factors[name]:
             own[f"slowness {len(own)}"] = Slowness(factor, most, case)
     still = case._replace(resists_Nm=0.0)
-    result = search_loads(LoadFunctions(load_batch(engagement, still, own, own)), 1)
+    result = search_loads(LoadFunctions(engagement, still, tuple(own), own))
     return max(0.0, float(result.most[: len(own)].max()))
 
 

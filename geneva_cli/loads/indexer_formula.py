@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from geneva_cli.motion.cam_factors import CamFactors
+from geneva_cli.motion.timing import CamFactors
 from geneva_cli.numerics.angles import radians
 
 

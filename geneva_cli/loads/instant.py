@@ -54,7 +54,12 @@ class Instant(Generic[V]):
     at: Contact[V]
 
     def __init__(
-        self, case: LoadCase, at: Contact[V], drives: Number, slides: Number, feeds: Number
+        self,
+        case: LoadCase,
+        at: Contact[V],
+        drives: Number = 1.0,
+        slides: Number = 1.0,
+        feeds: Number = 1.0,
     ) -> None:
         self.case, self.at = case, at
         self.drives = drives  # sign of the wheel's torque
@@ -107,6 +112,12 @@ class Instant(Generic[V]):
     def pin_force_N(self) -> V:
         """Pin force on the wall that bears, N, with its sign."""
         return self.force_N * self.drives
+
+    @property
+    def leaning(self) -> V | None:
+        """A value at whose changes of sign the friction in a guide has a corner."""
+        guide = self.case.guide
+        return guide and guide.leaning(self.case, self.at, self.drives, self.slides)
 
     @cached_property
     def edge(self) -> V | None:
@@ -203,7 +214,10 @@ class Instant(Generic[V]):
     @cached_property
     def friction_margin(self) -> V | None:
         """Margin of quantities that only friction makes unbounded; None without friction."""
-        return self.grip if self.case.rubs or self.case.guided else None
+        if not (self.case.rubs or self.case.guided):
+            return None
+        free = self.case.all_friction == 0.0  # designs of the batch, whose margin is infinite
+        return self.grip + np.where(free, np.inf, 0.0) if np.any(free) else self.grip
 
     @property
     def crank_bearing_N(self) -> V:

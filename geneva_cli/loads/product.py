@@ -20,6 +20,7 @@ has peaks of its own, so that its square is searched.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -29,11 +30,11 @@ from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peak_search import PeakArray, by_degrees, greater
+from geneva_cli.motion.peak_search import PeakArray, greater, search_motion
 from geneva_cli.motion.timing import timings
-from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import Array, Which, parameter
-from geneva_cli.numerics.extrema import greatest_sizes
+from geneva_cli.numerics.extremes import Smooth
 
 
 class ProductMotion(NamedTuple):
@@ -141,17 +142,16 @@ def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
 
 
 def _greatest_square(engagement: Engagement, ratio: Array, frame: float) -> tuple[Array, Array]:
-    some, m = selection(engagement.motion), len(ratio)
+    motion, some = engagement.motion, selection(engagement.motion)
 
-    def square(x: Array, which: Which, order: int) -> list[Array]:
-        rate = some(which).rate(np.asfortranarray(x), order + 1)
+    def square(x: Array, which: Which, order: int, _: Sequence[int]) -> list[tuple[Array, ...]]:
+        rate = some(which).rate(x, order + 1)
         velocity, acceleration = rate.lower + frame, rate.derivative()
         turned = velocity * velocity * ratio[which][:, None]
-        both = acceleration * acceleration + turned * turned
-        return by_degrees(both.arrays(), x, order)
+        return [(acceleration * acceleration + turned * turned).arrays()]
 
-    motion = engagement.motion
-    return greatest_sizes(square, *motion.breaks(m), unsure=motion.BREAKS_TO)
+    most, x, _ = search_motion(motion, Smooth(square, unit=DEGREE))
+    return most[0], x[0]
 
 
 def _swing(mechanism: Mechanism) -> Array:

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias, cast
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -26,17 +26,16 @@ from geneva_cli.loads.indexer_formula import IndexerFormula, ShaftLoad, indexer_
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_summaries
 from geneva_cli.loads.load_summary import LoadSummary
-from geneva_cli.motion.cam_factors import CamFactors, cam_factors
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
+from geneva_cli.motion.timing import CamFactors, cam_factors
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, N, Number, choose_record, larger, library, parameter
+from geneva_cli.numerics.arrays import Array, Number, choose_record, parameter
 
 if TYPE_CHECKING:
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.spec.tables import Motor
 
 Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``FORMULA_PEAKS``
 CARRIED = ("inertia_kgm2", "motor_rpm")
@@ -193,14 +192,18 @@ def _by_formula(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Numbe
 def _exact(
     mechanism: Mechanism, torque: LoadSummary[Array], formula_torque: Number | None
 ) -> dict[str, Number]:
-    """Motor and flywheel from the exact cycle; NaN if the torque is unbounded."""
+    """Motor and flywheel from the exact cycle; NaN if the torque is unbounded.
+
+    The reducer's losses count whether it drives or is driven. At constant speed the rotor's own
+    inertia takes no torque.
+    """
     motor, w = mechanism.spec.motor, load_case(mechanism).speed_rad_s
-    bounded = np.isfinite(torque.max) & np.isfinite(torque.min)
+    eta, bounded = motor.gear_efficiency, np.isfinite(torque.max) & np.isfinite(torque.min)
     most, least = (np.where(bounded, x, np.nan)[:, None] for x in (torque.max, torque.min))
-    out: dict[str, Number] = {"motor_torque_max_Nm": greatest_motor_torque_Nm(motor, most, least)}
+    driven = np.maximum(most / eta, -least * eta)
+    out: dict[str, Number] = {"motor_torque_max_Nm": driven / motor.ratio}
     if formula_torque is not None:
-        size = np.maximum(most, -least)
-        out["input_torque_ratio"] = formula_torque / _some(size)
+        out["input_torque_ratio"] = formula_torque / _some(np.maximum(most, -least))
     if torque.mean is None or torque.rms is None:
         return out
     square = np.where(bounded, torque.rms, np.nan) ** 2
@@ -209,24 +212,38 @@ def _exact(
     mean = np.where(torque.mean**2 > 1e-26 * square, torque.mean, 0.0 * square)
     swings = fluctuations(mechanism, mean)
     energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
-    returned = swings.returned / np.ravel(mechanism.under_load.period_deg * DEGREE)
+    # the part of the mean square where the wheel drives the input
+    returned = (swings.returned / np.ravel(mechanism.under_load.period_deg * DEGREE))[:, None]
+    spent = np.maximum(square[:, None] - returned, 0.0)
     out["energy_fluctuation_J"] = energy
-    out["motor_torque_rms_Nm"] = rms_motor_torque_Nm(motor, square[:, None], returned[:, None])
+    out["motor_torque_rms_Nm"] = np.sqrt(spent / eta**2 + returned * eta**2) / motor.ratio
     if motor.speed_variation is not None:
         whole = flywheel_kgm2(parameter(energy), motor.speed_variation, w)
         out["flywheel_kgm2"] = whole
-        out["flywheel_to_add_kgm2"] = flywheel_to_add_kgm2(motor, whole)
+        # the motor has some inertia of its own, at the input shaft
+        out["flywheel_to_add_kgm2"] = np.maximum(whole - motor.inertia_kgm2 * motor.ratio**2, 0.0)
     return out
 
 
 def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Number]:
-    """The values of ``ROTOR``; NaN for designs whose motor's own inertia is not known."""
-    own = mechanism.spec.motor.inertia_kgm2
+    """The values of ``ROTOR``; NaN for designs whose motor's own inertia is not known.
+
+    They are the ratio of the wheel's inertia at its fastest to the motor's, and the coasting speed.
+    Let psi1 be the greatest velocity. While coasting without losses, I_input w²/2 + I psi1² w²/2 is
+    constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0. On a carrier all wheels have
+    the frame's speed, and psi1 is added to that of one.
+    """
+    spec, frame = mechanism.spec, mechanism.frame
+    own, motor = inertia_kgm2(spec), spec.motor.inertia_kgm2 * spec.motor.ratio**2
+    others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
     fastest = np.max(np.broadcast_arrays(*velocities), axis=0)
     with np.errstate(all="ignore"):
-        ratio = inertia_ratio(mechanism, cast("Array", fastest))
+        still, mu = (
+            np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest + frame)
+        )
+        ratio = np.maximum(mu, still), np.sqrt((1.0 + still) / (1.0 + mu))
     # a body off the wheel's axis stores and returns energy, which these do not count
-    known = (np.asarray(own) > 0.0) & (not mechanism.unbalanced)
+    known = (np.asarray(spec.motor.inertia_kgm2) > 0.0) & (not mechanism.unbalanced)
     return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
 
 
@@ -258,49 +275,3 @@ def greatest_formula(
         more = (two.Tc > one.Tc) | ((two.Tc == one.Tc) & (two.alpha > one.alpha))
         best = choose_record(more, other, best)
     return best
-
-
-def greatest_motor_torque_Nm(motor: Motor, most: N, least: N) -> N:
-    """The greatest size of the motor's torque, from the input's greatest and least torque.
-
-    The reducer's losses count whether it drives or is driven. At constant speed the rotor's own
-    inertia takes no torque.
-    """
-    eta = motor.gear_efficiency
-    return larger(most / eta, -least * eta) / motor.ratio
-
-
-def rms_motor_torque_Nm(motor: Motor, square: N, returned: N) -> N:
-    """The root mean square of the motor's torque.
-
-    ``square`` is the mean square of the input's torque; ``returned`` is the part of it where the
-    wheel drives the input.
-    """
-    eta = motor.gear_efficiency
-    spent = larger(square - returned, 0.0 * square)
-    mean = spent / eta**2 + returned * eta**2
-    return library(mean).sqrt(mean) / motor.ratio
-
-
-def flywheel_to_add_kgm2(motor: Motor, whole: N) -> N:
-    """The flywheel's inertia less the motor's own, at the input shaft."""
-    left = whole - motor.inertia_kgm2 * motor.ratio**2
-    return larger(left, 0.0 * left)
-
-
-def inertia_ratio(mechanism: Mechanism, fastest: N) -> tuple[N, N]:
-    """The ratio of the wheel's inertia at its fastest to the motor's, and the coasting speed.
-
-    ``fastest`` is the greatest velocity psi1. While coasting without losses, I_input w²/2 + I psi1²
-    w²/2 is constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0. On a carrier all
-    wheels have the frame's speed, and psi1 is added to that of one.
-    """
-    spec, frame = mechanism.spec, mechanism.frame
-    others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
-
-    def over_motor(turn: N) -> N:
-        own = inertia_kgm2(spec) * (turn * turn + others) / spec.motor.ratio**2
-        return own / spec.motor.inertia_kgm2
-
-    still, mu = over_motor(0.0 * fastest + frame), over_motor(fastest + frame)
-    return larger(mu, still), library(mu).sqrt((1.0 + still) / (1.0 + mu))

@@ -18,13 +18,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.contact import NEAR_CUSP, contact
 from geneva_cli.loads.forces import NEGLIGIBLE, LoadCase, wheel_torque
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.peak_search import motion_peaks
+from geneva_cli.motion.peak_search import motion_peaks, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask
-from geneva_cli.numerics.extrema import smooth_pieces
+from geneva_cli.numerics.extremes import Stretches
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import root
-from geneva_cli.numerics.stretch_search import Stretches
 
 # The greatest fraction of the step between two adjacent angles: the loads then keep six digits.
 FEWEST_DIGITS = 1e-10
@@ -33,8 +32,7 @@ FEWEST_DIGITS = 1e-10
 def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
     """Ends of the smooth parts of a motion, one after the other: (n, 1) each."""
     places, out = engagement.motion.breaks(n), []
-    pieces = smooth_pieces(places, engagement.motion.BREAKS_TO)
-    for (a, b), (start, end) in zip(pairwise(places), pieces, strict=True):
+    for (a, b), (start, end) in zip(pairwise(places), spans(engagement.motion, n), strict=True):
         if engagement.slot.curved:
             start = np.where(a == 0.0, NEAR_CUSP * engagement.exit_deg, start)
             end = np.where(b == 0.0, NEAR_CUSP * engagement.entry_deg, end)
@@ -44,9 +42,7 @@ def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
 
 def smooth_ranges(engagement: Engagement) -> list[tuple[float, float]]:
     """Ends of the smooth parts of one design's motion, clear of the breaks between them."""
-    motion = engagement.motion
-    pieces = smooth_pieces(motion.breaks(1), motion.BREAKS_TO)
-    return [(start.item(), end.item()) for start, end in pieces]
+    return [(start.item(), end.item()) for start, end in spans(engagement.motion, 1)]
 
 
 def to_mid_motion(engagement: Engagement, stretches: Stretches, n: int) -> Stretches:

@@ -181,21 +181,12 @@ class ClosedPeaks(Protocol):
         """Peak of a quantity, or None if it needs the general search."""
 
 
-class RoughMotion(Protocol):
-    """A wheel's motion for a first search."""
-
-    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
-        """Approximate speed and its derivatives at arrays of angles."""
-
-
 class WheelMotion(Batchable, ABC):
     """The wheel's angle as the input turns, from rest to rest."""
 
     # False if the two halves of the path differ
     mirrored = True
     closed_peaks: ClosedPeaks | None = None
-    # Greatest error of ``rough_rates``, as a fraction of the greatest rate; 0 for exact ones.
-    ROUGH_TO: ClassVar[float] = 0.0
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
     BREAKS_TO: ClassVar[float] = 0.0
 
@@ -211,18 +202,6 @@ class WheelMotion(Batchable, ABC):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Wheel speed over input speed, with derivatives, computed without the angle itself."""
         return self(input_deg, order + 1).derivative()
-
-    @property
-    def rough(self) -> RoughMotion:
-        """The part of the motion that ``rough_rates`` needs: less of it is copied for a search."""
-        return self
-
-    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
-        """Approximate speed and its derivatives at arrays of angles, for a first search.
-
-        The error is at most ``ROUGH_TO`` times the greatest value of each.
-        """
-        return self(input_deg, order + 1).arrays()[1:]
 
     @property
     def entry(self) -> Anchor | None:
@@ -454,7 +433,7 @@ class Anchor(NamedTuple):
 
     def place(self, input_deg: Number, order: int) -> Vector:
         """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
-        along, across = self.displacement_at(input_deg, order)
+        along, across = self.displacement(radians(input_deg - self.input_deg), order)
         return along + self.along, across
 
 

@@ -1,10 +1,20 @@
-"""Curved slots, which are solved for from a known pin path and motion."""
+"""Curved slots, which are solved for from a known pin path and motion.
+
+The motion follows a law, as for the groove of a cam.
+"""
 
 from __future__ import annotations
 
-from geneva_cli.motion.engagement import Anchor, Slot, WheelMotion, in_wheel
-from geneva_cli.numerics.arrays import Batchable
-from geneva_cli.numerics.jet import Jet, Number
+from typing import ClassVar
+
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.engagement import Anchor, Peak, Slot, WheelMotion, in_wheel
+from geneva_cli.motion.laws.law import Law, remaining
+from geneva_cli.motion.laws.law_peaks import greatest
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import Batchable, all_true, ascending, library
+from geneva_cli.numerics.jet import Jet, Number, piecewise
+from geneva_cli.numerics.latest import Latest
 
 
 class MiddlePath(Batchable):
@@ -33,3 +43,84 @@ class SolvedSlot(Slot):
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) in the wheel's frame."""
         return in_wheel(self.path(input_deg, order), self.motion(input_deg, order))
+
+
+MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
+
+
+class LawMotion(WheelMotion):
+    """A law, scaled to the wheel's step and to the motion angle."""
+
+    BREAKS_TO: ClassVar[float] = 1e-15  # a few roundings of an angle
+
+    def __init__(self, entry_deg: float, exit_deg: float, half_step: float, law: Law) -> None:
+        super().__init__(entry_deg, exit_deg, half_step)
+        self.law = law
+        self._latest = Latest()
+
+    @property
+    def symmetric(self) -> bool:
+        """True if the law is symmetric and the motion is centred on mid-motion."""
+        return all_true(self.law.symmetric) and super().symmetric
+
+    @property
+    def breaks_deg(self) -> tuple[float, ...]:
+        """Entry, the law's own breaks and its middle, the line of centres, and exit, in degrees."""
+        whole = self.exit_deg - self.entry_deg
+        places = (0.5, *self.law.breaks)
+        inner = [0.0, *[self.entry_deg + u * whole for u in places]]
+        if self.symmetric:
+            inner = [0.0, *[(u - 0.5) * whole for u in self.law.breaks]]
+        return (self.entry_deg, *ascending(inner), self.exit_deg)
+
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Entry, the law's knots and its middle, and exit, in degrees."""
+        whole = self.exit_deg - self.entry_deg
+        inner = sorted({0.5, *self.law.knots})
+        return (self.entry_deg, *[self.entry_deg + u * whole for u in inner], self.exit_deg)
+
+    def closed_peak(self, quantity: str) -> Peak[float] | None:
+        """Peak of a quantity, scaled from the law's own; None for a batch of laws."""
+        if self.law.varies:
+            return None
+        size, u = greatest(self.law)[quantity]
+        whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
+        at_deg = self.entry_deg + u * whole if u <= 0.5 else self.exit_deg - (1.0 - u) * whole
+        if quantity == "power":  # velocity times acceleration
+            size = size * step
+        times = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 3}[quantity]
+        return Peak(size * step / radians(whole) ** times, at_deg)
+
+    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
+        """Wheel angle with its derivatives; each half of the law is computed from its own end."""
+        return self._latest(self._halves, input_deg, order)[0]
+
+    def _halves(self, input_deg: Number, order: int) -> tuple[Jet]:
+        whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
+        middle = 0.5 * (self.entry_deg + self.exit_deg)
+
+        def first(x: Number) -> Jet:
+            fraction = (x - self.entry_deg) / whole
+            return self.law.first(fraction, order) * step - self.half_step
+
+        def second(x: Number) -> Jet:
+            rest = self.law.second((self.exit_deg - x) / whole, order)
+            return remaining(rest * step, self.half_step)
+
+        s = piecewise(input_deg, (middle,), (first, second))
+        rate = 1.0 / (whole * (library(input_deg).pi / 180.0))
+        return (Jet([c * rate**k if k else c for k, c in enumerate(s.c)]),)
+
+
+def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
+    """Raise GenevaError if the extra dwell leaves no motion angle, or no dwell at all."""
+    low, high = natural_deg - 360.0 + MOTION_MIN, natural_deg - MOTION_MIN
+    refuse(
+        (alpha0_deg <= low) | (alpha0_deg >= high),
+        lambda: GenevaError(
+            f"alpha0_deg = {alpha0_deg:.12g} leaves no motion angle between 0 and 360 degrees; "
+            f"it must be above {low:.12g} and below {high:.12g}",
+            ("motion", "alpha0_deg"),
+        ),
+    )

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import pairwise
-from typing import ClassVar
 
 from geneva_cli.motion.engagement import (
     Anchor,
@@ -149,8 +148,6 @@ class MeridianSlot(Slot):
 class StraightSlotMotion(WheelMotion):
     """Motion of a wheel whose straight slot follows the pin."""
 
-    ROUGH_TO: ClassVar[float] = 1e-9
-
     def __init__(self, path: AnchoredPath, half_step: float, mirrored: bool = True) -> None:
         super().__init__(path.anchors[0].input_deg, path.anchors[-1].input_deg, half_step)
         self.path, self.mirrored = path, mirrored
@@ -184,10 +181,6 @@ class StraightSlotMotion(WheelMotion):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Rate at which the pin's direction turns, computed without an arc tangent."""
         return turning(*self.path.from_nearest(input_deg, order + 1))
-
-    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
-        """Speed and its derivatives at arrays of angles, computed from the middle anchor only."""
-        return turning(*self.path.from_middle(input_deg, order + 1)).arrays()
 
 
 class ClassicMotion(StraightSlotMotion):

@@ -1,4 +1,4 @@
-"""The search for peaks by one scan and Newton's method; a single design is a batch of one.
+"""The search for peaks of motions; a single design is a batch of one.
 
 A peak is at a root of the next derivative, at an end of the motion, or where the law's derivative
 jumps. It is refined to the last bit, and never the largest sample of a grid.
@@ -6,23 +6,17 @@ jumps. It is refined to the last bit, and never the largest sample of a grid.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias, cast
+from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.motion.batch import designs_in, selection, taken
 from geneva_cli.motion.engagement import Engagement, Peak, WheelMotion
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Which, blocks, joined
-from geneva_cli.numerics.extrema import (
-    GROUP,
-    Rough,
-    Stationary,
-    greatest_sizes,
-    smooth_pieces,
-    stationary_points,
-)
+from geneva_cli.numerics.arrays import Array, Which, array, parameter
+from geneva_cli.numerics.extremes import SearchResult, Smooth, search
+from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.tolerances import TIE
 
 ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 2}  # derivatives in the quantity
@@ -32,60 +26,24 @@ QUANTITIES = tuple(ORDERS)
 PeakArray: TypeAlias = Peak[Array]  # the peaks of m designs: (m,)
 
 
-class _MotionSamples:
-    """A motion's speed and its derivatives, to ten digits, at angles in degrees.
+def curves(motion: WheelMotion, quantities: Sequence[str]) -> Smooth:
+    """Quantities of motions over the input angle in degrees."""
+    some = selection(motion)
 
-    All quantities are scanned at the same places, one block of designs after the other, so these
-    samples are kept.
-    """
+    def derivatives(
+        x: Array, which: Which, order: int, requested: Sequence[int]
+    ) -> list[Sequence[Array]]:
+        names = [quantities[i] for i in requested]
+        rates = some(which).rate(x, max(ORDERS[name] for name in names) - 1 + order).arrays()
+        return [_quantity(name, rates) for name in names]
 
-    def __init__(self, motion: WheelMotion, m: int, quantities: Sequence[str]) -> None:
-        self.motion, self.some = motion.rough, selection(motion.rough)
-        self.every = slice(0, m)
-        self.order = 1 + max(ORDERS[name] for name in quantities)
-        self.kept: dict[tuple[int, float], tuple[Array, ...]] = {}
-
-    def __call__(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
-        if not isinstance(which, slice):
-            return self._rates(x, which, order)
-        key = which.start, float(x[0, 0])
-        if key not in self.kept:
-            self.kept[key] = self._rates(x, which, self.order)
-        return self.kept[key]
-
-    def _rates(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
-        every = isinstance(which, slice) and which == self.every
-        motion = self.motion if every else self.some(which)
-        # Designs lie side by side in memory: each operation runs along all of them.
-        return motion.rough_rates(np.asfortranarray(x), order - 1)
+    return Smooth(derivatives, len(quantities), unit=DEGREE)
 
 
-class _QuantityCurve(NamedTuple):
-    """A quantity over the input angle in degrees, as a function for ``stationary_points``."""
-
-    some: Callable[[Which], WheelMotion]  # the motion of some designs
-    quantity: str
-
-    def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
-        p = self.some(which)(np.asfortranarray(x), ORDERS[self.quantity] + order).arrays()
-        return by_degrees(_quantity(self.quantity, p[1:]), x, order)
-
-
-class _RoughCurve(NamedTuple):
-    """A quantity to ten digits, from samples."""
-
-    samples: _MotionSamples
-    quantity: str
-
-    def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
-        p = self.samples(x, which, ORDERS[self.quantity] + order)
-        return by_degrees(_quantity(self.quantity, p), x, order)
-
-
-def _quantity(quantity: str, p: tuple[Array, ...]) -> list[Array]:
+def _quantity(quantity: str, p: tuple[Array, ...]) -> Sequence[Array]:
     """A quantity and its derivatives from the wheel's speed and its derivatives."""
     if quantity != "power":
-        return list(p[ORDERS[quantity] - 1 :])
+        return p[ORDERS[quantity] - 1 :]
     out = [p[0] * p[1]]
     if len(p) > 2:
         out.append(p[1] ** 2 + p[0] * p[2])
@@ -94,9 +52,42 @@ def _quantity(quantity: str, p: tuple[Array, ...]) -> list[Array]:
     return out
 
 
-def by_degrees(rates: Sequence[Array], x: Array, order: int) -> list[Array]:
-    """A function and its derivatives up to an order by degrees, from those by radians."""
-    return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(rates[: order + 1])]
+def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
+    """Ends of the smooth parts of m motions, (m, 1) each, clear of the breaks between them.
+
+    A function may jump at the breaks. They are known to a fraction ``BREAKS_TO`` of the motion, but
+    0 is exact. The value at a break itself belongs to the part before it, so that the part after it
+    begins at least one double later.
+    """
+    places = motion.breaks(m)
+    blur = motion.BREAKS_TO * (places[-1] - places[0])
+    inner = [(x, np.where(x == 0.0, 0.0, blur)) for x in places[1:-1]]
+    # beyond 0 the next double would become 0 again where it is scaled
+    beyond = [np.where(x == 0.0, 1e-300, np.nextafter(x, np.inf)) for x, _ in inner]
+    begins = [np.maximum(after, x + clear) for after, (x, clear) in zip(beyond, inner, strict=True)]
+    ends = [x - clear for x, clear in inner]
+    pairs = zip([places[0], *begins], [*ends, places[-1]], strict=True)
+    return [(np.minimum(a, places[-1]), np.maximum(a, b)) for a, b in pairs]
+
+
+def pole_deg(even: Jet) -> Array:
+    """Distance from mid-motion of a function's nearest pole, degrees, from its jet near there.
+
+    Near mid-motion the function is as c / (1 + x²/w²), or as its root, with w the distance.
+    """
+    return np.sqrt(np.abs(array(even.c[0]) / even.c[2])) / DEGREE
+
+
+def search_motion(motion: WheelMotion, f: Smooth, sized: bool = True) -> SearchResult:
+    """The greatest sizes of functions over motions, or their greatest and least values."""
+    m = designs_in(motion)
+    parts = spans(motion, m)
+    if motion.symmetric and sized:
+        parts = [(a, b) for a, b in parts if np.all(b <= 0.0)]
+    with np.errstate(all="ignore"):
+        w = pole_deg(motion.rate(0.01 * array(motion.exit_deg), 2))
+        w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * motion.exit_deg) + 0.0 * parts[0][0]
+    return search(f, parts, sized, w=w)
 
 
 def motion_peaks(
@@ -122,49 +113,14 @@ def motion_peaks(
     return peaks
 
 
-def landmarks(motion: WheelMotion, quantity: str, m: int) -> Stationary:
-    """Stationary points of a quantity of m designs, and the ends of its smooth parts, in order.
-
-    Between two consecutive ones it only rises or only falls.
-    """
-    pieces = smooth_pieces(motion.breaks(m), motion.BREAKS_TO)
-    first, last = (np.vstack(ends) for ends in zip(*pieces, strict=True))
-    whole = _QuantityCurve(selection(motion), quantity)
-
-    def curve(x: Array, which: Which, order: int) -> list[Array]:
-        return whole(x, np.arange(len(last))[which] % m, order)
-
-    every = np.arange(len(last))
-    ends = [Stationary(every, x[:, 0], curve(x, every, 0)[0][:, 0]) for x in (first, last)]
-    which, x, value = joined([stationary_points(curve, first, last), *ends])
-    which = which % m
-    order = np.lexsort((x, which))
-    return Stationary(which[order], x[order], value[order])
-
-
 def search_peaks(motion: WheelMotion, quantities: Sequence[str]) -> dict[str, PeakArray]:
-    """The peaks from the search only, without closed forms."""
-    # mid-motion, where wheels have their narrowest peaks, is one of them
-    m = designs_in(motion)
-    places = np.hstack([x for x in motion.breaks(m) if not motion.symmetric or np.all(x <= 0.0)])
-    parts = [_part(motion, places, block, quantities) for block in blocks(m, GROUP)]
-    return {name: joined([part[name] for part in parts]) for name in quantities}
-
-
-def _part(
-    motion: WheelMotion, places: Array, which: slice, quantities: Sequence[str]
-) -> dict[str, PeakArray]:
-    """Peaks of some of the designs, between their breaks."""
-    here = places[which]
-    some = motion if len(here) == len(places) else taken(motion, which)
-    samples, edges = _MotionSamples(some, len(here), quantities), np.hsplit(here, here.shape[1])
-    own, peaks = selection(some), {}
-    for name in quantities:
-        curve = _QuantityCurve(own, name)
-        rough = Rough(_RoughCurve(samples, name), some.ROUGH_TO)
-        sizes = greatest_sizes(curve, *edges, rough=rough, unsure=some.BREAKS_TO)
-        peaks[name] = PeakArray(*sizes)
-    return peaks
+    """The peaks from the search only, without closed forms; NaN for designs that are NaN."""
+    most, x, _ = search_motion(motion, curves(motion, quantities))
+    most = np.where(most < 0.0, np.nan, most)
+    return {
+        name: PeakArray(*row)
+        for name, row in zip(quantities, zip(most, x, strict=True), strict=True)
+    }
 
 
 def greater(first: PeakArray, other: PeakArray) -> PeakArray:
@@ -179,9 +135,5 @@ def greater(first: PeakArray, other: PeakArray) -> PeakArray:
 def braking(engagement: Engagement) -> float:
     """Greatest -psi2 of a motion; (m, 1) for m designs."""
     motion = engagement.motion
-    m = designs_in(motion)
-    which, _, value = landmarks(motion, "acceleration", m)
-    most = np.full(m, -np.inf)
-    np.maximum.at(most, which, -value)
-    one = m == 1 and isinstance(motion.entry_deg, float)
-    return float(most[0]) if one else cast("float", most[:, None])
+    most = search_motion(motion, curves(motion, ["acceleration"]), sized=False).most[1]
+    return float(most[0]) if isinstance(motion.entry_deg, float) else parameter(most[:, None])

@@ -14,7 +14,7 @@ from functools import partial
 
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Slot, SlotAxis
-from geneva_cli.motion.law_motion import LawMotion
+from geneva_cli.motion.path_and_motion import LawMotion
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, Enclosed, enclosed
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin, sin_cos

@@ -25,7 +25,6 @@ Mask: TypeAlias = "NDArray[np.bool_]"
 Whole: TypeAlias = "NDArray[np.intp]"
 Which: TypeAlias = "slice | Mask | Whole"  # some designs of a batch
 Complex: TypeAlias = "NDArray[np.complex128]"
-Long: TypeAlias = "NDArray[np.longdouble]"  # the longest floating-point numbers of the machine
 Number: TypeAlias = "float | Array"
 Truth: TypeAlias = "bool | Mask"
 # One kind of number as argument, and the same kind as result.

@@ -31,15 +31,6 @@ def _even_spread(cells: int) -> Array:
     return np.concatenate((-half, [0.0], half[::-1]))
 
 
-def _terms(t: Array) -> Array:
-    """The Chebyshev polynomials at places of any shape: (terms, ...)."""
-    out = np.empty((SERIES_DEGREE + 1, *t.shape))
-    out[0], out[1] = 1.0, t
-    for m in (1, 2, 4, 8):  # T(m + n) = 2 T(m) T(n) - T(m - n)
-        out[m + 1 : 2 * m + 1] = 2.0 * out[m] * out[1 : m + 1] - out[:m][::-1]
-    return out
-
-
 def _to_series() -> Array:
     """The matrix from values at the points, a row, to the terms of the series."""
     # the discrete cosine transform of the second kind of points: ends count half
@@ -56,38 +47,35 @@ def _to_slopes() -> Array:
 
 
 def _product(values: Array, matrix: Array) -> Array:
-    """Return values (..., k) times a matrix (k, n), n > 1, summed in order.
+    """Return values (..., k) times a matrix (k, n), summed in order.
 
     BLAS sums in an order that depends on the number of rows and on the processor. Then a single
     design would differ from the same design in a batch.
     """
     # transposed by hand: np.moveaxis takes as long as a product of few rows
     rows = np.ascontiguousarray(values.transpose(-1, *range(values.ndim - 1)))
-    if rows[0].size <= 128:  # the products of so few fit in the processor's cache
-        shape = *matrix.shape, *[1] * (rows.ndim - 1)
-        # in this order of memory, NumPy adds the products one after the other
-        out = _sum(np.multiply(matrix.reshape(shape), rows[:, None], order="C"))
-    else:
-        out = np.multiply.outer(matrix[0], rows[0])
-        term = np.empty(out.shape)  # one for all: allocation takes longer than the products
-        for row, value in zip(matrix[1:], rows[1:], strict=True):
-            out += np.multiply.outer(row, value, out=term)
+    out = np.multiply.outer(matrix[0], rows[0])
+    term = np.empty(out.shape)  # one for all: allocation takes longer than the products
+    for row, value in zip(matrix[1:], rows[1:], strict=True):
+        out += np.multiply.outer(row, value, out=term)
     return out.transpose(*range(1, out.ndim), 0)
 
 
-def _sum(terms: Array) -> Array:
-    """The sum over the first axis, in order."""
-    if terms[0].size == 1:  # a single value, of which NumPy would add pairs
-        return np.asarray(np.add.accumulate(terms)[-1])
-    return np.asarray(np.add.reduce(terms))
+def at(terms: Array, t: Array) -> Array:
+    """Values of series (terms, ...) at places, one for each series or broadcast against them."""
+    twice, after, later = 2.0 * t, terms[-1], 0.0
+    for c in terms[-2:0:-1]:  # Clenshaw's recurrence
+        after, later = c + twice * after - later, after
+    return np.asarray(terms[0] + t * after - later)
 
 
 POINTS = _even_spread(SERIES_DEGREE)  # where functions are sampled
 GRID = _even_spread(2 * SERIES_DEGREE)  # where signs are compared: two cells for each point
 _SERIES = _to_series()
 _SLOPES = _to_slopes()
-_ON_GRID = _product(_SERIES, _terms(GRID))
-_SLOPES_ON_GRID = _product(_product(_SERIES, _SLOPES), _terms(GRID))
+_TERMS = at(np.eye(SERIES_DEGREE + 1)[..., None], GRID)
+_ON_GRID = _product(_SERIES, _TERMS)
+_SLOPES_ON_GRID = _product(_product(_SERIES, _SLOPES), _TERMS)
 
 
 def series(values: Array) -> Array:
@@ -95,9 +83,9 @@ def series(values: Array) -> Array:
     return _product(values, _SERIES).T
 
 
-def slopes(terms: Array) -> Array:
-    """The terms of the derivatives of series (terms, m)."""
-    return _product(terms.T, _SLOPES).T
+def end_slopes(values: Array) -> Array:
+    """The slopes of the series of values (m, points) at both ends: (m, 2)."""
+    return _product(values, _SLOPES_ON_GRID[:, [0, -1]])
 
 
 def remainder(values: Array) -> Array:
@@ -112,19 +100,19 @@ def on_grid(values: Array) -> tuple[Array, Array]:
     return _product(values, _ON_GRID), _product(values, _SLOPES_ON_GRID)
 
 
-def at(terms: Array, t: Array) -> Array:
-    """Values of series (terms, ..., m) at one place each: (..., m)."""
-    return _sum(terms * _terms(t).reshape(len(terms), *[1] * (terms.ndim - 2), -1))
+def root(terms: Array, low: Array, high: Array, start: Array, slope: Array) -> Array:
+    """The zero of each series (terms, m) between ``low`` and ``high``, where its signs differ.
 
-
-def root(terms: Array, low: Array, high: Array, start: Array) -> Array:
-    """The zero of each series (terms, m) between ``low`` and ``high``, where its signs differ."""
-    both, rises, t = np.stack((terms, slopes(terms)), axis=1), at(terms, high) > 0.0, start
-    # Newton steps, from a secant on the grid; the function itself is evaluated afterwards
-    for _ in range(5):
-        value, rate = at(both, t)
+    ``start`` is a place near it, and ``slope`` an estimate of the slope there. The search goes by
+    secants; the function itself is evaluated afterwards.
+    """
+    rises, t, value = at(terms, high) > 0.0, start, at(terms, start)
+    for _ in range(3):
         below = (value < 0.0) == rises
         low, high = np.where(below, t, low), np.where(below, high, t)
-        new = t - value / rate
-        t = np.where((low <= new) & (new <= high), new, 0.5 * (low + high))
-    return t
+        new = t - value / slope
+        new = np.where((low <= new) & (new <= high), new, 0.5 * (low + high))
+        there = at(terms, new)
+        slope, t, value = (there - value) / (new - t), new, there
+    new = t - value / slope
+    return np.where((low <= new) & (new <= high), new, t)

@@ -1,15 +1,12 @@
-"""Caches of functions: of an angle, whose evaluations are counted, and of a design.
+"""Caches of functions: of an angle, and of a design.
 
 Motion, path, slot and guide of one roller depend on each other, and each is evaluated at the same
-array of angles. The cache avoids computing their common parts again. What it computes is counted:
-most of the time of loads, outlines and turns is spent there.
+array of angles. The cache avoids computing their common parts again.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Generic, TypeVar
 
@@ -40,7 +37,6 @@ class Latest:
         kept = self._kept
         if kept and kept[0] is x and kept[2] >= order and bool((kept[1] == x).all()):
             return tuple(Jet(jet.c[: order + 1]) for jet in kept[3])
-        count()
         jets = of(x, order)
         if x.size > 1 << 16:  # larger arrays are not kept in memory
             self._kept = None
@@ -48,34 +44,6 @@ class Latest:
         jets = tuple(Jet([read_only(c) for c in jet.c]) for jet in jets)
         self._kept = x, x.copy(order="K"), order, jets
         return jets
-
-
-class Work:
-    """Evaluations of functions of an angle at arrays of angles."""
-
-    def __init__(self) -> None:
-        self.evaluations = 0
-
-
-_counted: ContextVar[Work | None] = ContextVar("counted", default=None)
-
-
-@contextmanager
-def counted() -> Iterator[Work]:
-    """Count the evaluations within the block; those of a block inside it count there only."""
-    work = Work()
-    token = _counted.set(work)
-    try:
-        yield work
-    finally:
-        _counted.reset(token)
-
-
-def count() -> None:
-    """Count one evaluation, if anybody counts."""
-    work = _counted.get()
-    if work is not None:
-        work.evaluations += 1
 
 
 K = TypeVar("K")

@@ -1,14 +1,11 @@
-"""Roots, minima and boundaries in one variable, to the last bit.
-
-``newton`` finds roots and ``extrema`` stationary points of a batch of functions.
-"""
+"""Roots, minima and boundaries in one variable, to the last bit."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
 
-from geneva_cli.numerics.arrays import Array, Real, Truth, all_true, choose
+from geneva_cli.numerics.arrays import Array, Real, Truth, Whole, all_true, choose
 from geneva_cli.numerics.tolerances import TIE
 
 MOST_STEPS = 200  # towards a root, at most; halving reaches the last of 50 digits in 170
@@ -41,6 +38,41 @@ def root(
             return new
         x = new
     return x
+
+
+def find_roots(f: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Array) -> Array:
+    """The root of each function in [a, b], where its sign changes: shape (n,), to the last bit.
+
+    ``f(x, which)`` gives value and derivative of the functions ``which`` at x, both (m,). Newton's
+    method, within brackets, runs on the functions that are not finished yet only. A function that
+    is NaN anywhere has NaN for a result, and disturbs no other.
+
+    >>> import numpy as np
+    >>> A = np.array([2.0, 9.0])
+    >>> find_roots(lambda x, which: (x * x - A[which], 2.0 * x), 0.0 * A, A)
+    array([1.41421356, 3.        ])
+    """
+    import numpy as np
+
+    live, out = np.arange(len(a)), 0.5 * (a + b)
+    with np.errstate(all="ignore"):
+        x, step, rising = out.copy(), b - a, f(a, live)[0] < 0.0
+        for _ in range(MOST_STEPS):
+            if not len(live):
+                break
+            value, slope = f(x, live)
+            left = (value < 0.0) == rising
+            a, b = np.where(left, x, a), np.where(left, b, x)
+            new = x - value / slope
+            inside = ((a < new) & (new < b) | (new == x)) & (abs(new - x) < 0.5 * abs(step))
+            new = np.where(inside, new, 0.5 * (a + b))
+            new = np.where(value == 0.0, x, np.where(np.isnan(value), value, new))
+            out[live], step = new, new - x
+            short = inside & (abs(step) <= 2.0 * np.spacing(abs(x)))
+            open_ = ~(short | (new == x) | (new == a) | (new == b) | np.isnan(new))
+            live, a, b, x = live[open_], a[open_], b[open_], new[open_]
+            rising, step = rising[open_], step[open_]
+    return out
 
 
 def boundary(

@@ -203,13 +203,14 @@ def input_of(mechanism: Mechanism) -> Callable[[float], float]:
 
 def assembled(mechanism: Mechanism) -> Assembly:
     """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
-    full, spec, to_input = mechanism, mechanism.spec, input_of(mechanism)
+    spec, plain = mechanism.spec, mechanism.spec
     no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
     if mechanism.law is None and (crank := spec.drive.crank):
-        mechanism = build(spec.replace(drive=crank, drive_before=None, size=no_gears))
+        plain = spec.replace(drive=crank, drive_before=None, size=no_gears)
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
-        mechanism = build(spec.replace(drive_before=None, size=no_gears))
-    return _turned(mechanism, full, to_input)
+        plain = spec.replace(drive_before=None, size=no_gears)
+    turned = mechanism if plain == spec else build(plain)
+    return _turned(turned, mechanism, input_of(mechanism))
 
 
 def assembled_by_input(mechanism: Mechanism) -> Assembly:

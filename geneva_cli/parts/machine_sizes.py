@@ -16,7 +16,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.outlines.cut_outlines import drawn
+from geneva_cli.parts.outlines.cut_outlines import cut_lock, drawn
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import arc_floor, has_arcs
 from geneva_cli.parts.sizes import (
@@ -34,6 +34,7 @@ from geneva_cli.parts.sizes import (
     within_hub,
 )
 from geneva_cli.parts.slots.roller_paths import RollerPaths, mouth, roller_paths, roller_reaches
+from geneva_cli.parts.stressed import Unloaded
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
@@ -55,7 +56,7 @@ def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None
         if loads is None:
             return machine_sizes(mechanism)
         where = assembly(mechanism)
-        return where, sizes(where, loads=loads)
+        return where, loaded(unloaded(where), loads)
     except GenevaError:
         return None  # the check of the parts reports the error
 
@@ -70,29 +71,34 @@ def machine_sizes(mechanism: Mechanism) -> Layout:
     return where, sizes(where)
 
 
-def sizes(
-    assembly: Assembly, known: RollerPaths | None = None, loads: PartLoads | None = None
-) -> Sizes:
-    """Return the sizes of a machine's parts.
+def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
+    """Return the sizes of a machine's parts; ``known`` are its roller paths.
 
-    ``known`` are its roller paths, and ``loads`` those on its parts, if computed already.
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
-    usual, space = usual_sizes(assembly, known or roller_paths(assembly))
-    out = usual
     if assembly.full.spec.is_loaded:
-        # without a load none is needed
-        from geneva_cli.parts.outlines.cut_outlines import cut_lock
-        from geneva_cli.parts.sized_by_load import load_sizes
+        return loaded(unloaded(assembly, known))
+    usual, _ = usual_sizes(assembly, known or roller_paths(assembly))
+    refuse_sizes(assembly, usual)
+    return usual
 
-        first = None
-        if assembly.full.first_wheel:
-            from geneva_cli.parts.sized_by_load import first_sizes
 
-            first = first_sizes(assembly.full, sized)
-        by = cut_lock(assembly, usual) if usual.lock else None  # no load changes it
-        out = load_sizes(assembly, usual, space, by, loads, first)._replace(first=first)
-    refuse_sizes(assembly, out)
+def unloaded(assembly: Assembly, known: RollerPaths | None = None) -> Unloaded:
+    """Return the parts of a machine without its load; raises GenevaError as ``sizes`` does."""
+    usual, space = usual_sizes(assembly, known or roller_paths(assembly))
+    return Unloaded(assembly, usual, space, cut_lock(assembly, usual) if usual.lock else None)
+
+
+def loaded(of: Unloaded, loads: PartLoads | None = None, horn_MPa: float | None = None) -> Sizes:
+    """Return the sizes of a machine under its load; raises GenevaError as ``sizes`` does.
+
+    ``loads`` and ``horn_MPa`` are those of ``load_sizes``.
+    """
+    from geneva_cli.parts.sized_by_load import first_sizes, load_sizes
+
+    first = first_sizes(of.assembly.full, sized) if of.assembly.full.first_wheel else None
+    out = load_sizes(of, loads, horn_MPa, first)._replace(first=first)
+    refuse_sizes(of.assembly, out)
     return out
 
 
@@ -176,7 +182,10 @@ def usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
     axle = wheel_bore(assembly.full.spec, end, wall, L) if outside or size.wheel_bore_mm else 0.0
     wheel_reach, wheel_hub = wheel_reach_and_hub(size, axle, wall, end)
     crank_reach, crank_hub = crank_reach_and_hub(size, bore, wall)
-    thick, pin = drawn_thicknesses(size, L), pin_radius(size, r)
+    thick, pin, reaches = drawn_thicknesses(size, L), pin_radius(size, r), roller_reaches(assembly)
+    armed = 0.0
+    if assembly.full.spec.drive.ONE_ARM and pin:  # without pins there is no arm
+        armed = arm_bore(assembly.full.spec, bore, L, min(reaches) - hole_radius(size, pin))
     usual = Sizes(
         roller=r,
         half_width=w,
@@ -185,6 +194,7 @@ def usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
         slot_bottom=bottom,
         slot_end=end,
         arm=arm,
+        reaches=(min(reaches), max(reaches)),
         lock=lock,
         recess=lock + allowed.lock_clearance_mm if lock else 0.0,
         relief=relief,
@@ -196,22 +206,13 @@ def usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
         crank_reach=crank_reach,
         crank_hub=crank_hub,
         pin=pin,
-        arm_bore=_arm_bore(assembly, pin, bore),
+        arm_bore=armed,
         wheel_thickness=thick.wheel,
         lock_thickness=thick.lock,
         arm_thickness=thick.arm,
         link_thickness=thick.link,
     )
     return usual, within
-
-
-def _arm_bore(assembly: Assembly, pin: float, disc: float) -> float:
-    """Return the radius of the arm's bore, where a disc has a bore of radius ``disc``; or 0."""
-    spec = assembly.full.spec
-    if not (spec.drive.ONE_ARM and pin):  # without pins there is no arm
-        return 0.0
-    space = min(roller_reaches(assembly)) - hole_radius(spec.size, pin)
-    return arm_bore(spec, disc, assembly.L, space)
 
 
 def _crank_bore(spec: Spec, space: float, L: float) -> float:

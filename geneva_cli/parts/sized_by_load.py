@@ -29,17 +29,19 @@ from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength.arm_strength import arm_stress_MPa
 from geneva_cli.loads.strength.horn import horns
-from geneva_cli.loads.strength.horn_search import single_stress
+from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
 from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
-from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.pin import PinSize, pin
 from geneva_cli.loads.strength.shaft_stress import shear_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.loads.unbalance import centrifugal_N
+from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.assembly import Assembly
@@ -54,8 +56,7 @@ from geneva_cli.parts.sizes import (
     wheel_reach_and_hub,
     within_hub,
 )
-from geneva_cli.parts.slots.roller_paths import roller_reaches
-from geneva_cli.parts.stressed import ShaftSize, Stressed, stressed
+from geneva_cli.parts.stressed import ShaftSize, Stressed, Unloaded, stressed
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.tables import Load, Size
@@ -74,19 +75,17 @@ def first_that(trials: Iterable[T], holds: Callable[[T], bool], usual: T | None 
 
 
 def load_sizes(
-    assembly: Assembly,
-    usual: Sizes,
-    space: float,
-    by: Lock | None,
+    of: Unloaded,
     known: PartLoads | None = None,
+    bent_MPa: float | None = None,
     first: FirstSizes | None = None,
 ) -> Sizes:
-    """Return the sizes of a machine under its load, from the usual ones.
+    """Return the sizes of a machine under its load, from those without it.
 
-    ``space`` is the radius about the crank's axis inside the relief, mm; ``by`` is the lock as it
-    is cut, None without one; ``known`` are the loads, if computed already; ``first`` is what they
-    need of a first wheel. A load without a bound leaves all sizes.
+    ``known`` are the loads, and ``bent_MPa`` the stress of ``horn_MPa``, if computed already;
+    ``first`` is what they need of a first wheel. A load without a bound leaves all sizes.
     """
+    assembly, usual, space, by = of
     machine, spec = assembly.full, assembly.full.spec
     loads = known or single_loads(machine)
     if not all(map(math.isfinite, loads)):
@@ -99,12 +98,18 @@ def load_sizes(
     loads = loads._replace(
         wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
     )
-    if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
-        sizes = _thick(assembly, sizes, wheel=_wheel_thickness(assembly, sizes, by))
+    if by and spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
+        if bent_MPa is None:
+            bent_MPa = float(horn_MPa(machine, sizes.half_width, by)[0])
+        # a thicker wheel bends its pins more than its horns
+        trials = rounded_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
+        allowed, bent = wheel_material(spec).allowed_MPa, bent_MPa
+        wheel = first_that(trials, lambda b: keeps(bent / b, "at most", allowed))
+        sizes = _thick(assembly, sizes, wheel=wheel)
     eye = math.inf
     if assembly.sign > 0.0 and sizes.arm_bore:  # about the pin, where it passes the largest hub
         hub = max(sizes.wheel_hub, largest_hub(sizes.slot_end))
-        eye = assembly.L - max(roller_reaches(assembly)) - hub - sizes.wall_min
+        eye = assembly.L - sizes.reaches[1] - hub - sizes.wall_min
     wide = sizes.wheel_thickness
     sizes = sizes._replace(pin=pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, loads))
     has_arm = sizes.arm_bore > 0.0 and sizes.pin > 0.0
@@ -166,22 +171,16 @@ def _thick(
     )
 
 
-def _wheel_thickness(assembly: Assembly, sizes: Sizes, by: Lock | None) -> float:
-    """Return the wheel's thickness at which its horns hold, at most twice the usual one."""
-    usual, machine = sizes.wheel_thickness, assembly.full
-    if by is None:
-        return usual
-    held = lock.loaded_locks(machine, sizes.half_width, by, 1.0)
+def horn_MPa(machine: Mechanism, half_width: float, by: Lock) -> Array:
+    """Return the greatest stress in the horns of wheels 1 mm thick, (m,) for m designs.
 
-    def per_mm(way: Mechanism) -> float:
-        bent = single_stress(horns, way, (sizes.half_width, sizes.recess)).stress_MPa
-        every = (0.0, bent, held.horn_stress_MPa if held else 0.0)
-        return float(np.nanmax(np.hstack([*map(np.ravel, every)])))
-
-    most, allowed = greatest(per_mm, machine), wheel_material(machine.spec).allowed_MPa
-    # a thicker wheel bends its pins more than its horns
-    trials = rounded_from(usual, 2.0 * usual)
-    return first_that(trials, lambda b: keeps(most / b, "at most", allowed))
+    Under the roller, in every direction in which they turn, or under the torque in the dwell.
+    """
+    search = single_stress if isinstance(machine.design, int) else greatest_stress
+    each = [search(horns, way, (half_width, by.recess)).stress_MPa for way in every_way(machine)]
+    held = lock.loaded_locks(machine, half_width, by, 1.0)
+    rows = np.broadcast_arrays(*each, *([held.horn_stress_MPa] if held else []))
+    return np.fmax(0.0, np.fmax.reduce(rows))
 
 
 def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
@@ -243,7 +242,7 @@ def _crank_bored(
     # past links and gears the shaft may have no other way out
     if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.gears:
         return trial
-    left = min(roller_reaches(assembly)) - hole_radius(size, sizes.pin)
+    left = sizes.reaches[0] - hole_radius(size, sizes.pin)
     ending = bores_from(2.0 * sizes.arm_bore, left)  # half of it is left as a wall
     return first_that((bored(0.0)._replace(arm_bore=0.5 * d) for d in ending), holds)
 

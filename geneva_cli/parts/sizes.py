@@ -41,6 +41,7 @@ class Sizes(NamedTuple):
     slot_bottom: float  # clearance between the deepest roller and a straight slot's end
     slot_end: float  # distance of the slot's bottom from the wheel's axis
     arm: float  # least distance of a roller's path from the crank's axis
+    reaches: tuple[float, float]  # least and greatest, of the rollers at mid-motion, from that axis
     lock: float  # locking disc
     recess: float  # in the wheel: lock and clearance
     relief: float  # clearance between wheel and relief

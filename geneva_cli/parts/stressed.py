@@ -30,10 +30,19 @@ from geneva_cli.parts.sizes import (
     hole_radius,
     plane_span,
 )
-from geneva_cli.parts.slots.roller_paths import mouth_corners, roller_reaches
+from geneva_cli.parts.slots.roller_paths import mouth_corners
 from geneva_cli.spec.default_sizes import half_or, value_or
 from geneva_cli.spec.keyways import key
 from geneva_cli.spec.least_wall import eye_about
+
+
+class Unloaded(NamedTuple):
+    """The parts of a machine as they are without a load."""
+
+    assembly: Assembly
+    sizes: Sizes
+    space: float  # radius about the crank's axis inside the relief, mm
+    lock: Lock | None  # as it is cut, which no load changes
 
 
 class ShaftSize(NamedTuple):
@@ -138,7 +147,7 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
     size = assembly.full.spec.size
     if not (sizes.arm_bore and sizes.pin):
         return ArmDimensions.none()
-    length = max(roller_reaches(assembly))
+    _, length = sizes.reaches
     passing = sizes.passing_eye(assembly.L - length)
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
     hole = hole_radius(size, sizes.pin)

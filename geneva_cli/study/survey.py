@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.motion.cam_factors import CamFactors, cam_factors
-from geneva_cli.motion.timing import Timing, timing
+from geneva_cli.motion.timing import CamFactors, Timing, cam_factors, timing
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.spec.rules import SPEED, Z_MAX, RangeText, range_text

@@ -19,10 +19,16 @@ from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.verdict.both_directions import worst_checks
-from geneva_cli.verdict.checks import checks_at_rest, single_check
-from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, TURNING, check_named, turn_checks
+from geneva_cli.verdict.checks import single_check
+from geneva_cli.verdict.checks.all_checks import (
+    LIMITS,
+    MOTION,
+    TURNING,
+    check_named,
+    standing,
+    untold,
+)
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
-from geneva_cli.verdict.remedies import remedies
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
@@ -130,7 +136,7 @@ class Trial:
         """The turns at few positions: what fails there fails in the whole turn."""
         from geneva_cli.parts.turn.full_turn import full_turn
 
-        return [full_turn(parts.turned, refined=False) for parts in self.ways]
+        return [full_turn(parts.turned, False) for parts in self.ways]
 
     def spare(self, name: str) -> float:
         """The least margin of a check, negative where it fails; of a turn at few positions."""
@@ -148,10 +154,13 @@ class Trial:
     def rows(self, parts: bool, turn: bool) -> Iterator[Check]:
         """All checks in all directions, the quick ones first."""
         for way in self.ways:
-            built = parts and way.mechanism.spec.is_turned
-            yield from checks_at_rest(way.mechanism, way if built else None)
-            if built and turn:
-                yield from turn_checks(way, way.turned.turn)
+            spec = way.mechanism.spec
+            for among in (MOTION, LIMITS):
+                yield from untold(among, way.mechanism)
+            if parts and spec.is_turned and spec.has_parts:
+                yield from untold(standing(way.mechanism), way.built)
+            if parts and spec.is_turned and turn:
+                yield from untold(TURNING, way, way.turned.turn)
 
 
 class Adviser:
@@ -173,6 +182,8 @@ class Adviser:
 
         Without one, None and the reason.
         """
+        from geneva_cli.verdict.remedies import remedies
+
         self.stop = self.left - trials
         by_cost = sorted(wanted, key=lambda c: (c.name in TURNING, c.name not in QUICK))
         self.units = {c.name: -c.spare if c.spare > -math.inf else 1.0 for c in by_cost}

@@ -12,7 +12,6 @@ from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import peak
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.latest import counted
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.shafts.fits import closest_mm, loosest_mm
 from geneva_cli.spec.tables import Z_USUAL, Size
@@ -194,21 +193,19 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
 @lru_cache(maxsize=128)
 def _law_turns_back(law: Law) -> bool:
     """Return True if a wheel turns back with a law, whatever its step and its motion angle."""
-    from geneva_cli.motion.law_motion import LawMotion
+    from geneva_cli.motion.path_and_motion import LawMotion
 
-    with counted():  # the design that comes first is charged no more than the next
-        return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
+    return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
 
 
 def _least_velocity(motion: WheelMotion) -> tuple[float, float] | None:
     """The least velocity of a motion and its place if it is below 0; else None."""
-    from geneva_cli.motion.peak_search import landmarks
+    from geneva_cli.motion.peak_search import curves, search_motion
 
-    _, x, velocity = landmarks(motion, "velocity", 1)
-    least = velocity.argmin()
+    result = search_motion(motion, curves(motion, ["velocity"]), sized=False)
+    most, back = result.most[:, 0].tolist()
     # Where a law stands still, rounding leaves a few units in the last place on either side of 0.
-    noise = 1e-12 * abs(velocity).max()
-    return (velocity[least].item(), x[least].item()) if velocity[least] < -noise else None
+    return (-back, result.x[1].item()) if back > 1e-12 * most else None
 
 
 def _off_the_mid_condition(mechanism: Mechanism) -> Notice:

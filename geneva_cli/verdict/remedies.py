@@ -231,9 +231,10 @@ def _remedies(word: str, mechanism: Mechanism) -> Iterator[Remedy]:
         return
     if how == "=":
         values = tuple(map(_value, end.split(",")))
-        now = value_now(mechanism, table, key) if len(values) > 1 else None
-        if isinstance(now, float):
-            values = tuple(sorted(values, key=lambda v: abs(float(v or 0.0) - now)))
+        if len(values) > 1:  # numbers
+            near = value_now(mechanism, table, key)
+            own = near if isinstance(near, float) else 0.0
+            values = tuple(sorted(values, key=lambda value: abs(float(value or 0.0) - own)))
         yield Remedy(table, key, values)
         return
     if how == "~" and spec.table(table)[key] == Size().as_dict()[key]:

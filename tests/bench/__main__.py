@@ -1,7 +1,6 @@
 """``python -m bench [SUBJECT] [--quick]`` in the tests' folder: run time against error."""
 
 import argparse
-import sys
 
 from bench.run import SUBJECTS, bench_table, measure
 from geneva_cli.output import show
@@ -16,10 +15,7 @@ def main() -> None:
     given = parser.parse_args()
     rows = []
     for name in SUBJECTS if given.subject == "all" else (given.subject,):
-        about, found = measure(name, given.quick)
-        rows += found
-        if about.absent:
-            print(f"{name}: not installed: {', '.join(about.absent)}", file=sys.stderr)
+        rows += measure(name, given.quick)[1]
     show(bench_table(rows), given.output)
 
 

@@ -42,23 +42,8 @@ class Subject(NamedTuple):
     slack: float = 0.1  # a method is faster if it takes less than 1 - slack of another's time
     floor: float = 1e-15  # relative errors below this count as equal
     seconds: float = 1.0  # run time of each method, at least one run
-    absent: Sequence[str] = ()  # libraries with methods that are not installed
     grows: bool = False  # methods of a task are one run of growing size
     clock: Callable[[], float] = processor_s
-
-
-def missing(*distributions: str) -> tuple[str, ...]:
-    """Libraries, by their names in pip, that are not installed."""
-    from importlib import metadata
-
-    def is_here(name: str) -> bool:
-        try:
-            metadata.version(name)
-        except metadata.PackageNotFoundError:
-            return False
-        return True
-
-    return tuple(name for name in distributions if not is_here(name))
 
 
 class BenchRow(NamedTuple):

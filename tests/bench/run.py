@@ -21,10 +21,8 @@ SUBJECTS = (
     "many",
     "sweep",
     "motion",
-    "tolerance",
     "synth",
     "start",
-    "export",
     "growth",
 )
 

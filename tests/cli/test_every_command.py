@@ -27,7 +27,7 @@ from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.writer import keys_in, values_of
-from geneva_cli.verdict.checks.all_checks import checks_before_turn, checks_of_turn
+from geneva_cli.verdict.checks.all_checks import BEFORE_TURN, OF_TURN
 from geneva_cli.verdict.quantities.groups import GROUPS
 
 DESIGNS = sorted(path.stem for path in repo.DESIGNS.glob("*.toml"))
@@ -200,7 +200,7 @@ def in_comparison(varied):
                 yield f"{name} {row[column]}, alone {one[name]}"
 
 
-CHECKS = tuple(f"checks.{name}" for name in (*checks_before_turn(), *checks_of_turn()))
+CHECKS = tuple(f"checks.{name}" for name in (*BEFORE_TURN, *OF_TURN))
 BATCHED = tuple(name for group in GROUPS for name in group.batched)
 STUDIES = {
     "sweep": in_sweep,

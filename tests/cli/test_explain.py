@@ -27,15 +27,15 @@ from geneva_cli.loads.vibration import vibration_answers
 from geneva_cli.loads.vibration.vibration import SpeedToAvoid
 from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import Entry, entries
-from geneva_cli.motion import law_values, registry
 from geneva_cli.motion import motion_table as motion
-from geneva_cli.motion.cam_factors import CamFactors
+from geneva_cli.motion import registry
 from geneva_cli.motion.pitch_curve import WALLED
+from geneva_cli.motion.timing import CamFactors
 from geneva_cli.parts.gears import gear_curves
 from geneva_cli.parts.slots import groove
 from geneva_cli.specfile.meanings import meanings
 from geneva_cli.specfile.template import EXAMPLES
-from geneva_cli.study import survey
+from geneva_cli.study import law_values, survey
 from geneva_cli.study.sweep.run import ERROR
 from geneva_cli.study.synth.synth_table import NAMES as SYNTH
 from geneva_cli.study.verdicts import checks_table

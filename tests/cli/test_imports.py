@@ -130,7 +130,7 @@ OWN = {
     "table --z 6": "cli cli.app errors progress streams table cli.commands cli.completion "
     "motion motion.wheels cli.options cli.commands.table motion.wheels.classic motion.timing "
     "output study output.finite output.formats output.text study.survey "
-    "numerics motion.cam_factors numerics.angles numerics.arrays spec spec.rules",
+    "numerics motion.timing numerics.angles numerics.arrays spec spec.rules",
 }
 
 # Modules of the program that a run of an unloaded wheel imports, at most: a few more than today.

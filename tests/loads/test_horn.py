@@ -9,11 +9,11 @@ import repo
 from load_states import state
 from plane_stress import along
 from plane_stress import horn as in_plane_stress
-from words import Motion, Spec, Wheel
+from words import Spec, Wheel
 
 from geneva_cli import load as read
 from geneva_cli.loads.strength.horn import horns, product
-from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
+from geneva_cli.loads.strength.horn_search import greatest_stress
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.spec.tables import Load, Size
@@ -159,22 +159,3 @@ def test_the_side_that_bears():
 
 def test_without_a_lock_there_is_no_horn():
     assert greatest(machine(6, 100.0, 5.0), 5.0, 0.0, 10.0) is None
-
-
-def test_a_curved_slot_has_horns_too():
-    """Near the mouth a matched cycloidal slot is nearly straight: of the same order as one."""
-    motion = Motion("cycloidal", ratio="matched")
-    spec = Spec(Wheel(6), motion=motion, size=Size(100.0, 5.0), load=LOAD)
-    found = greatest(build(spec), 5.0, 35.0, 10.0)
-    assert found.stress_MPa > 0.0
-    assert found.thickness_mm < 35.0
-
-
-def test_sizes_and_checks_share_one_search():
-    """The wheel's thickness and the stress that is printed come from one search of the horns."""
-    # a load of its own, so that no other test has sized this wheel
-    design = read(str(repo.DESIGNS / "internal-z6.toml"), ["load.inertia_kgm2=0.0517"])
-    single_stress.cache_clear()
-    stress = {check.name: check.value for check in design.checks}["horn_stress_MPa"]
-    known = single_stress.cache_info()
-    assert stress > 0.0 and known.misses == 1 and known.hits >= 1

@@ -14,7 +14,7 @@ from geneva_cli.loads.cycle import Cycle, greatest
 from geneva_cli.loads.load_peaks import load_peaks, load_summaries
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
-from geneva_cli.numerics.stretch_search import BLOCK
+from geneva_cli.numerics.extremes import BLOCK
 from geneva_cli.spec.tables import Load
 
 ULP = 2.0**-52

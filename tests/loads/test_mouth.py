@@ -155,12 +155,3 @@ def test_to_first_order_it_is_a_root_too(sign):
     assert mouth_contacts(engagement, 0.0, -sign * 1e-8, 0.05, 0.0).jump == pytest.approx(
         found[1], rel=1e-4
     )
-
-
-def test_with_room_it_meets_nothing():
-    [engagement] = build(Spec(Wheel(6))).engagements
-    assert np.isnan(mouth_contacts(engagement, -1e-4, 0.0, 0.05, 1e-4).jump[0])
-    assert np.isnan(mouth_contacts(engagement, 1e-4, 0.0, 0.05, 1e-4).jump[0])
-    assert np.isnan(mouth_contacts(engagement, 0.0, 0.0, 0.05, 0.0).jump[0])
-    [sphere] = build(Spec(Wheel(6, "spherical"))).engagements
-    assert np.isnan(mouth_contacts(sphere, -1e-4, 0.0, 0.05, 1e-4).jump[0])

@@ -4,10 +4,8 @@ import math
 
 import mpmath
 import pytest
-from words import Spec, Wheel
 
-from geneva_cli.loads.strength.pin import Pin, least_diameter_mm, moment_mm, pin, pin_diameter_mm
-from geneva_cli.motion.mechanism import build
+from geneva_cli.loads.strength.pin import Pin, least_diameter_mm, moment_mm, pin
 from geneva_cli.spec.tables import Size
 
 
@@ -63,15 +61,6 @@ def test_a_pin_by_hand():
     assert 1000.0 * found.bending == pytest.approx(32.0 * 9000.0 / (math.pi * 1728.0), rel=1e-15)
     assert 1000.0 * found.shear == pytest.approx(4.0 / 3.0 * 1000.0 / (math.pi * 36.0), rel=1e-15)
     assert 1000.0 * found.equivalent == pytest.approx(53.0516, rel=1e-6)  # as printed
-
-
-def test_its_keys():
-    spec = Spec(Wheel(8), size=Size(250.0, 12.0))
-    assert pin_diameter_mm(build(spec)) == 12.0
-    assert pin_diameter_mm(build(spec.with_("size.pin_mm", 0.0))) == 24.0
-    plain, both = (pin(Size(pin_held=held), 18.0, 12.0) for held in ("cantilever", "fixed"))
-    assert both.bending == pytest.approx(plain.bending / 6.0, rel=1e-15)
-    assert both.shear == pytest.approx(plain.shear / 2.0, rel=1e-15)
 
 
 @pytest.mark.parametrize("width", [2.0, 60.0])  # sheared off; bent

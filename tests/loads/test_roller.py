@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import repo
 from witness import mp
-from words import Drive, Keys, Motion, Spec, Wheel, load
+from words import Motion, Spec, Wheel, load
 
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.load_case import load_case
@@ -19,9 +19,8 @@ from geneva_cli.loads.strength.roller import (
     lives,
     passage,
     passages,
+    wears_mm,
 )
-from geneva_cli.loads.strength.wear import wears_mm
-from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.arrays import only_of
 from geneva_cli.spec.tables import Load, RollerMaterial, Size, WheelMaterial
@@ -143,18 +142,6 @@ def test_a_constant_force_is_its_own_mean():
     assert passages(twice)[0].load == pytest.approx(2.0**LIFE_EXPONENT * one.load, rel=1e-13)
 
 
-def test_the_mean_force_of_a_crank_that_runs_away():
-    """Inside, with A near 1, forces grow as 1/(1-A)²; where they begin they are rounding, of any
-    sign, which has no power of 10/3. From 1e-7 to 1e-8 the rest changes by some 1e-4."""
-
-    def mean(gap):
-        drive, keys = Drive("side-crank"), Keys("side-crank", 1.0 - gap)
-        found = life(build(Spec(Wheel(16, "internal"), drive, keys, load=Load(0.036))))
-        return found.equivalent_force_N * gap * gap
-
-    assert mean(1e-8) == pytest.approx(mean(1e-7), rel=5e-4)
-
-
 def test_life_in_turns_motions_and_hours():
     """ISO 281: a million turns under P = C; twice the capacity lasts 2^(10/3) times as long."""
     force = life(build(CASE)).equivalent_force_N
@@ -166,14 +153,6 @@ def test_life_in_turns_motions_and_hours():
         build(CASE.replace(material_roller=RollerMaterial(dynamic_capacity_N=2.0 * force)))
     )
     assert twice.turns == pytest.approx(1e6 * 2.0 ** (10.0 / 3.0), rel=1e-13)
-
-
-def test_several_rollers_share_the_motions():
-    capacity = RollerMaterial(dynamic_capacity_N=2000.0)
-    one = life(build(CASE.replace(wheel=Wheel(4), material_roller=capacity)))
-    two = CASE.replace(wheel=Wheel(4), drive=Drive(rollers=2), material_roller=capacity)
-    assert life(build(two)).hours == pytest.approx(one.hours, rel=1e-12)  # each once a turn
-    assert life(build(two)).motions == pytest.approx(one.motions, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -196,19 +175,6 @@ def test_passages_of_one_roller_in_an_hour(design, a_turn):
     own = life(mechanism._replace(spec=spec))
     an_hour = 60.0 * spec.drive.n_rpm * a_turn
     assert own.motions / own.hours == pytest.approx(an_hour, rel=1e-12)
-
-
-def test_of_unequal_steps_the_worst_roller_counts():
-    mechanism = load(str(DESIGNS / "unequal-steps.toml"))
-    capacity = RollerMaterial(dynamic_capacity_N=2000.0)
-    spec = mechanism.spec.replace(material_roller=capacity, load=Load(torque_Nm=5.0))
-    mechanism = mechanism._replace(spec=spec)
-    hours = []
-    for way in passages(mechanism):
-        force = (way.load / way.rolled_m) ** 0.3
-        turns = way.rolled_m / (2.0 * math.pi * mechanism.roller_radius_mm / 1000.0)
-        hours.append(1e6 * (2000.0 / force) ** LIFE_EXPONENT / turns / (60.0 * spec.drive.n_rpm))
-    assert life(mechanism).hours == pytest.approx(min(hours), rel=1e-12)
 
 
 WORN = WheelMaterial(wear_mm3_Nm=1e-6)
@@ -254,11 +220,11 @@ def test_one_wall_takes_all_the_wear_of_a_torque_that_never_reverses():
     spec = CASE.replace(material_wheel=WORN, load=Load(0.0, 15.0))
     (way,) = passages(build(spec))
     expected = way.work / (0.5 * way.travel_m) / (20.0 * 1000.0)
-    assert worn_mm(spec) == pytest.approx([expected], rel=1e-12)
+    assert worn_mm(spec) == pytest.approx(expected, rel=1e-12)
     # an inertia alone presses on one wall on the way in, and on the other on the way out
     (way,) = passages(build(spec.replace(load=Load(0.4, 0.0))))
     walls = expected_walls(build(spec.replace(load=Load(0.4, 0.0))))
-    assert worn_mm(spec.replace(load=Load(0.4, 0.0))) == pytest.approx([max(walls)], rel=1e-12)
+    assert worn_mm(spec.replace(load=Load(0.4, 0.0))) == pytest.approx(max(walls), rel=1e-12)
 
 
 def expected_walls(machine):
@@ -266,42 +232,3 @@ def expected_walls(machine):
     (engagement,), case = machine.engagements, load_case(machine)
     halves = [passage(engagement, case, half) for half in (-1.0, 1.0)]
     return [one.work / one.travel_m / (20.0 * 1000.0) for one in halves]
-
-
-def test_a_batch_wears_as_its_designs():
-    loads = [(0.4, 15.0), (0.0, 15.0), (0.4, 0.0), (0.1, 1.0)]
-    columns = {
-        "load.inertia_kgm2": np.array([i for i, _ in loads]),
-        "load.torque_Nm": np.array([t for _, t in loads]),
-    }
-    batch = many(CASE.replace(material_wheel=WORN), columns).machine
-    together = wears_mm(batch, [one.rubbing_N for one in passages(batch)])
-    one_by_one = [worn_mm(CASE.replace(material_wheel=WORN, load=Load(*of)))[0] for of in loads]
-    assert together == pytest.approx(one_by_one, rel=1e-12)
-
-
-def test_what_is_not_known_is_none():
-    assert life(build(CASE)).hours is None
-
-
-def test_a_force_without_a_bound_ends_the_integrals():
-    """Friction alone holds the wheel beside mid-motion: the roller's mean force has no bound."""
-    motion = Motion("cycloidal", alpha0_deg=0.01)
-    spec = Spec(
-        Wheel(6), motion=motion, load=Load(0.5, friction=0.1), size=Size(face_width_mm=10.0)
-    )
-    machine = build(spec)
-    found = passage(machine.engagements[0], load_case(machine))
-    assert math.isinf(found.load)
-    assert math.isfinite(found.travel_m) and math.isfinite(found.rolled_m)
-
-
-def test_a_roller_that_turns_back_thrice_in_its_slot():
-    """An epicyclic drive's: its way is what its distance from the wheel's axis goes up and down."""
-    one = build(Spec(Wheel(4), Drive("epicyclic"), {"planet_ratio": -0.05}, load=Load(1.0)))
-    engagement = one.engagements[0]
-    x, y = engagement.path(np.linspace(engagement.entry_deg, engagement.exit_deg, 200_001), 0)
-    far = np.diff(np.hypot(x.c[0], y.c[0])) * one.center_distance_mm / 1000.0
-    assert (np.sign(far[1:]) != np.sign(far[:-1])).sum() == 3
-    # a top between two of the angles is less than 1e-10 of the way above both
-    assert passages(one)[0].travel_m == pytest.approx(abs(far).sum(), rel=1e-9)

@@ -11,7 +11,6 @@ from words import law, load
 from geneva_cli import Design, External, Motion, Tuned
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.vibration.shape import law_shape
-from geneva_cli.motion import registry
 
 mp = mpmath.mp.clone()
 mp.dps = 50
@@ -62,28 +61,6 @@ def test_the_load_moves_along_its_law():
         assert bent + omega**2 * r == pytest.approx(-s[2], abs=1e-12)
 
 
-@pytest.mark.parametrize("name", registry.STANDARD_LAWS)
-def test_which_laws_serve(name):
-    """By their first three derivatives at both ends, which the law itself says."""
-    laws = registry.law(name)()
-    ends = max(abs(c) for x in (0.0, 1.0) for c in laws(x, 3).derivatives()[1:])
-    if ends < 1e-12:
-        assert Tuned(period_ratio=3.0, of=name)
-        return
-    with pytest.raises(GenevaError, match='use "4-5-6-7" or "sine-group"') as error:
-        Tuned(period_ratio=3.0, of=name)
-    assert error.value.key == ("motion", "of")
-
-
-def test_it_starts_and_stops_at_rest():
-    for damping in (0.0, 0.1):
-        for of in Y:
-            tuned = Tuned(period_ratio=1.7, of=of, damping_ratio=damping)
-            start, end = tuned(0.0, 1).c, tuned(1.0, 1).c
-            assert start == (0.0, 0.0)
-            assert end == pytest.approx((1.0, 0.0), abs=1e-15)
-
-
 SPEC = """
 [wheel]
 z = 6
@@ -98,22 +75,6 @@ inertia_kgm2 = 0.4
 [shaft]
 stiffness_Nm_rad = {k}
 """
-
-
-@pytest.mark.parametrize("kind", ["crank", "cam"])
-def test_in_a_machine(tmp_path, kind):
-    """Curved slots and a cam's groove: cut so, the wheel leaves its load at rest."""
-    k = 0.4 * (2.0 * math.pi * 3.0 * 3.0) ** 2  # three periods in the motion's third of a second
-    path = tmp_path / "tuned.toml"
-    path.write_text(SPEC.format(kind=kind, own="period_ratio = 3.0", k=repr(k)))
-    machine = load(path)
-    assert machine.law.tuned_to == 3.0
-    found = Design.of(machine.spec).vibration().to_dict()
-    assert found["residual_share"] <= 1e-15
-    assert not any("tuned" in text for text in found["warnings"])
-    other = Design.of(machine.spec).with_("drive.n_rpm", 66.0).vibration().to_dict()
-    assert other["residual_share"] > 1e-3
-    assert any("set n_rpm = 60," in text for text in other["warnings"])
 
 
 @pytest.mark.parametrize(

@@ -7,21 +7,17 @@ import numpy as np
 import pytest
 import repo
 from bench import truth
-from machine_witness import mp as exact_digits
-from machine_witness import on_path
-from sampling import some
 from swings import greatest_acceleration, residuals, shares
 from words import law as load_law
 from words import load, points
 
 from geneva_cli import Crank, Design, External, Shaft, SideCrank
 from geneva_cli.drives.noncircular_gears import NoncircularGears
-from geneva_cli.loads.vibration.lobes import highest_ratio, lobes
+from geneva_cli.loads.vibration.lobes import lobes
 from geneva_cli.loads.vibration.oscillator import Oscillator
 from geneva_cli.loads.vibration.shape import law_shape, shape
 from geneva_cli.loads.vibration.vibration import oscillators_of, speeds_to_avoid
 from geneva_cli.motion import registry
-from geneva_cli.motion.laws.table_law import TableLaw
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 
@@ -85,82 +81,6 @@ def test_straight_slots_to_the_last_digits(z, gearing, A, damping):
         assert abs(found - abs(exact)) <= 1e-13 * abs(exact)
 
 
-@pytest.mark.parametrize("z", [3, 6])
-def test_straight_slots_at_large_ratios(z):
-    """By parts, again and again: what is left are the derivatives at entry and exit.
-
-    What the bend between them leaves besides is below e^-1000. At entry and exit z = 3 accelerates
-    by a fifteenth of its greatest: the panels between join but for a rounding of each end's value,
-    which is the bar. At 5555.5 the residual is nearly 0.
-    """
-    mp = truth.digits()
-    engagement = build(Spec(External(z))).engagements[0]
-    half = truth.half_motion(z, "external", 0.0)
-    bent = [
-        mp.taylor(lambda x: truth.motion(z, "external", 0.0, x)[2], side, 7)
-        for side in (-half, half)
-    ]
-    ends = np.polynomial.legendre.legval(
-        np.array([-1.0, 1.0]), shape(engagement.motion).series[1].T
-    )
-    for ratio in (1234.567, 5555.5, 9999.3):
-        p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(0, 1) / (2 * half)
-        total = sum(
-            mp.factorial(k) * (bent[0][k] * mp.exp(2 * half * p) - bent[1][k]) / p ** (k + 1)
-            for k in range(8)
-        )
-        exact = abs(total / p) / (2 * mp.pi / z)
-        found = shares(shape(engagement.motion), np.array([ratio]), 0.0)[0]
-        assert abs(found - exact) <= 2.0**-52 * abs(ends).sum() / (2.0 * math.pi * ratio) ** 2
-
-
-def test_rounding_is_no_burden():
-    """A motion of 0.9 deg, at angles that are rounded to 1e-14 of it: no more panels help.
-
-    The wheel's angle in 50 digits, by parts twice, gives the residual p² integral of s e^(p (1-u)),
-    plus p. The terms of the series that rounding fills are 5e-13 of the greatest derivative.
-    """
-    from geneva_cli.kinds.linkages.four_bar import FourBar
-
-    drive = FourBar(
-        crank_mm=35.0, ground_mm=91.0, coupler_mm=79.5, rocker_mm=94.76896748337387,
-        point_mm=121.4652374962513, point_deg=25.0, entry_deg=81.61205802280841,
-    )  # fmt: skip
-    spec = Spec(External(16, held_by="detent"), drive)
-    (engagement,) = build(spec).engagements
-    middle = math.degrees(engagement.reactions.middle)
-    exact = on_path(spec, middle + engagement.entry_deg, middle + engagement.exit_deg)
-    panels = shape(engagement.motion)
-    assert len(panels.half) < 200
-    mp, whole = exact_digits, exact.exit - exact.entry
-    for ratio, damping in some(((0.7, 0.0), (8.0, 0.05), (40.0, 0.0)), ((8.0, 0.05),)):
-        z_ = mp.mpf(damping)
-        p = 2 * mp.pi * mp.mpf(ratio) * mp.mpc(-z_, mp.sqrt(1 - z_ * z_))
-
-        def swing(u, p=p):
-            s = (exact.wheel(exact.entry + u * whole) / exact.b + 1) / 2
-            return s * mp.exp(p * (1 - u))
-
-        cuts = [mp.mpf(k) / 32 for k in range(33)]
-        expected = abs((mp.quad(swing, cuts, maxdegree=4) * p + 1) * p) / p.imag
-        found = shares(panels, [ratio], damping)[0]
-        # a few units of the entry angle's last place, which is 1.6e-14 of the motion
-        assert abs(found - expected) <= 1e-13
-
-
-def test_many_points_are_no_burden():
-    """A law of 2,001 points has some thousand panels: its fifth derivative jumps at each."""
-    u = np.linspace(0.0, 1.0, 2001)
-    pairs = [(float(x), float(x**3 * (10 - 15 * x + 6 * x * x))) for x in u]
-    form = law_shape(TableLaw(pairs))
-    exact = law_shape(load_law("3-4-5"))
-    assert len(form.half) < 10_000
-    ratios = np.array([0.5, 3.3, 12.0])
-    # A spline through 2,001 doubles has bends of 1e-16 / step² (4e-10) more or less than the
-    # polynomial's, and its solution adds as much.
-    assert shares(form, ratios, 0.0) == pytest.approx(shares(exact, ratios, 0.0), abs=4e-10)
-
-
 def test_gears_by_points(tmp_path):
     """Behind gears given by points the motion is no polynomial between them, and has kinks."""
     path = tmp_path / "ratio.csv"
@@ -211,16 +131,6 @@ def test_dynamic_factor_against_a_solver(kind, ratio, damping):
     assert found == pytest.approx(greatest, rel=2e-6)
 
 
-def test_large_ratios_add_the_jump_to_the_wheels_acceleration():
-    """A rigid shaft but for the ringing that the jump at entry starts: both in step, their sum."""
-    machine = build(Spec(External(6)))
-    whole, step = math.radians(120.0), math.pi / 3.0
-    wheel = 1.34963727590190292442655173495 * whole**2 / step  # theory.md, section 7
-    jump = math.tan(math.pi / 6.0) * whole**2 / step
-    found = greatest_acceleration(shape(machine.engagements[0].motion), 1e4, 0.0)
-    assert found == pytest.approx(wheel + jump, rel=1e-4)
-
-
 @pytest.mark.parametrize("damping", [0.002, 0.05])
 def test_steady_state_is_where_marching_ends(damping):
     """Unlike steps, cycle after cycle by the state's own 2 x 2 matrix, until nothing changes."""
@@ -267,29 +177,6 @@ def test_a_lobe_is_where_the_slope_of_the_closed_form_vanishes():
     assert found.share == pytest.approx(exact, rel=1e-12)
 
 
-def test_a_lobe_next_to_an_end_is_found():
-    """A maximum half a sample from an end: `sweep` gave another residual than `vibration` there."""
-    form = law_shape(load_law("cycloidal"))
-
-    def share(_, ratio):
-        return shares(form, ratio, 0.0)
-
-    (top,) = lobes(share, np.array([2.0]), np.array([3.0])).ratio
-    for low, high in ((top - 0.004, top + 1.0), (top - 1.0, top + 0.004)):
-        near = lobes(share, np.array([low]), np.array([high])).ratio - top
-        assert np.abs(near).min() < 1e-12  # its own rounding, as in the test above
-    beyond = lobes(share, np.array([top + 0.004]), np.array([top + 0.9])).ratio
-    assert (beyond >= top + 0.004).all()
-
-
-def test_no_residual_is_above_its_bound():
-    for machine in (build(Spec(External(4))), build(Spec(External(6), SideCrank(A=0.6)))):
-        form = shape(machine.engagements[0].motion)
-        for share, damping in ((1e-2, 0.0), (1e-4, 0.0), (1e-4, 0.5), (1e-4, 0.99)):
-            high = highest_ratio(form, share, damping)
-            assert shares(form, np.linspace(high, 3.0 * high, 2000), damping).max() <= share
-
-
 def test_speeds_to_avoid_are_the_greatest_nearby():
     """Of unlike engagements the worst counts; none is missed by a fine scan over the speeds."""
     machine = build(Spec(External(6, steps_deg=(72.0, 48.0))))
@@ -334,13 +221,6 @@ def test_units_and_the_shaft():
     assert {k: v for k, v in given.items() if isinstance(v, float)} == pytest.approx(
         {k: v for k, v in found.items() if isinstance(v, float)}
     )
-
-
-def test_stations_that_differ():
-    machine = build(Spec(External(6, steps_deg=(72.0, 48.0))))
-    found = oscillators_of(machine, Oscillator(4.0, 0.0))
-    assert found.ratio[:, 0] == pytest.approx([4.0, 4.0 * 132.0 / 108.0])
-    assert np.isnan(found.steady_share).all()
 
 
 def test_a_stop_has_no_steady_state():

@@ -16,16 +16,16 @@ from words import LAWS, Spec, Wheel, named, points
 from geneva_cli.errors import marking
 from geneva_cli.loads.vibration.tuned import Tuned
 from geneva_cli.motion.batch import taken
-from geneva_cli.motion.law_motion import LawMotion
-from geneva_cli.motion.law_values import characteristic
 from geneva_cli.motion.laws.law_peaks import greatest
 from geneva_cli.motion.laws.scca import SineConstantCosine
 from geneva_cli.motion.laws.standard import SineGroup
 from geneva_cli.motion.laws.table_law import TableLaw
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
+from geneva_cli.motion.path_and_motion import LawMotion
 from geneva_cli.motion.peak_search import QUANTITIES, search_peaks
 from geneva_cli.motion.peaks import peaks
+from geneva_cli.study.law_values import characteristic
 
 CASES = [
     *[(name, 0.0) for name in LAWS],

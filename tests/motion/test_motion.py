@@ -1,7 +1,5 @@
 """The motion table: windows, dwell, several engagements, mirroring, and arrays in closed form."""
 
-import math
-
 import numpy as np
 import pytest
 from words import Drive, Keys, Motion, Spec, Wheel
@@ -65,24 +63,3 @@ def test_dwell_is_still_and_motion_is_not(spec: Spec) -> None:
                 assert at[name][i] == pytest.approx(value[order], abs=2e-13 * scale)
     for name in ("velocity", "acceleration", "jerk"):
         assert (at[name][~moving] == 0.0).all()
-
-
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-@pytest.mark.parametrize("z", [3, 4, 7, 24, 1000])
-def test_the_closed_forms_of_arrays_agree_with_the_jets(z: int, gearing: str) -> None:
-    """Two formulas for one wheel. The angle's rounding counts x q'(x): 8 ulp of the peak times
-    that condition number, here bounded by 10."""
-    engagement = build(Spec(Wheel(z, gearing))).engagements[0]
-    for count in (4001, 4000, 1, 2):
-        whole = np.linspace(engagement.entry_deg, engagement.exit_deg, count)
-        for x in (whole, whole + 0.001, whole[: count // 2 + 1]):
-            fast = engagement.motion.derivatives(x, (0, 1, 2, 3))
-            exact = engagement.motion(x).derivatives()
-            half = math.radians(engagement.exit_deg)
-            for order, (a, b) in enumerate(zip(fast, exact, strict=True)):
-                peak = np.abs(
-                    engagement.motion(np.linspace(-1, 1, 999) * engagement.exit_deg).c[order]
-                )
-                condition = max(1.0, half * 3.0)
-                limit = 8.0 * condition * np.spacing(peak.max() * (1, 1, 2, 6)[order])
-                assert np.abs(a - b).max() <= limit

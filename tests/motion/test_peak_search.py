@@ -14,24 +14,6 @@ from geneva_cli.motion.peaks import worst
 from geneva_cli.spec.schema import REQUIRED, fields
 
 
-@pytest.mark.sampled(8)
-@pytest.mark.parametrize("name", MACHINES)
-def test_rough_rates_are_as_near_as_is_promised(name):
-    """The scan's speed and its derivatives, against the motion's own."""
-    spec, rules = MACHINES[name]
-    found = many(spec, drawn(rules, 24, 11))
-    count = len(found.which)
-    for motion in (engagement.motion for engagement in found.machine.engagements):
-        ends = (motion.entry_deg, motion.exit_deg)
-        a, b = (np.broadcast_to(np.reshape(x, (-1, 1)), (count, 1)) for x in ends)
-        x = a + (b - a) * np.linspace(0.0, 1.0, 20)
-        for exact, rough in zip(
-            motion(x, 3).arrays()[1:], motion.rough.rough_rates(x, 2), strict=True
-        ):
-            allowed = motion.ROUGH_TO * abs(exact + 0.0 * x).max(axis=1, keepdims=True)
-            assert (abs(rough - exact) <= allowed).all()
-
-
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["inside", "offset", "spherical", "epicyclic", "modified-sine"])
 def test_against_50_digits(name):

@@ -14,7 +14,7 @@ from witness import Geneva, near
 
 from geneva_cli import load
 from geneva_cli.motion.peak_search import search_peaks
-from geneva_cli.motion.peaks import ends, peaks, peaks_of, worst
+from geneva_cli.motion.peaks import peaks, peaks_of
 
 OFFSETS = (-0.9, -0.5, 0.0, 0.3, 0.6, 0.9, 0.99)
 NAMES = ("velocity", "acceleration", "jerk", "power")
@@ -187,18 +187,6 @@ def test_a_peak_beside_mid_motion(machine):
     before, after = (peaks(s).velocity.at_deg for s in m.engagements[2:4])
     assert before == pytest.approx(-1.223534258378942246e-12, rel=0.0, abs=60.0 * 2.0**-52)
     assert after == 0.0
-
-
-def test_worst_engagement_of_a_side_crank_with_two_rollers(machine):
-    m = machine(4, A=0.6, rollers=2)
-    each = [peaks(s) for s in m.engagements]
-    found = worst(m)
-    for name in NAMES:
-        greatest = max(each, key=lambda p: getattr(p, name).max)
-        s = m.engagements[each.index(greatest)]
-        got, own = getattr(found, name), getattr(greatest, name)
-        assert got == (own.max, pytest.approx(s.mid_deg + own.at_deg, abs=1e-12))
-    assert found.ends.acceleration_entry == max(ends(s).acceleration_entry for s in m.engagements)
 
 
 def test_peaks_at_a_speed():

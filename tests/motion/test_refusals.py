@@ -4,16 +4,13 @@ Each case is a spec with a gap, ``@``, for the value that is wrong. Where the me
 the bound is tried: a millionth on its right side the machine is built, and on its wrong side not.
 """
 
-import math
 import re
 from typing import NamedTuple
 
-import numpy as np
 import pytest
 from words import load
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion import registry
 
 WHEEL = "[wheel]\nz = 6\n"
 BALL = WHEEL + 'gearing = "spherical"\n'
@@ -73,10 +70,7 @@ def bound(name, spec, wrong, pattern, side):
 OFFSET = [
     case("offset", WHEEL + "offset_mm = @", "80", 3, "offset_mm = 80", "shock", "below 75"),
     case("offset-at-the-limit", WHEEL + "offset_mm = @", "75", 3, "below 75"),
-    case("offset-negative", WHEEL + "offset_mm = @", "-75", 3, "offset_mm = -75", "below 75"),
-    case("offset-nan", WHEEL + "offset_mm = @", "nan", 3, "offset_mm = nan"),
     case("offset-internal", INSIDE + "offset_mm = @", "5", 4, "internal", 'gearing = "external"'),
-    case("offset-spherical", BALL + "offset_mm = @", "5", 4, "spherical", 'gearing = "external"'),
     case("offset-law", WHEEL + "offset_mm = @\n" + LAW, "5", 3, "law", "remove"),
     case("offset-steps", WHEEL + STEPS + "offset_mm = @\n", "5", 4, "steps_deg", "one of them"),
 ]
@@ -90,31 +84,15 @@ TINY = [
         4,
         "sizes below 1e-300 are not computed",
     ),
-    case(
-        "tiny-offset",
-        WHEEL + "offset_mm = @",
-        "-9.9e-301",
-        3,
-        "sizes below 1e-300 are not computed",
-    ),
 ]
 
 STEP = [
     case("sum", WHEEL + "steps_deg = @", "[70, 60]", 3, "390", "not 360", "120"),
-    case("sum-short", WHEEL + "steps_deg = @", "[20]", 3, "120", "not 360", "60"),
-    case("sum-hardly", WHEEL + "steps_deg = @", "[70, 50.001]", 3, "360.003", "120"),
     case("no-multiple", WHEEL + "steps_deg = @", "[20, 25, 35, 10]", 3, "z = 6", "multiple", "4"),
     case("out-of-reach", "[wheel]\nz = 3\nsteps_deg = @", "[80, 90, 190]", 3, "190", "below 180"),
-    case("half-turn", "[wheel]\nz = 3\nsteps_deg = @", "[80, 100, 180]", 3, "180", "below 180"),
     case("no-dwell", WHEEL + "steps_deg = @", "[40, 60, 80]", 3, "360", "dwell", "fewer"),
     case("zero", WHEEL + "steps_deg = @", "[0, 120]", 3, "steps_deg = 0", "above 0"),
-    case("negative", WHEEL + "steps_deg = @", "[-10, 130]", 3, "steps_deg = -10", "above 0"),
-    case("nan", WHEEL + "steps_deg = @", "[nan, 60]", 3, "nan", "above 0"),
     case("empty", WHEEL + "steps_deg = @", "[]", 3, "list of 1"),
-    case("number", WHEEL + "steps_deg = @", "60", 3, "list of numbers"),
-    case("text", WHEEL + "steps_deg = @", '["sixty", 60]', 3, "number", "sixty"),
-    case("internal", INSIDE + "steps_deg = @", "[70, 50]", 4, "external"),
-    case("spherical", BALL + "steps_deg = @", "[70, 50]", 4, "external"),
     case("law", WHEEL + "steps_deg = @\n" + LAW, "[70, 50]", 3, "law", "remove"),
     case("rollers", WHEEL + STEPS + "[drive]\nrollers = @", "3", 5, "2 steps", "remove rollers"),
     case("angles", WHEEL + STEPS + ANGLES + "@", "[0, 100, 200]", 5, "2 steps", "as many angles"),
@@ -122,72 +100,44 @@ STEP = [
 
 ROLLERS = [
     case("close", WHEEL + ANGLES + "@", "[0, 90]", 4, "0 and 90", "120", "90 deg apart"),
-    case("close-behind", WHEEL + ANGLES + "@", "[0, 241]", 4, "241 and 0", "120", "119 deg apart"),
     case("no-dwell", WHEEL + ANGLES + "@", "[0, 120, 240]", 4, "3 motions", "360", "dwell"),
     case("unsorted", WHEEL + ANGLES + "@", "[0, 150, 140]", 4, "rise from 0"),
-    case("twice", WHEEL + ANGLES + "@", "[0, 0]", 4, "rise from 0"),
-    case("not-from-0", WHEEL + ANGLES + "@", "[10, 150]", 4, "rise from 0"),
     case("whole-turn", WHEEL + ANGLES + "@", "[0, 360]", 4, "below 360"),
-    case("empty", WHEEL + ANGLES + "@", "[]", 4, "list of 1"),
-    case("internal", INSIDE + ANGLES + "@", "[0, 180]", 5, "240", "180 deg apart"),
-    case("spherical", BALL + ANGLES + "@", "[0, 180]", 5, "2 motions", "dwell"),
     case("law", WHEEL + ANGLES + "@\n" + LAW, "[0, 150]", 4, "straight", "remove"),
     case("count", WHEEL + ANGLES + "[0, 150]\nrollers = @", "3", 5, "2 angles", "remove rollers"),
 ]
 
 SPHERICAL = [
     case("axes-0", BALL + "axes_deg = @", "0", 4, "axes_deg = 0", "above 0"),
-    case("axes-180", BALL + "axes_deg = @", "180", 4, "axes_deg = 180", "below 180"),
-    case("axes-negative", BALL + "axes_deg = @", "-30", 4, "above 0"),
-    case("axes-nan", BALL + "axes_deg = @", "nan", 4, "axes_deg = nan"),
     case(
         "axes-of-a-flat-wheel", WHEEL + "axes_deg = @", "80", 3, 'gearing = "spherical"', "external"
     ),
-    case("axes-of-an-internal-one", INSIDE + "axes_deg = @", "80", 4, '"spherical"'),
     case("two-rollers", BALL + "[drive]\nrollers = @", "2", 5, "180", "at most 1"),
-    case("three", BALL + "axes_deg = 60\n[drive]\nrollers = @", "3", 6, "147.796", "at most 2"),
     case("law", BALL + "[motion]\nlaw = @", '"cycloidal"', 5, "straight", "remove law"),
-    case("law-gears", BALL + GEARS + "[motion]\nlaw = @", '"cycloidal"', 8, "straight"),
 ]
 
 FRONTS = [
-    case("e-1", WHEEL + GEARS.replace("0.2", "@"), "1", 5, "eccentricity = 1", "below 1"),
     case("e-near-1", WHEEL + GEARS.replace("0.2", "@"), "0.9999999999999", 5, "at most 1 - 1e-12"),
-    case("e-negative", WHEEL + GEARS.replace("0.2", "@"), "-0.1", 5, "at least 0"),
-    case("e-text", WHEEL + GEARS.replace("0.2", "@"), '"some"', 5, "must be a number"),
     case("e-missing", WHEEL + drive("@"), "elliptical-gears", 3, "needs eccentricity", "below 1"),
     case("e-elsewhere", WHEEL + "[drive]\neccentricity = @", "0.2", 4, '"elliptical-gears"'),
-    case("phase", WHEEL + GEARS + "phase = @", '"fast"', 6, '"slow", "quick"'),
-    case("rollers", WHEEL + GEARS + "rollers = @", "3", 6, "120", "at most 2"),
     case("rollers-law", WHEEL + GEARS + "rollers = @\n" + LAW, "2", 6, "slot", "rollers = 1"),
-    case("internal-rollers", INSIDE + GEARS + "rollers = @", "2", 7, "one roller", "at most 1"),
-    case("spherical-rollers", BALL + GEARS + "rollers = @", "2", 7, "180", "at most 1"),
 ]
 
 PLANETS = [
     case("z", "[wheel]\nz = @\n" + PLANET, "5", 2, "z = 5", "3, 4 or 6"),
-    case("z-24", "[wheel]\nz = @\n" + PLANET, "24", 2, "z = 24", "3, 4 or 6"),
     case("large", WHEEL + PLANET.replace("0.01", "@"), "0.39", 5, "0.39", "at most 0."),
-    case("small", WHEEL + PLANET.replace("0.01", "@"), "-0.39", 5, "-0.39", "above -0.1"),
-    case("huge", WHEEL + PLANET.replace("0.01", "@"), "1e300", 5, "at most 0.4"),
-    case("word", WHEEL + PLANET.replace("0.01", "@"), '"shock"', 5, '"shockless"'),
     case("missing", WHEEL + drive("@"), "epicyclic", 3, "needs planet_ratio"),
-    case("fixed", WHEEL + PLANET + "fixed = @", '"moon"', 6, '"sun", "ring"'),
     case("rollers", WHEEL + PLANET + "rollers = @", "2", 6, "one roller"),
 ]
 
 CAMS = [
     case("no-law", WHEEL + drive("@"), "cam", 4, "needs a law"),
     case("ratio", WHEEL + CAM + LAW + "ratio = @", "0.5", 7, "ratio has no meaning"),
-    case("matched", WHEEL + CAM + LAW + "ratio = @", '"matched"', 7, "ratio has no meaning"),
     case("alpha0", WHEEL + CAM + LAW + "alpha0_deg = @", "120", 7, "above -240", "below 120"),
-    case("alpha0-low", WHEEL + CAM + LAW + "alpha0_deg = @", "-240", 7, "above -240", "below 120"),
     case(
         "parallel", WHEEL + CAM + LAW + "alpha0_deg = @", "-180", 7, "300", "parallel", "increase"
     ),
     case("fast-inside", INSIDE + CAM + LAW + "alpha0_deg = @", "130", 7, "1.091", "below 1"),
-    case("rollers", WHEEL + CAM + "rollers = @\n" + LAW, "3", 5, "120", "at most 2"),
-    case("law", WHEEL + CAM + "[motion]\nlaw = @", '"cycloid"', 6, '"cycloidal"'),
 ]
 
 # What no drive with a roller path of its own can turn.
@@ -210,21 +160,17 @@ PATHS = [
 LINKS = [
     case("grashof", WHEEL + FOUR_BAR.replace("40", "@"), "95", 5, "crank_mm = 95", "below 90"),
     case("size", WHEEL + FOUR_BAR + "[size]\ncenter_distance_mm = @", "120", 12, "remove"),
-    case("branch", WHEEL + FOUR_BAR + "branch = @", '"up"', 11, '"+", "-"'),
     case("rollers", WHEEL + FOUR_BAR + "rollers = @", "2", 11, "one roller"),
 ]
 
 SLIDES = [
     case("all-round", WHEEL + SLIDER.replace("40", "@"), "115", 5, "crank_mm = 115", "below 110"),
     case("height", WHEEL + SLIDER.replace("= 10", "= @"), "-100", 5, "crank_mm = 40", "below 20"),
-    case("rollers", WHEEL + SLIDER + "rollers = @", "2", 10, "one roller"),
     case("internal", WHEEL + "gearing = @\n" + SLIDER, '"internal"', 3, "external wheel"),
-    case("size", WHEEL + SLIDER + "[size]\ncenter_distance_mm = @", "120", 11, "remove"),
 ]
 
 NONCIRCULAR = [
     case("neither", WHEEL + drive("@"), "noncircular-gears", 4, "A", "ratio_file"),
-    case("A", WHEEL + drive("noncircular-gears", "A = @"), "1", 5, "A = 1", "below 1"),
     case("no-file", WHEEL + drive("noncircular-gears", "ratio_file = @"), '"gone.csv"', 5, "gone"),
     case(
         "both",
@@ -250,20 +196,14 @@ TWO = "[drive]\nrollers = 2\ncrank_steps = [0, 3]\n"
 BODY = '[[mass]]\nshape = "point"\nmass_kg = 1\n'
 CRANKS = [
     case("beyond", WHEEL + SEVERAL, "[0, 6]", 5, "below z = 6"),
-    case("between", WHEEL + SEVERAL, "[0, 2.5]", 5, "whole numbers"),
-    case("first", WHEEL + SEVERAL, "[1, 3]", 5, "begin with 0"),
     case("twice", WHEEL + SEVERAL, "[0, 0]", 5, "different"),
     case("three", WHEEL + SEVERAL, "[0, 2, 4]", 4, "3 cranks", "rollers = 3"),
     case("inside", INSIDE + "[drive]\ncrank_steps = @\n", "[0, 3]", 5, "external"),
-    case(
-        "side-crank", WHEEL + drive("side-crank", "A = 0.5\ncrank_steps = @"), "[0, 3]", 6, "crank"
-    ),
     case("angles", WHEEL + TWO + "roller_angles_deg = @", "[0, 150]", 6, "even turns", "remove"),
     case("tolerance", WHEEL + TWO + "[tolerance]\nlock_radius_mm = @", "0.1", 6, "remove one"),
     case("body", WHEEL + TWO + BODY + "radius_mm = @", "50", 6, "count to 2"),
 ]
 CAROUSELS = [
-    case("spherical", "[wheel]\nz = 6\ngearing = @\n" + ORBIT, '"spherical"', 3, "or internal"),
     case(
         "unbalanced",
         WHEEL + ORBIT + BODY + "radius_mm = 50\n[motion]\nlaw = @",
@@ -281,7 +221,6 @@ CAROUSELS = [
     ),
     case("many", WHEEL + ORBIT + "wheels = @", "3", 5, "wheels = 3", "120 deg", "at most 2"),
     case("fingers", WHEEL + ORBIT + "rollers = 2\nwheels = @", "2", 6, "remove rollers"),
-    case("inside", INSIDE + ORBIT + "wheels = @", "2", 6, "surrounds", "wheels = 1"),
     case("gears", WHEEL + ORBIT + "[support]\ngear_ratio = @", "2", 6, "set it to 1"),
 ]
 
@@ -389,33 +328,7 @@ def test_the_value_that_a_message_names_works(spec, wrong, pattern, fill):
     built(spec, fill(named))
 
 
-@pytest.mark.parametrize("fixed", ["sun", "ring"])
-@pytest.mark.parametrize("z", [3, 4, 6])
-@pytest.mark.parametrize("side", [-1, 1])
-def test_a_gear_geneva_that_is_built_never_turns_back(z, fixed, side):
-    """At entry R0 - c² rp >= 0 (else the wheel starts backwards) and R0 - c rp > 0 (else the
-    roller moves out of its slot), at mid-motion R0 + c rp > 0.
-    """
-    spec = f'[wheel]\nz = {z}\n[drive]\nkind = "epicyclic"\nfixed = "{fixed}"\nplanet_ratio = @'
-    for size in (0.005, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.399):
-        try:
-            s = built(spec, repr(side * size)).engagements[0]
-        except GenevaError:
-            continue
-        x = np.linspace(s.entry_deg, s.exit_deg, 401)
-        assert np.min(s.motion(x).derivatives()[1]) >= -1e-15, size
-        px, py = s.path(x, 1)
-        rho = np.hypot(px.c[0], py.c[0])
-        assert np.max(rho) <= math.cos(math.pi / z) * (1.0 + 1e-12), size
-
-
 @pytest.mark.parametrize("offset", ["20", "-20"])
 def test_a_pair_whose_first_wheel_still_rests_is_refused(offset):
     """Radial slots of 4 and 4 just do: offset ones are entered before the first wheel moves."""
     refused("[wheel]\nz = 4\noffset_mm = @\n" + PAIR.replace("3", "4"), offset)
-
-
-def test_every_kind_has_its_refusals():
-    cases = [p.values[0].spec.replace("@", p.values[0].wrong) for g in GROUPS.values() for p in g]
-    for kind in set(registry.DRIVES) - {"crank", "side-crank"}:  # these: test_errors.py
-        assert any(f'"{kind}"' in c for c in cases), kind

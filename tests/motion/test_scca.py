@@ -10,8 +10,8 @@ import pytest
 from witness import LAWS, SineLaw, mp
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.law_values import characteristic
 from geneva_cli.motion.laws.scca import SineConstantCosine
+from geneva_cli.study.law_values import characteristic
 
 pi = math.pi
 NAMED = {

@@ -27,7 +27,6 @@ def test_values_and_slopes_on_the_grid():
 @pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("count", [1, 2, 4])
 def test_a_row_has_the_same_bits_among_others(order, count):
-    """Small and large batches take different loops; neither may change the order of a sum."""
     few = np.array(ROWS[:count], order=order)
     many = np.tile(ROWS, (100, 1))
     for function in (chebyshev.series, lambda rows: chebyshev.on_grid(rows)[0].T):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from witness import near
 
-from geneva_cli.numerics.roots import Falsi, boundary, boundary_by_sections, root
+from geneva_cli.numerics.roots import Falsi, boundary, boundary_by_sections, find_roots, root
 
 
 def calls(f):
@@ -118,3 +118,21 @@ def test_falsi(short):
     assert found.good**2 <= 2.0
     assert steps < (12 if math.isfinite(short) else 60)
     assert Falsi(1.0, 1e-300, 2.0, -1.0).middle(0.02) == 1.02
+
+
+def test_roots_of_a_batch():
+    """Newton, a bend that misleads it, a slope that is none, and no number."""
+    rate = np.array([1.0, 50.0, 1e3, math.nan])
+    place = np.array([0.3, 0.1, -0.7, 0.0])
+
+    def f(x, which):
+        t = rate[which] * (x - place[which])
+        return np.arctan(t), rate[which] / (1.0 + t * t)
+
+    found = find_roots(f, np.full(4, -9.0), np.full(4, 9.0))
+    assert found[:3] == pytest.approx(place[:3], rel=2.3e-16)
+    assert math.isnan(found[3])
+    flat = find_roots(lambda x, which: (x - 0.1, 0.0 * x), np.array([0.0]), np.array([1.0]))
+    assert flat[0] == root(lambda x: (x - 0.1, 0.0), 0.0, 1.0)
+    falling = find_roots(lambda x, _: (0.25 - x, 0.0 * x - 1.0), np.zeros(2), np.ones(2))
+    assert falling.tolist() == [0.25, 0.25]

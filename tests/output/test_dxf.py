@@ -2,6 +2,7 @@
 
 import io
 import math
+import re
 
 import pytest
 from drawing_witness import (
@@ -86,6 +87,27 @@ def svg_read(drawing):
     from drawing_witness import svg_shapes
 
     return svg_shapes("".join(svg.chunks(drawing, "mm")))
+
+
+@pytest.mark.parametrize("degrees", [0.01, 180, 299, 301, 359.99])
+@pytest.mark.parametrize("turn", [1.0, -1.0])
+def test_arcs_of_any_sweep(degrees, turn):
+    """The circle that was meant: a bulge near a whole turn knows its centre to fewer digits."""
+    arc = about((3.0, 4.0), 25.0, 0.3, turn * math.radians(degrees))
+    drawing = of(closed("WHEEL", [arc, Line(arc.end, arc.start)]))
+    read = dxf_shapes(text(drawing))
+    assert apart(read, drawn_shapes(drawing)) < SAME
+    for share in (0.2, 0.5, 0.9):
+        assert math.dist(read["WHEEL"][0][0][2](share), (3.0, 4.0)) == pytest.approx(25.0, abs=1e-7)
+
+
+def test_decimals_are_fixed():
+    """No exponent, and no zero with a sign."""
+    tiny = [Arc((1e-17, -0.0), (30.0, 1e-13), 1e-3), Line((30.0, 1e-13), (1e-17, -0.0))]
+    written = text(of(closed("WHEEL", tiny), Circle("BORE", (-1e-17, -1e-14), 1e-5)))
+    values = [value for value in written.split("\n") if "." in value]
+    assert len(values) > 100
+    assert not [value for value in values if re.search(r"\de|-0\.0+$", value)]
 
 
 def test_a_contour_with_cubics_is_end_to_end():

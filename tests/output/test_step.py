@@ -24,7 +24,7 @@ from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about,
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.splines import pieces
 from geneva_cli.output.step import chunks
-from geneva_cli.output.step.entities import words
+from geneva_cli.output.step.entities import real, words
 
 # Relative. Coordinates have 12 decimals: of parts of 100 mm, 14 digits, and sums of areas lose one.
 VOLUME = 1e-12
@@ -226,6 +226,7 @@ def test_titles_in_any_script():
     assert written.isascii()
     assert "'T\\X2\\00FC\\X0\\r ''a'' \\\\ \\X2\\03A9\\X0\\ \\X4\\0001F600\\X0\\'" in written
     assert words("a") == "'a'"
+    assert [real(x) for x in (-1e-17, 1.0, 1e-7)] == ["0.", "1.", "0.0000001"]
 
 
 @pytest.mark.parametrize(

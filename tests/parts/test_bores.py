@@ -7,7 +7,6 @@ from drawing_witness import polygon
 from repo import DESIGNS
 from shapely.affinity import rotate
 from shapely.geometry import Point
-from step_witness import File, Solid
 
 from geneva_cli import Design, External, Size, Spherical, load
 from geneva_cli.errors import GenevaError
@@ -15,11 +14,9 @@ from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.output.step import chunks
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.bores import bore_of, radius_of
 from geneva_cli.spec.tables import Shaft
-from geneva_cli.verdict.checks.all_checks import check_named, standing
 
 
 def of(**size):
@@ -144,33 +141,8 @@ def test_a_bore_in_a_hub_leaves_a_wall(shape):
     assert hub.holes == wheel.holes
 
 
-@pytest.mark.parametrize("shape", ["D", "hex"])
-def test_solids_have_the_bores_of_drawings(shape):
-    design = of(crank_bore=shape, wheel_bore=shape)
-    drawing = design.drawing("assembly")
-    file = File("".join(chunks(drawing, "mm")))
-    bodies = dict(
-        zip(dict.fromkeys(plates(drawing.solid)), file.all("MANIFOLD_SOLID_BREP"), strict=True)
-    )
-    for plate, body in bodies.items():
-        if plate.name not in ("wheel", "arm", "locking disc"):
-            continue
-        part = {"locking disc": "crank"}.get(plate.name, plate.name)
-        cut = [s for s in design.drawing(part).shapes if s.layer != "ROLLER"]
-        face = abs(area(cut[0])) - sum(abs(area(hole)) for hole in cut[1:])
-        for volume in Solid(file, body).volumes():
-            assert volume == pytest.approx(face * 10.0, rel=1e-9)
-        assert bore(design, part) in plate.holes
-
-
 # shafts at 75 degrees: the wheel's rim passes the crank's axis, so that its shaft may go through
 TILTED = Spherical(5, axes_deg=75.0)
-
-
-def standing_check(name, **size):
-    """A check of a spherical machine's parts at rest."""
-    design = Design(TILTED, size=Size(100.0, 5.0, **size))
-    return check_named(standing(design.mechanism), name, parts_of(design.mechanism).built)
 
 
 @pytest.mark.parametrize("wheel", [External(6), TILTED])
@@ -233,14 +205,6 @@ def test_refused(size, key, said):
     assert caught.value.key == ("size", key)
 
 
-def test_sheets_say_what_they_are():
-    design = of(crank_bore="D", wheel_bore="hex", crank_bore_mm=10.0, wheel_bore_mm=16.0)
-    texts = [label.text for label in design.sheet().texts]
-    assert "hexagon 16 across flats" in texts
-    assert texts.count("flat, 9 to the far side") == 3  # arm, disc and shaft
-    assert not [text for text in texts if text.startswith("Ø 16 H7")][1:]  # the frame's alone
-
-
 def test_edges_are_a_note_and_take_some_of_the_thickness():
     """8 mm of contact and two edges of 0.5 mm make a wheel of 9 mm."""
     design = of(edge_chamfer_mm=0.5, face_width_mm=8.0)
@@ -252,22 +216,6 @@ def test_edges_are_a_note_and_take_some_of_the_thickness():
     assert "rounded R 1" in texts
 
 
-@pytest.mark.parametrize(
-    ("size", "said"),
-    [
-        ({"edge_chamfer_mm": 0.5, "edge_fillet_mm": 0.5}, "either chamfered or rounded"),
-        ({"edge_chamfer_mm": 5.0}, "edge_chamfer_mm = 5: it must be below 5, half"),
-        (
-            {"edge_fillet_mm": 1.0, "face_width_mm": 9.0, "wheel_thickness_mm": 10.0},
-            "use at least face_width_mm = 9 and two edges of 1",
-        ),
-    ],
-)
-def test_edges_that_are_refused(size, said):
-    with pytest.raises(GenevaError, match=said):
-        of(**size).drawing("wheel")
-
-
 HUBS = {
     "wheel_hub_mm": 26.0,
     "wheel_bore_mm": 16.0,
@@ -275,15 +223,6 @@ HUBS = {
     "crank_bore_mm": 10.0,
     "crank_hub_length_mm": 20.0,
 }
-
-
-def test_set_screws_are_noted():
-    design = of(**HUBS, wheel_bore="D", wheel_screw_mm=5.0, crank_screw_mm=4.0)
-    texts = [label.text for label in design.sheet().texts]
-    assert texts.count("set screw M5 (ISO 4026), radial, onto the flat") == 1
-    assert texts.count("set screw M4 (ISO 4026), radial, onto the shaft") == 1
-    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
-    assert rows["crank's set screw"]["value"] == 4.0
 
 
 @pytest.mark.parametrize(
@@ -309,30 +248,3 @@ def test_set_screws_that_no_hub_holds(size, said):
         design.drawing("assembly")
     assert caught.value.key[1].endswith("_screw_mm")
     assert any(check.passes is False and said in (check.why or "") for check in design.checks)
-
-
-FIX = "fix on the shaft: pin, key or adhesive"
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    ("design", "keys", "names"),
-    [
-        ("turret", (), {"wheel", "arm"}),
-        ("turret", ("lock_bolts=0",), {"wheel", "arm", "locking disc"}),
-        ("turret", ("crank_bore=D",), {"wheel"}),
-        ("turret", ("crank_bore=D", "wheel_hub_mm=60", "wheel_screw_mm=6"), set()),
-        ("side-crank-z6", (), {"wheel", "arm", "coulisse", "input crank"}),
-        ("side-crank-z6", ("crank_bore=D", "wheel_bore=D"), {"input crank"}),
-        ("four-bar-z4", (), {"wheel", "crank"}),
-        ("spherical-z6", (), {"wheel's hub", "arm's hub"}),
-        ("linear", (), {"arm"}),
-    ],
-)
-def test_what_a_round_bore_does_not_hold_is_said(design, keys, names):
-    """In the list of parts, and on the sheet once a view."""
-    made = load(str(DESIGNS / f"{design}.toml"), [f"size.{key}" for key in keys])
-    rows = made.part_table("parts").to_rows()
-    assert {row["value"] for row in rows if row["name"] == FIX} == names
-    texts = [label.text for label in made.sheet(0.05).texts]
-    assert texts.count(FIX) == len(names)

@@ -13,7 +13,7 @@ from geneva_cli import Design
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.wheel_circles import dial_bolts
-from geneva_cli.spec.tables import Load, Size
+from geneva_cli.spec.tables import Size
 
 L = 100.0
 
@@ -86,19 +86,6 @@ def test_bores_and_hubs_of_a_narrow_wheel():
         assert sizes_of(Spec(Wheel(3), size=size)).wheel_hub == hub
 
 
-def test_a_load_leaves_a_third_of_the_wheel():
-    """Of six slots that end at 45 mm; no bore of a bearing up to 60 mm holds a load so large."""
-    for bottom, bore in ((0.0, 30.0), (0.01, 27.5)):
-        size = Size(L, 5.0, slot_bottom_clearance_mm=bottom)
-        assert sizes_of(Spec(Wheel(6), size=size, load=Load(torque_Nm=1e5))).wheel_bore == bore
-
-
-def test_a_large_roller_leaves_a_thinner_horn():
-    """It is at most a fifth of the space R - r, of which the disc has the rest."""
-    sizes = sizes_of(Spec(Wheel(6), size=Size(L, 12.0)))
-    assert sizes.lock == pytest.approx(0.8 * (50.0 - 12.0))
-
-
 def test_the_shaft_goes_through_the_disc_where_it_leaves_a_hub():
     """Its radius is at most 0.6 of the space inside the relief, which is scaled from the wheel's.
 
@@ -119,34 +106,6 @@ def test_the_default_bore_of_the_crank():
     for lock, bore in ((20.74, 2.5), (20.72, 0.0)):
         size = Size(L, lock_radius_mm=lock)
         assert sizes_of(Spec(Wheel(6), size=size)).crank_bore == bore
-
-
-def test_hubs_of_the_crank():
-    """A hub is 1.5 bores wide, to a rounded number: 12 or 11 mm; the disc has it above the arm."""
-    for bore, hub in ((8.0, 6.0), (7.99, 5.5)):
-        size = Size(L, 5.0, crank_bore_mm=bore, arm_bore_mm=bore)
-        assert sizes_of(Spec(Wheel(6), size=size)).crank_hub == hub
-
-
-def test_bores_of_the_arm():
-    """Up to L/10, or 0.7 of the space up to the pin's hole, R - r/2.
-
-    Bearings have bores of 10 and 9, 7 and 6 mm.
-    """
-    for distance, bore in ((100.0, 5.0), (99.9, 4.5)):
-        size = Size(distance, 5.0, crank_bore_mm=0.0)
-        assert sizes_of(Spec(Wheel(6), size=size)).arm_bore == bore
-    arm = L * math.sin(math.pi / 24.0)
-    for space, bore in ((10.0, 3.5), (9.99, 3.0)):
-        size = Size(L, 4.0, pin_mm=2.0 * (arm - space), crank_bore_mm=0.0)
-        assert sizes_of(Spec(Wheel(24), size=size)).arm_bore == bore
-
-
-def test_a_keyway_leaves_the_least_wall_of_the_arms_hub():
-    """A bore of 20 mm has a keyway 2.8 mm deep: with a wall of 5 mm that is more than 1.6 bores."""
-    size = {"crank_keyway": "DIN 6885-1", "arm_bore_mm": 20.0, "crank_bore_mm": 0.0}
-    arm = crank_arm(of(**size, wall_min_mm=5.0, lock_bolts=0).parts.outlines)
-    assert arm.hub == pytest.approx(10.0 + 2.8 + 5.0)
 
 
 def test_bolts_of_a_dial():

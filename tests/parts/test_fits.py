@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from geneva_cli.parts.shafts.fits import ISO_286, limits, toleranced
+from geneva_cli.parts.shafts.fits import ISO_286, limits
 
 # The main ranges of ISO 286; those between share their range's tolerances.
 MAIN = (1, 3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000, 1250, 1600)
@@ -61,8 +61,3 @@ def test_tables_are_their_formulas_rounded(above, up_to):
 )
 def test_limits(size, fit, wanted):
     assert limits(size, fit) == wanted
-
-
-def test_texts():
-    assert toleranced(100.0, "Ø 100", "H7") == "Ø 100 H7 (+0.035/0)"
-    assert toleranced(4000.0, "Ø 4000", "H7") == "Ø 4000"

@@ -12,8 +12,7 @@ from drawing_witness import polygon
 from shapely.affinity import rotate, translate
 from shapely.geometry import Point
 
-from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
-from geneva_cli.errors import GenevaError
+from geneva_cli import Design, External, Internal, SideCrank, Size, load
 from geneva_cli.geometry.hole_walls import least_wall
 from geneva_cli.geometry.placed import in_place
 from geneva_cli.geometry.plates import plates
@@ -142,12 +141,6 @@ def test_a_shaft_that_ends_above_it_has_no_hole():
         assert drilled(ends)[0].holes[-1].centre[0] == plate.holes[-1].centre[0]
 
 
-def test_it_is_below_the_wheels_hub():
-    """A hub longer than the arm is thick lowers the frame, which it would meet."""
-    plate, _ = drilled(Design(External(6), size=Size(wheel_hub_mm=24.0, wheel_hub_length_mm=12.0)))
-    assert (plate.low, plate.high) == (-22.0, -12.0)
-
-
 @pytest.mark.parametrize("name", ["side-crank-z6", "slider-crank", "turret"])
 def test_it_is_below_all_that_moves_and_has_walls(name):
     design, _, drawing = made(name)
@@ -251,25 +244,3 @@ def test_a_shaft_that_nothing_bears_is_said(name, keys, said):
     assert all(said in text for text in texts)
     noted = [label.text for label in design.sheet(0.05).texts]
     assert noted.count("no bearing: hold it from above") == bool(said)
-
-
-def test_the_shafts_of_a_sphere_stand_in_no_plate():
-    with pytest.raises(GenevaError, match=r"--part frame: the shafts of gearing = .* not parallel"):
-        Design(Spherical(6)).drawing("frame")
-
-
-def test_marks_stand_in_every_hole_of_any_part():
-    """Also in a bore with a keyway, which is no circle, and in holes of links as they lie."""
-    keyed = made("turret")[0].with_("size.wheel_keyway", "DIN 6885-1")
-    wheel = keyed.drawing("wheel", centre_marks=True)
-    middles = [shape.segments[0] for shape in wheel.shapes if shape.layer == "CENTER"]
-    assert [line.start[1] for line in middles] == [0.0, -1.25 * keyed.parts.sizes.wheel_bore]
-    design, *_ = made("side-crank-z6")
-    links = design.drawing("links", centre_marks=True)
-    circles = {shape.centre for shape in links.shapes if isinstance(shape, Circle)}
-    level = [shape.segments[0] for shape in links.shapes if shape.layer == "CENTER"][::2]
-    found = sorted((0.5 * (line.start[0] + line.end[0]), line.start[1]) for line in level)
-    assert found == [pytest.approx(centre) for centre in sorted(circles)]
-    plain = design.drawing("links")
-    assert links.shapes[: len(plain.shapes)] == plain.shapes
-    assert links.solid == plain.solid

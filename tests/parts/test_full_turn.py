@@ -16,6 +16,7 @@ from drawing_witness import polygon
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from other_shape import with_shape
+from sampling import some
 from shapely import affinity
 from shapely.geometry import Point
 from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, turned
@@ -260,15 +261,15 @@ def turns_as_polygons_do(case: dict) -> bool | None:
     return passes(found, turn)
 
 
-@settings(max_examples=3)
+@settings(max_examples=some(300, 3))
 @given(st.randoms(use_true_random=False))
 def test_random_machines(rng: random.Random) -> None:
-    """A few; `stress_outline.py`, of `make stress`, has hundreds."""
+    """Each is compared with polygons at some positions."""
     turns_as_polygons_do(random_case(rng))
 
 
 def test_few_random_machines_are_refused() -> None:
-    """In a fixed sample, `stress_outline.py` has more; mostly laws that no R/L matches inside."""
+    """In a fixed sample; mostly laws that no R/L matches inside."""
     refused = 0
     for seed in range(10):
         try:

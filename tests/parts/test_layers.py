@@ -38,18 +38,6 @@ def drawings(path):
             continue
 
 
-@pytest.mark.sampled(12)
-@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
-def test_no_part_has_centre_crosses_unless_they_are_requested(path):
-    names = listed()
-    seen = set()
-    for part, drawing in drawings(path):
-        seen.add(part)
-        assert "CENTER" not in drawing.layers, part
-        assert set(drawing.layers) <= names, part
-    assert seen >= ({"wheel", "assembly"} if "spherical" in path.stem else {"wheel", "frame"})
-
-
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["turret", "epicyclic-z4", "cam-geneva"])
 def test_requested_crosses_are_on_a_layer_of_their_own(name):

@@ -9,10 +9,8 @@ import numpy as np
 import pytest
 from mpmath import mp
 from repo import DESIGNS
-from typer.testing import CliRunner
 
 from geneva_cli import Design, External, Load, Size, load
-from geneva_cli.cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Circle, Point
@@ -24,10 +22,8 @@ from geneva_cli.parts.machine_sizes import sizes
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import limits
 from geneva_cli.spec.processes import PROCESSES
-from geneva_cli.spec.workshops import deviation_mm, workshop
+from geneva_cli.spec.workshops import deviation_mm
 from geneva_cli.verdict.checks.check import Check
-from geneva_cli.verdict.report.sizes_report import inputs
-from geneva_cli.verdict.report.sizes_report import sizes as report_sizes
 
 
 def test_a_mill_keeps_the_nominal_sizes() -> None:
@@ -275,22 +271,6 @@ def test_default_sizes_of_a_print_hold_as_pla() -> None:
     assert arms[4].arm_thickness > arms[0].arm_thickness == 10.0
 
 
-def test_small_holes_of_shells_are_named() -> None:
-    """Shells of 8 mm need 5.6 mm: pins of 5 mm less their press fit are below, hubs above."""
-    ball = sphere("size.process=laser", "size.lock_bolts=0")
-    (text,) = (str(text) for text in ball.warnings if text.name == "small-hole")
-    hole = 5.0 - ball.spec.size.allowances.press_fit_mm
-    assert f"arm Ø {hole:.4g}, " in text
-    assert text.endswith(f"make the arm at most {hole / 0.7:.4g} mm thick")
-    assert "wheel" not in text
-
-
-def test_printed_shells_have_walls_of_two_lines() -> None:
-    rows = named(sphere("size.process=print"))
-    walls = ("horn_mm", "wall_between_slots_mm", "wheel_bore_wall_mm", "arm_wall_mm")
-    assert {rows[name].limit for name in walls} == {0.8}
-
-
 TEXTS = {
     None: ("8× 24 H7 (+0.021/0)", "Ø 24 g6 (-0.007/-0.02)", "Ø 40 h6 (0/-0.016)", "ISO 2768-m"),
     "mill": (
@@ -321,29 +301,6 @@ def test_a_sheet_writes_what_the_process_holds(process: str | None) -> None:
     assert bool(cuts) == (process == "laser")
     said = any(text.startswith("clearance a side: ") for text in texts)
     assert said == (process in ("laser", "print"))
-
-
-@pytest.mark.parametrize("process", PROCESSES)
-def test_a_process_is_its_keys(process: str) -> None:
-    keys = Size(process=process).allowances._asdict()
-    source = keys.pop("source")
-    wall = workshop(process).wall_mm or None
-    # a gap of the spec makes the disc thicker, one of the process does not
-    named = Design(External(6), size=Size(process=process, lock_thickness_mm=10.0))
-    spelled = Size(wall_min_mm=wall, lock_thickness_mm=10.0, **keys)
-    assert named.spec.size.allowances[:5] == spelled.allowances[:5]
-    where = assembly(named.mechanism)
-    assert sizes(where) == sizes(assembly(Design(External(6), size=spelled).mechanism))
-    page = report_sizes(named.parts) | inputs(named.parts)
-    assert page["clearances_from"] == source
-    keys.pop("gear_backlash_mm")  # on which no number of a report depends
-    assert {key: page[f"size.{key}"] for key in keys} == keys
-
-
-def test_a_key_that_is_given_wins() -> None:
-    size = Size(process="print", slot_clearance_mm=0.0)
-    assert size.allowances[:3] == (0.0, 0.25, 0.0)
-    assert Size().allowances == (0.0, 0.0, 0.0, 0.0, 0.0, None, 0.0)
 
 
 def test_teeth_have_the_clearance_of_the_process_on_both_sides() -> None:
@@ -421,20 +378,3 @@ def placed(
             yield from placed(one.part.members, here.at, here.turn)
         else:
             yield here
-
-
-def test_the_option_sets_the_key() -> None:
-    def written(*options: str) -> str:
-        spec = str(DESIGNS / "turret.toml")
-        run = CliRunner().invoke(app, ["profile", spec, "--samples", "9", *options])
-        assert run.exit_code == 0, run.stderr
-        return run.stdout
-
-    keys = Size(250.0, 12.0, process="laser", face_width_mm=18.0).allowances
-    spelled = written("--set", f"size.slot_clearance_mm={keys.slot_clearance_mm}")
-    assert written("--set", "size.process=laser") == spelled != written()
-    wrong = CliRunner().invoke(
-        app, ["check", str(DESIGNS / "turret.toml"), "--set", "size.process=lasr"]
-    )
-    assert wrong.exit_code == 2
-    assert '(did you mean "laser"?)' in wrong.stderr

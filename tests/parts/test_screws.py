@@ -1,12 +1,10 @@
 """Holes for screws: those of the standards, and which of two parts has the thread."""
 
 import pytest
-from repo import DESIGNS
 
-from geneva_cli import Design, External, Size, load
+from geneva_cli import Design, External, Size
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Circle
-from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through, tapped
+from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through
 
 # Coarse threads of ISO 262, their clearance holes of the medium series of ISO 273, and the drills
 # before the threads are cut by ISO 2306.
@@ -59,46 +57,9 @@ def test_a_default_hole_is_for_the_largest_screw(
     assert (screw and screw.thread) == thread
 
 
-def test_a_hole_of_the_spec_stays() -> None:
-    """The largest screw that passes 6.25 mm is M5, whose pitch is 0.8 mm; none passes 1 mm."""
-    assert 2.0 * bolt_radius(6.25, 100.0, 9.0) == 6.25
-    hole = Circle("BORE", (1.0, 2.0), 3.125)
-    assert tapped(hole) == hole._replace(radius=pytest.approx(0.5 * (5.0 - 0.8)))
-    thin = hole._replace(radius=0.5)
-    assert tapped(thin) == thin
-
-
-def listed(design: Design) -> dict[str, object]:
-    rows = design.part_table("parts").to_rows()
-    return {str(row["name"]): row["value"] for row in rows if "screws of" in str(row["name"])}
-
-
-def test_the_list_names_the_screws() -> None:
-    """L = 250: M5 for 6.25 mm, and M8 for 0.8 of the frame's corners of 12.5 mm; dials are given.
-
-    L = 160 of an epicyclic drive: its fixed gear takes M3 for 4 mm.
-    """
-    turret = load(str(DESIGNS / "turret.toml"), ["size.dial_bolts=6", "size.dial_bolt_mm=9"])
-    assert listed(turret) == {
-        "screws of the dial, tapped in the dial": "6 × M8",
-        "screws of the locking disc, tapped in the arm": "2 × M5",
-        "screws of the frame, tapped in its base": "4 × M8",
-    }
-    epicyclic = listed(load(str(DESIGNS / "epicyclic-soft-z6.toml")))
-    assert epicyclic["screws of the fixed gear, tapped in the frame"] == "4 × M3"
-
-
-def test_a_sheet_says_which_hole_is_tapped() -> None:
-    texts = {label.text for label in load(str(DESIGNS / "turret.toml")).sheet(0.05).texts}
-    assert any(text.startswith("2× Ø 5.5 for M5 on Ø ") for text in texts)
-    assert any(text.startswith("2× Ø 4.2, tapped M5 on Ø ") for text in texts)
-    assert "4× Ø 9 for M8" in texts
-
-
 def test_small_machines_have_no_screws() -> None:
     """At L = 40 a hole of L/40 is 1 mm; a dial that needs some is told so."""
     small = Design(External(6), size=Size(40.0))
-    assert not listed(small)
     assert not small.parts.flat.arm.bolts
     for key in ("dial_bolts", "lock_bolts"):
         parts = Design(External(6), size=Size(40.0, **{key: 2})).parts.flat

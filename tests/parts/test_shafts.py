@@ -164,29 +164,6 @@ def test_a_shaft_that_the_spec_takes_through_a_link(low):
         assert found.passes is False and found.nearest == "leaving out crank_shaft_low_mm"
 
 
-@pytest.mark.usefixtures("no_advice")
-@pytest.mark.parametrize("name", ["four-bar-z4", "slider-crank"])
-def test_the_ends_of_a_cranks_shaft_that_carries_links_alone(name):
-    """They are as given, and refused where the lower one is not below the upper one."""
-    spec = str(repo.DESIGNS / f"{name}.toml")
-    whole = load(spec)
-    frame, crank = part(whole, "frame"), part(whole, "crank")
-    usual = part(whole, "crank's shaft")
-    assert (usual.low, usual.high) == (frame.low, crank.high)
-    low, high = frame.high + 0.5, crank.high + 0.25
-    given = load(spec, [f"size.crank_shaft_low_mm={low}", f"size.crank_shaft_high_mm={high}"])
-    ends = part(given, "crank's shaft")
-    assert (ends.low, ends.high) == (low, high)
-    # it ends above the frame, which has no hole for it
-    axis = (given.mechanism.center_distance_mm, 0.0)
-    drilled = [[hole.centre for hole in part(one, "frame").holes] for one in (whole, given)]
-    assert [axis in holes for holes in drilled] == [True, False]
-    over = load(spec, [f"size.crank_shaft_low_mm={crank.high}"])
-    with pytest.raises(GenevaError, match="crank_shaft_low_mm: the crank's shaft would reach"):
-        over.drawing("assembly")
-    assert row(over, "beside_shafts_mm").passes is False
-
-
 def test_a_keyway_leaves_a_wall_of_its_hub():
     """DIN 6885-1, t2: 1.0 mm on shafts above 6 mm, 1.8 above 10 mm, 2.3 above 12 mm."""
     keyed = Size(wheel_hub_mm=20.0, wheel_keyway="DIN 6885-1")
@@ -203,32 +180,3 @@ def test_a_keyway_leaves_a_wall_of_its_hub():
     # the default hub has its wall too
     wide = Size(wheel_bore_mm=6.5, wheel_keyway="DIN 6885-1", wall_min_mm=3.0)
     assert Design(External(6), size=wide).parts.sizes.wheel_hub == pytest.approx(3.25 + 1.0 + 3.0)
-
-
-@pytest.mark.usefixtures("no_advice")
-def test_a_bore_leaves_a_wall_of_its_hub():
-    thin = with_(wheel_hub_mm=16.5, crank_hub_mm=9.5)
-    for name in ("wheel_bore_wall_mm", "crank_bore_wall_mm"):
-        assert row(thin, name).value == pytest.approx(0.25)
-        assert row(thin, name).passes is False
-
-
-@pytest.mark.usefixtures("no_advice")
-def test_a_hub_stands_on_something():
-    for key, value in (("wheel_hub_mm", 20.0), ("wheel_hub_length_mm", 5.0)):
-        with pytest.raises(GenevaError, match=f"{key}: an internal wheel is open in the middle"):
-            Design(Internal(6), size=Size(**{key: value})).drawing("wheel")
-    Design(Internal(6), size=Size(wheel_hub_mm=0.0)).drawing("wheel")
-    linkage = load(str(repo.DESIGNS / "four-bar-z4.toml"), ["size.crank_hub_mm=20"])
-    with pytest.raises(
-        GenevaError, match="crank_hub_mm: a hub needs the locking disc or the crank"
-    ):
-        linkage.drawing("assembly")
-    assert row(linkage, "beside_shafts_mm").passes is False
-
-
-def test_refused():
-    with pytest.raises(GenevaError, match=r"would reach from 20 up to 10 mm .* lower "):
-        with_(wheel_shaft_low_mm=20.0).drawing("assembly")
-    with pytest.raises(GenevaError, match="crank_shaft_low_mm: the crank's shaft would reach"):
-        with_(crank_shaft_high_mm=-17.0).drawing("assembly")

@@ -6,7 +6,6 @@ import re
 from functools import cache
 
 import ezdxf
-import numpy as np
 import pytest
 import repo
 import shapely
@@ -18,24 +17,17 @@ from sheet_witness import (
     assert_measured,
     beyond,
     crossings,
-    number,
     overlaps,
 )
-from words import Drive, Keys, Motion, Spec, Wheel
+from words import Motion, Spec, Wheel
 
-import geneva_cli
-from geneva_cli import EllipticalGears, load
+from geneva_cli import load
 from geneva_cli.design import Design
 from geneva_cli.drawings.sheet.cut import faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
-from geneva_cli.drawings.sheet.points import gear_tables, polyline, tables
-from geneva_cli.drawings.sheet.view import View
+from geneva_cli.drawings.sheet.points import gear_tables, tables
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry import marks
-from geneva_cli.geometry.board import Board
-from geneva_cli.geometry.measure import bounds, points
 from geneva_cli.geometry.placed import in_place
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
 from geneva_cli.geometry.sheet import Label
 from geneva_cli.output.sheets import sheet_dxf
 from geneva_cli.parts.links.links import drawn_links
@@ -84,30 +76,6 @@ def test_no_text_of_a_design_stands_on_anything(path, sheets):
     name = "L" if design.spec.output.turns else "R"
     assert any(m.label.text.startswith(f"{name} = {L}") for m in found.measures)
     assert_as_listed(found, list(design.part_table("parts").to_rows()), 2e-3)
-
-
-SMALL = [
-    Spec(Wheel(3), size=Size(30.0)),
-    Spec(Wheel(24), size=Size(30.0, roller_radius_mm=0.6)),
-    Spec(Wheel(3), size=Size(900.0)),
-    Spec(Wheel(24), size=Size(900.0)),
-    Spec(Wheel(4, "internal"), size=Size(30.0)),
-    Spec(Wheel(12, "internal"), size=Size(900.0)),
-    Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(30.0)),
-    Spec(Wheel(8), size=Size(77.7, lock_bolts=3, crank_bore_mm=12.0, crank_keyway="DIN 6885-1")),
-    Spec(Wheel(4), Drive(rollers=3), size=Size(50.0, roller_radius_mm=3.0)),
-    Spec(Wheel(6, offset_mm=8.0), size=Size(100.0, roller_radius_mm=4.0)),
-    Spec(Wheel(6), Drive("cam"), motion=Motion("cycloidal"), size=Size(40.0)),
-    Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.4), size=Size(3.0)),
-]
-
-
-@pytest.mark.sampled(9)
-@pytest.mark.parametrize("spec", SMALL, ids=lambda s: f"{s.wheel.z}-{s.size.center_distance_mm:g}")
-def test_machines_of_every_size(spec):
-    found = of(spec)
-    assert overlaps(found) == []
-    assert_measured(found)
 
 
 def test_the_sizes_of_a_plain_wheel():
@@ -169,14 +137,6 @@ def under(found, heading):
     at = next(label.at for label in found.labels if label.text == heading)
     below = (at[0], pytest.approx(at[1] - 5.4))
     return next((label.text for label in found.labels if label.at == below), None)
-
-
-def test_fields_without_a_key_are_empty(sheets):
-    """No number, date or name is invented."""
-    found = sheets("turret")[1]
-    assert [under(found, heading) for heading in FIELDS] == [None] * len(FIELDS)
-    assert under(found, "edges") == "free of burrs"
-    assert under(found, "faces that roll, slide, lock") is None
 
 
 def test_the_title_block_has_the_keys_of_drawing():
@@ -249,14 +209,6 @@ def test_the_assembly_shows_where_the_section_is(sheets):
     assert left.tip[0] < min(p[0] for p in L.points[:2])
     assert right.tip[0] > max(p[0] for p in L.points[:2])
     assert L.points[0][1] == pytest.approx(left.tip[1])
-
-
-def test_a_keyways_direction_is_on_the_sheet():
-    """The crank's keyway of this machine lies opposite to its roller."""
-    size = Size(77.7, lock_bolts=3, crank_bore_mm=12.0, crank_keyway="DIN 6885-1")
-    found = of(Spec(Wheel(8), size=size))
-    texts = [label.text for label in found.labels]
-    assert "keyway at 180°, counterclockwise from the right" in texts
 
 
 LENGTHS = {
@@ -347,89 +299,6 @@ def printed(block):
     return [(float(x), float(y)) for x, y in zip(texts[::2], texts[1::2], strict=True)]
 
 
-def test_a_polyline_is_as_near_as_asked():
-    def circle(t):
-        return np.column_stack((50.0 * np.cos(t), 50.0 * np.sin(t)))
-
-    for close in (1.0, 0.01):
-        points = polyline(circle, 0.0, math.tau, close)
-        middles = 0.5 * (points[1:] + points[:-1])
-        assert 0.2 * close < 50.0 - np.hypot(*middles.T).min() <= close
-
-
-def test_what_finds_no_place_is_said_below():
-    """A board full of text has no room for a leader; one text in the way moves it."""
-    full, half = Board(), Board()
-    full.write(Label("W" * 400, (-1000.0, -500.0), 700.0))
-    half.write(Label("here", (4.0, 4.0), 3.0))
-    tries = list(marks.diameter((0.0, 0.0), 5.0, marks.around(), "Ø 10", 10.0))
-    assert full.first(tries) is None
-    moved = half.first(tries)
-    assert moved is not None
-    assert moved != Board().first(tries)
-
-
-@pytest.mark.parametrize(
-    ("wheel", "A"),
-    [
-        (Wheel(6), 0.99993),  # its coulisse is one piece with its shaft: its slot is all its holes
-        (Wheel(3, offset_mm=-6.6), 0.99988),  # likewise, with offset slots
-    ],
-)
-def test_a_link_without_a_round_hole_has_a_view(wheel, A):
-    """Random sheets that once broke off: a link with a slot alone is measured from its shaft."""
-    found = of(Spec(wheel, Drive("side-crank"), Keys("side-crank", A)))
-    assert "one piece with its shaft" in {label.text for label in found.labels}
-    assert overlaps(found) == []
-    assert_measured(found)
-
-
-def test_dimensions_stay_clear_of_each_other_in_a_narrow_bore(sheets):
-    """250 and 141.729 of the turret once met in its bore, arrow on arrow."""
-    _, found = sheets("turret")
-    texts = {m.label.text for m in found.measures}
-    assert {"250", "141.729"} <= texts
-    assert crossings(found) == []
-
-
-def test_a_distance_that_has_no_place_says_what_it_is():
-    """A rack of 24 slots is drawn at 1:10: texts of shorter distances are in the way of others."""
-    design = Design(geneva_cli.Linear(24), EllipticalGears(eccentricity=0.3))
-    notes = {label.text for label in design.sheet(TOLERANCE).labels}
-    box = bounds(design.drawing("frame", TOLERANCE).shapes[0])
-    assert f"{box.x1 - box.x0:g} wide" in notes
-    assert f"{100.0 - box.x0:g} from the left edge to the crank's axis" in notes
-
-
-def test_a_leader_is_not_drawn_along_an_edge():
-    """A line under a text that is nearly in the edge's direction, 1 mm away, is not used."""
-    edge = Contour("", (Line((-40.0, 6.0), (40.0, 6.5)),), closed=False)
-    board = Board()
-    board.draw(edge)
-    tries = list(marks.diameter((0.0, 0.0), 1.0, marks.around(), "Ø 2", 2.0))
-    leader = board.first(tries).main_lines
-    whole = LineString([p for piece in leader for p in piece])
-    assert all(whole.distance(shapely.Point(x, 6.0 + (x + 40.0) / 160.0)) > 1.2 for x in (-8, 8))
-    shelf = LineString(leader[1])
-    assert shelf.distance(LineString(edge.segments[0])) > 1.4
-
-
-def test_rounding_moves_no_dimension():
-    """Rounding once chose the side of a disc's dimension, and turned its text by -360 degrees."""
-
-    def drawn(y):
-        view = View("", 1.0)
-        view.draw_all([Circle("", (0.0, 0.0), 50.0)])
-        view.linear((0.0, 0.0), (-40.0, y), math.atan2(y, -40.0), "40", near=True)
-        (one,) = view.measures
-        return one
-
-    below, above = drawn(-1e-14), drawn(1e-14)
-    assert below.label.at == pytest.approx(above.label.at, abs=1e-9)
-    assert abs(below.label.turn) + abs(above.label.turn) < 1e-12
-    assert below.turn == pytest.approx(above.turn)
-
-
 def test_the_comparison_can_fail():
     found = of(Spec(Wheel(6)))
     on = found.measures[0].lines[0].start
@@ -458,24 +327,6 @@ def test_sheets_in_inches(path, sheets):
     assert found.scale >= metric.scale
     # a gear's module is in millimetres everywhere
     assert not [text for text in texts if re.search(r"\d mm", text) and "m = " not in text]
-
-
-@pytest.mark.long
-def test_fits_and_masses_in_inches():
-    """H7 of 24 mm is +21 µm, 0.00083 in; ±0.02 mm is 0.0008 in; a pound is 0.45359237 kg."""
-    spec = load(str(repo.DESIGNS / "turret.toml")).spec
-    design = Design.of(spec.replace(tolerance=Tolerance(center_distance_mm=0.02)))
-    found = design.sheet(TOLERANCE, units="inch")
-    texts = {label.text for label in found.texts}
-    assert "8× 0.9449 H7 (+0.0008/0)" in texts
-    assert "9.8425 ±0.0008" in texts
-    rows = design.part_table("parts").to_rows()
-    kg = sum(row["mass_kg"] * row["count"] for row in rows if row["mass_kg"])
-    assert f"{kg / 0.45359237:.2f} lb" in texts
-    milled = Design.of(spec.with_("size.process", "mill")).sheet(TOLERANCE, units="inch")
-    assert "Ra 3.2 µm" in {label.text for label in milled.texts}
-    # another thread writes its own unit
-    assert "mm, degrees" in {label.text for label in design.sheet(TOLERANCE).texts}
 
 
 def test_a_dxf_in_inches_measures_inches():
@@ -524,33 +375,3 @@ def test_both_rollers_of_a_cam_have_bores_of_one_fit(fit_mm, bore):
     texts = [label.text for label in design.sheet(TOLERANCE).texts]
     assert sum(text.startswith(bore) for text in texts) >= 2
     assert not any("F7" in text and not text.startswith(bore) for text in texts)
-
-
-@pytest.mark.parametrize("name", ["geneva-stop", "turret", "spherical-z6"])
-def test_the_text_of_an_angle_stands_at_its_arc(name, sheets):
-    """Half a text's diagonal and 3 mm from it; an arc goes on to a text beyond its legs."""
-    _, found = sheets(name)
-    angles = [measure for measure in found.measures if measure.kind == "angular"]
-    assert angles
-    for measure in angles:
-        near = min(math.dist(measure.label.middle, p) for p in points(measure.lines[0], 200))
-        corner, _, opposite, _ = measure.label.corners
-        assert near < 0.5 * math.dist(corner, opposite) + 3.0, measure.label.text
-
-
-def test_one_radius_is_written_once():
-    """The horns of curved slots differ by rounding, at 204.9445 mm."""
-    found = load(str(repo.DESIGNS / "sine-group.toml")).sheet(0.001)
-    texts = [label.text for label in found.texts]
-    assert [text for text in texts if "R 204.94" in text] == ["12× R 204.944"]
-
-
-@pytest.mark.parametrize("name", ["three-rollers-z4", "two-cranks", "turret"])
-def test_reliefs_of_one_size_are_counted(name, sheets):
-    """As many as the outline of the disc has arcs about other points than its axis."""
-    design, found = sheets(name)
-    (outline,) = design.drawing("crank", TOLERANCE).shapes[:1]
-    arcs = [piece for piece in outline.segments if isinstance(piece, Arc)]
-    reliefs = [arc for arc in arcs if math.hypot(*arc.centre) > 1.0]
-    count = f"{len(reliefs)}× " if len(reliefs) > 1 else ""
-    assert f"{count}R {number(reliefs[0].radius)}" in [label.text for label in found.texts]

@@ -3,19 +3,14 @@
 import math
 
 import pytest
-import trimesh
 from drawing_witness import polygon
-from step_witness import File, Solid
 
 import geneva_cli
 from geneva_cli import Design, External, Internal, SideCrank, Size, load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.drawing import Drawing
-from geneva_cli.geometry.plates import Group, Plate, Stack, lowered, solids
+from geneva_cli.geometry.plates import Group, Plate, Stack, solids
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion import registry
-from geneva_cli.output.mesh.solids import bodies
-from geneva_cli.output.step import chunks
 from geneva_cli.parts.links.links import placed_holes
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.parts import parts_of
@@ -45,6 +40,10 @@ def steps(stack):
         (p.name, 2.0 * p.outline.radius if isinstance(p.outline, Circle) else None, p.low, p.high)
         for p in stack.plates
     ]
+
+
+def _parts(solid):
+    return [solid] if isinstance(solid, Plate) else solid.plates
 
 
 def test_tables():
@@ -141,66 +140,10 @@ def test_a_shaft_fits_its_bores(keys, process, shafts):
                 assert gap == pytest.approx(0.5 * fit, abs=2e-4)
 
 
-def _parts(solid):
-    return [solid] if isinstance(solid, Plate) else solid.plates
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("keys", SHAPES)
-def test_solids_of_all_formats_are_one(keys):
-    """STEP's own volumes, trimesh's and polygons' of the steps; all closed."""
-    design = of(crank_bore_mm=12.0, **keys)
-    for name in ("wheel", "crank"):
-        stack = shaft(design, name)
-        assert isinstance(stack, Stack)
-        true = sum(polygon(p.outline, 1e-6).area * p.thickness for p in stack.plates)
-        drawing = Drawing("", (), solid=stack, tolerance=1e-3)
-        file = File("".join(chunks(drawing, "mm")))
-        (body,) = file.all("MANIFOLD_SOLID_BREP")
-        solid = Solid(file, body)
-        assert solid.euler == 2 and solid.off < 1e-9
-        for volume in solid.volumes():
-            assert volume == pytest.approx(true, rel=1e-6)  # 4096 chords an arc
-        (meshed,) = bodies(drawing, "mm", "STL")
-        mesh = trimesh.Trimesh(meshed.surface.corners, meshed.surface.triangles, process=False)
-        assert mesh.is_watertight and mesh.is_winding_consistent
-        assert mesh.volume == pytest.approx(true, rel=5e-4)  # 1 µm all round of some 5 mm
-        rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
-        row = rows[stack.name]
-        assert row["mass_kg"] == pytest.approx(7850e-9 * true, rel=1e-6)
-        assert row["thickness_mm"] == pytest.approx(stack.high - stack.low)
-        assert row["size_x_mm"] == max(2.0 * _wide(p) for p in stack.plates)
-
-
-def _wide(plate):
-    x0, _, x1, _ = polygon(plate.outline).bounds
-    return max(-x0, x1)
-
-
-def test_a_coarse_mesh_is_refused():
-    """Chords of 1 mm leave nothing of a groove that is 0.35 mm deep, beside a keyway."""
-    keyed = of(wheel_keyway="DIN 6885-1")
-    drawing = Drawing("", (), solid=shaft(keyed, "wheel"), tolerance=1.0)
-    with pytest.raises(GenevaError, match="use a smaller --tolerance"):
-        bodies(drawing, "mm", "STL")
-
-
-def test_on_the_bed_a_shaft_stands():
-    (low, high) = ((s.low, s.high) for s in (lowered(shaft(of(), "wheel")), shaft(of(), "wheel")))
-    assert low[0] == 0.0 and low[1] == pytest.approx(high[1] - high[0])
-    laid = solids(of().drawing("plate").solid)
-    assert {s.low for s in laid} == {0.0} and len(laid) == len(every(of()))
-
-
 def test_checks_see_the_shoulder():
     """A shoulder of 1.25 bores is as near to the arm's end as a hub of that size."""
     (row,) = [c for c in of(wheel_bore_mm=60.0).checks if c.name == "beside_shafts_mm"]
     assert row.value == pytest.approx(100.0 - 50.0 - 5.0 - 37.5)
-
-
-def test_the_sheet_lists_the_steps():
-    texts = [label.text for label in of().sheet().texts]
-    assert "Ø 15, 9 long: seat of bearing 6002" in texts
 
 
 @pytest.mark.parametrize(
@@ -275,24 +218,6 @@ def test_shafts_of_every_kind(kind, tmp_path):
         assert shoulder.outline.radius >= 1.25 * bored - 1e-9
         least = min([low for low, _ in heights], default=free)
         assert shoulder.high == pytest.approx(least) or shoulder.high == pytest.approx(free)
-
-
-@pytest.mark.parametrize(
-    ("kind", "keys"),
-    [
-        ("geneva-pair", ["size.link_bore_mm=5"]),  # the first wheel is a gear among the links
-        ("epicyclic", ["size.pin_gap_mm=1.69", "size.arm_bore_mm=9.66"]),  # faces 4e-15 mm apart
-    ],
-)
-def test_no_step_is_shorter_than_the_end_beyond_a_circlip(kind, keys, tmp_path):
-    """Parts that touch have one face; no file has a step of no length."""
-    spec = tmp_path / f"{kind}.toml"
-    spec.write_text(template(kind))
-    turned = every(load(str(spec), ["size.shafts=turned", *keys]))
-    steps = [step for one in turned if isinstance(one, Stack) for step in one.plates]
-    assert steps
-    # to rounding of heights of some 40 mm
-    assert min(step.thickness for step in steps) >= DIN_471[0].edge - 1e-12
 
 
 def members(some):

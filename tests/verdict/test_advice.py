@@ -13,7 +13,6 @@ from geneva_cli import Design
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of
-from geneva_cli.study.verdicts import verdicts
 from geneva_cli.verdict import advice
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import Check, all_pass, checks
@@ -177,20 +176,6 @@ def test_no_nearer_value_passes(name: str, tmp_path: Path) -> None:
         assert not all_pass(checks(build(nearer))), share
 
 
-def test_fewer_bolts_are_advised(tmp_path: Path) -> None:
-    """All numbers from 60 down leave less wall than they must, until the advised one."""
-    text = "[wheel]\nz = 5\n[size]\nwheel_bore_mm = 10\ndial_bolts = 60\n"
-    mechanism = read(tmp_path, text)
-    (failing,) = [c for c in judged(mechanism) if c.passes is False]
-    key, most = failing.nearest.split(" = ")
-    assert (failing.name, key) == ("dial_wall_mm", "dial_bolts")
-    numbers = {*some(range(60), range(0, 60, 6)), *range(int(most) - 1, int(most) + 4)}
-    passing = [
-        n for n in numbers if all_pass(checks(build(mechanism.spec.with_(f"size.{key}", n))))
-    ]
-    assert int(most) == max(passing)
-
-
 @pytest.mark.long
 def test_a_limit_has_its_advice_although_the_parts_cannot_be_built(tmp_path: Path) -> None:
     text = LOADED.replace("[size]\n", "[size]\nedge_chamfer_mm = 0.5\nedge_fillet_mm = 0.5\n")
@@ -235,18 +220,6 @@ def test_all_searches_of_a_design_share_their_trials(
     assert 0 < len(built) <= advice.TRIALS
 
 
-def test_several_files_get_the_advice_of_each(tmp_path: Path) -> None:
-    """The files of one command, by turns in other processes, are judged as each is alone."""
-    kinds = ("acceleration", "horn", "acceleration")
-    paths = [str(tmp_path / f"{i}.toml") for i in range(len(kinds))]
-    for path, kind in zip(paths, kinds, strict=True):
-        Path(path).write_text(ALL[kind])
-    together = [[c for c in v.checks if c.passes is False] for v in verdicts(paths)]
-    alone = [[c for c in judged(load(path)) if c.passes is False] for path in paths]
-    assert together == alone
-    assert all(rows[0].nearest for rows in alone)
-
-
 @pytest.mark.long
 def test_an_error_is_no_advice() -> None:
     """Its text is the reason; the advice is a change."""
@@ -260,30 +233,10 @@ def test_an_error_is_no_advice() -> None:
     assert warned and not any("some would pass" in said for said in warned)
 
 
-def test_a_hub_is_not_proposed_below_its_bore(tmp_path: Path) -> None:
-    """z = 8, L = 250, r = 12 leave a hub of 28.5 mm: smaller than a bore of 30, so that is less."""
-    wide = ALL["bore"].replace("crank_bore_mm = 30", "crank_bore_mm = 20\ncrank_hub_mm = 45")
-    for text, key, most in ((ALL["bore"], "crank_bore_mm", 28.5), (wide, "crank_hub_mm", 28.5)):
-        rows = {c.name: c.nearest for c in judged(read(tmp_path, text))}
-        name, value = rows["crank_hub_mm"].split(" = ")
-        assert name == key and 0.0 < float(value) <= most
-        bore = 30.0 if text == ALL["bore"] else 20.0
-        hubs = [float(said.split()[-1]) for said in rows.values() if "crank_hub_mm = " in said]
-        assert all(hub >= bore for hub in hubs)
-
-
 def test_a_linkage_gets_more_slots(tmp_path: Path) -> None:
     """The centre distance that a linkage gives itself is none of the spec's: z = 9 has 0.396."""
     rows = judged(read(tmp_path, ALL["slider-crank"]), parts=False)
     assert {c.name: c.nearest for c in rows}["acceleration_max"] == "z = 9"
-
-
-def test_the_spec_of_a_linkage_stays_as_it_was_given() -> None:
-    mechanism = load(str(DESIGNS / "four-bar-z4.toml"))
-    assert mechanism.spec.size.center_distance_mm is None
-    again = build(mechanism.spec)
-    assert again.spec == mechanism.spec
-    assert again.center_distance_mm == mechanism.center_distance_mm != 100.0
 
 
 @pytest.mark.parametrize("far", [100.0, -100.0, 1e-3])

@@ -23,16 +23,11 @@ from geneva_cli import (
     SideCrank,
     SineGroup,
     Spherical,
-    TableLaw,
-    Tolerance,
     Tuned,
     load,
 )
-from geneva_cli.loads.impacts.impacts import entry_impacts
-from geneva_cli.motion.both_ways import backwards, every_way
-from geneva_cli.motion.many import many
+from geneva_cli.motion.both_ways import every_way
 from geneva_cli.parts.machine_sizes import built
-from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.both_directions import worse_of, worst_checks
 from geneva_cli.verdict.checks.check import Check
@@ -68,48 +63,9 @@ def test_one_machine_serves_both_ways(machine):
     assert every_way(machine.mechanism) == (machine.mechanism,)
 
 
-@pytest.mark.parametrize(
-    "machine",
-    [
-        Design(OFFSET, BOTH),
-        Design(External(6), BOTH, TILTED),
-        Design(External(3, steps_deg=(100, 122.5, 137.5)), BOTH),
-        Design(External(8), Crank(both_ways=True, roller_angles_deg=(0.0, 140.0))),
-        "four-bar-z4.toml",
-        "slider-crank.toml",
-    ],
-)
-def test_backwards_twice_is_the_machine_itself(machine):
-    machine = both(machine) if isinstance(machine, str) else machine
-    first, second = every_way(machine.mechanism)
-    again = backwards(second)
-    assert second.spec != first.spec
-    assert again.spec.wheel == first.spec.wheel
-    assert again.spec.motion == first.spec.motion
-    own, twice = (s.drive.as_dict() | {"entry_deg": None} for s in (first.spec, again.spec))
-    assert twice == own
-    for one, other in zip(first.engagements, again.engagements, strict=True):
-        # a linkage's entry is solved for three times
-        assert other.motion(0.0).derivatives() == pytest.approx(
-            one.motion(0.0).derivatives(), rel=1e-12, abs=1e-13
-        )
-
-
 def test_a_pattern_of_steps_runs_the_other_way_round():
     """Of stations a, b, c the crank meets a, c, b."""
     assert External(6, steps_deg=(54, 60, 66)).backwards.steps == (54, 66, 60)
-
-
-def test_a_law_of_points_runs_from_its_end():
-    points = [(u / 10.0, (u / 10.0) ** 3 * (2.0 - (u / 10.0) ** 3)) for u in range(11)]
-    turned = TableLaw([(1.0 - u, 1.0 - s) for u, s in reversed(points)])
-    law = TableLaw(points).backwards
-    assert law.backwards == TableLaw(points)
-    for u in (0.13, 0.5, 0.77):
-        # the points themselves are rounded by the subtraction
-        assert law(u).derivatives() == pytest.approx(turned(u).derivatives(), rel=1e-10, abs=1e-12)
-    assert law.knots == pytest.approx(turned.knots, abs=1e-15)
-    assert law.half_way == pytest.approx(turned.half_way, abs=1e-12)
 
 
 @pytest.mark.parametrize("inertia, drag", [(0.02, 0.0), (0.0, 3.0), (0.02, 3.0)])
@@ -168,18 +124,6 @@ def test_a_slot_s_mouth_serves_both_ends():
         assert of.passes
 
 
-def test_a_batch_has_the_sizes_of_its_designs():
-    spec = both("offset-slots.toml").spec
-    batch = many(spec, {"wheel.offset_mm": np.array([5.0, 12.0])})
-    _, turned = every_way(batch.machine)
-    for i, e in enumerate((5.0, 12.0)):
-        _, want = every_way(Design.of(spec.with_("wheel.offset_mm", e)).mechanism)
-        assert turned.spec.wheel.offset_mm[i, 0] == want.spec.wheel.offset_mm == -e
-        x = np.linspace(-50.0, 50.0, 5)
-        got, wanted = (m.engagements[0].motion(x).arrays() for m in (turned, want))
-        assert [q[i] for q in got] == [pytest.approx(q, rel=1e-13, abs=1e-13) for q in wanted]
-
-
 def test_each_check_is_the_worse_one():
     of = both("offset-slots.toml")
     one, other = every_way(of.mechanism)
@@ -220,15 +164,6 @@ def test_advice_serves_both_directions():
     assert Design(External(6, offset_mm=8.0), limits=of.spec.limits).passes
 
 
-def test_impacts_at_the_entry_of_either_end():
-    """The worst of one tolerance: a jump at entry of l' - l over the distance there."""
-    of = Design(OFFSET, BOTH, tolerance=Tolerance(crank_radius_mm=0.05))
-    jumps = [entry_impacts(m).only.jump for m in every_way(of.mechanism)]
-    assert abs(jumps[1]) != pytest.approx(abs(jumps[0]), rel=0.01)
-    other = Design(External(6, offset_mm=-12.0), tolerance=Tolerance(crank_radius_mm=0.05))
-    assert jumps[1] == entry_impacts(other.mechanism).only.jump
-
-
 def test_warnings_name_what_differs():
     named = {w.name: w for w in both("offset-slots.toml").warnings}
     text = named["differs-backwards"]
@@ -242,18 +177,6 @@ def test_warnings_name_what_differs():
     half = SineGroup(0.1).half_way
     assert f"half-way after {half:.4g} of the motion forwards and {1.0 - half:.4g} backw" in text
     assert 'because of the law "sine-group"' in text
-
-
-def test_a_design_shown_backwards_has_the_warnings_of_that_direction():
-    """Its other direction is the first design's, and is not called backwards."""
-    of = both("offset-slots.toml", "load.inertia_kgm2=0.1", "load.torque_Nm=2")
-    turned = of.backwards
-    assert not any("backwards" in text for text in turned.warnings)
-    summary, *_ = of_loads(turned).summaries
-    assert not any("backwards" in line.label for line in summary.lines)
-    # of both directions, it has those that the first design calls backwards
-    own = {f"backwards, {text}" for text in turned.warnings}
-    assert own & set(of.warnings)
 
 
 def test_a_tuned_law_with_damping_is_tuned_forwards_only():
@@ -271,17 +194,6 @@ def test_a_tuned_law_with_damping_is_tuned_forwards_only():
     assert warned and forwards < 1e-9 < 1e-3 < back
     warned, (forwards, back) = swings(Tuned(period_ratio=2.5))
     assert not warned and max(forwards, back) < 1e-9
-
-
-@pytest.mark.sampled(18)
-@pytest.mark.parametrize("name", DESIGNS)
-def test_every_design_can_be_judged_both_ways(name):
-    """Nothing is refused backwards, and what is its own mirror image is no worse."""
-    of = both(name)
-    rows = worst_checks(of.mechanism)
-    assert len(rows) >= len(worst_checks(one_way(name).mechanism))
-    if len(every_way(of.mechanism)) == 1:
-        assert not any(c.direction for c in rows)
 
 
 def test_the_report_shows_what_differs():

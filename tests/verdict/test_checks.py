@@ -11,12 +11,10 @@ from words import Drive, Keys, Motion, Spec, Wheel, law, load
 
 from geneva_cli import Design, External
 from geneva_cli.cli.app import app
-from geneva_cli.errors import GenevaError
 from geneva_cli.motion import machine_spec as machine_spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.full_turn import Most
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.all_checks import standing_checks
@@ -66,12 +64,6 @@ def test_constant_acceleration_shocks_at_mid_motion_too() -> None:
     ]
 
 
-@pytest.mark.parametrize("shape", [-0.125, 0.0, 0.125])
-def test_the_sine_group_does_not_turn_back_up_to_an_eighth(shape: float) -> None:
-    spec = CURVED.replace(motion=Motion("sine-group", shape, ratio="matched"))
-    assert not any("turns back" in text for text in motion_warnings(build(spec)))
-
-
 def test_the_side_crank_moves_the_mid_condition() -> None:
     """l/(1-l) = psi1 (1+A) at mid-motion: the crank there runs 1/(1+A) times as fast."""
     spec = Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.5), CURVED.motion)
@@ -92,22 +84,6 @@ def test_something_must_hold_the_wheel_in_the_dwell() -> None:
     assert rows(without.replace(wheel=Wheel(6, held_by="brake")))["dwell_hold"].passes
     assert any("nothing holds the wheel" in said for said in motion_warnings(build(without)))
     assert not motion_warnings(build(without.replace(wheel=Wheel(6, held_by="brake"))))
-
-
-def test_what_is_not_proved_is_said() -> None:
-    parts = rows(Spec(Wheel(400)))["parts"]
-    assert parts.passes is None
-    assert parts.why == "wheels of more than 360 slots are not drawn"
-
-
-@pytest.mark.parametrize("key", ["pin_force_max_N", "input_torque_max_Nm"])
-def test_a_limit_on_loads_needs_a_load(key: str) -> None:
-    limits = Limits(**{key: 20.0})
-    with pytest.raises(GenevaError, match=f"{key} needs a load.*inertia_kgm2 or torque_Nm") as said:
-        Spec(Wheel(6), limits=limits)
-    assert said.value.key == ("limits", key)
-    loaded = Spec(Wheel(6), limits=limits, load=Load(torque_Nm=0.1))
-    assert (rows(loaded)[key].value or 0.0) > 0.0
 
 
 @pytest.mark.parametrize(
@@ -205,15 +181,6 @@ def test_a_clearance_that_the_process_cannot_hold_is_said(
         assert text.endswith(f"set lock_clearance_mm to {lock_mm:.4g}")
 
 
-def test_a_rim_without_a_centre_distance_names_the_default() -> None:
-    said = Design(External(6), size=Size(wheel_radius_mm=70.0)).warnings
-    texts = [str(w) for w in said if w.name == "no-centre-distance"]
-    assert len(texts) == 1 and "L = 100 mm is taken" in texts[0]
-    both = Size(80.0, wheel_radius_mm=70.0)
-    names = {w.name for w in Design(External(6), size=both).warnings}
-    assert "no-centre-distance" not in names
-
-
 def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
     path, out = tmp_path / "bore.toml", tmp_path / "wheel.svg"
     export = ["profile", str(path), "--part", "wheel", "-o", str(out)]
@@ -243,14 +210,6 @@ def test_a_roller_that_meets_the_rim_is_not_written(tmp_path: Path) -> None:
     assert run.exit_code == 0
     assert "warning: " in run.stderr
     assert out.exists()
-
-
-def test_a_lock_that_lets_the_wheel_turn_holds_nothing() -> None:
-    """What counts is what the turn shows, not that a lock is drawn: see test_full_turn."""
-    model = parts_of(build(Spec(Wheel(6))))
-    model.__dict__["_turn"] = model.turn._replace(dwell=Most(30.0, 180.0))
-    found = {c.name: c.passes for c in checks(model.mechanism, model)}
-    assert found["dwell_hold"] is False
 
 
 def test_a_slot_that_drives_from_one_wall_leaves_the_wheel_free() -> None:

@@ -9,7 +9,6 @@ import pytest
 import repo
 from sampling import some
 from typer.testing import CliRunner
-from words import load
 
 from geneva_cli.cli.app import app
 from geneva_cli.verdict import advice
@@ -127,29 +126,6 @@ def test_what_is_not_proved_shows_in_every_format(format: str, tmp_path: Path) -
         assert "slots are not drawn" in found.stdout
 
 
-@pytest.mark.parametrize(
-    "name", ["elliptical-gears", "epicyclic-soft-z6", "gear-sector", "four-bar-z4", "geneva-pair"]
-)
-def test_the_words_are_english(name: str) -> None:
-    from geneva_cli.verdict.report.words import words
-
-    said = words(load(str(DESIGNS / f"{name}.toml")))
-    assert not re.search(r"\ban? (elliptical-gears|epicyclic|geneva-pair|gear-sector)", said)
-    assert re.search(r"driven by a (crank|roller|point) ", said)
-
-
-def test_every_spec_is_checked_also_beside_one_that_is_missing(tmp_path: Path) -> None:
-    """In the order asked for, as if one after the other; the errors come to the other stream."""
-    good, bad = str(DESIGNS / "projector.toml"), str(tmp_path / "missing.toml")
-    found = run("check", bad, good, written(tmp_path, "[wheel]\nz = 2\n"), good)
-    assert found.exit_code == 2
-    headline = "projector.toml: all 21 checks pass, 2 warnings"
-    assert " ".join(found.stdout.split()).count(headline) == 2
-    first, second = found.stderr.splitlines()
-    assert first.startswith(f"{bad}: cannot read")
-    assert re.search(r"spec\.toml:2: .*z", second)
-
-
 SHAFT = "[wheel]\nz = 6\n[shaft]\nstiffness_Nm_rad = "
 
 
@@ -167,23 +143,6 @@ def test_a_shaft_adds_its_vibration(tmp_path: Path) -> None:
         why = json.loads(run("report", written(tmp_path, text), "--format", "json").stdout)
         assert said in why["vibration"].pop("none")
         assert set(map(str, why["vibration"].values())) == {"None"}
-
-
-def test_without_a_good_spec_nothing_is_printed(tmp_path: Path) -> None:
-    found = run("check", str(tmp_path / "a.toml"), str(tmp_path / "b.toml"))
-    assert (found.exit_code, found.stdout) == (2, "")
-    assert len(found.stderr.splitlines()) == 2
-
-
-def test_peaks_begin_with_spec_and_title() -> None:
-    for name, engagements in (("projector", 0), ("two-rollers-side-crank", 2)):
-        spec = str(DESIGNS / f"{name}.toml")
-        tree = json.loads(run("peaks", spec, "--format", "json").stdout)
-        assert list(tree)[:2] == ["spec", "title"]
-        assert tree["spec"] == spec
-        assert len(tree["stations"] or []) == engagements
-        greatest = max(s["jerk"]["max"] for s in tree["stations"] or [tree])
-        assert tree["jerk"]["max"] == greatest
 
 
 @pytest.mark.usefixtures("read_once", "no_advice")

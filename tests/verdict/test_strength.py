@@ -1,31 +1,24 @@
 """Strength and life of whole designs: each check can fail and be mended, and what lacks is said."""
 
 import cmath
-import json
 import math
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 import repo
-from typer.testing import CliRunner
-from words import Drive, Motion, Spec, Wheel, load
+from words import Drive, Motion, Spec, Wheel
 
 import geneva_cli
 from geneva_cli import Cam, Design, Epicyclic, External, Internal, SideCrank, design
-from geneva_cli.cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.part_strength import lock, margin
-from geneva_cli.verdict.strength import REPORT_GROUPS, Strength
+from geneva_cli.verdict.strength import Strength
 
 DESIGNS = repo.DESIGNS
 
@@ -127,23 +120,6 @@ def test_two_shafts_too_thin_have_a_remedy_each():
     assert all(c.passes is not False for c in rows(spec).values())
 
 
-@pytest.mark.parametrize(
-    ("without", "name", "said"),
-    [
-        ("size.lock_edge_mm", "lock_stress_max_MPa", "lock_edge_mm in [size]"),
-        ("size.lock_edge_mm", "lock_deflection_max_deg", "lock_edge_mm in [size]"),
-    ],
-)
-def test_what_is_not_known_is_said_with_its_key(without, name, said):
-    spec = WHOLE.replace(
-        limits=Limits(lock_stress_max_MPa=800.0, lock_deflection_max_deg=0.01),
-    )
-    check = rows(spec.with_(without, None))[name]
-    assert check.value is None
-    assert check.passes is None
-    assert check.why == f"not known: it needs {said}"
-
-
 def test_without_parts_their_keys_are_needed():
     """A wheel of 400 slots is not drawn, so its parts' sizes are not known."""
     spec = WHOLE.replace(wheel=Wheel(400), size=Size(250.0, 1.0), limits=Limits(), shaft=Shaft())
@@ -181,13 +157,6 @@ def test_a_limit_that_limits_nothing_is_refused(limits, said):
     if not next(iter(limits)).startswith("lock"):
         with pytest.raises(GenevaError, match="needs a load"):
             Spec(Wheel(6), **rest, limits=Limits(**limits))
-
-
-def test_without_a_load_only_the_slot_s_travel_is_known():
-    of = Strength(build(Spec(Wheel(6), size=Size(face_width_mm=10.0))))
-    known = {name for name, value in of.life.items() if value is not None}
-    assert known == {"slot_travel_m"}
-    assert of.reason("pin_stress_MPa")
 
 
 def test_a_force_without_bound_is_not_a_number():
@@ -335,41 +304,6 @@ def test_the_wheel_s_shaft_and_key_bear_the_torque_of_the_dwell():
     assert held["strength.crank_shaft.moment_Nm"] == pytest.approx(bent, rel=1e-9)
 
 
-def test_default_bores_hold_the_torque_of_the_dwell():
-    """And a batch has the numbers of a single design."""
-    size = WHOLE.size.replace(wheel_keyway="DIN 6885-1")
-    spec = WHOLE.replace(size=size, shaft=Shaft(), limits=Limits())
-    names = "strength.wheel_shaft.stress_MPa", "strength.wheel_key.pressure_MPa"
-    torques = np.array([20.0, 150.0, 300.0])
-    batch = Designs(many(spec, {"load.dwell_torque_Nm": torques}).machine)
-    for i, torque in enumerate(torques):
-        one = Strength(build(spec.with_("load.dwell_torque_Nm", torque.item())))
-        assert one["strength.wheel_shaft.margin"] >= 0.0
-        assert one["strength.wheel_key.margin"] >= 0.0
-        for name in names:
-            column = REPORT_GROUPS[name].columns(batch)[name.rpartition(".")[2]]
-            assert np.ravel(column)[i] == pytest.approx(one[name], rel=1e-13)
-
-
-@pytest.mark.parametrize("wheel", [External(6), Internal(6)])
-def test_a_lock_under_more_loads_than_are_computed_together(wheel):
-    """One lock under 20 torques: its stresses are proportional to them, as a beam's are."""
-    size = Size(face_width_mm=10.0, wheel_thickness_mm=10.0, lock_clearance_mm=0.1)
-    spec = Spec(wheel, size=size, load=Load(torque_Nm=1.0))
-    torques = np.arange(1.0, 21.0)
-    batch = Designs(many(spec, {"load.torque_Nm": torques}).machine)
-    stress = lock(batch)["horn_stress_MPa"]
-    assert stress == pytest.approx(torques * stress[0], rel=1e-12)
-    one = lock(Designs(build(spec)))["horn_stress_MPa"]
-    assert stress[0] == pytest.approx(float(np.ravel(one)[0]), rel=1e-12)
-
-
-def test_margins():
-    assert margin(80.0, 120.0) == 0.5
-    assert margin(0.0, 120.0) == margin(math.inf, 120.0) == math.inf
-    assert margin(80.0, None) is None
-
-
 @pytest.mark.usefixtures("no_advice")
 def test_what_a_sphere_lacks_is_said_in_its_rows():
     """Its wheel is no flat outline: the limits of its lock do not pass in silence."""
@@ -384,39 +318,6 @@ def test_what_a_sphere_lacks_is_said_in_its_rows():
         assert (found[name].value, found[name].passes) == (None, None)
         assert said in found[name].why
     assert found["horn_stress_MPa"].value > 0.0
-
-
-@pytest.mark.sampled(8)
-@pytest.mark.parametrize("path", sorted(DESIGNS.glob("*.toml")), ids=lambda p: p.stem)
-def test_every_machine_of_the_family(path):
-    """With a load and a face width: numbers, and a None only with its reason or where none is."""
-    mechanism = load(str(path))
-    loaded = Load(0.001, 5.0, friction=0.05)
-    if not mechanism.spec.output.turns:
-        loaded = Load(mass_kg=1.0, force_N=5.0, friction=0.05)
-    spec = mechanism.spec.replace(load=loaded)
-    of = Strength(build(spec.with_("size.face_width_mm", 10.0)))
-    for name in ("slot_travel_m", "friction_work_J", "equivalent_force_N", "pin_stress_MPa"):
-        assert of.life[name] > 0.0, name
-    assert of.life["roller_turns_per_motion"] > 0.0
-    locked = of.load.lock_sizes is not None
-    assert bool(of.life["horn_stress_MPa"]) == of.load.has_horns
-    assert bool(of["strength.lock.force_N"]) == locked
-
-
-def test_different_materials(tmp_path: Path):
-    """A steel pin in acrylic: each by its own allowable."""
-    path = tmp_path / "acrylic.toml"
-    path.write_text(
-        "[wheel]\nz = 6\n[size]\nface_width_mm = 6\n[load]\ntorque_Nm = 0.1\n"
-        "[material.wheel]\nyoungs_modulus_GPa = 3.2\npoisson_ratio = 0.37\nstress_max_MPa = 3\n"
-        "[material.roller]\nstress_max_MPa = 150\n"
-    )
-    found = CliRunner().invoke(app, ["check", str(path), "--format", "json"])
-    limits = {row["check"]: row["limit"] for row in json.loads(found.stdout)["rows"]}
-    assert limits["pin_stress_MPa"] == 150.0
-    assert limits["horn_stress_MPa"] == limits["lock_horn_stress_MPa"] == 3.0
-    assert found.exit_code == 0
 
 
 def test_horns_that_are_no_slender_beams_are_said():

@@ -12,7 +12,6 @@ import geneva_cli
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, Tolerance
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.tolerance import random_machines
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
 from geneva_cli.loads.tolerance.entry_jump import entry_jumps
 from geneva_cli.loads.tolerance.locking import Lock
@@ -66,43 +65,6 @@ def test_play_of_the_lock_is_that_of_a_whole_turn(name):
     found = [lock(at()).angle.c[0] for lock in flat_locks(design.parts.outlines)]
     # parts that overlap by rounding, 1e-9 L, still touch there: as much more clearance
     assert math.degrees(max(found)) == pytest.approx(design.parts.turn.dwell.deg, rel=1e-5)
-
-
-def by_points(lock, dL, dk, dr):
-    """The play by brute force: a recess of very many points, turned until one is in the disc."""
-    c, k, r = lock.L + dL, lock.lock + dk, lock.recess + dr
-    reach = math.acos((lock.L**2 + r**2 - lock.corner**2) / (2 * lock.L * r))
-    u = np.linspace(-reach, reach, 200_001)
-    points = lock.L - r * np.exp(1j * u)
-
-    def free(angle):
-        from_axis = points * np.exp(1j * angle) - c
-        inside = np.abs(np.angle(-from_axis)) <= lock.half
-        return bool((np.abs(from_axis)[inside] >= k).all())
-
-    low, high = 0.0, 0.01
-    assert not free(high)
-    if not free(low):
-        return None
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if free(middle) else (low, middle)
-    return low
-
-
-@pytest.mark.sampled(6)
-@pytest.mark.parametrize("half", [120.0, 20.0], ids=["whole disc", "short arc"])
-@pytest.mark.parametrize(
-    "dL, dk, dr",
-    [(0, 0, 0), (0.01, 0, 0), (-0.01, 0, 0), (-0.045, 0, 0), (0, 0.03, -0.01), (-0.02, 0.01, 0.02)],
-)
-def test_play_of_deviating_locks_by_points(half, dL, dk, dr):
-    lock = Lock(100.0, 1.0, 38.0, 38.05, math.hypot(50.0 * math.sqrt(3.0), 5.0), math.radians(half))
-    place = lock(at(center_distance_mm=dL, lock_radius_mm=dk, recess_radius_mm=dr))
-    true = by_points(lock, dL, dk, dr)
-    assert not place.jams
-    # a point every 4e-4 mm of the recess; where an end of the disc stops it, that is its error
-    assert place.angle.c[0] == pytest.approx(true, abs=5e-6 if half < 60.0 else 1e-9)
 
 
 def test_a_disc_that_does_not_go_in_jams():
@@ -183,17 +145,6 @@ def test_place_and_slopes_in_the_motion(design, side):
             assert abs(one(slope_of(i), deg, side).c[1] - true) < 2e-15 / min(1, abs(true) * 1e3)
 
 
-def test_the_sensitivities_of_the_theory():
-    """theory-loads.md, section 7: L sin phi / D2 and -R sin phi / D2, without clearance."""
-    [one] = motion_errors(Design(External(6)).mechanism)
-    L, R = mp.mpf(100), mp.mpf(50)
-    for deg in (-59.0, -20.0, 31.4):
-        phi = mp.radians(mp.mpf(deg))
-        D2 = L * L + R * R - 2 * L * R * mp.cos(phi)
-        assert abs(one(slope_of(1), deg, 1.0).c[1] - L * mp.sin(phi) / D2) < 1e-17
-        assert abs(one(slope_of(0), deg, 1.0).c[1] + R * mp.sin(phi) / D2) < 1e-17
-
-
 @pytest.mark.parametrize("design", MACHINES)
 def test_worst_case_by_corners(design):
     """Each combination, at each of many angles, in the closed solution."""
@@ -212,23 +163,6 @@ def test_worst_case_by_corners(design):
     found = told(design)["motion_play.worst_deg"]
     # between 41 angles the greatest may be missed by its curvature, never exceeded
     assert -1e-15 < found - float(mp.degrees(worst)) < 2e-3 * found
-
-
-def test_worst_and_squares_in_the_dwell():
-    found = told(MACHINES[0])
-    [lock] = flat_locks(MACHINES[0].parts.outlines)
-    worst = lock(at(center_distance_mm=0.02, lock_radius_mm=-0.015, recess_radius_mm=0.01)).angle
-    assert found["dwell_position.worst_deg"] == pytest.approx(math.degrees(worst.c[0]) + 0.02)
-    play = lock(at()).angle.c[0]
-    slopes = [lock(slope_of(i)).angle.c[1] for i in (0, 5, 6)]
-    squares = sum((s * t) ** 2 for s, t in zip(slopes, (0.02, 0.015, 0.01), strict=True))
-    rss = math.degrees(play + math.sqrt(squares + math.radians(0.02) ** 2))
-    assert found["dwell_position.rss_deg"] == pytest.approx(rss, rel=1e-13)
-    shares = [row["share"] for row in found["contributions"]]
-    assert sum(shares) == pytest.approx(1.0, rel=1e-13)
-    assert shares == sorted(shares, reverse=True)
-    assert sum(row["motion_share"] for row in found["contributions"]) == pytest.approx(1.0)
-    assert found["dwell_position.p997_deg"] < found["dwell_position.worst_deg"]
 
 
 # Machines drawn ------------------------------------------------------------------------------
@@ -278,24 +212,6 @@ def test_mean_jump_of_a_million(wheel, key, s):
     assert found["entry_jump.missed_share"] == pytest.approx(0.5, abs=1e-4)
 
 
-def test_mean_jump_of_large_errors():
-    """The law of sines, summed over a uniform error of up to a hundredth of R/L."""
-    b, big = mp.pi / 3, mp.mpf("0.01")
-
-    def jump(eps):
-        l = mp.sin(b) * (1 + eps)
-        a = mp.pi - mp.asin(1 / (1 + eps)) - b
-        return -l * (mp.cos(a) - l) / (1 - 2 * l * mp.cos(a) + l * l)
-
-    # by the root of the error the jump is smooth
-    with mp.workdps(15):
-        mean = mp.quad(lambda u: jump(u * u) * 2 * u, [0, mp.sqrt(big)]) / (2 * big)
-    arm = 100.0 * math.sin(math.pi / 3)
-    found = told(Design(External(3), tolerance=Tolerance(crank_radius_mm=0.01 * arm)), 1 << 18)
-    assert found["entry_jump.mean"] == pytest.approx(float(mean), rel=1e-5)
-    assert found["entry_jump.worst"] == pytest.approx(float(jump(big)), rel=1e-12)
-
-
 @pytest.mark.parametrize(
     "design",
     [
@@ -325,14 +241,6 @@ def test_the_table_of_jumps_against_each_exact_one(design):
     assert (~missed).sum() > 5
 
 
-def test_the_same_seed_the_same_machines(monkeypatch):
-    one = told(MACHINES[0], 5000, seed=3)
-    assert str(told(MACHINES[0], 5000, seed=3)) == str(one)
-    assert told(MACHINES[0], 5000, seed=4)["motion_play.std_deg"] != one["motion_play.std_deg"]
-    monkeypatch.setattr(random_machines, "BLOCK", 256)
-    assert str(told(MACHINES[0], 5000, seed=3)) == str(one)
-
-
 def test_machines_that_do_not_go_together_are_counted():
     """Without clearance every other roller is wider than its slot."""
     found = told(Design(External(6), tolerance=Tolerance(roller_diameter_mm=0.01)), 1 << 14)
@@ -358,34 +266,6 @@ def test_clearances_that_still_turn():
     for clearance, turns in ((needed * 1.001, True), (needed * 0.999, False)):
         design = MACHINES[0].with_("size.slot_clearance_mm", clearance)
         assert told(design)["clearances.turns"] is turns
-
-
-def test_the_parts_of_the_tightest_and_the_loosest_are_turned(monkeypatch):
-    """What is said to turn has been turned: two machines, neither of them the one of the spec."""
-    from geneva_cli.verdict.tolerance import needed
-
-    turned = []
-
-    def seen(mechanism):
-        turned.append(mechanism.spec.size)
-        return parts_of(mechanism)
-
-    monkeypatch.setattr(needed, "parts_of", seen)
-    design = MACHINES[0].with_("size.slot_clearance_mm", 0.1)
-    assert told(design)["clearances.turns"] is True
-    tight, loose = turned
-    assert (tight.roller_radius_mm, loose.roller_radius_mm) == (5.005, 4.995)
-    assert (tight.lock_radius_mm, loose.lock_radius_mm) == (38.015, 37.985)
-    assert tight.lock_clearance_mm == pytest.approx(0.06 - 0.045)
-    assert loose.lock_clearance_mm == pytest.approx(0.06 + 0.045)
-
-
-def test_a_loose_machine_that_does_not_find_its_slot_is_said():
-    loose = Size(slot_clearance_mm=4.0, lock_clearance_mm=1.5, lock_radius_mm=36.0)
-    design = Design(External(6), size=loose, tolerance=Tolerance(slot_width_mm=1.9))
-    found = told(design)
-    assert found["clearances.turns"] is False
-    assert "smallest roller" in found["warnings"][0] or "largest" in found["warnings"][0]
 
 
 @pytest.mark.parametrize("axes_deg", [60.0, 90.0, 120.0])
@@ -456,30 +336,6 @@ def test_refused(design, options, words):
     assert words in str(error.value)
 
 
-@pytest.mark.parametrize(
-    "key, value, words",
-    [
-        ("center_distance_mm", 100.0, "below 100, the centre distance"),
-        ("crank_radius_mm", 50.5, "below 50, the crank's radius"),
-        ("roller_diameter_mm", 10.0, "below 10, the roller's diameter"),
-        ("slot_width_mm", 20.0, "below 10.1, the slot's width"),
-        ("slot_angle_deg", 30.0, "below 30, half the wheel's step"),
-        ("lock_radius_mm", 40.0, "below 38, the locking disc's radius"),
-    ],
-)
-def test_a_tolerance_as_large_as_its_dimension_is_refused(key, value, words):
-    with pytest.raises(GenevaError, match=key) as error:
-        _ = MACHINES[0].with_(f"tolerance.{key}", value).mechanism
-    assert words in str(error.value)
-
-
-def test_a_lock_that_is_not_there_has_no_tolerance():
-    bare = Design(External(6), size=Size(lock_radius_mm=0.0))
-    for key in ("lock_radius_mm", "recess_radius_mm"):
-        with pytest.raises(GenevaError, match="no locking disc"):
-            _ = bare.with_(f"tolerance.{key}", 0.01).mechanism
-
-
 @pytest.mark.parametrize("distribution, most", [("uniform", 49.94), ("normal", 16.64)])
 def test_a_roller_that_could_come_to_the_wheels_axis_is_refused(distribution, most):
     """1 - l of 100 mm less the clearances; of a normal distribution nine deviations must fit."""
@@ -509,17 +365,6 @@ def test_the_histogram_has_the_mean_and_deviation_of_its_machines(distribution):
     assert spread == pytest.approx(told["dwell_position.std_deg"], rel=0.01)
     if distribution == "uniform":  # all bins alike
         assert max(share) < 1.1 / len(share)
-
-
-def test_no_histogram_of_what_is_not_known():
-    design = Design(
-        External(6, held_by="brake"),
-        motion=Motion(Cycloidal(), ratio="matched"),
-        size=Size(lock_radius_mm=0.0),
-        tolerance=Tolerance(slot_angle_deg=0.1),
-    )
-    with pytest.raises(GenevaError, match="--histogram: dwell_position is not known"):
-        design.tolerance_histogram(64)
 
 
 @pytest.mark.parametrize("distribution", ["normal", "uniform"])

@@ -40,7 +40,7 @@ def run(
         option(
             "NAME,...",
             "One spec with cam, servo: the same step, time and load.",
-            complete=completion.listed(lambda: ("cam", "servo")),
+            complete=completion.listed(("cam", "servo")),
         ),
     ] = "",
     ratio: Annotated[bool, flag("--ratio", "Numbers over the first design's.")] = False,

@@ -21,7 +21,7 @@ def run(
         typer.Argument(
             metavar="[CHECK|QUANTITY|KIND]",
             help="horn_mm, acceleration.max, side-crank, a warning, a part, ...; without one: all.",
-            autocompletion=completion.words(completion.explained),
+            autocompletion=completion.explained,
         ),
     ] = None,
     output: Output = "-",

@@ -4,7 +4,6 @@ import os
 import sys
 from typing import Annotated
 
-from geneva_cli.cli import completion
 from geneva_cli.cli.options import (
     Settings,
     SpecPath,
@@ -25,17 +24,14 @@ EXAMPLES = (
 
 def run(
     spec: SpecPath,
-    output: Annotated[
-        str,
-        output_option("FOLDER", "Write into this folder (required)."),
-    ] = "",
+    output: Annotated[str, output_option("FOLDER", "Write into this folder (required).")] = "",
     trade: Annotated[
         str | None,
         option(
             "TRADE",
             "What laser, mill or print needs.  [default: all files]",
             name="--for",
-            complete=completion.words(lambda: ("laser", "mill", "print")),
+            complete=("laser", "mill", "print"),
         ),
     ] = None,
     force: Annotated[

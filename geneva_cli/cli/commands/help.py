@@ -21,7 +21,7 @@ def run(
         typer.Argument(
             metavar="[WORD...]",
             help="A page, a command, or words to search for; without one: all pages.",
-            autocompletion=completion.words(completion.topics),
+            autocompletion=completion.topics,
         ),
     ] = None,
 ) -> None:

@@ -19,7 +19,7 @@ def run(
         typer.Argument(
             metavar="[TABLE|KEY]",
             help="drive, drive.A or A; without one: all.",
-            autocompletion=completion.words(completion.tables_and_keys),
+            autocompletion=completion.tables_and_keys,
         ),
     ] = "",
     output: Output = "-",

@@ -20,7 +20,7 @@ def run(
     These are the greatest ds/du, d2s/du2 and d3s/du3, and the greatest product of the first two
     (power), with u and s from 0 to 1.
     """
-    from geneva_cli.motion.law_values import laws_table
     from geneva_cli.output import show
+    from geneva_cli.study.law_values import laws_table
 
     show(laws_table(shape), output, format)

@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli import completion
 from geneva_cli.cli.options import Output, Reverse, Settings, SpecPath, one_of, option, warn
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.output.formats import CAMS, CONTROLLERS, FORMATS
@@ -32,7 +31,7 @@ def run(
             f"{one_of(CONTROLLERS)}  [default: polynomial]",
             CAM,
             name="--for",
-            complete=completion.words(lambda: CONTROLLERS),
+            complete=CONTROLLERS,
         ),
     ] = None,
     tolerance: Annotated[
@@ -42,12 +41,7 @@ def run(
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
-        str,
-        option(
-            "FORMAT",
-            one_of((*FORMATS, *CAMS)),
-            complete=completion.words(lambda: (*FORMATS, *CAMS)),
-        ),
+        str, option("FORMAT", one_of((*FORMATS, *CAMS)), complete=(*FORMATS, *CAMS))
     ] = "",
 ) -> None:
     """Position, velocity, acceleration and jerk over a cycle from entry.

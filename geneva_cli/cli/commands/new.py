@@ -22,16 +22,11 @@ def run(
         typer.Argument(
             metavar="[KIND]",
             help="curved, turret, a kind of drive, ...: see --list.",
-            autocompletion=completion.words(completion.kinds),
+            autocompletion=completion.kinds,
         ),
     ] = "",
     from_design: Annotated[
-        str,
-        option(
-            "NAME",
-            "A copy of one of the designs, as it is.",
-            complete=completion.words(completion.designs),
-        ),
+        str, option("NAME", "A copy of one of the designs, as it is.", complete=completion.designs)
     ] = "",
     list_: Annotated[bool, flag("--list", "All kinds and designs, and what they are.")] = False,
     all_: Annotated[

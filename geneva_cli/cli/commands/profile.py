@@ -2,7 +2,6 @@
 
 from typing import Annotated
 
-from geneva_cli.cli import completion
 from geneva_cli.cli.options import (
     Output,
     Settings,
@@ -42,9 +41,7 @@ def run(
     part: Annotated[
         str,
         option(
-            "PART",
-            "slot, wheel, crank, arm, assembly, parts, sheet or another.",
-            complete=completion.words(lambda: PARTS),
+            "PART", "slot, wheel, crank, arm, assembly, parts, sheet or another.", complete=PARTS
         ),
     ] = "slot",
     tolerance: Annotated[
@@ -58,7 +55,7 @@ def run(
             "KIND",
             "Curved walls as arcs or spline; .step has spline.",
             DRAWING,
-            complete=completion.words(lambda: ("arcs", "spline")),
+            complete=("arcs", "spline"),
         ),
     ] = None,
     kerf: Annotated[float | None, option("MM", "Paths for a cut of this width.", CUT)] = None,
@@ -74,10 +71,7 @@ def run(
     units: Annotated[
         str,
         option(
-            "UNIT",
-            "Unit of drawings and tables: mm or inch.",
-            DRAWING,
-            complete=completion.words(lambda: ("mm", "inch")),
+            "UNIT", "Unit of drawings and tables: mm or inch.", DRAWING, complete=("mm", "inch")
         ),
     ] = "mm",
     dxf_version: Annotated[
@@ -86,17 +80,11 @@ def run(
             "VERSION",
             "Version of .dxf, R12 to R2018.  [default: R2000]",
             DRAWING,
-            complete=completion.words(lambda: DXF_VERSIONS),
+            complete=DXF_VERSIONS,
         ),
     ] = None,
     fill: Annotated[
-        str | None,
-        option(
-            "LOOK",
-            "Plates in .svg: none, tint or hatch.",
-            DRAWING,
-            complete=completion.words(lambda: FILLS),
-        ),
+        str | None, option("LOOK", "Plates in .svg: none, tint or hatch.", DRAWING, complete=FILLS)
     ] = None,
     force: Annotated[bool, flag("--force", "Draw even a machine that jams.")] = False,
     settings: Settings = None,
@@ -107,7 +95,7 @@ def run(
             "FORMAT",
             one_of((*FORMATS, *DRAWN, "pdf")),
             name="--format",
-            complete=completion.words(lambda: (*FORMATS, *DRAWN, "pdf")),
+            complete=(*FORMATS, *DRAWN, "pdf"),
         ),
     ] = "",
 ) -> None:

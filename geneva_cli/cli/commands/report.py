@@ -4,7 +4,6 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli import completion
 from geneva_cli.cli.options import Output, Settings, SpecPath, one_of, option, say
 from geneva_cli.output.formats import DOCUMENTS, FORMATS
 
@@ -21,9 +20,7 @@ def run(
     spec: SpecPath,
     settings: Settings = None,
     output: Output = "-",
-    format: Annotated[
-        str, option("FORMAT", one_of(WRITTEN), complete=completion.words(lambda: WRITTEN))
-    ] = "",
+    format: Annotated[str, option("FORMAT", one_of(WRITTEN), complete=WRITTEN)] = "",
 ) -> None:
     """Report on a design for people: checks that fail, timing, peaks, loads, sizes.
 

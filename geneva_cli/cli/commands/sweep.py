@@ -60,7 +60,7 @@ def run(
             "BOUND",
             'Only rows that keep it: "dwell_s >= 0.8"; repeat.',
             CHOICE,
-            complete=completion.words(completion.fields),
+            complete=completion.fields,
         ),
     ] = None,
     pareto: Annotated[
@@ -75,10 +75,7 @@ def run(
         int | None, option("N", "Number of processes; all cores by default.", LONG)
     ] = None,
     settings: Settings = None,
-    output: Annotated[
-        str,
-        output_option("FILE", "A .csv or .parquet; - prints."),
-    ] = "-",
+    output: Annotated[str, output_option("FILE", "A .csv or .parquet; - prints.")] = "-",
     format: Format = "",
 ) -> None:
     """Compute one row for each design: the varied keys, then the quantities.

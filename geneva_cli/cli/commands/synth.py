@@ -36,7 +36,7 @@ def run(
             "BOUND",
             'Of any quantity, as "jerk.max <= 5"; repeat.',
             WANTED,
-            complete=completion.words(completion.fields),
+            complete=completion.fields,
         ),
     ] = None,
     z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, default="3..24")] = "",
@@ -49,13 +49,7 @@ def run(
         int | None, option("M", "Rollers; without it, any number.", MACHINES)
     ] = None,
     law: Annotated[
-        str,
-        option(
-            "NAME",
-            "Law of curved slots, or all.",
-            MACHINES,
-            complete=completion.words(completion.laws),
-        ),
+        str, option("NAME", "Law of curved slots, or all.", MACHINES, complete=completion.laws)
     ] = "modified-sine",
     space: Annotated[
         str, option("X", "Largest four-bar, in centre distances.", MACHINES, default="3")
@@ -71,7 +65,7 @@ def run(
             "min:FIELD",
             "The least first; max:FIELD: the greatest.",
             ROWS,
-            complete=completion.words(completion.fields),
+            complete=completion.fields,
         ),
     ] = "",
     check: Annotated[int, option("N", "Turn and check the parts of N rows.", ROWS)] = 20,

@@ -132,7 +132,7 @@ def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | 
 def _projected(wanted: FitTargets, handles: Array, v: Array) -> Array:
     """Places on the cubics nearest to the samples, after one more step of Newton's method.
 
-    ``numerics.newton`` would be slower: a few steps are enough while the handles still move.
+    ``find_roots`` would be slower: a few steps are enough while the handles still move.
     Each step must reduce the distance from any start.
     """
     point, rate, bend = _bezier(wanted, handles, v)

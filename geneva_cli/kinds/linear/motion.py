@@ -23,7 +23,6 @@ from geneva_cli.spec.schema import Example
 if TYPE_CHECKING:
     from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.motion.plane_motion import PlaneMotion
-    from geneva_cli.numerics.arrays import Array
 
 
 class Linear(Gearing):
@@ -165,10 +164,6 @@ class ParallelSlotMotion(StraightSlotMotion):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Speed of the pin across the slots."""
         return self.path.from_nearest(input_deg, order + 1)[1].derivative()
-
-    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
-        """Speed and its derivatives at arrays of angles, computed from the middle anchor only."""
-        return self.path.from_middle(input_deg, order + 1)[1].derivative().arrays()
 
 
 def guided(spec: Spec) -> bool:

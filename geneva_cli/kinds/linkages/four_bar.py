@@ -8,9 +8,9 @@ at an angle from the line AB. The wheel's centre is solved for.
 from functools import reduce
 from typing import Annotated, ClassVar, NamedTuple, Self
 
-from geneva_cli.drives.roller_path import PointDisplacement, rounded
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinds.linkages.linkage import Linkage, Moving, RodPath, refuse_proportions
+from geneva_cli.kinds.linkages.link_path import LinkPath, PointDisplacement
+from geneva_cli.kinds.linkages.linkage import Linkage, Moving, refuse_proportions
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
 from geneva_cli.numerics.arrays import enclosed, larger, library, parameter, smaller
@@ -116,7 +116,7 @@ class FourBar(Linkage, kw_only=True):
         return CouplerPath(self)
 
 
-class CouplerPath(RodPath):
+class CouplerPath(LinkPath):
     """The path of a point of the coupler.
 
     d is the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²). The
@@ -133,46 +133,48 @@ class CouplerPath(RodPath):
         super().__init__(*lengths, reach_mm=keys.point_mm, angle_deg=keys.point_deg)
         self.side = 1 if keys.branch == "+" else -1
 
-    def carried(
-        self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
-    ) -> tuple[Jet, Jet]:
-        """Vector in the frame with p along the coupler, from A towards B, and q across it."""
-        a, g, b, c, _, _ = self.exact if exact else self.rough
+    def link(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
+        """Unit vector along the coupler, from A towards B."""
+        a, g, b, c, _, _ = self.numbers
         order = sine.order
         sine, cosine = (Jet(x.c[: max(order, 1)]) for x in (sine, cosine))
         dx, dy = g - cosine.c[0] * a, sine.c[0] * -a
-        D = Jet((dx * dx + dy * dy, *(cosine * (-2 * g * a)).c[1:]))  # a² is constant
-        m, u = (b - c) * (b + c), 1 / D
+        D = Jet((dx * dx + dy * dy, *(cosine * (-2.0 * g * a)).c[1:]))  # a² is constant
+        m, u = (b - c) * (b + c), 1.0 / D
         # N² as a product (Heron)
         N = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
-        along, across = (1 + u.c[0] * m) / (2 * b), N.c[0] * u.c[0] / (2 * b)
+        along, across = (1.0 + u.c[0] * m) / (2.0 * b), N.c[0] * u.c[0] / (2.0 * b)
         ex, ey = dx * along - dy * across, dy * along + dx * across
-        x, y = ex * p - ey * q, ex * q + ey * p
         if not order:
-            return Jet((x,)), Jet((y,))
-        rate = (u * ((a - g) * (a + g)) + 1) / 2 - sine * (a * g) * (1 - u * m) / N
-        return turned_at(rate, x, y, order)
+            return Jet((ex,)), Jet((ey,))
+        rate = (u * ((a - g) * (a + g)) + 1.0) / 2.0 - sine * (a * g) * (1.0 - u * m) / N
+        return turned_at(rate, ex, ey, order)
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """Coupler length from A to B, and the rocker's direction, in which it pushes or pulls."""
-        a, g, b, c, _, _ = self.rough
+        a, g, b, c, _, _ = self.numbers
         ex, ey = self.link(sine, cosine)
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
 
-    def about(self, sine: float, cosine: float) -> PointDisplacement:
-        """Displacement since a crank direction.
+    def about(self, phi: float) -> PointDisplacement:
+        """Displacement since a crank angle.
 
         Each of A, D, 1/D, N, k and e changes by the change of the one before it.
         """
-        a, g, b, c, *_ = self.exact
+        a, g, b, c, p, q = self.numbers
+        m = library(phi, a, g)
+        sine, cosine, half_sine, half_cosine = (
+            m.sin(phi),
+            m.cos(phi),
+            m.sin(0.5 * phi),
+            m.cos(0.5 * phi),
+        )
         x, y = g - cosine * a, sine * -a
-        D = x * x + y * y
-        # only these differences may lose digits, and are taken of exact numbers
-        numbers = sine, cosine, x, D, (b + c) ** 2 - D, D - (b - c) ** 2
-        sine, cosine, x, D, above, below = (rounded(x) for x in numbers)
-        a, g, b, c, p, q = self.rough
-        root = parameter(library(D).sqrt(above * below))
-        sizes = a * sine, a * cosine, x, D, 2.0 * g, above, below, root
+        # by Grashof's condition sums of positive terms: (b + c)² - D and D - (b - c)²
+        above = (b + c - g - a) * (b + c + g + a) + 4.0 * g * a * half_cosine**2
+        below = (g - a - b + c) * (g - a + b - c) + 4.0 * g * a * half_sine**2
+        root = parameter(library(above).sqrt(above * below))
+        sizes = a * sine, a * cosine, x, x * x + y * y, 2.0 * g, above, below, root
         half = 0.5 / b
         return CouplerDisplacement(*sizes, half, (b - c) * (b + c) * half, self.side * half, p, q)
 

@@ -16,8 +16,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.drives.path_wheels.wheels import followed
-from geneva_cli.drives.paths.tangent_pairs import ends_at, newton, residual
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linkages.coupler import coupler_drive
 from geneva_cli.kinds.linkages.coupler_costs import Costs, is_known
@@ -29,6 +27,8 @@ from geneva_cli.kinds.linkages.four_bar_search import (
     four_bars_at,
     search_four_bars,
 )
+from geneva_cli.kinds.linkages.path_wheels import driven
+from geneva_cli.kinds.linkages.tangent_pairs import Pairs, newton, points, residual, sampled
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.sweep.constraints import Constraint
@@ -157,17 +157,18 @@ def _spec(target: Target, found: _Found, number: int) -> Spec | None:
             )
         except GenevaError:
             return None
-        path, half = keys.roller_path, np.array([[b]])
-        ends = ends_at(path, np.array([0]), np.hstack((entry, entry + wide)))
-        step = newton(ends, residual(ends, half))
-        reached = float(np.diff(ends.at.phi + step)[0, 0])
+        path, phi = keys.roller_path, np.hstack((entry, entry + wide))
+        at = points(path, phi)
+        phi = phi + newton(at, residual(at, np.array([b]), sense[0]))
+        reached = float(np.diff(phi)[0, 0])
         if abs(reached - required) <= 2e-13 * required:  # rounding
             break
         wide = wide + (required - reached)  # the part lost to rounding
     else:
         return None
-    driven = followed(path, ends.at.phi + step, sense[0])
-    return own.replace(drive=keys) if len(driven.which) else None
+    pair = Pairs(np.zeros(1, dtype=int), phi, sense[0])
+    wheels = driven(path, [(samples, pair) for samples in sampled(path, 1)])
+    return own.replace(drive=keys) if len(wheels.which) else None
 
 
 def _machine(target: Target, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:

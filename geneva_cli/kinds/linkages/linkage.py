@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import copy
 from abc import abstractmethod
-from decimal import Decimal, localcontext
 from functools import reduce
 from typing import (
     TYPE_CHECKING,
@@ -17,16 +15,14 @@ from typing import (
 )
 
 from geneva_cli.drives.pin_path import PinPath
-from geneva_cli.drives.roller_path import LinkReactions, RollerPath, rounded
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinds.linkages import driven_wheel
+from geneva_cli.kinds.linkages.link_path import LinkPath, LinkReactions
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
-from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import Array, Long, array, larger, library, parameter, smaller
+from geneva_cli.numerics.arrays import Array, array, larger, library, parameter, smaller
 from geneva_cli.numerics.jet import Jet, sin_cos
-from geneva_cli.spec.rules import Range, is_array
+from geneva_cli.spec.rules import Range
 from geneva_cli.spec.tables import DISTANCE_MM
 
 if TYPE_CHECKING:
@@ -51,7 +47,7 @@ class Linkage(PinPath, kw_only=True):
 
     @property
     @abstractmethod
-    def roller_path(self) -> RollerPath:
+    def roller_path(self) -> LinkPath:
         """The roller's path about the crank's axis."""
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
@@ -68,14 +64,10 @@ class Linkage(PinPath, kw_only=True):
                 ("size", "center_distance_mm"),
             ),
         )
-        step, path = wheel.step, self.roller_path
-        if self.varies or is_array(step.b):
-            engagement, L = driven_wheel.solve_batch(path, step, self._wanted, self._alone)
-        else:
-            solved = driven_wheel.solve(path, step, self._wanted)
-            if solved is None:
-                raise driven_wheel.none_fits(wheel.z)
-            engagement, L = solved
+        from geneva_cli.kinds.linkages.path_engagement import solve
+
+        wanted = None if self.entry_deg is None else radians(self.entry_deg)
+        engagement, L = solve(self.roller_path, wheel.step, wanted)
         x, y = engagement.path(0.0, 0)
         return self.planned(engagement, parameter(library(L).hypot(1.0 - x.c[0], y.c[0])), L)
 
@@ -134,25 +126,6 @@ class Linkage(PinPath, kw_only=True):
     def holder(self, end: Moving) -> Link:
         """The link or guide that holds the carrying link at its end B, in the linkage's frame."""
 
-    @property
-    def varies(self) -> bool:
-        """True if a length or angle is an array of designs."""
-        return any(is_array(value) for key, value in vars(self).items() if key != "n_rpm")
-
-    @property
-    def _wanted(self) -> float | None:
-        """``entry_deg`` in radians."""
-        return None if self.entry_deg is None else radians(self.entry_deg)
-
-    def _alone(self, i: int) -> tuple[RollerPath, float | None]:
-        """Path and entry of the i-th design. Raises GenevaError for a refused one."""
-        one = copy.copy(self)
-        for key, value in vars(self).items():
-            if is_array(value):
-                vars(one)[key] = float(value[i, 0])
-        one.__post_init__()
-        return one.roller_path, one._wanted
-
 
 def refuse_proportions(**lengths: float) -> None:
     """Raise GenevaError for lengths too different for a wheel to be solved for."""
@@ -168,57 +141,3 @@ def refuse_proportions(**lengths: float) -> None:
         )
 
     refuse(reduce(larger, lengths.values()) > limit, error)
-
-
-class RodPath(RollerPath):
-    """The path of a point on the link that crank pin A carries: a coupler, or a connecting rod.
-
-    Its numbers are the lengths, with the crank's a first. Last are the point's coordinates p along
-    the link and q across it.
-    """
-
-    def __init__(self, *lengths: float, reach_mm: float, angle_deg: float) -> None:
-        many = any(is_array(x) for x in (*lengths, reach_mm, angle_deg))
-        numbers = (_long if many else _exactly)(*lengths, reach_mm=reach_mm, angle_deg=angle_deg)
-        self.exact = cast("tuple[float, ...]", numbers)
-        self.rough = tuple(rounded(x) for x in numbers)
-
-    def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """Crank pin A (x, y)."""
-        a, *_ = self.rough
-        return cosine * a, sine * a
-
-    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """Point (x, y) on the link: crank pin plus the vector on the link."""
-        a, *_, p, q = self.exact if exact else self.rough
-        x, y = self.carried(p, q, sine, cosine, exact)
-        return x + cosine * a, y + sine * a
-
-    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """Unit vector along the link, from A towards B."""
-        return self.carried(1, 0, sine, cosine, exact)
-
-    @abstractmethod
-    def carried(
-        self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
-    ) -> tuple[Jet, Jet]:
-        """Vector in the frame that is p along the link and q across it."""
-
-
-def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Decimal, ...]:
-    """Lengths, and a point's coordinates from its distance and angle, in 50 digits."""
-    with localcontext(digits.FIFTY):
-        sine, cosine = digits.sin_cos(Decimal(angle_deg) * digits.PI / 180)
-        point = Decimal(reach_mm) * cosine, Decimal(reach_mm) * sine
-        return (*(Decimal(x) for x in lengths), *point)
-
-
-def _long(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Long, ...]:
-    """Lengths, and a point's coordinates from its distance and angle, in long doubles."""
-    import numpy as np  # of a batch
-
-    from geneva_cli.drives.path_wheels.wheels_for_paths import LONG_PI
-
-    turned = np.asarray(angle_deg, dtype=np.longdouble) * (LONG_PI / 180)
-    point = reach_mm * np.cos(turned), reach_mm * np.sin(turned)
-    return tuple(np.asarray(x, dtype=np.longdouble) for x in (*lengths, *point))

@@ -7,12 +7,12 @@ from the line AB. The wheel's centre is solved for.
 
 from typing import Annotated, ClassVar, NamedTuple, Self
 
-from geneva_cli.drives.roller_path import PointDisplacement, rounded
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinds.linkages.linkage import Linkage, Moving, RodPath, refuse_proportions
+from geneva_cli.kinds.linkages.link_path import LinkPath, PointDisplacement
+from geneva_cli.kinds.linkages.linkage import Linkage, Moving, refuse_proportions
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
-from geneva_cli.numerics.arrays import enclosed
+from geneva_cli.numerics.arrays import enclosed, library, parameter
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 from geneva_cli.spec.schema import Example
@@ -93,38 +93,34 @@ class SliderCrank(Linkage, kw_only=True):
         return SlidingRod(*lengths, reach_mm=self.point_mm, angle_deg=self.point_deg)
 
 
-class SlidingRod(RodPath):
+class SlidingRod(LinkPath):
     """The path of a point of the connecting rod.
 
     Its numbers are crank, rod, height, and the point's coordinates on the rod: a, b, h, p, q.
     """
 
-    def carried(
-        self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
-    ) -> tuple[Jet, Jet]:
-        """Vector in the frame with p along the rod, from A towards B, and q across it."""
-        a, b, h, _, _ = self.exact if exact else self.rough
+    def link(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
+        """Unit vector along the rod, from A towards B."""
+        a, b, h, _, _ = self.numbers
         ey = (h - sine * a) / b
-        ex = sqrt((1 - ey) * (ey + 1))
-        return ex * p - ey * q, ex * q + ey * p
+        return sqrt((1.0 - ey) * (ey + 1.0)), ey
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """Rod length from A to B, and the direction of the guide's push, across its line."""
-        _, b, *_ = self.rough
+        _, b, *_ = self.numbers
         return b, (sine * 0.0, cosine * 0.0 + 1.0)
 
-    def about(self, sine: float, cosine: float) -> PointDisplacement:
-        """Displacement since a crank direction.
+    def about(self, phi: float) -> PointDisplacement:
+        """Displacement since a crank angle.
 
         The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy).
         """
-        a, b, h, _, _ = self.exact
-        level = (h - sine * a) / b
-        less, more = 1 - level, 1 + level
-        ex = sqrt(Jet((less * more,))).c[0]
-        numbers = [rounded(x) for x in (sine, cosine, level, ex, less, more)]
-        a, b, _, p, q = self.rough
-        return RodDisplacement._make((*numbers, a, b, p, q))
+        a, b, h, p, q = self.numbers
+        m = library(phi, a, h)
+        sine, cosine = m.sin(phi), m.cos(phi)
+        level, less, more = (h - sine * a) / b, (b - h + sine * a) / b, (b + h - sine * a) / b
+        ex = parameter(library(level).sqrt(less * more))
+        return RodDisplacement(sine, cosine, level, ex, less, more, a, b, p, q)
 
 
 class RodDisplacement(NamedTuple):

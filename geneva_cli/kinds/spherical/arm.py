@@ -16,8 +16,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.round_holes import RoundHole, least_wall
 from geneva_cli.geometry.sphere import POLE, Region, dot, place
 from geneva_cli.geometry.sphere_hull import Cap, convex_hull
-from geneva_cli.kinds.spherical.axles import refuse_wide
-from geneva_cli.kinds.spherical.ball import Ball
+from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
 from geneva_cli.kinds.spherical.crank import locked
 from geneva_cli.parts.shafts.bores import Bore, bore_of
 from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw

@@ -104,7 +104,7 @@ class SphereHorn(NamedTuple):
         thick: Array = np.where(own, self.radius_mm * (foot - self.half_width), np.inf)
         return thick
 
-    def polar(self, input_deg: Array) -> Array:
+    def polar(self, input_deg: Number) -> Array:
         """The polar angles of the roller at input angles, (m, k) both."""
         return np.atleast_2d(self.at.engagement.slot(squeezed(input_deg), 0)[0].c[0])
 

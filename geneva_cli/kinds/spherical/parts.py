@@ -21,8 +21,7 @@ from geneva_cli.geometry.sphere import POLE, Rotation, axis_frame, place
 from geneva_cli.geometry.sphere_hull import Cap
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, has_arm
-from geneva_cli.kinds.spherical.axles import crank_hub, refuse_wide
-from geneva_cli.kinds.spherical.ball import Ball
+from geneva_cli.kinds.spherical.ball import Ball, crank_hub, refuse_wide
 from geneva_cli.kinds.spherical.crank import at_mid_motion
 from geneva_cli.kinds.spherical.dial import dial_holes
 from geneva_cli.kinds.spherical.gap_bounds import SpherePairs

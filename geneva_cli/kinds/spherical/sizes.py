@@ -44,7 +44,7 @@ def ball(mechanism: Mechanism) -> Ball:
     usual = _ball(mechanism, spec.size.wheel_thickness_mm)
     if not spec.is_loaded:
         return usual
-    from geneva_cli.kinds.spherical.load_sizes import horn_thickness_mm, sphere_load_sizes
+    from geneva_cli.kinds.spherical.loaded_ball import horn_thickness_mm, sphere_load_sizes
 
     thick = horn_thickness_mm(mechanism, usual)
     if thick is not None:
@@ -66,7 +66,7 @@ def sized_ball(mechanism: Mechanism) -> Ball | None:
 
 def stressed(mechanism: Mechanism) -> Stressed | None:
     """Return the sizes of stressed parts; None if the sizes leave no shells."""
-    from geneva_cli.kinds.spherical.stressed import sphere_stressed
+    from geneva_cli.kinds.spherical.loaded_ball import sphere_stressed
 
     sizes = sized_ball(mechanism)
     return sphere_stressed(mechanism.spec, sizes) if sizes else None
@@ -80,8 +80,7 @@ def horn_sizes(mechanism: Mechanism) -> tuple[float, float, float] | None:
 
 def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     """Return the sizes for a thickness of the wheel, or else its default."""
-    from geneva_cli.kinds.spherical.axles import about_crank, wheel_axle
-    from geneva_cli.kinds.spherical.ball import Ball, inner_edge
+    from geneva_cli.kinds.spherical.ball import Ball, about_crank, inner_edge, wheel_axle
 
     spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
     size, z = spec.size, spec.wheel.z

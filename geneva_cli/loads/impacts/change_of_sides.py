@@ -10,22 +10,23 @@ engagement's own mid-motion.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2, resisting_torque_Nm
-from geneva_cli.motion.batch import taken
+from geneva_cli.motion.batch import selection, taken
 from geneva_cli.motion.engagement import Engagement, WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peak_search import braking, landmarks
+from geneva_cli.motion.peak_search import braking, spans
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.arrays import Mask, Whole, blocks, choose, joined, larger
+from geneva_cli.numerics.arrays import Mask, Which, Whole, blocks, choose, joined, larger, parameter
+from geneva_cli.numerics.extremes import Smooth, cuts
 from geneva_cli.numerics.jet import Array
-from geneva_cli.numerics.newton import find_roots
 from geneva_cli.numerics.quadrature import rule
+from geneva_cli.numerics.roots import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
 
 
@@ -68,24 +69,24 @@ def changes(engagement: Engagement, drag: Array) -> Changes:
     if engagement.paired:  # gears hold the wheel until another roller stops it
         begins = np.broadcast_to(np.ravel(motion.breaks_deg[-2]), m)
         return Changes(np.arange(m), begins.astype(float))
-    which, x, torque = landmarks(motion, "acceleration", m)
-    torque = torque + drag[which, 0]
+    some = selection(motion)
+
+    def torque(x: Array, which: Which, order: int, _: Sequence[int]) -> list[tuple[Array, ...]]:
+        rate = some(which).rate(x, order + 1)
+        return [(rate.derivative() + parameter(drag[which])).arrays()]
+
+    f = Smooth(torque, 0, signs=1, unit=DEGREE)
+    which, _, (a, b), positive = cuts(f, spans(motion, m))
+    (middle,) = f(0.5 * (a + b)[:, None], which, 0)[1][0]
     most = np.zeros(m)
-    np.maximum.at(most, which, abs(torque))
+    np.maximum.at(most, which, abs(middle[:, 0]))
     # a law may run at constant speed for a while
-    kept = abs(torque) > ROUNDED * most[which]
-    which, x, torque = which[kept], x[kept], torque[kept]
-    before = np.flatnonzero((torque[:-1] * torque[1:] < 0.0) & (which[:-1] == which[1:]))
-    of = which[before]
-
-    def over(place: Array, live: Whole) -> tuple[Array, Array]:
-        _, _, a, j = taken(motion, of[live])(place[:, None], 3).arrays()
-        return (a + drag[of[live]])[:, 0], (j * DEGREE + 0.0 * place[:, None])[:, 0]
-
-    # after a Newton step of 1e-9 of the bracket the rest is rounding
-    roots = find_roots(over, x[before], x[before + 1], 1e-9)
+    kept = abs(middle[:, 0]) > ROUNDED * most[which]
+    which, a, b, above = which[kept], a[kept], b[kept], positive[0, kept]
+    before = np.flatnonzero((above[1:] != above[:-1]) & (which[:-1] == which[1:]))
+    x = 0.5 * (b[before] + a[before + 1])
     # a change of sign within 1e-12 degrees of mid-motion is at mid-motion
-    return Changes(of, np.where(abs(roots) < 1e-12, 0.0, roots))
+    return Changes(which[before], np.where(abs(x) < 1e-12, 0.0, x))
 
 
 def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) -> WallImpacts:

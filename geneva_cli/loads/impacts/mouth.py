@@ -29,7 +29,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import Whole, library, parameter
 from geneva_cli.numerics.jet import Array, Jet, sqrt
-from geneva_cli.numerics.newton import find_roots
+from geneva_cli.numerics.roots import find_roots
 
 
 class MouthCorner(NamedTuple):

@@ -22,7 +22,7 @@ from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import N, Whole, library, parameter
 from geneva_cli.numerics.jet import Array
-from geneva_cli.numerics.newton import find_roots
+from geneva_cli.numerics.roots import find_roots
 
 # Ascending fractions of a span, half an octave apart, which bracket a crossing.
 OCTAVES = 0.5 ** (0.5 * np.arange(64, -1, -1))

@@ -25,7 +25,7 @@ from geneva_cli.loads.strength.pin import Pin, PinSize, stiffness_N_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, Number, Whole, size
-from geneva_cli.numerics.newton import find_roots
+from geneva_cli.numerics.roots import find_roots
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.workshops import Stock
 

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -24,18 +23,16 @@ from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.forces import Contact, LoadCase
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadBatch, LoadFunctions, SignFunctions, load_batch
-from geneva_cli.loads.load_groups import of_groups
-from geneva_cli.loads.strength.wear import Rubbing, greatest_rubbing_N
-from geneva_cli.loads.stretches import refuse_noise, spans_of, to_mid_motion
+from geneva_cli.loads.load_functions import LoadFunctions
+from geneva_cli.loads.load_peaks import search_loads
+from geneva_cli.loads.stretches import refuse_noise, to_mid_motion
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Whole, array, parameter
-from geneva_cli.numerics.jet import Array, Jet, Number
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, array, parameter
+from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
-from geneva_cli.numerics.stretch_search import search
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 
@@ -63,51 +60,37 @@ class Life(NamedTuple):
     hours: float | None
 
 
-@lru_cache(maxsize=256)
 def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
-    """Integrals over one motion; only before mid-motion for a ``half`` of -1, only after it for 1.
+    """Integrals over one motion of m designs, (m,) each.
+
+    Only before mid-motion for a ``half`` of -1, only after it for 1.
 
     >>> from geneva_cli import External, Load, Size
     >>> from geneva_cli.motion.mechanism import build
     >>> from geneva_cli.motion.machine_spec import Spec
     >>> m = build(Spec(External(6), size=Size(200.0, 8.0), load=Load(torque_Nm=15.0)))
-    >>> round(passage(m.engagements[0], load_case(m)).travel_m, 12)  # 2 L (cos b - (1 - l))
-    0.146410161514
+    >>> passage(m.engagements[0], load_case(m)).travel_m.round(12)  # 2 L (cos b - (1 - l))
+    array([0.14641016])
     """
-    every = [array(x) for x in passage_integrals(engagement, case, half)]
-    refuse_noise(every[:-1])  # where nothing is rubbed, the last one is NaN
-    return SlotPassage(*(x.item() for x in every))
-
-
-def passage_integrals(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
-    """Integrals over one motion of m designs: (m,) each."""
-    every = load_batch(engagement, case, (FORCE,))
-    (rows,) = of_groups(every, lambda some, n: (_integrals(some, n, half),))
-    return SlotPassage(*map(parameter, rows))
-
-
-def _integrals(every: LoadBatch, n: int, half: float) -> Array:
-    """Integrals of n designs, one row each; infinite if the force has no bound."""
-    engagement = every.engagement
     # the integrals are bounded where the force is
-    load = LoadFunctions(every, ("slides", "along") if turns_back(engagement) else ("slides",))
+    more = ("slides", "along") if turns_back(engagement) else ("slides",)
+    load, n = LoadFunctions(engagement, case, (FORCE,), more=more), case.designs
     # spans end at mid-motion, where a roller on an arm turns back in a straight slot
-    pieces = search(SignFunctions(load), spans_of(engagement, n), n, False, w=load.spread).stretches
+    result = search_loads(load)
+    bounded, pieces = np.isfinite(result.most[0]), result.stretches
     design, _, (a, b), positive = to_mid_motion(engagement, pieces, n)
     own = np.flatnonzero(half * (a + b) >= 0.0)
     design, a, b, positive = design[own], a[own], b[own], positive[:, own]
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
 
     def rows(x: Array, which: Whole) -> Array:
-        some, case, *_ = taken(every, design[which]) if n > 1 else every
+        some, own = taken((engagement, case), design[which])
         drives, slides = (
             signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
         )
-        integrands = passing(case, contact(some, x, reactions=False), drives, slides)
+        integrands = passing(own, contact(some, x, reactions=False), drives, slides)
         return np.stack(np.broadcast_arrays(*integrands))
 
-    with np.errstate(all="ignore"):
-        (bounded,) = load.bounded(pieces, n)
     every_one = np.full(n, True)
     requested = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
@@ -117,7 +100,8 @@ def _integrals(every: LoadBatch, n: int, half: float) -> Array:
     branch = np.sign(a + b) * engagement.slot.curved
     pressed = greatest_rubbing_N(Rubbing(design, moved, others[1], wall, branch), n)
     total = [np.bincount(design, row, n) for row in (abs(moved), *others)]
-    return np.where((*requested, bounded), (*total, pressed), np.inf)
+    rows_of = np.where((*requested, bounded), (*total, pressed), np.inf)
+    return SlotPassage(*map(parameter, rows_of))
 
 
 def turns_back(engagement: Engagement) -> bool:
@@ -147,7 +131,7 @@ def passing(case: LoadCase, at: Contact[Jet], drives: Number, slides: Number) ->
 
 
 def passages(mechanism: Mechanism) -> list[SlotPassage]:
-    """Passage of each engagement of a period: (m,) each for m designs."""
+    """Passage of each engagement of a period: (m,) for m designs."""
     return [_passage(mechanism, one, 0.0) for one in mechanism.under_load.engagements]
 
 
@@ -158,9 +142,11 @@ def by_roller(mechanism: Mechanism) -> list[SlotPassage]:
 
 
 def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> SlotPassage:
-    """Passage of a machine's engagement; for a single design it is cached."""
-    single = isinstance(mechanism.design, int)
-    return (passage if single else passage_integrals)(engagement, load_case(mechanism), half)
+    """Passage of a machine's engagement; raises GenevaError where a single design's is rounding."""
+    found = passage(engagement, load_case(mechanism), half)
+    if isinstance(mechanism.design, int):
+        refuse_noise([array(row) for row in found[:-1]])  # where nothing is rubbed, NaN
+    return found
 
 
 def halves(engagement: Engagement) -> tuple[float, ...]:
@@ -197,3 +183,67 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
             rated = 1e6 * (np.ravel(capacity) / force) ** LIFE_EXPONENT
             lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
     return Life(parameter(force), parameter(turns), *lasts)
+
+
+class Rubbing(NamedTuple):
+    """Pieces of n designs' motions, in order, in each of which one wall is rubbed one way."""
+
+    design: Whole
+    moved_m: Array  # along the slot, positive away from the wheel's axis
+    work: Array  # ∫ N |v_s| dt, J
+    wall: Array  # 1 where the wall that drives the wheel bears, -1 where the other does
+    branch: Array  # of the slot: 0 of a straight one; -1 entry, 1 exit of a curved one
+
+    def in_rows(self, n: int) -> Rubbing:
+        """The pieces of each design as a row, padded with zeros: (n, k) each."""
+        number = np.arange(len(self.design)) - np.searchsorted(self.design, self.design)
+        shape = n, int(number.max()) + 1
+        out = []
+        for row in self:
+            padded = np.zeros(shape)
+            padded[self.design, number] = row
+            out.append(padded)
+        return Rubbing._make(out)
+
+
+def greatest_rubbing_N(pieces: Rubbing, n: int) -> Array:
+    """The work over the swept length of the wall that has the most of it: (n,), J/m or N.
+
+    NaN for a design whose contact sweeps no wall.
+    """
+    _, moved, work, wall, branch = pieces.in_rows(n)
+    after = np.cumsum(moved, axis=1)
+    low, high = np.minimum(after, after - moved), np.maximum(after, after - moved)
+    each = []
+    for own in ((wall == d) & (branch == b) for d in (1.0, -1.0) for b in (0.0, -1.0, 1.0)):
+        if own.any():
+            with np.errstate(invalid="ignore"):  # no contact on this wall
+                each.append(np.where(own, work, 0.0).sum(axis=1) / _covered(low, high, own))
+    most: Array = np.fmax.reduce(each)
+    return most
+
+
+def _covered(low: Array, high: Array, own: Mask) -> Array:
+    """The length of the union of each row's ``own`` intervals: (n,)."""
+    low, high = np.where(own, low, np.inf), np.where(own, high, -np.inf)
+    order = np.argsort(low, axis=1)
+    low, high = (np.take_along_axis(row, order, axis=1) for row in (low, high))
+    before = np.maximum.accumulate(high, axis=1)[:, :-1]
+    low[:, 1:] = np.maximum(low[:, 1:], before)
+    length: Array = np.maximum(high - low, 0.0).sum(axis=1)
+    return length
+
+
+def wears_mm(mechanism: Mechanism, rubbing_N: Sequence[Number]) -> Array | None:
+    """Mean wear depths in a million passages of the wall that wears most: mm, (m,).
+
+    ``rubbing_N`` are the ``greatest_rubbing_N`` of the engagements; the slot with the most counts.
+    None without ``wear_mm3_Nm`` or ``face_width_mm``.
+    """
+    spec = mechanism.spec
+    k, width = spec.material_wheel.wear_mm3_Nm, spec.size.face_width_mm
+    if k is None or width is None:
+        return None
+    rate = np.ravel(1e6 * k / (width * 1000.0))
+    worn: Array = np.max([rate * np.ravel(one) for one in rubbing_N], axis=0)
+    return worn

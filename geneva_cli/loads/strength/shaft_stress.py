@@ -29,8 +29,8 @@ The roller is taken to be thin: its cone presses on the wall beside u.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias
+from collections.abc import Hashable, Sequence
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -47,9 +47,12 @@ from geneva_cli.numerics.arrays import N, library
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 from geneva_cli.spec.tables import Shaft
 
-# The loads of a shaft at an instant, for an overhang in metres: squared bending moment, (N m)², and
-# torque.
-ShaftForces: TypeAlias = Callable[[Instant[Jet], Number], tuple[Jet, Jet]]
+
+class ShaftForces(Hashable, Protocol):
+    """The loads of a shaft at an instant: a function, or a tuple that is called as one."""
+
+    def __call__(self, i: Instant[Jet], overhang: Number, /) -> tuple[Jet, Jet]:
+        """Squared bending moment, (N m)², for an overhang in metres; and torque."""
 
 
 class LoadedShaft(NamedTuple):
@@ -102,7 +105,7 @@ class OnCarrier(NamedTuple):
         spun = sqrt(turning * turning * turning * turning + faster * faster)
         return i.wheel_bearing_N + spun * off_axis_N + self.orbiting_N
 
-    def __call__(self, i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
+    def __call__(self, i: Instant[Jet], overhang: Number, /) -> tuple[Jet, Jet]:
         """Squared bending moment of the wheel's shaft, and torque."""
         force = self.force_N(i)
         return force * force * (overhang * overhang), i.wheel_torque_Nm

@@ -111,15 +111,6 @@ class Law(SpecTable):
         """
         return self if all_true(self.symmetric) else Backwards(self)
 
-    @property
-    def halves_alike(self) -> bool:
-        """True if one formula gives both halves.
-
-        >>> Cycloidal().halves_alike, SineGroup(0.1).halves_alike
-        (True, False)
-        """
-        return type(self).second is Law.second
-
     @cached_property
     def varies(self) -> bool:
         """True if its numbers are arrays of a batch.

@@ -7,19 +7,16 @@ is one design: it is searched on floats, without NumPy. Only a spline has too ma
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from geneva_cli.motion.laws.law import Law
-from geneva_cli.numerics.arrays import N
+from geneva_cli.numerics.arrays import Array, N, Which
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.roots import greatest_at, root
 from geneva_cli.numerics.tolerances import TIE
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.extrema import BatchFunction
 
 Curves: TypeAlias = dict[str, tuple[float, float, float]]  # values with two derivatives
 Size: TypeAlias = tuple[float, float, bool]  # with its place, and whether the quantity turns there
@@ -48,7 +45,7 @@ def greatest(law: Law) -> dict[str, tuple[float, float]]:
 def _first_top(sizes: list[Size]) -> tuple[float, float]:
     """The greatest of some sizes, and its first place.
 
-    An end just before an equally high turn is part of its flat top, as in ``greatest_sizes``.
+    An end just before an equally high turn is part of its flat top, as its rounding is no place.
     """
     most, first = greatest_at([(size, u) for size, u, _ in sizes])
     tops = (u for size, u, turns in sizes if turns and size >= most - TIE * most)
@@ -60,16 +57,22 @@ def _of_spline(law: Law) -> dict[str, tuple[float, float]]:
     """Greatest sizes of a law that is analytic only between its many knots, and their places."""
     import numpy as np
 
-    from geneva_cli.numerics.extrema import greatest_sizes
+    from geneva_cli.numerics.extremes import Smooth, search
+
+    names = list(_curves((0.0,) * 6))
+
+    def derivatives(
+        u: Array, _: Which, __: int, requested: Sequence[int]
+    ) -> list[tuple[Array, Array, Array]]:
+        curves = _curves(law(u, 5).arrays())
+        return [curves[names[i]] for i in requested]
 
     ends = [np.array([[u]]) for u in sorted({0.0, 0.5, 1.0, *law.breaks})]
-
-    def curve(name: str) -> BatchFunction:
-        return lambda u, _, order: _curves(law(u, 5).arrays())[name][: order + 1]
-
-    names = _curves((0.0,) * 6)
-    each = {name: greatest_sizes(curve(name), *ends) for name in names}
-    return {name: (size.item(), u.item()) for name, (size, u) in each.items()}
+    starts = [ends[0], *(np.nextafter(end, 1.0) for end in ends[1:-1])]
+    f = Smooth(derivatives, len(names))
+    most, u, _ = search(f, list(zip(starts, ends[1:], strict=True)), sized=True)
+    places = zip(most[:, 0].tolist(), u[:, 0].tolist(), strict=True)
+    return dict(zip(names, places, strict=True))
 
 
 def _half(half: Callable[[Number, int], Jet], ends: list[float]) -> dict[str, list[Size]]:

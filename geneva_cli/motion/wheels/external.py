@@ -104,7 +104,7 @@ class External(Gearing):
         if isinstance(e, float) and not e:
             return super().place(step, center_distance_mm)
 
-        from geneva_cli.motion.wheels.skew import margin, skew
+        from geneva_cli.motion.wheels.offset_slot import margin, skew
 
         def error() -> GenevaError:
             # b + |d| < 90 degrees means |e| < 1 - l; at the limit e = cos b sin d, d = 90 deg - b

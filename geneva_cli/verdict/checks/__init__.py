@@ -1,6 +1,6 @@
 """The checks of a design, each with its value and its limit.
 
-A check is a file, or a function in a file of related ones, and one line in ``registry``.
+A check is a file, or a function in a file of related ones, and one line in ``all_checks``.
 """
 
 from __future__ import annotations
@@ -47,17 +47,6 @@ def passes(mechanism: Mechanism, machine: Parts | None = None) -> bool:
     return all_pass(quick) and all_pass(_parts(mechanism, machine, turned=True))
 
 
-def checks_at_rest(mechanism: Mechanism, parts: Parts | None) -> Iterator[Check]:
-    """The checks of the motion and of the limits, then those of ``parts`` at rest.
-
-    Raises GenevaError if wheel or crank cannot be built.
-    """
-    yield from applicable(MOTION, mechanism)
-    yield from applicable(LIMITS, mechanism)
-    if parts is not None and mechanism.spec.has_parts:
-        yield from standing_checks(parts.built)
-
-
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
     """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
 
@@ -72,15 +61,12 @@ def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
 def single_check(mechanism: Mechanism, name: str, parts: Parts | None = None) -> Check | None:
     """The check with this name, without the others and the turn; None if there is no such check.
 
-    Raises GenevaError if its parts cannot be built.
+    A failing one has no reason in words yet. Raises GenevaError if its parts cannot be built.
     """
-    for among in (MOTION, LIMITS):
-        check = check_named(among, name, mechanism)
-        if check:
-            return check
+    check = check_named(MOTION, name, mechanism) or check_named(LIMITS, name, mechanism)
     among = standing(mechanism)
-    if not mechanism.spec.has_parts or name not in among:
-        return None
+    if check or not mechanism.spec.has_parts or name not in among:
+        return check
     from geneva_cli.parts.parts import parts_of
 
     return check_named(among, name, (parts or parts_of(mechanism)).built)

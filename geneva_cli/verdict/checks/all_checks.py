@@ -46,19 +46,24 @@ LIMITS: Checks = {
     "input_torque_max_Nm": "verdict.checks.limits:limited_load",
     "pressure_angle_deg": "verdict.checks.motion_checks:limited_pressure",
     "contact_stress_max_MPa": "verdict.checks.limits:limited_load",
-    "pv_max_W_m2": "verdict.checks.strength_checks:strength_limit",
-    "roller_life_min_h": "verdict.checks.strength_checks:strength_limit",
-    "slot_wear_max_mm_per_million": "verdict.checks.strength_checks:strength_limit",
-    "pin_stress_MPa": "verdict.checks.strength_checks:strength_limit",
-    "horn_stress_MPa": "verdict.checks.strength_checks:strength_limit",
-    "lock_horn_stress_MPa": "verdict.checks.strength_checks:strength_limit",
-    "lock_stress_max_MPa": "verdict.checks.strength_checks:strength_limit",
-    "lock_deflection_max_deg": "verdict.checks.strength_checks:strength_limit",
-    "wheel_shaft_stress_MPa": "verdict.checks.strength_checks:strength_limit",
-    "crank_shaft_stress_MPa": "verdict.checks.strength_checks:strength_limit",
-    "arm_stress_MPa": "verdict.checks.strength_checks:strength_limit",
-    "wheel_key_pressure_MPa": "verdict.checks.strength_checks:strength_limit",
-    "crank_key_pressure_MPa": "verdict.checks.strength_checks:strength_limit",
+    **dict.fromkeys(
+        (
+            "pv_max_W_m2",
+            "roller_life_min_h",
+            "slot_wear_max_mm_per_million",
+            "pin_stress_MPa",
+            "horn_stress_MPa",
+            "lock_horn_stress_MPa",
+            "lock_stress_max_MPa",
+            "lock_deflection_max_deg",
+            "wheel_shaft_stress_MPa",
+            "crank_shaft_stress_MPa",
+            "arm_stress_MPa",
+            "wheel_key_pressure_MPa",
+            "crank_key_pressure_MPa",
+        ),
+        "verdict.checks.strength_checks:strength_limit",
+    ),
     "product_acceleration_max_m_s2": "verdict.checks.limits:product_acceleration",
     "product_slip": "verdict.checks.limits:product_slip",
 }
@@ -135,15 +140,10 @@ JAMS = (
 PROOFS: Checks = {"gap_proved_mm": "verdict.checks.proved:least_gap"}
 
 
-def checks_before_turn() -> tuple[str, ...]:
-    """The names of all checks but those of the whole turn; ``parts``: they can be built."""
-    lists = (MOTION, LIMITS, ("parts",), STANDING)
-    return tuple(dict.fromkeys(name for names in lists for name in names))
-
-
-def checks_of_turn() -> tuple[str, ...]:
-    """The names of the checks of the whole turn; ``full_turn``: the parts can be turned."""
-    return ("full_turn", *TURNING)
+# The names of all checks but those of the whole turn; ``parts``: they can be built.
+BEFORE_TURN = tuple(dict.fromkeys((*MOTION, *LIMITS, "parts", *STANDING)))
+# The names of those of the whole turn; ``full_turn``: the parts can be turned.
+OF_TURN = ("full_turn", *TURNING)
 
 
 def standing(mechanism: Mechanism) -> Checks:
@@ -168,19 +168,23 @@ def turn_checks(parts: Parts, turn: FullTurn) -> Iterator[Check]:
 
 def check_named(among: Checks, name: str, *of: object) -> Check | None:
     """The check with this name; None if it is not in the list, or does not apply."""
-    check: Check | None = None
-    if name in among:
-        check = load_named(among[name])(name, *of)
-    return check
+    return next(untold({name: among[name]}, *of), None) if name in among else None
+
+
+def untold(among: Checks, *of: object) -> Iterator[Check]:
+    """The checks of a list that apply to ``of``; those that fail have no reason in words yet."""
+    for name, path in among.items():
+        check: Check | None = load_named(path)(name, *of)
+        if check is not None:
+            yield check
 
 
 def applicable(among: Checks, *of: object) -> Iterator[Check]:
     """The checks of a list that apply to ``of``; of those that fail for one reason, the first."""
     reasons = set()
-    for name in among:
-        check = check_named(among, name, *of)
-        if check is None or (check.passes is False and check.why in reasons):
-            continue
-        yield check
-        if check.passes is False and check.why:
-            reasons.add(check.why)
+    for check in untold(among, *of):
+        told = check.told
+        if told.passes is not False or told.why not in reasons:
+            yield told
+        if told.passes is False and told.why:
+            reasons.add(told.why)

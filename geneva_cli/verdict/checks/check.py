@@ -37,6 +37,13 @@ class Check(NamedTuple):
     at_deg: float | None = None
     nearest: str = ""
     direction: str = ""
+    # what makes ``why`` of a failing check, which the trials of an adviser need not
+    reason: Callable[[], str] | None = None
+
+    @property
+    def told(self) -> Check:
+        """This check, with its reason in words."""
+        return self._replace(why=self.reason(), reason=None) if self.reason else self
 
     @property
     def where(self) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING
 
 from geneva_cli.motion.mechanism import Mechanism
@@ -29,7 +30,7 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
     check = _force_check(name, mechanism, impact)
     if check.passes is not False:
         return check
-    return check._replace(why=_tolerable(mechanism, check))
+    return check._replace(reason=partial(_tolerable, mechanism, check))
 
 
 def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
@@ -71,7 +72,7 @@ def _reversal(mechanism: Mechanism) -> Impact | None:
 
 def _without_change(check: Check, mechanism: Mechanism) -> Check:
     """The check, and what prevents the change of sides if it fails."""
-    return check if check.passes else check._replace(why=drag_words(mechanism))
+    return check if check.passes else check._replace(reason=partial(drag_words, mechanism))
 
 
 def drag_words(mechanism: Mechanism) -> str:

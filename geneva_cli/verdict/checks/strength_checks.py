@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.motion.mechanism import Mechanism
@@ -114,7 +115,7 @@ def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
     if value is not None and limit is not None:
         at_deg = of[bound.place] if bound.place else None
         check = compared(name, value, bound.must_be, limit, at_deg)
-        return check if check.passes else check._replace(why=_needed(bound, of, check))
+        return check if check.passes else check._replace(reason=partial(_needed, bound, of, check))
     reason = of.reason(name)
     # without a limit in the spec, a value that needs another key is not asked for
     if reason is None or (own is None and reason != BOUND):
@@ -152,7 +153,12 @@ def first_stress(name: str, parts: FlatParts) -> Check | None:
     check = check_named(LIMITS, name.removeprefix("first_"), parts.front.mechanism)
     if check is None:
         return None
-    # its sizes are those of links; its angles are counted from another motion of the first wheel
-    why = check.why.replace("arm_thickness_mm", "link_thickness_mm")
-    why = why.replace("the crank's shaft", "the first crank's shaft")
-    return check._replace(name=name, at_deg=None, why=why)
+    # its angles are counted from another motion of the first wheel
+    check = check._replace(name=name, at_deg=None)
+    return check._replace(reason=partial(_of_links, check)) if check.reason else check
+
+
+def _of_links(check: Check) -> str:
+    """The reason of a first wheel's check, whose sizes are those of links."""
+    why = check.told.why.replace("arm_thickness_mm", "link_thickness_mm")
+    return why.replace("the crank's shaft", "the first crank's shaft")

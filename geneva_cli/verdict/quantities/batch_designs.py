@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Self, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -56,9 +57,19 @@ class Designs:
         result: T = self._kept[compute]  # type: ignore[assignment]
         return result
 
+    def requesting(self, names: Collection[str]) -> Self:
+        """These designs, with their known values, when other names are requested."""
+        other = copy.copy(self)
+        other.names = names
+        return other
+
     def columns(self, compute: Callable[[Designs], Columns]) -> Columns:
-        """The values of the quantities that a function computes."""
-        return self.once(compute)
+        """The values of the requested quantities that a function computes."""
+        key = compute, tuple(self.names)
+        if key not in self._kept:
+            self._kept[key] = compute(self)
+        result: Columns = self._kept[key]  # type: ignore[assignment]
+        return result
 
     @property
     def are_built(self) -> bool:
@@ -82,10 +93,11 @@ class Designs:
     @cached_property
     def loaded(self) -> Array:
         """1 if something resists the wheel and its loads keep their digits, else NaN."""
-        return np.where(self._resisted & ~self.too_fast, 1.0, np.nan)
+        return np.where(self.resisted & ~self.too_fast, 1.0, np.nan)
 
     @cached_property
-    def _resisted(self) -> Mask:
+    def resisted(self) -> Mask:
+        """True for designs with a load."""
         return np.asarray(np.ravel(self.load_case.inertia_Nm + self.load_case.resists_Nm > 0.0))
 
     @cached_property
@@ -96,7 +108,7 @@ class Designs:
         """
         from geneva_cli.loads.stretches import refuse_rounding, too_fast
 
-        resisted = self._resisted
+        resisted = self.resisted
         if not resisted.any():
             return resisted
         if self.single:
@@ -115,15 +127,15 @@ class BatchMember(Designs):
     def columns(self, compute: Callable[[Designs], Columns]) -> Columns:
         """The values of this design, from the batch or computed alone."""
         try:
-            every = self.batch.once(compute)
+            every = self.batch.columns(compute)
         except GenevaError:  # of another design, or of this one, which then raises it again
-            return self.once(compute)
+            return super().columns(compute)
         own = {
             name: None if column is None else number_of(column, self.number)
             for name, column in every.items()
         }
         is_unknown = any(value is not None and np.isnan(value) for value in own.values())
-        return self.once(compute) if is_unknown else own
+        return super().columns(compute) if is_unknown else own
 
 
 def number_of(column: Number, i: int) -> float:

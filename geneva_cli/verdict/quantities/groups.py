@@ -13,7 +13,7 @@ from geneva_cli.motion.records import KINDS, of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
-from geneva_cli.verdict.checks.all_checks import PROOFS, checks_before_turn, checks_of_turn
+from geneva_cli.verdict.checks.all_checks import BEFORE_TURN, OF_TURN, PROOFS
 
 if TYPE_CHECKING:
     from geneva_cli.motion.machine_spec import Spec
@@ -101,7 +101,7 @@ class QuantityGroup(NamedTuple):
         else:
             from geneva_cli.verdict.quantities.batch_designs import single
 
-            columns = self.columns(single(parts.mechanism))
+            columns = self.columns(single(parts.mechanism).requesting(self.names))
             computed = {name: only(columns[name]) for name in self.own}
         return every | {self._whole(name): value for name, value in computed.items()}
 
@@ -193,8 +193,7 @@ _REPORT = (
             *_product("jerk", "max at_deg max_rad_s3 max_m_s3 entry exit"),
             *_product("power", "max at_deg max_rad2_s3 max_m2_s3"),
         ),
-        "verdict.report.stations:peaks",
-        "verdict.quantities.motion_quantities:peaks",
+        batch="verdict.quantities.motion_quantities:peaks",
     ),
     _group("", "", "verdict.report.stations:stations"),
     QuantityGroup(
@@ -204,8 +203,7 @@ _REPORT = (
             *_product("input_torque_Nm contact_stress_MPa", "max at_deg"),
             "kinetic_power_W",
         ),
-        "verdict.report.load_report:greatest_loads",
-        "verdict.quantities.load_quantities:greatest",
+        batch="verdict.quantities.load_quantities:greatest",
     ),
     QuantityGroup(
         "cycle",
@@ -364,8 +362,7 @@ STUDY = (
             *_product(f"{SIZED} {SIGNED}", "min min_at_deg mean rms"),
             *_product(SIGNED, "max max_at_deg"),
         ),
-        "verdict.quantities.single:cycle",
-        "verdict.quantities.load_quantities:summaries",
+        batch="verdict.quantities.load_quantities:summaries",
     ),
     _group(
         "sizing",
@@ -373,18 +370,17 @@ STUDY = (
         "design_torque_Nm input_torque_Nm power_W Am Vm Qm energy_fluctuation_J flywheel_kgm2 "
         "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2 "
         "coasting_speed_share input_torque_ratio",
-        "verdict.quantities.single:motor_sizing",
-        "verdict.quantities.load_quantities:sizing",
+        batch="verdict.quantities.load_quantities:sizing",
     ),
     QuantityGroup(
         "checks",
-        checks_before_turn(),
+        BEFORE_TURN,
         "verdict.quantities.single:values_before_turn",
         makes_parts=True,
     ),
     QuantityGroup(
         "checks",
-        (*checks_of_turn(), "passes", "failed"),
+        (*OF_TURN, "passes", "failed"),
         "verdict.quantities.single:check_values",
         makes_parts=True,
     ),

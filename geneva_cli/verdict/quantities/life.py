@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from geneva_cli.loads.strength import roller
-from geneva_cli.loads.strength.wear import wears_mm
+from geneva_cli.loads.strength.roller import wears_mm
 from geneva_cli.numerics.arrays import Number
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 from geneva_cli.verdict.quantities.part_strength import horn, pin

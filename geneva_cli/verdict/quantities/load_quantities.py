@@ -10,8 +10,10 @@ from geneva_cli.loads.load_peaks import load_peaks, load_summaries
 from geneva_cli.loads.load_summary import LoadSummary
 from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.motion.many import worst_peaks
-from geneva_cli.numerics.arrays import Number, parameter
+from geneva_cli.numerics.arrays import Array, Number, parameter
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
+
+OF_MOTION = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
 
 
 def greatest(of: Designs) -> Columns:
@@ -61,23 +63,30 @@ def summaries(of: Designs) -> Columns:
     if not requested:
         return out
     sums = {end for own in requested.values() for end in own} & {"mean", "rms"}
-    loaded = np.isfinite(of.loaded)
     for load, one in load_summaries(of.machine, list(requested), sums).items():
-        values = one._asdict()
-        out |= {f"{load}.{end}": np.where(loaded, values[end], np.nan) for end in requested[load]}
+        values, moves = one._asdict(), known[load][0] in OF_MOTION
+        for end in requested[load]:
+            out[f"{load}.{end}"] = _where_loaded(of, values[end], moves)
     return out
+
+
+def _where_loaded(of: Designs, values: Array, is_motion: bool) -> Array:
+    """Values of loads, infinite without one; those of the ``motion`` need none."""
+    without = np.ones(1, dtype=bool) if is_motion else of.resisted
+    return np.where(of.too_fast, np.nan, np.where(without, values, np.inf))
 
 
 def sizing(of: Designs) -> Columns:
     """Motor, flywheel and the cam-indexer formula; None for values that need keys none has."""
-    from geneva_cli.loads.sizing import sizings
+    from geneva_cli.loads.sizing import KNOWN_UNLOADED, sizings
 
     requested = of.requested("sizing")
+    names = requested if of.spec.is_loaded else requested & {*KNOWN_UNLOADED}
     out: dict[str, Number | None] = dict.fromkeys(requested)
-    for name, row in sizings(of.machine, requested).items():
-        if name in of.machine.output.lacks:
-            continue
-        out[name] = np.where(np.isnan(row), np.inf, row) * of.loaded
+    for name, row in sizings(of.machine, names).items():
+        if name not in of.machine.output.lacks:
+            known = np.where(np.isnan(row), np.inf, row)
+            out[name] = _where_loaded(of, known, name in KNOWN_UNLOADED)
     return out
 
 

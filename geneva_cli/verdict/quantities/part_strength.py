@@ -21,8 +21,6 @@ from geneva_cli.spec.workshops import Stock
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 from geneva_cli.verdict.quantities.under_load import as_numbers, under_load
 
-SHEAR = "shear_stress_max_MPa"
-
 
 def margin(stress: Number, allowed: Number | None) -> Array | None:
     """The relative margin of a stress: 0 if it equals the allowable stress.
@@ -138,8 +136,10 @@ def _shafts(of: Designs) -> list[Columns]:
 def _drawn(of: Designs, part: str, forces: ShaftForces) -> LoadedShaft:
     """The shaft of wheel or crank, with the dimensions of its parts where the spec has none."""
     table = vars(of.spec.shaft)
-    names = ("overhang_mm", "diameter_mm", "span_mm")
-    own = LoadedShaft(forces, *(table[f"{part}_{name}"] for name in names), table[SHEAR])
+    overhang, diameter, span = (
+        table[f"{part}_{name}_mm"] for name in ("overhang", "diameter", "span")
+    )
+    own = LoadedShaft(forces, overhang, diameter, span, table["shear_stress_max_MPa"])
     if not of.spec.is_loaded:
         return own
     keyway = vars(of.spec.size)[f"{part}_keyway"] is not None

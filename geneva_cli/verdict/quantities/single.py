@@ -5,13 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from geneva_cli.loads.cycle import cycle_of
-from geneva_cli.loads.load_tables import summaries
-from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.verdict.both_directions import passes_both_ways, worst_checks
 from geneva_cli.verdict.checks import Check, proofs
-from geneva_cli.verdict.checks.all_checks import checks_before_turn, checks_of_turn
-from geneva_cli.verdict.quantities.load_quantities import summary_ends
+from geneva_cli.verdict.checks.all_checks import BEFORE_TURN, OF_TURN
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
@@ -33,13 +29,13 @@ def machine(parts: Parts) -> Values:
 
 def values_before_turn(parts: Parts) -> Values:
     """The value of each check but those of the turn."""
-    return _values(checks_before_turn(), worst_checks(parts.mechanism, parts, turned=False))
+    return _values(BEFORE_TURN, worst_checks(parts.mechanism, parts, turned=False))
 
 
 def check_values(parts: Parts) -> Values:
     """The value of each check of the turn, and whether all checks pass."""
     rows = worst_checks(parts.mechanism, parts)
-    values = _values(checks_of_turn(), rows)
+    values = _values(OF_TURN, rows)
     failed = [c.name for c in rows if c.passes is False]
     return values | {"passes": not failed, "failed": " ".join(failed) or None}
 
@@ -56,17 +52,3 @@ def _values(names: Sequence[str], rows: Sequence[Check]) -> Values:
 def proved(parts: Parts) -> Values:
     """The gap that is proved."""
     return {c.name: c.value for c in proofs(parts)}
-
-
-def cycle(parts: Parts) -> Values:
-    """Greatest and least values of the loads with their signs, means and root mean squares."""
-    values: Values = {}
-    for load, one in summaries(cycle_of(parts.mechanism)).items():
-        values |= {f"{load}.{end}": getattr(one, end) for end in summary_ends(load)}
-    return values
-
-
-def motor_sizing(parts: Parts) -> Values:
-    """Motor, flywheel and the cam-indexer formula, without the wheel's own inertia."""
-    values, _ = sizing(cycle_of(parts.mechanism))
-    return {name: value for name, value in values.items() if name != WHEEL_INERTIA}

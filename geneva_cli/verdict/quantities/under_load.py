@@ -26,9 +26,11 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array, Number, Record, library, parameter, record_of
-from geneva_cli.parts.machine_sizes import Layout, sized
+from geneva_cli.parts.assembly import assembly
+from geneva_cli.parts.machine_sizes import Layout, loaded, sized, unloaded
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
-from geneva_cli.parts.stressed import Stressed, stressed
+from geneva_cli.parts.sized_by_load import horn_MPa
+from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
 from geneva_cli.spec.materials import roller_material
 
 if TYPE_CHECKING:
@@ -85,21 +87,31 @@ class UnderLoad:
         return load_peaks(self.machine, [name])[name].max * self.loaded
 
     @cached_property
+    def _unloaded(self) -> list[Unloaded | None]:
+        """The parts of the designs without their loads: one for designs that differ in loads only.
+
+        None for one without flat parts.
+        """
+        of = self.machine.spec
+        bare = Spec(
+            of.wheel, of.drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
+        )
+        return [_unloaded(build(taken(bare, i))) for i in range(designs_in(bare))]
+
+    @cached_property
     def lock_sizes(self) -> LockSizes | None:
         """The sizes of slot and lock, (m, 1); None if no design has a lock."""
         if self.designs.are_built:
-            flat = self.layouts
-        else:  # no load changes them: designs that differ in loads only are sized once
-            spec = self.machine.spec
-            bare = Spec(
-                spec.wheel, spec.drive, spec.motion, spec.size, drive_before=spec.drive_before
-            )
-            flat = [sized(build(taken(bare, i))) for i in range(designs_in(bare))]
-        locks = [
-            LockSizes(one[1].half_width, cut_lock(*one)) if one and one[1].lock else None
-            for one in flat
-        ]
-        return batched(locks, as_numbers)
+            each = [
+                LockSizes(one[1].half_width, cut_lock(*one)) if one and one[1].lock else None
+                for one in self.layouts
+            ]
+        else:
+            each = [
+                LockSizes(one.sizes.half_width, one.lock) if one and one.lock else None
+                for one in self._unloaded
+            ]
+        return batched(each, as_numbers)
 
     @cached_property
     def horn_sizes(self) -> Sizes | None:
@@ -142,10 +154,15 @@ class UnderLoad:
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:
         """Assembly and sizes of each design; None for one without flat parts."""
-        each = self.designs.each
         if self.designs.are_built or not self.machine.spec.is_loaded:
-            return [sized(one) for one in each]
-        return [sized(one, self.sizing_loads.of(i)) for i, one in enumerate(each)]
+            return [sized(one) for one in self.designs.each]
+        machines, size = self.designs.each, self.machine.spec.size
+        bent: Sequence[float | None] = [None] * len(machines)
+        if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
+            bent = horn_MPa(self.machine, *self.lock_sizes).tolist()
+        own = self._unloaded * (len(machines) // len(self._unloaded))
+        loads = map(self.sizing_loads.of, range(len(machines)))
+        return list(map(_loaded, own, machines, loads, bent))
 
     @cached_property
     def sizing_loads(self) -> PartLoads:
@@ -226,6 +243,27 @@ class UnderLoad:
         sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
         force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
         return np.nan_to_num(np.ravel(force)), torque
+
+
+def _unloaded(machine: Mechanism) -> Unloaded | None:
+    """The parts of a design without its load; None for one without flat parts."""
+    try:
+        return unloaded(assembly(machine)) if machine.spec.is_flat else None
+    except GenevaError:  # the check of the parts reports the error
+        return None
+
+
+def _loaded(
+    parts: Unloaded | None, machine: Mechanism, loads: PartLoads, bent_MPa: float | None
+) -> Layout | None:
+    """Assembly and sizes of a design under its load; None for one without flat parts."""
+    if parts is None:
+        return None
+    where = parts.assembly._replace(full=machine)
+    try:
+        return where, loaded(parts._replace(assembly=where), loads, bent_MPa)
+    except GenevaError:  # the check of the parts reports the error
+        return None
 
 
 def _stressed(machine: Mechanism, layout: Layout | None) -> Stressed | None:

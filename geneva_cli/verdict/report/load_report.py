@@ -5,12 +5,8 @@ from __future__ import annotations
 import math
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads import highest_speed
-from geneva_cli.loads.carried import inertia_kgm2
-from geneva_cli.loads.cycle import cycle_of, greatest
-from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
+from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.load_tables import reversals_deg
-from geneva_cli.motion.peaks import worst
 from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.quantities.batch_designs import Values
@@ -18,21 +14,6 @@ from geneva_cli.verdict.quantities.groups import own_names
 from geneva_cli.verdict.strength import REASONS, strength
 
 SAMPLES = 65536  # random machines, as ``geneva tolerance`` draws by default
-
-
-def greatest_loads(parts: Parts) -> Values:
-    """The greatest loads and their input angles; None without a load, and for an unbounded one."""
-    mechanism = parts.mechanism
-    loaded, known = mechanism.spec.is_loaded, sources(mechanism)
-    values: Values = {}
-    for name, source in REPORTED_PEAKS.items():
-        peak = greatest(mechanism, source) if loaded and source in known else None
-        bounded = peak is not None and math.isfinite(peak.max)
-        values[f"{name}.max"] = peak.max if peak and bounded else None
-        values[f"{name}.at_deg"] = peak.at_deg if peak else None
-    power = worst(mechanism).power.max if inertia_kgm2(mechanism.spec) else math.inf
-    kinetic = None if math.isinf(power) else highest_speed.kinetic_power_W(mechanism, power)
-    return values | {"kinetic_power_W": kinetic}
 
 
 def cycle(parts: Parts) -> Values:

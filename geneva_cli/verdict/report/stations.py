@@ -6,7 +6,7 @@ import math
 
 from geneva_cli.loads import highest_speed
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peaks import Peaks, placed_peaks, worst
+from geneva_cli.motion.peaks import Peaks, placed_peaks
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.parts.parts import Parts
@@ -33,11 +33,6 @@ def _shortest_s(mechanism: Mechanism, motion_deg: float) -> float | None:
     if fastest is not None and math.isinf(fastest):
         fastest = mechanism.spec.drive.n_rpm
     return motion_deg / (6.0 * fastest) if fastest else None
-
-
-def peaks(parts: Parts) -> Values:
-    """The greatest peaks over all engagements."""
-    return {**_peaks(parts.mechanism, worst(parts.mechanism))}
 
 
 def stations(parts: Parts) -> Values:

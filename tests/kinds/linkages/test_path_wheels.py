@@ -7,13 +7,9 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from geneva_cli.drives.path_wheels.choice import chosen
-from geneva_cli.drives.path_wheels.wheels import wheels
-from geneva_cli.drives.paths.boxes import _overlaps, _two_turns
-from geneva_cli.drives.paths.samples import PathSamples, points
-from geneva_cli.drives.paths.tangent_pairs import pairs
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linkages.four_bar import FourBar
+from geneva_cli.kinds.linkages.path_wheels import chosen, solved_wheels
 
 PLACES = 480  # of the grid
 CHECKED = 4001  # places at which a wheel is checked between entry and exit, and on the way back
@@ -120,7 +116,7 @@ def listed(found):
 def compared(keys, z):
     """How many wheels there are; each of the dense grid's is found, and what is found drives."""
     path, b = keys.roller_path, math.pi / z
-    found = listed(wheels(path, np.array([[b]])).wheels)
+    found = listed(solved_wheels(path, np.array([[b]])))
     expected = brute(path, b)
     for entry, exit_, sense in expected:
         assert [f for f in found if same(f[0], entry) and same(f[1], exit_) and f[2] == sense]
@@ -134,20 +130,6 @@ def compared(keys, z):
 def test_no_wheel_is_missed(seed):
     counts = [compared(keys, z) for keys, z in four_bars(3, seed)]
     assert sum(expected for expected, _ in counts) > 2
-
-
-def test_a_pair_is_found_though_newton_leads_out_of_its_box():
-    """At a sharp bend the steps from all corners agree on a place outside the box, by chance."""
-    lengths = {"crank_mm": 45.96, "ground_mm": 96.14, "coupler_mm": 68.15, "rocker_mm": 101.98}
-    path = FourBar(**lengths, point_mm=125.54, point_deg=-35.44).roller_path
-    b, count = math.pi / 12, 768
-    at = points(path, (np.arange(count + 1)[:, None] + 0.3) * (math.tau / count))
-    angle = np.unwrap(np.angle(at.t), axis=0)
-    samples = PathSamples(np.array([0]), at, angle - angle[0])
-    ends = np.radians([33.93, 186.36])
-    phi = pairs(path, [samples], np.array([[b]])).pairs.at.phi
-    (near,) = {tuple(pair) for pair in phi.round(9).tolist() if np.abs(pair - ends).max() < 0.01}
-    assert drives(path, b, 1.0, *near)
 
 
 def peak(path, wheels, i):
@@ -174,45 +156,12 @@ TWO_PEAKS = FourBar(
 @pytest.mark.parametrize(("keys", "z"), [*four_bars(6, 5), (TWO_PEAKS, 6)])
 def test_the_chosen_wheel_has_the_least_peak(keys, z):
     path = keys.roller_path
-    found = wheels(path, np.array([[math.pi / z]])).wheels
+    found = solved_wheels(path, np.array([[math.pi / z]]))
     peaks = [peak(path, found, i) for i in range(len(found.which))]
     for size, least, most in zip(peaks, found.least, found.most, strict=True):
         assert least <= size * (1.0 + 1e-6)  # the grid may miss the peak by a step's square
         assert size <= most
     best = chosen(path, found)
-    assert [peaks[i] for i in best] == [min(peaks, default=0.0)][: len(peaks)]
-
-
-@pytest.mark.parametrize("turns", [1.0, 0.0, -1.0])
-def test_exits_are_those_of_a_comparison_of_all_pairs(turns):
-    """Of angles that rise, swing or fall over a turn, with some intervals left out."""
-    random = np.random.default_rng(3)
-    count, designs = 40, 20
-    whole = np.full(designs, math.tau * turns)
-    angle = whole * np.arange(count)[:, None] / count + random.uniform(-2.0, 2.0, (count, designs))
-    # least and greatest angles and offsets
-    entries, exits = [
-        (low, low + random.uniform(0.0, (0.4, 2.0), (count, designs, 2)).transpose(2, 0, 1))
-        for low in (
-            np.stack((angle + shift, random.uniform(-2.0, 2.0, (count, designs))))
-            for shift in (random.uniform(1.0, 2.5, designs), 0.0)
-        )
+    assert [peak(path, best, i) for i in range(len(best.which))] == [min(peaks, default=0.0)][
+        : len(peaks)
     ]
-    use = random.random((count, designs)) < 0.7
-    expected = {
-        (i * designs + k, j % count * designs + k, j >= count)
-        for k in range(designs)
-        for i in np.flatnonzero(use[:, k])
-        for j in range(i + 1, i + count)
-        if use[j % count, k]
-        and all(
-            exits[0][n, j % count, k] + later <= entries[1][n, i, k]
-            and exits[1][n, j % count, k] + later >= entries[0][n, i, k]
-            for n, later in enumerate((whole[k] * (j // count), 0.0))
-        )
-    }
-    sides = [[_two_turns(values, whole) for values in spans] for spans in (entries, exits)]
-    _, *numbers = _overlaps(use, *sides)
-    found = list(zip(*(x.tolist() for x in numbers), strict=True))
-    assert len(found) == len(set(found)) > 20
-    assert set(found) == expected

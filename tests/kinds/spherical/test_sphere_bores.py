@@ -1,16 +1,19 @@
 """Bores and hubs of spherical machines."""
 
-import math
-
 import pytest
 from drawing_witness import polygon
 from shapely.geometry import Point
-from test_bores import TILTED, standing_check
 
 from geneva_cli import Design, Size, Spherical
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import plates
 from geneva_cli.parts.parts import parts_of
+from geneva_cli.verdict.checks.all_checks import check_named, standing
+
+
+def standing_check(name, **size):
+    """A check of a spherical machine's parts at rest: shafts at 75 degrees."""
+    design = Design(Spherical(5, axes_deg=75.0), size=Size(100.0, 5.0, **size))
+    return check_named(standing(design.mechanism), name, parts_of(design.mechanism).built)
 
 
 def test_a_shaft_fits_a_spherical_hub():
@@ -44,26 +47,3 @@ def test_the_wall_of_a_spherical_hub_is_checked_around_its_bore(size, wall):
     assert check.value == pytest.approx(wall, rel=1e-12)  # halves of the numbers above
     assert check.limit == 0.5  # L/200
     assert check.passes is (wall >= 0.5)
-
-
-def test_without_a_spherical_hub_the_wall_is_that_to_the_slots():
-    """A wider bore leaves less of it, by the arc between the edges of both bores."""
-    walls = [
-        standing_check("wheel_bore_wall_mm", wheel_bore_mm=bore, wheel_hub_mm=0.0).value
-        for bore in (20.0, 30.0)
-    ]
-    inside = 95.0  # mm: the sphere of 100 less half of the wheel's thickness, L/10
-    edges = [math.asin(r / inside) for r in (10.0, 15.0)]
-    # the difference of two lengths of 100 mm
-    assert walls[0] - walls[1] == pytest.approx(100.0 * (edges[1] - edges[0]), abs=1e-11)
-    assert standing_check("crank_bore_wall_mm") is None
-
-
-def test_a_spherical_crank_hub_that_its_keyway_cuts_is_refused():
-
-    size = {"crank_bore_mm": 8.0, "crank_hub_mm": 9.0, "crank_keyway": "DIN 6885-1"}
-    design = Design(TILTED, size=Size(100.0, 5.0, **size))
-    with pytest.raises(GenevaError, match="crank_hub_mm = 9: it must be above 10, the diam") as no:
-        assert parts_of(design.mechanism).crank
-    assert no.value.key == ("size", "crank_hub_mm")
-    assert standing_check("crank_bore_wall_mm", **size).why == str(no.value)

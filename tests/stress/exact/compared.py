@@ -127,6 +127,6 @@ def compare_peaks(table, machine, got, exact, half, where, more=None):
         error = ulps([0.0], [(at - nearest.x)], u)
         if at == 0 and abs(nearest.x) < 1e-12 * 2 * half:
             # the program takes a maximum so near to mid-motion, where two pieces of its search
-            # meet, for that place: it says so in numerics/extrema.py
+            # meet, for that place: it says so in numerics/extremes.py
             error = np.zeros(1)
         table.add((machine, f"{row}, angle"), error, float(nearest.shift / u), where)

@@ -15,8 +15,8 @@ from exact.table import LIMIT, strictly, ulps, unit
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import machine_spec as machine_spec
 from geneva_cli.motion import registry
-from geneva_cli.motion.law_motion import MOTION_MIN
 from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.path_and_motion import MOTION_MIN
 from geneva_cli.motion.peaks import peaks
 from geneva_cli.parts.slots.slot_profile import slot
 from geneva_cli.parts.slots.slot_sampling import nodes

@@ -15,7 +15,6 @@ import numpy as np
 from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
 from geneva_cli.motion import registry
-from geneva_cli.motion.law_values import characteristic
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.motion import Motion
@@ -23,6 +22,7 @@ from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import MARGIN
+from geneva_cli.study.law_values import characteristic
 from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.family import (
     OPEN_END,

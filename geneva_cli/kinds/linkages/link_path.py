@@ -1,16 +1,15 @@
-"""The closed path of a linkage's roller, and velocity and joint reactions of its link."""
+"""The closed path of a point of a linkage, and velocity and joint reactions of its link."""
 
 from __future__ import annotations
 
 import copy
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from decimal import Decimal
-from typing import NamedTuple, Protocol, TypeGuard, cast
+from typing import NamedTuple, Protocol, cast
 
 from geneva_cli.motion.engagement import Vector, cross
-from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, Batchable, Long, Which, array, parameter
+from geneva_cli.numerics.angles import radians, sin_cos_deg
+from geneva_cli.numerics.arrays import Array, Batchable, Which
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.spec.rules import is_array
 
@@ -22,89 +21,57 @@ class PointDisplacement(Protocol):
         """Displacement (x, y), from sin d and 1 - cos d of the crank's rotation d since then."""
 
 
-def rounded(x: Number | Decimal | Long) -> float:
-    """Round a Decimal, or long doubles, to doubles; a single number to a float."""
-    return parameter(array(x).astype(float)) if _are_many(x) else float(x)
+class LinkPath(Batchable, ABC):
+    """The closed path of a point of the link that crank pin A carries, about the crank's axis.
 
-
-def exactly(x: Decimal | Long) -> float:
-    """Exact number typed as a float, for formulas written for floats."""
-    return cast(float, x)
-
-
-class RollerPath(Batchable, ABC):
-    """A roller's closed path about the crank's axis, in millimetres.
-
-    ``rough`` holds its numbers: floats, or arrays (n, 1) of a batch. ``exact`` holds them as
-    Decimals of 50 digits, or as long doubles for a batch. The type checker sees floats, since the
-    formulas are written for floats.
+    ``numbers`` are floats, or arrays (n, 1) of a batch: the lengths in mm, with the crank's a
+    first, and last the point's coordinates p along the link and q across it.
     """
 
-    rough: tuple[float, ...]
-    exact: tuple[float, ...]
+    def __init__(self, *lengths: float, reach_mm: float, angle_deg: float) -> None:
+        sine, cosine = sin_cos_deg(angle_deg)
+        self.numbers = (*lengths, reach_mm * cosine, reach_mm * sine)
 
-    def of(self, which: Which) -> RollerPath:
+    def of(self, which: Which) -> LinkPath:
         """Paths of some of the designs."""
-        some = self.roughly(which)
-        some.exact = _some(self.exact, which)
-        return some
-
-    def roughly(self, which: Which) -> RollerPath:
-        """Paths of some of the designs, without their exact numbers."""
         some = copy.copy(self)
-        some.rough = _some(self.rough, which)
+        some.numbers = tuple(
+            cast(float, cast("Array", x)[which]) if is_array(x) else x for x in self.numbers
+        )
         return some
 
-    def in_long_doubles(self) -> RollerPath:
-        """The path with long doubles as exact numbers, as in a batch."""
-        import numpy as np  # a batch has imported it; a list of keys needs none
-
-        some = copy.copy(self)
-        long = (np.longdouble(str(x)) if isinstance(x, Decimal) else x for x in self.exact)
-        some.exact = tuple(long)
-        return some
-
-    @abstractmethod
-    def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """Unit vector along the link that carries the roller; with ``exact``, of exact numbers."""
-
-    @abstractmethod
     def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """Crank pin A, which carries the link."""
+        """Crank pin A (x, y)."""
+        a, *_ = self.numbers
+        return cosine * a, sine * a
+
+    @abstractmethod
+    def link(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
+        """Unit vector along the link, from A towards B."""
 
     @abstractmethod
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
         """Distance along the link from A to the other joint B, and the line of the force at B."""
 
     @abstractmethod
-    def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """Pin (x, y) for a crank direction."""
+    def about(self, phi: float) -> PointDisplacement:
+        """The point's displacement since a crank angle (radians); exactly 0 for no rotation."""
 
-    @abstractmethod
-    def about(self, sine: float, cosine: float) -> PointDisplacement:
-        """The pin's displacement since the crank had this direction; exactly 0 for no rotation.
-
-        Sine and cosine are exact numbers.
-        """
+    def place(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
+        """Point (x, y) for a crank direction."""
+        a, *_, p, q = self.numbers
+        x, y = self.link(sine, cosine)
+        return x * p - y * q + cosine * a, x * q + y * p + sine * a
 
     def at(self, phi: Number, order: int) -> tuple[Jet, Jet]:
-        """Pin (x, y) for a crank angle in radians."""
+        """Point (x, y) for a crank angle in radians."""
         return self.place(*sin_cos(Jet.variable(phi, order)))
-
-
-def _some(numbers: tuple[float, ...], which: Which) -> tuple[float, ...]:
-    return tuple(parameter(array(x)[which]) if _are_many(x) else x for x in numbers)
-
-
-def _are_many(x: object) -> TypeGuard[Array]:
-    """Return True for an array of designs' numbers."""
-    return is_array(x) and cast("Array", x).ndim > 0
 
 
 class LinkRate(NamedTuple):
     """Angular velocity of the link that carries the roller."""
 
-    path: RollerPath
+    path: LinkPath
     middle: float  # the crank's angle at mid-motion
     sense: float
 
@@ -117,7 +84,7 @@ class LinkRate(NamedTuple):
 class LinkReactions(NamedTuple):
     """Equilibrium of the link, held by the crank's pin at A, and at B along a known line."""
 
-    path: RollerPath
+    path: LinkPath
     middle: float  # the crank's angle at mid-motion
     sense: float
     L: float  # millimetres

@@ -11,10 +11,8 @@ from functools import lru_cache, partial
 from itertools import takewhile
 from typing import TYPE_CHECKING
 
-from geneva_cli.kinds.spherical.axles import hub_about
-from geneva_cli.kinds.spherical.ball import Ball, inner_edge
+from geneva_cli.kinds.spherical.ball import Ball, hub_about, inner_edge
 from geneva_cli.kinds.spherical.horn import sphere_horns
-from geneva_cli.kinds.spherical.stressed import sphere_stressed
 from geneva_cli.loads.strength.horn_search import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
@@ -42,6 +40,14 @@ from geneva_cli.spec.materials import wheel_material
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.shaft_stress import ShaftForces
+
+
+import numpy as np
+
+from geneva_cli.loads.strength.arm_strength import ArmDimensions
+from geneva_cli.parts.stressed import ShaftEnd, Stressed, key_of, shaft_of
+from geneva_cli.spec.default_sizes import half_or, value_or
+from geneva_cli.spec.least_wall import eye_about
 
 
 def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:
@@ -183,3 +189,36 @@ def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) ->
         return one["moment_Nm"].item() if one else 0.0
 
     return greatest(moment_Nm, mechanism)
+
+
+def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
+    """Return the dimensions of a spherical machine's parts."""
+    size = spec.size
+    inside, outside = ball.span_mm
+    under, over = ball.arm_span_mm
+    end = ShaftEnd(ball.shafts_end_mm(size) - ball.radius_mm, over - under, ball.radius_mm)
+    return Stressed(
+        value_or(size.face_width_mm, outside - inside),
+        2.0 * ball.pin_mm,
+        shaft_of(spec, "wheel", ball.bore_mm, end),
+        shaft_of(spec, "crank", ball.arm_bore_mm, end),
+        _arm(spec, ball),
+        key_of(size.wheel_keyway, ball.bore_mm, ball.hub_length_mm(size)),
+        key_of(size.crank_keyway, ball.arm_bore_mm, over - under),
+    )
+
+
+def _arm(spec: Spec, ball: Ball) -> ArmDimensions:
+    """Return the dimensions of the flat arm that stands for the bent one; NaN without an arm."""
+    size, L = spec.size, ball.radius_mm
+    if not ball.arm_bore_mm:
+        return ArmDimensions.none()
+    middle, thick = 0.5 * sum(ball.arm_span_mm), ball.arm_span_mm[1] - ball.arm_span_mm[0]
+    wall, hole = wall_min(size, L), hole_radius(size, ball.pin_mm)
+    bored = reach_or_bore(size, "crank", ball.arm_bore_mm)
+    hub = arm_hub(size, bored, ball.arm_bore_mm, wall)
+    cap = ball.cap(hub, bored, wall)
+    eye = half_or(size.arm_eye_mm, eye_about(hole, wall, ball.passing_mm(ball.opening_mm)))
+    offset = middle - L * math.cos(ball.arm)
+    rows = L * ball.arm, middle * cap, middle * eye / L, bored, hole, thick, offset
+    return ArmDimensions(*map(np.asarray, rows))

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
-from geneva_cli.motion.cam_factors import CamFactors
-from geneva_cli.motion.law_motion import LawMotion
 from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.path_and_motion import LawMotion
+from geneva_cli.motion.timing import CamFactors
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.table import Reading, Table, rows_table
 

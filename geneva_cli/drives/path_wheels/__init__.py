@@ -1,1 +1,0 @@
-"""The wheel that a path of the roller can drive: searches for one design and for batches."""

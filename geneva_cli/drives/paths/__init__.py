@@ -1,1 +1,0 @@
-"""Sampled paths of rollers, and pairs of their points that a wheel could join."""

@@ -1,0 +1,335 @@
+"""Division of many designs' spans into pieces on which no sign changes.
+
+A row is a part of a design's span. It is sampled at Chebyshev points with all signs held as in its
+middle, so that every function is smooth on the whole row. The row is cut where a function whose
+sign matters is zero. Beyond the cut the functions are evaluated with the other sign. A row is
+halved if a series does not show where its zeros are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from geneva_cli.numerics import chebyshev
+from geneva_cli.numerics.arrays import (
+    Array,
+    Mask,
+    Which,
+    Whole,
+    blocks,
+    columns_taken,
+    joined,
+    rows_taken,
+)
+from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
+
+BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
+MOST_ROWS = 2000  # of a design at a time: more are rounding, as of laws by points
+AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
+LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later terms
+NEWTON_STEPS = 6  # of Newton's method, from the zero of a series
+
+
+class Functions(Protocol):
+    """The functions of designs: first those whose signs matter, then the wanted ones.
+
+    Each of the first is smooth while those before it keep their signs. The wanted ones are smooth
+    while all do.
+    """
+
+    @property
+    def signs(self) -> int:
+        """Number of the functions whose signs matter."""
+
+    @property
+    def wanted(self) -> int:
+        """Number of the wanted functions."""
+
+    @property
+    def poled(self) -> Sequence[int]:
+        """Numbers of the functions whose signs matter and that behave as 1/x at the place 0."""
+
+    def __call__(
+        self,
+        x: Array,
+        which: Which,
+        order: int,
+        held: Array | None = None,
+        requested: Sequence[int] | None = None,
+    ) -> tuple[Mask, list[Array]]:
+        """Masks of positive signs, (signs, m, k), and Taylor coefficients (functions, m, k).
+
+        They are those of some designs at places (m, k), by the place. ``held`` are known
+        signs, 1.0 or -1.0; where it is NaN they are computed. ``requested`` are the numbers of the
+        wanted functions to evaluate, all by default. A function without a bound is infinite, and
+        its slope 0.
+        """
+
+
+class Rows(NamedTuple):
+    """Parts of designs' spans, m of them, for sampling."""
+
+    design: Whole  # (m,)
+    span: Whole
+    u: Array  # both ends as ``spread`` places, in which the samples are evenly spaced: (2, m)
+    x: Array  # both ends as places
+
+    def take(self, which: Which) -> Rows:
+        """Some of the rows, by a mask or their numbers."""
+        return Rows(*(columns_taken(column, which) for column in self))
+
+    def at(self, t: Array) -> Array:
+        """The spread places at positions from -1 to 1 in the rows."""
+        a, b = self.u
+        return np.asarray(0.5 * (a + b) + 0.5 * (b - a) * t)
+
+    def part(self, low: Array, high: Array, w: Array) -> Rows:
+        """The parts between two positions; ``w`` are the spread widths of all designs."""
+        t = np.stack((low, high))
+        inner = np.abs(t) < 1.0
+        u = np.where(inner, self.at(t), self.u)
+        x = np.clip(gathered(u, w[self.design]), *self.x)
+        return self._replace(u=u, x=np.where(inner, x, self.x))
+
+    @property
+    def which(self) -> Which:
+        """The rows' designs, as a slice where they are all designs between two numbers."""
+        if not len(self.design):
+            return self.design
+        first, last = int(self.design[0]), int(self.design[-1])
+        whole = last - first == len(self.design) - 1 and bool((np.diff(self.design) == 1).all())
+        return slice(first, last + 1) if whole else self.design
+
+
+class Pieces(NamedTuple):
+    """Parts of sampled rows on which no sign changes, and the wanted functions there."""
+
+    rows: Rows
+    sign: Array  # (signs, m)
+    part: Array  # both ends as positions in the sampled row, from -1 to 1: (2, m)
+    x: Array  # the places of the row's samples: (m, points)
+    value: Array  # at these places, with these signs: (wanted, m, points)
+
+    @property
+    def whole(self) -> Mask:
+        """Masks of the pieces that are whole rows."""
+        return np.asarray((self.part[0] == -1.0) & (self.part[1] == 1.0))
+
+
+class Cutter:
+    """Divides rows of designs into pieces, with samples spread about 0 by ``w``, (n,)."""
+
+    def __init__(self, f: Functions, w: Array, requested: Sequence[int] | None) -> None:
+        self.f, self.w, self.requested = f, w, requested
+        # the greatest size so far of each function whose sign matters
+        self.size = np.zeros((f.signs, len(w)))
+        self.width = np.zeros(len(w))  # of all spans, in spread places
+        self.noisy = np.full(len(w), False)  # designs whose rows no halving resolves
+
+    def rows(self, spans: Sequence[tuple[Array, Array]], start: int) -> Rows:
+        """The rows of spans (n, 1) of designs from number ``start`` on, those that are not empty.
+
+        A span that ends before it begins is empty.
+        """
+        out = []
+        for number, (a, b) in enumerate(spans):
+            own = np.flatnonzero((b > a)[:, 0])
+            design, x = own + start, np.stack((a[own, 0], b[own, 0]))
+            u = spread(x, self.w[design])
+            self.width[design] += u[1] - u[0]
+            out.append(Rows(design, np.full(len(own), number), u, x))
+        return joined(out)
+
+    def halves(self, rows: Rows) -> Rows:
+        """Both halves of rows."""
+        every = np.ones(len(rows.design))
+        both = ((-every, 0.0 * every), (0.0 * every, every))
+        return joined([rows.part(low, high, self.w) for low, high in both])
+
+    def levels(self, rows: Rows) -> Iterator[list[Rows]]:
+        """Yield the rows in blocks to be sampled, then those in ``self.todo``, until none is left.
+
+        A kink or a pole leaves some rows at each level, noise twice as many as before.
+        """
+        while len(rows.design):
+            self.noisy |= np.bincount(rows.design, minlength=len(self.noisy)) > MOST_ROWS
+            self.todo: list[Rows] = []
+            yield [rows.take(block) for block in blocks(len(rows.design), BLOCK)]
+            rows = joined([rows.take(slice(0)), *self.todo])
+
+    def is_settled(self, rows: Rows) -> Mask:
+        """Masks of the rows that are too narrow for halving, or noise."""
+        # no row is narrower than 1e-11 of its design's spans
+        narrow = rows.u[1] - rows.u[0] <= 1e-11 * self.width[rows.design]
+        return np.asarray(narrow | self.noisy[rows.design])
+
+    def sampled(self, rows: Rows) -> Pieces:
+        """Pieces of rows, cut where a sign changes; parts with unknown zeros are sampled again."""
+        f, which = self.f, rows.which
+        # designs lie side by side in memory: each operation runs along all of them
+        u = np.asfortranarray(rows.at(POINTS[:, None]).T)
+        x = gathered(u, self.w[rows.design, None])
+        x = np.clip(x, rows.x[0][:, None], rows.x[1][:, None])
+        x[:, 0], x[:, -1] = rows.x
+        sign = np.ones((f.signs, len(u)))
+        if f.signs:
+            middle = f(x[:, MIDDLE, None], which, 0, None, ())[0][..., 0]
+            sign = np.where(middle, 1.0, -1.0)
+        value = f(x, which, 0, sign[..., None], self.requested)[1][0]
+        part = np.array([[-1.0], [1.0]]).repeat(len(u), axis=1)
+        own = np.arange(len(u))
+        for kind in range(f.signs):
+            here = rows.take(own)
+            # a pole is multiplied by the distance from it
+            q = value[kind]
+            if kind in f.poled:
+                q = q * np.abs(rows_taken(x, own))
+            unsure, cut, t = self._zeros(kind, here, sign, part, q)
+            unsure &= ~self.is_settled(here)
+            if unsure.any():
+                whole = (part[0] == -1.0) & (part[1] == 1.0)
+                self.again(here.part(*part, self.w), whole, unsure)
+            if len(cut):
+                number, part = _between(cut, t, part)
+                own, unsure, q = own[number], unsure[number], rows_taken(q, number)
+                sign, value = columns_taken(sign, number), rows_taken(value, number)
+            kept = ~unsure & (part[1] > part[0])
+            if not kept.all():
+                own, q, value = own[kept], rows_taken(q, kept), rows_taken(value, kept)
+                sign, part = columns_taken(sign, kept), columns_taken(part, kept)
+            flip = _other_sign(q, part, sign[kind])
+            if len(flip):
+                sign[kind, flip] *= -1.0
+                there, held = rows_taken(x, own[flip]), sign[:, flip, None]
+                value[:, flip] = f(there, rows.design[own[flip]], 0, held, self.requested)[1][0]
+        cut_rows = rows.take(own).part(*part, self.w)
+        return Pieces(cut_rows, sign, part, rows_taken(x, own), value[f.signs :])
+
+    def again(self, rows: Rows, whole: Mask, which: Mask) -> None:
+        """Sample some rows again: both halves of a whole row, or a part as a row of its own."""
+        self.todo += [self.halves(rows.take(which & whole)), rows.take(which & ~whole)]
+
+    def _zeros(
+        self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
+    ) -> tuple[Mask, Whole, Array]:
+        """A mask of parts with unknown zeros, and the zeros of the other parts.
+
+        Zeros are the numbers of their parts, and positions from -1 to 1 in the rows.
+        """
+        unsure, none = np.zeros(len(value), dtype=bool), (np.zeros(0, dtype=int), np.zeros(0))
+        size, left = np.abs(value).max(axis=1), chebyshev.remainder(value)
+        np.fmax.at(self.size[kind], rows.design, np.where(np.isfinite(size), size, 0.0))
+        q = value * sign[kind, :, None]
+        # where a point is below a twentieth of the size, the function may be 0 next to it
+        some = np.flatnonzero(~(q.min(axis=1) >= 0.05 * size + LATER_TERMS * left))
+        if not len(some):
+            return unsure, *none
+        q, size, left = rows_taken(q, some), size[some], left[some]
+        g, d = chebyshev.on_grid(q)
+        # below 1e-12 of its size on a row, or some roundings of that in its design's whole motion,
+        # a function has no sign
+        rounding = 4e-15 * self.size[kind, rows.design[some]]
+        noise = np.repeat(np.maximum(1e-12 * size, rounding)[None], len(GRID), axis=0).T
+        for end in (0, -1):
+            noise[:, end] = np.maximum(noise[:, end], AT_END * np.abs(d[:, end]))
+        below = g < -noise
+        change = below[:, 1:] != below[:, :-1]
+        near = np.abs(g[:, 1:-1]) < LATER_TERMS * left[:, None]
+        grid = GRID[1:-1, None]
+        near &= ((grid >= part[0, some]) & (grid <= part[1, some])).T
+        # The series may err by 3e-3 of a size for a single zero, and by 1e-9 if several points
+        # are within the error of 0.
+        open_ = (left > 3e-3 * size) & change.any(axis=1)
+        open_ |= (left > np.maximum(1e-9 * size, rounding)) & (near.sum(axis=1) > 1)
+        open_ |= _crosses_twice(g, d, below, noise, LATER_TERMS * left[:, None])
+        unsure[some] = open_
+        own, cell = np.nonzero(change & ~open_[:, None])
+        if not len(own):
+            return unsure, *none
+        a, b = g[own, cell], g[own, cell + 1]
+        low, high = GRID[cell], GRID[cell + 1]
+        chord = (b - a) / (high - low)
+        t = chebyshev.root(chebyshev.series(rows_taken(q, own)), low, high, low - a / chord, chord)
+        which = some[own]
+        kept = (t > part[0, which] + AT_END) & (t < part[1, which] - AT_END)
+        which, t = which[kept], t[kept]
+        t = self._refined(kind, rows.take(which), sign[:, which], t)
+        kept = (t > part[0, which]) & (t < part[1, which])
+        return unsure, which[kept], t[kept]
+
+    def _refined(self, kind: int, rows: Rows, sign: Array, t: Array) -> Array:
+        """Zeros of the functions themselves, from the zeros of their series."""
+        w, half = self.w[rows.design], 0.5 * (rows.u[1] - rows.u[0])
+        x, number = gathered(rows.at(t), w), np.arange(self.f.signs)[:, None]
+        known, live = np.where(number < kind, sign, np.nan), np.arange(len(t))
+        for _ in range(NEWTON_STEPS):
+            if not len(live):
+                break
+            held = known[:, live, None]
+            both = self.f(x[live, None], rows.design[live], 1, held, ())[1]
+            step = -both[0][kind, :, 0] / both[1][kind, :, 0]
+            # No step is longer than a tenth of a half row: the series knows its zeros better.
+            far = 0.1 * half[live]
+            step = np.clip(np.where(np.isfinite(step), step, 0.0), -far, far)
+            x[live] += step
+            # After a step of 1e-8 of a half row the rest is rounding.
+            live = live[np.abs(step) > 1e-8 * half[live]]
+        return np.asarray((spread(x, w) - rows.at(np.zeros(1))) / half)
+
+
+def _other_sign(q: Array, part: Array, sign: Array) -> Whole:
+    """Numbers of the parts in whose middle a function does not have the sign of its row."""
+    some = np.flatnonzero((part[0] != -1.0) | (part[1] != 1.0))
+    middle = chebyshev.at(chebyshev.series(rows_taken(q, some)), 0.5 * part.sum(axis=0)[some])
+    return some[np.where(middle > 0.0, 1.0, -1.0) != sign[some]]
+
+
+def _crosses_twice(g: Array, d: Array, below: Mask, noise: Array, left: Array) -> Mask:
+    """Masks of rows that may have a pair of zeros between two places of the grid.
+
+    ``left`` is the error of their series.
+    """
+    before, after = d[:, :-1], d[:, 1:]
+    turn = before / (before - after)
+    bottom = g[:, :-1] + 0.5 * before * turn * np.diff(GRID)
+    dips = (before * after < 0.0) & (below[:, 1:] == below[:, :-1])
+    bottom += np.where(below[:, 1:], left, -left)
+    dips &= (bottom < -noise[:, 1:]) != below[:, 1:]
+    return np.asarray(dips.any(axis=1))
+
+
+def _between(cut: Whole, t: Array, part: Array) -> tuple[Whole, Array]:
+    """Parts between cuts: the numbers of the original parts, and both ends."""
+    number = np.concatenate((np.arange(part.shape[1]), cut))
+    start, end = np.concatenate((part[0], t)), np.concatenate((part[1], t))
+    one, two = np.lexsort((start, number)), np.lexsort((end, number))
+    return number[one], np.stack((start[one], end[two]))
+
+
+def spread(x: Array, w: Array) -> Array:
+    """u at places x, where x = w sinh(u / w): samples even in u are spread about 0.
+
+    Near 0, where functions change fastest, the range within w of 0 gets as much length as the rest.
+    Poles at x = i w and -i w move to u = i w pi/2 and -i w pi/2. So the same number of samples
+    gives more digits. Near 0, u is x; with a large w it is x everywhere.
+
+    Source: D. Elliott, P. R. Johnston, "A sinh transformation for evaluating nearly singular
+    boundary element integrals", Int. J. Numer. Meth. Engng 62 (2005).
+    """
+    u: Array = w * np.arcsinh(x / w)
+    return u
+
+
+def gathered(u: Array, w: Array) -> Array:
+    """The places x at u.
+
+    >>> import numpy as np
+    >>> w = np.array([2.0, 1e3])
+    >>> gathered(spread(np.array([6.0, 6.0]), w), w).round(12)
+    array([6., 6.])
+    """
+    x: Array = w * np.sinh(u / w)
+    return x
