@@ -23,6 +23,7 @@ from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
 from geneva_cli.study.synth.optimiser import (
     KEPT,
+    SETTLED,
     Places,
     Zoom,
     sampled,
@@ -107,7 +108,9 @@ def _best_places(free: FamilyCosts, freedom: int, how_near: bool) -> Places:
     first = tops(lambda of, at: free(left[of], at), len(left), axes, most)
     first = first._replace(of=left[first.of])
     tracks = first.joined(nearest.take(np.isin(nearest.of, left))).best(most)
-    return zoom(free, tracks, how, patient=how_near).joined(done).best(1)
+    # at equal costs the plain crank's place, which may be another family's machine
+    plainly = nearest._replace(cost=nearest.cost - SETTLED * np.abs(nearest.cost))
+    return zoom(free, tracks, how, patient=how_near).joined(done, plainly).best(1)
 
 
 class FamilyCosts:
