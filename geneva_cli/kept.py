@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property as cached_property  # exported
-from typing import TYPE_CHECKING, Any
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 if not TYPE_CHECKING:  # to a checker of types it is the one of Python
 
@@ -23,3 +25,39 @@ if not TYPE_CHECKING:  # to a checker of types it is the one of Python
             if self.attrname not in kept:
                 kept[self.attrname] = self.func(instance)
             return kept[self.attrname]
+
+
+K = TypeVar("K")
+T = TypeVar("T")
+KEPT = 16  # designs whose results are kept: those that a sweep computes together
+
+
+class Known(Generic[K, T]):
+    """A function of a design that keeps its last results, and may take them from a batch.
+
+    >>> square = Known(lambda x: x * x)
+    >>> square.put(3, lambda: 9.0), square.put(4, lambda: None)
+    (None, None)
+    >>> square(3), square(4)
+    (9.0, 16)
+    """
+
+    def __init__(self, compute: Callable[[K], T]) -> None:
+        self.compute = compute
+        self._later: dict[K, Callable[[], T | None]] = {}
+        self._kept = lru_cache(maxsize=KEPT)(self._result)
+
+    def __call__(self, of: K) -> T:
+        """The result of the function, computed at the first call."""
+        return self._kept(of)
+
+    def put(self, of: K, later: Callable[[], T | None]) -> None:
+        """Let ``later`` compute the result of a design; if it returns None, the function does."""
+        self._later[of] = later
+        while len(self._later) > KEPT:
+            del self._later[next(iter(self._later))]
+
+    def _result(self, of: K) -> T:
+        later = self._later.pop(of, None)
+        result = later() if later else None
+        return self.compute(of) if result is None else result

@@ -17,7 +17,7 @@ from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import extras, kinds, load, study
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts import machine_sizes as own_sizes
+from geneva_cli.parts import flat_parts
 from geneva_cli.parts.outlines import cut_outlines as outline
 from geneva_cli.parts.outlines.walls import chain as walls_chain
 from geneva_cli.parts.outlines.walls import curved as curved_walls
@@ -157,7 +157,7 @@ def made_once():
     """
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(outline, "drawn", OUTLINES)
-        patch.setattr(own_sizes, "drawn", OUTLINES)
+        patch.setattr(flat_parts, "drawn", OUTLINES)
         patch.setattr(full_turn, "full_turn", TURNED)
         patch.setattr(proved, "certificate", PROVED)
         patch.setattr(curved_walls, "walls", WALLS)

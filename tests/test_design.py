@@ -20,7 +20,6 @@ from geneva_cli import (
     Crank,
     Cycloidal,
     Design,
-    EllipticalGears,
     External,
     GenevaError,
     Harmonic,
@@ -48,34 +47,12 @@ DESIGNS = {
     "side-crank-z6": lambda: Design(
         External(6), SideCrank(A=0.6), size=Size(center_distance_mm=160, roller_radius_mm=9)
     ),
-    "elliptical-gears": lambda: Design(
-        External(6),
-        EllipticalGears(eccentricity=0.3, n_rpm=80),
-        size=Size(center_distance_mm=160, roller_radius_mm=9),
-        load=Load(inertia_kgm2=0.05, torque_Nm=5),
-    ),
-    "press-curved": lambda: Design(
-        External(6), motion=Motion(Cycloidal(), ratio="matched"), **PRESS
-    ),
     "cam-geneva": lambda: Design(External(6), Cam(), Motion(Cycloidal()), **PRESS),
-    "spherical-60deg": lambda: Design(
-        Spherical(6, axes_deg=60), Crank(rollers=2, n_rpm=30), size=Size(100, 5)
-    ),
     "unequal-steps": lambda: Design(
         External(6, steps_deg=(72, 48)),
         Crank(n_rpm=30),
         size=Size(150, 8),
         load=Load(inertia_kgm2=0.05, torque_Nm=4),
-    ),
-    "slider-crank": lambda: Design(
-        External(8, held_by="detent"),
-        geneva_cli.SliderCrank(crank_mm=40, rod_mm=100, point_mm=80, point_deg=90),
-        size=Size(roller_radius_mm=6),
-    ),
-    "gear-sector": lambda: Design(
-        External(3),
-        geneva_cli.GearSector(sector_deg=60, gear_ratio="shockless", n_rpm=40),
-        size=Size(120, 8),
     ),
     "table-law": lambda: Design(
         External(6),

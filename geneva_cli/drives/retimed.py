@@ -32,7 +32,6 @@ from geneva_cli.motion.path_and_slot import cuts
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import Array, Batchable, array, library, narrowed
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
-from geneva_cli.numerics.latest import Latest
 from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
@@ -109,7 +108,6 @@ class Timing(Batchable):
         self.changes_deg = tuple(
             one.input_deg - self.within_deg + cut / DEGREE for one in local for cut in one.cuts
         )
-        self._latest = Latest()
 
     def of(self, other: Engagement, ahead_deg: float) -> Timing:
         """The timing of another engagement, whose mid-motion is earlier by an own angle."""
@@ -138,13 +136,9 @@ class Timing(Batchable):
 
     def at(self, input_deg: Number, order: int) -> tuple[Number, Jet]:
         """Angle of the driven shaft in degrees, and in radians with its derivatives."""
-        own, turned = self._latest(self._turned, input_deg, order)
-        return own.c[0], turned
-
-    def _turned(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         pieces = [partial(one.at, order=order) for one in self.each]
         own = piecewise(input_deg, self.cuts, pieces)
-        return own, Jet((radians(own.c[0]), *own.c[1:]))
+        return own.c[0], Jet((radians(own.c[0]), *own.c[1:]))
 
 
 class ComposedDisplacement(NamedTuple):

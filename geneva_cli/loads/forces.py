@@ -20,7 +20,7 @@ from typing import Generic, NamedTuple, Protocol
 import numpy as np
 
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import Mask, N, Whole, all_true, choose, designs_of, library
+from geneva_cli.numerics.arrays import Mask, N, Truth, Whole, all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 from geneva_cli.spec.workshops import Stock
 
@@ -257,3 +257,11 @@ def lesser(a: V, b: V) -> V:
         out: V = choose(first, a, b)
         return out
     return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])
+
+
+def without(condition: Truth, a: V) -> V:
+    """A jet, or its values, with 0 where a condition holds, whatever the value there."""
+    if isinstance(a, Jet):
+        return type(a)([np.where(condition, 0.0, c) for c in a.c])
+    out: V = np.where(condition, 0.0, a)
+    return out

@@ -23,6 +23,7 @@ from geneva_cli.loads.forces import (
     value,
     wheel_grip,
     wheel_torque,
+    without,
 )
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
@@ -147,10 +148,12 @@ class Instant(Generic[V]):
         """The part of the input's torque that friction takes, in the slot and in a guide, N m."""
         rub = self.at.touches * (self.case.friction * self.slides)
         torque = self.force_N * rub * self.slip * self.case.L
-        if not (self.case.guide and self.case.guided):
-            return torque
-        drag = self.case.guide.drag(self.case, self.at, self.drives, self.slides)
-        return torque + self.force_N * drag * self.at.velocity * self.case.L
+        if self.case.guide and self.case.guided:
+            drag = self.case.guide.drag(self.case, self.at, self.drives, self.slides)
+            torque = torque + self.force_N * drag * self.at.velocity * self.case.L
+        # designs of the batch without friction, whose force may be infinite
+        free = self.case.all_friction == 0.0
+        return without(free, torque) if np.any(free) else torque
 
     @cached_property
     def slot_torque_Nm(self) -> V:

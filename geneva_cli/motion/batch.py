@@ -12,7 +12,6 @@ from typing import TypeAlias, TypeVar, cast
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Batchable, Which, numbers_of, record_of
-from geneva_cli.numerics.latest import Latest
 from geneva_cli.spec.schema import Points, SpecTable
 
 T = TypeVar("T")
@@ -73,8 +72,7 @@ def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
             new[name] = _changed(value, change, done)
         if any(new[name] is not value for name, value in old.items()):
             fresh: object = object.__new__(kind)
-            for name, part in new.items():  # a stored result belongs to the old set of designs
-                vars(fresh)[name] = Latest() if isinstance(part, Latest) else part
+            vars(fresh).update(new)
             copy = fresh
     done[id(thing)] = copy
     return copy

@@ -436,6 +436,11 @@ class Anchor(NamedTuple):
         along, across = self.displacement(radians(input_deg - self.input_deg), order)
         return along + self.along, across
 
+    def stacked(self, input_deg: Number, order: int) -> Jet:
+        """Coefficients of that position and the ray's direction, one after the other in a jet."""
+        along, across = self.displacement(radians(input_deg - self.input_deg), order)
+        return Jet((*(along + self.along).c, *across.c, self.wheel))
+
 
 def in_wheel(path: Vector, wheel: Jet) -> Vector:
     """Transform a vector from the fixed frame to that of a wheel at angle ``wheel``, radians."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 from typing import Any, Self
 
@@ -12,9 +12,9 @@ from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.records import CRANK, named, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
-from geneva_cli.numerics.arrays import Batchable, all_true
+from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.load_named import load_named
-from geneva_cli.spec.schema import SpecTable, copied, hash_once, refuse_kind, without_hash
+from geneva_cli.spec.schema import SpecTable, refuse_kind
 from geneva_cli.spec.tables import (
     DISTANCE_MM,
     LISTS,
@@ -87,8 +87,7 @@ def _no_load(key: str, keys: str) -> GenevaError:
     )
 
 
-@dataclass(frozen=True)
-class Spec(Batchable):
+class Spec(SpecTable):
     """All values from which a machine is built, as in the spec's file.
 
     ``path`` is that file, for messages; ``files`` are the CSV files of its points. ``drive_before``
@@ -124,7 +123,7 @@ class Spec(Batchable):
             if value is not None or name not in ("drive_before", "motion"):
                 refuse_kind(value, name, kind, example)
         if not isinstance(self.mass, tuple):
-            object.__setattr__(self, "mass", tuple(self.mass))
+            vars(self)["mass"] = tuple(self.mass)
         if not all(isinstance(one, Mass) for one in self.mass):
             raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
         limits = vars(self.limits)
@@ -140,20 +139,6 @@ class Spec(Batchable):
         for key in LOADED:
             if limits[key] is not None:
                 refuse(self._unloaded, partial(_no_load, key, self.load_keys))
-
-    def __hash__(self) -> int:
-        return hash_once(self)
-
-    def __getstate__(self) -> dict[str, object]:
-        return without_hash(self)
-
-    def replace(self, **changes: Any) -> Self:
-        """Return a copy with some tables changed.
-
-        >>> Spec(External(6)).replace(wheel=Internal(6)).wheel.NAME
-        'internal'
-        """
-        return copied(self, changes)
 
     def table(self, name: str) -> dict[str, Any]:
         """Values of a table by key; those of ``motion`` include the keys of its law.
@@ -365,7 +350,11 @@ class Spec(Batchable):
 
     @property
     def moving(self) -> tuple[object, ...]:
-        """The values from which engagements are made."""
+        """The values from which engagements are made.
+
+        >>> Spec(External(6)).moving[-1]
+        100.0
+        """
         return self.wheel, self.drive, self.drive_before, self.motion, self.given_distance_mm
 
     @property

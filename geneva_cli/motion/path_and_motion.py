@@ -14,7 +14,6 @@ from geneva_cli.motion.laws.law_peaks import greatest
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, all_true, ascending, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise
-from geneva_cli.numerics.latest import Latest
 
 
 class MiddlePath(Batchable):
@@ -56,7 +55,6 @@ class LawMotion(WheelMotion):
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float, law: Law) -> None:
         super().__init__(entry_deg, exit_deg, half_step)
         self.law = law
-        self._latest = Latest()
 
     @property
     def symmetric(self) -> bool:
@@ -94,9 +92,6 @@ class LawMotion(WheelMotion):
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Wheel angle with its derivatives; each half of the law is computed from its own end."""
-        return self._latest(self._halves, input_deg, order)[0]
-
-    def _halves(self, input_deg: Number, order: int) -> tuple[Jet]:
         whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
         middle = 0.5 * (self.entry_deg + self.exit_deg)
 
@@ -110,7 +105,7 @@ class LawMotion(WheelMotion):
 
         s = piecewise(input_deg, (middle,), (first, second))
         rate = 1.0 / (whole * (library(input_deg).pi / 180.0))
-        return (Jet([c * rate**k if k else c for k, c in enumerate(s.c)]),)
+        return Jet([c * rate**k if k else c for k, c in enumerate(s.c)])
 
 
 def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:

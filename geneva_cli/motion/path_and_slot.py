@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from itertools import pairwise
 
@@ -28,7 +28,6 @@ from geneva_cli.numerics.jet import (
     sqrt,
     turning,
 )
-from geneva_cli.numerics.latest import Latest
 
 END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 
@@ -44,7 +43,6 @@ class AnchoredPath(Batchable):
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
         self.anchors, self.ahead = anchors, ahead
         self.cuts = cuts([anchor.input_deg for anchor in anchors])
-        self._latest, self._latest_nearest = Latest(), Latest()
 
     @property
     def middle(self) -> Anchor:
@@ -58,26 +56,14 @@ class AnchoredPath(Batchable):
 
     def from_middle(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         """Pin along the middle anchor's ray and across it."""
-        along, across = self._latest(self.middle.place, input_deg, order)
-        return along, across
+        return self.middle.place(input_deg, order)
 
-    def from_nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        """Pin along the nearest anchor's ray and across it."""
-        along, across = self._latest_nearest(self._from_nearest, input_deg, order)
-        return along, across
-
-    def _from_nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        def solve(anchor: Anchor, x: Number) -> Jet:
-            along, across = anchor.place(x, order)
-            return Jet((*along.c, *across.c))
-
-        both = self.solved(input_deg, solve).c
-        return Jet(both[: order + 1]), Jet(both[order + 1 :])
-
-    def solved(self, input_deg: Number, solve: Callable[[Anchor, Number], Jet]) -> Jet:
-        """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
+    def nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet, Number]:
+        """Pin along the nearest anchor's ray and across it; and the ray's direction, radians."""
         if isinstance(self.cuts[0], float) and isinstance(self.cuts[-1], float):
-            return piecewise(input_deg, self.cuts, [partial(solve, one) for one in self.anchors])
+            places = [partial(anchor.stacked, order=order) for anchor in self.anchors]
+            all_three = piecewise(input_deg, self.cuts, places).c
+            return Jet(all_three[: order + 1]), Jet(all_three[order + 1 : -1]), all_three[-1]
         # the anchors of a batch differ in numbers only, so that one call serves all of them
         x = array(input_deg)
         first, *others = [x > cut for cut in self.cuts]
@@ -85,9 +71,10 @@ class AnchoredPath(Batchable):
         for past in others:
             index = index + past
         low, high = int(index.min(initial=len(self.anchors) - 1)), int(index.max(initial=0))
-        if low >= high:  # any anchor will do for no angles
-            return solve(self.anchors[high], input_deg)
-        return solve(picked(index - low, self.anchors[low : high + 1]), input_deg)
+        anchor = self.anchors[high]  # any anchor will do for no angles
+        if low < high:
+            anchor = picked(index - low, self.anchors[low : high + 1])
+        return (*anchor.place(input_deg, order), anchor.wheel)
 
 
 def cuts(degrees: Sequence[float]) -> list[float]:
@@ -114,7 +101,8 @@ class RadialSlot(Slot):
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
-        depth = _length(self.path.from_nearest(input_deg, order + 1))
+        along, across, _ = self.path.nearest(input_deg, order + 1)
+        depth = _length((along, across))
         return SlotAxis(depth.lower, depth.derivative())
 
 
@@ -171,16 +159,13 @@ class StraightSlotMotion(WheelMotion):
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Wheel angle from the direction of the pin at the nearest anchor; at rest at both ends."""
-
-        def solve(anchor: Anchor, x: Number) -> Jet:
-            along, across = anchor.place(x, order)
-            return atan2(across, along) + anchor.wheel
-
-        return self.path.solved(input_deg, solve)
+        along, across, ray = self.path.nearest(input_deg, order)
+        return atan2(across, along) + ray
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Rate at which the pin's direction turns, computed without an arc tangent."""
-        return turning(*self.path.from_nearest(input_deg, order + 1))
+        along, across, _ = self.path.nearest(input_deg, order + 1)
+        return turning(along, across)
 
 
 class ClassicMotion(StraightSlotMotion):

@@ -18,7 +18,6 @@ from geneva_cli.motion.path_and_motion import LawMotion
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, Enclosed, enclosed
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin, sin_cos
-from geneva_cli.numerics.latest import Latest
 
 # Where psi and phi nearly vanish together, a series of psi / phi serves. Within this fraction of
 # the motion its first terms are exact to a double, even for a law with five waves. Beyond it the
@@ -32,7 +31,6 @@ class SolvedPath(Batchable):
 
     def __init__(self, motion: LawMotion, sign: float) -> None:
         self.motion, self.sign = motion, sign
-        self._latest = Latest()
 
     @cached_property
     def seams_deg(self) -> tuple[float, float]:
@@ -44,10 +42,6 @@ class SolvedPath(Batchable):
 
     def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Roller distances from the wheel's axis and from the crank's, in units of L."""
-        rho, R = self._latest(self._distances, input_deg, order)
-        return rho, R
-
-    def _distances(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         whole, middle = (partial(f, order=order) for f in (self._by_sines, self._by_series))
         both = piecewise(input_deg, self.seams_deg, (whole, middle, whole)).c
         return Jet(both[: order + 1]), Jet(both[order + 1 :])

@@ -266,7 +266,7 @@ class _Extremes:
         curves, design = self._curves(pieces), pieces.rows.design
         size = np.abs(curves.value).max(axis=1, initial=0.0)
         noise = TIE * TIE * self.size[curves.number, design[curves.piece]]
-        ended = curves.left <= np.maximum(PRECISE * size, noise)
+        ended = (curves.left < np.inf) & (curves.left <= np.maximum(PRECISE * size, noise))
         miss = np.full(len(design), False)
         miss[curves.piece[~ended]] = True
         miss &= ~self.cutter.is_settled(pieces.rows)
@@ -280,7 +280,7 @@ class _Extremes:
         value, design = pieces.value, pieces.rows.design
         left = chebyshev.remainder(value)
         low, high = value.min(axis=2), value.max(axis=2)
-        open_ = left > PRECISE * np.maximum(np.abs(low), np.abs(high))
+        open_ = ~(left <= PRECISE * np.maximum(np.abs(low), np.abs(high))) | (left == np.inf)
         # by how much an extreme between samples exceeds them, over their range
         more = np.where(open_, 1.0, 0.15) * (high - low) + UNFINISHED * left
         may = self._may_be(np.arange(len(value))[:, None], design, low - more, high + more)

@@ -23,7 +23,8 @@ from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.links.link_shafts import links_to_fix
-from geneva_cli.parts.machine_sizes import machine_sizes, outlines
+from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
@@ -52,7 +53,7 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def _shape(self) -> Outlines:
-        return outlines(self.mechanism)
+        return drawn(*machine_sizes(self.mechanism))
 
     @property
     def outlines(self) -> Outlines:

@@ -16,8 +16,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.outlines.cut_outlines import cut_lock, drawn
-from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.outlines.reliefs import arc_floor, has_arcs
 from geneva_cli.parts.sizes import (
     Sizes,
@@ -68,31 +67,33 @@ def machine_sizes(mechanism: Mechanism) -> Layout:
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
     where = assembly(mechanism)
-    return where, sizes(where)
+    if not mechanism.spec.is_loaded:
+        return where, sizes(where)
+    from geneva_cli.loads.strength.part_loads import single_loads
+
+    return where, loaded(unloaded(where), single_loads(mechanism))
 
 
 def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
-    """Return the sizes of a machine's parts; ``known`` are its roller paths.
+    """Return the sizes of a machine's parts without a load; ``known`` are its roller paths.
 
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
-    if assembly.full.spec.is_loaded:
-        return loaded(unloaded(assembly, known))
     usual, _ = usual_sizes(assembly, known or roller_paths(assembly))
     refuse_sizes(assembly, usual)
     return usual
 
 
-def unloaded(assembly: Assembly, known: RollerPaths | None = None) -> Unloaded:
+def unloaded(assembly: Assembly) -> Unloaded:
     """Return the parts of a machine without its load; raises GenevaError as ``sizes`` does."""
-    usual, space = usual_sizes(assembly, known or roller_paths(assembly))
+    usual, space = usual_sizes(assembly, roller_paths(assembly))
     return Unloaded(assembly, usual, space, cut_lock(assembly, usual) if usual.lock else None)
 
 
-def loaded(of: Unloaded, loads: PartLoads | None = None, horn_MPa: float | None = None) -> Sizes:
-    """Return the sizes of a machine under its load; raises GenevaError as ``sizes`` does.
+def loaded(of: Unloaded, loads: PartLoads, horn_MPa: float | None = None) -> Sizes:
+    """Return the sizes of a machine under its loads; raises GenevaError as ``sizes`` does.
 
-    ``loads`` and ``horn_MPa`` are those of ``load_sizes``.
+    ``horn_MPa`` is that of ``load_sizes``.
     """
     from geneva_cli.parts.sized_by_load import first_sizes, load_sizes
 
@@ -100,14 +101,6 @@ def loaded(of: Unloaded, loads: PartLoads | None = None, horn_MPa: float | None 
     out = load_sizes(of, loads, horn_MPa, first)._replace(first=first)
     refuse_sizes(of.assembly, out)
     return out
-
-
-def outlines(mechanism: Mechanism) -> Outlines:
-    """Return the outlines in lines and arcs, as accurate as the full turn needs them.
-
-    Raises GenevaError where the machine has no flat parts, or its sizes leave none.
-    """
-    return drawn(*machine_sizes(mechanism))
 
 
 def built(mechanism: Mechanism) -> Size:

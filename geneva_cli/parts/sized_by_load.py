@@ -29,7 +29,7 @@ from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength.arm_strength import arm_stress_MPa
 from geneva_cli.loads.strength.horn import horns
-from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
+from geneva_cli.loads.strength.horn_search import HornStress, greatest_stress, single_stress
 from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.pin import PinSize, pin
@@ -76,18 +76,17 @@ def first_that(trials: Iterable[T], holds: Callable[[T], bool], usual: T | None 
 
 def load_sizes(
     of: Unloaded,
-    known: PartLoads | None = None,
+    loads: PartLoads,
     bent_MPa: float | None = None,
     first: FirstSizes | None = None,
 ) -> Sizes:
-    """Return the sizes of a machine under its load, from those without it.
+    """Return the sizes of a machine under its loads, from those without them.
 
-    ``known`` are the loads, and ``bent_MPa`` the stress of ``horn_MPa``, if computed already;
-    ``first`` is what they need of a first wheel. A load without a bound leaves all sizes.
+    ``bent_MPa`` is the stress of ``horn_MPa``, if computed already; ``first`` is what the loads
+    need of a first wheel. A load without a bound leaves all sizes.
     """
     assembly, usual, space, by = of
     machine, spec = assembly.full, assembly.full.spec
-    loads = known or single_loads(machine)
     if not all(map(math.isfinite, loads)):
         return usual
     sizes = usual._replace(link_thickness=first.thickness) if first else usual
@@ -171,13 +170,18 @@ def _thick(
     )
 
 
-def horn_MPa(machine: Mechanism, half_width: float, by: Lock) -> Array:
+def horn_MPa(
+    machine: Mechanism, half_width: float, by: Lock, known: HornStress | None = None
+) -> Array:
     """Return the greatest stress in the horns of wheels 1 mm thick, (m,) for m designs.
 
     Under the roller, in every direction in which they turn, or under the torque in the dwell.
+    ``known`` is that of the first direction, if computed already.
     """
     search = single_stress if isinstance(machine.design, int) else greatest_stress
-    each = [search(horns, way, (half_width, by.recess)).stress_MPa for way in every_way(machine)]
+    sizes, (_, *others) = (half_width, by.recess), every_way(machine)
+    own = known or search(horns, machine, sizes)
+    each = [own.stress_MPa, *(search(horns, way, sizes).stress_MPa for way in others)]
     held = lock.loaded_locks(machine, half_width, by, 1.0)
     rows = np.broadcast_arrays(*each, *([held.horn_stress_MPa] if held else []))
     return np.fmax(0.0, np.fmax.reduce(rows))

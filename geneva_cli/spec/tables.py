@@ -10,10 +10,9 @@ from typing import Annotated, ClassVar, Self
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
 from geneva_cli.spec.default_sizes import Thicknesses, unrounded, value_or
-from geneva_cli.spec.processes import PROCESSES, Allowances
 from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import PROCESSES, Allowances, workshop
 
 Rounding = Callable[[float], float]
 # types of usual keys

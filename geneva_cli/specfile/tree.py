@@ -284,31 +284,27 @@ def _hint(typed: str, value: object, known: Iterable[Field]) -> str:
 
 
 def _refuse_foreign(values: dict[str, Any], cls: type[SpecTable], kinds: _Kinds, of: str) -> None:
-    """Remove other kinds' keys that are at their defaults; raise GenevaError for the others."""
+    """Remove other kinds' keys that are at their defaults; raise GenevaError for the others.
+
+    Capitals make no difference to whose key it is.
+    """
     own = {field.key for field in fields(cls)}
-    for key in [k for k in values if k not in own]:
-        for other, theirs in kinds.all():
-            field = next((f for f in fields(theirs) if f.key == key), None)
-            if field and field.default is not REQUIRED and values[key] == field.default:
-                del values[key]
-                break
-            if field:
+    for key in [key for key in values if key not in own]:
+        theirs = [(other, field) for other, kind in kinds.all() for field in fields(kind)]
+        exact = [pair for pair in theirs if pair[1].key == key]
+        near = [pair for pair in theirs if pair[1].key.casefold() == key.casefold()]
+        if exact:
+            other, field = exact[0]
+            if field.default is REQUIRED or values[key] != field.default:
                 raise GenevaError(f"{key} belongs to {other}, but this is {of}", (kinds.table, key))
-        else:
-            if key.casefold() not in {k.casefold() for k in own}:
-                _refuse_other_capitals(key, kinds, of)
-
-
-def _refuse_other_capitals(key: str, kinds: _Kinds, of: str) -> None:
-    """Raise GenevaError for a key that another kind has in other capitals."""
-    for other, theirs in kinds.all():
-        for field in fields(theirs):
-            if field.key.casefold() == key.casefold():
-                raise GenevaError(
-                    f"unknown key {cut(key)} in [{kinds.table}]{nearest(key, [field.key])}; "
-                    f"{field.key} belongs to {other}, but this is {of}",
-                    (kinds.table, key),
-                )
+            del values[key]
+        elif near and key.casefold() not in {known.casefold() for known in own}:
+            other, field = near[0]
+            raise GenevaError(
+                f"unknown key {cut(key)} in [{kinds.table}]{nearest(key, [field.key])}; "
+                f"{field.key} belongs to {other}, but this is {of}",
+                (kinds.table, key),
+            )
 
 
 def _values(

@@ -38,25 +38,17 @@ if TYPE_CHECKING:
 FINE = 0.005  # fraction of a change to which its least value is searched
 OTHER = -0.99  # margin where a check fails that passed before
 TRIALS = 80  # machines that are built for all searches of a design
-# Fractions of the way to a remedy's end that are tried first.
-NEAREST, MIDDLE = 1.0 / 12.0, 1.0 / 3.0
+# Fractions of the way to a remedy's end that are tried: the first step, the end, and between them.
+PLACES = (1.0 / 12.0, 1.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0)
 QUICK = {*MOTION, *LIMITS}  # which need no parts
 # Keys that change no outline: the parts need not be turned again.
 APART = (
-    "drive.n_rpm",
-    "size.face_width_mm",
-    "size.wheel_thickness_mm",
-    "size.lock_thickness_mm",
-    "size.arm_thickness_mm",
-    "size.pin_held",
-    "size.lock_edge_mm",
-    "shaft.wheel_diameter_mm",
-    "shaft.wheel_overhang_mm",
-    "shaft.crank_diameter_mm",
-    "shaft.crank_overhang_mm",
+    *("drive.n_rpm", "size.face_width_mm", "size.pin_held", "size.lock_edge_mm"),
+    *("size.wheel_thickness_mm", "size.lock_thickness_mm", "size.arm_thickness_mm"),
+    *("shaft.wheel_diameter_mm", "shaft.wheel_overhang_mm"),
+    *("shaft.crank_diameter_mm", "shaft.crank_overhang_mm"),
     "material.roller.dynamic_capacity_N",
 )
-
 Advice: TypeAlias = "tuple[Remedy, Value]"
 Margin: TypeAlias = Callable[[float], float]  # at a fraction of the way to a remedy's end
 
@@ -331,37 +323,23 @@ def _bracket(
 ) -> tuple[float, float, float, float] | None:
     """A fraction with enough margin, and the failing one before it, each with its margin."""
     known, gain = {start: short}, math.inf
-    for part in (NEAREST, 1.0, MIDDLE, None, None):
-        at = start + (1.0 - start) * part if part else _towards_best(known)
-        if at is None:
-            return None
+    for part in PLACES:
+        at = start + (1.0 - start) * part
         left = margin(at)
         if left >= 0.0:
             before = max(x for x in known if x < at)
             return at, left, before, known[before]
         known[at] = left
         best = max(known.values())
-        if left == -math.inf:
-            continue
-        if part == NEAREST:
+        if part == PLACES[0]:
             gain, hopeless = left - short, left < short
         elif part == 1.0:  # no peak is expected before a bad end if the first step gains little
-            hopeless = best <= short or (left <= short and short + 2.0 * gain / NEAREST < 0.0)
+            hopeless = best <= short or (left <= short and short + 2.0 * gain / PLACES[0] < 0.0)
         else:
             hopeless = best <= 0.5 * short
-        if hopeless:
+        if hopeless and left > -math.inf:
             return None
     return None
-
-
-def _towards_best(known: dict[float, float]) -> float | None:
-    """The middle of the wider interval next to the best fraction; None at either end."""
-    places = sorted(known)
-    i = places.index(max(places, key=lambda x: known[x]))
-    if not 0 < i < len(places) - 1:
-        return None
-    low, best, high = places[i - 1 : i + 2]
-    return 0.5 * (best + (high if high - best > best - low else low))
 
 
 def changed(spec: Spec, table: str, key: str, value: Value) -> Spec | None:

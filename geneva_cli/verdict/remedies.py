@@ -9,6 +9,7 @@ of its present value:
     key+180   values up to 180 more
     key~      values towards the default, at last the default
     key=a,b   these values, the nearest first; an empty one is the default
+    key?      smaller values, larger ones, the default
 """
 
 from __future__ import annotations
@@ -16,138 +17,119 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from functools import cache
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import KINDS
-from geneva_cli.spec.load_named import load_named
-from geneva_cli.spec.tables import Z_USUAL, Size
+from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, TOLERANCES
 from geneva_cli.verdict.checks.check import Check
 
 NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 Value: TypeAlias = float | int | str | None  # None: the key is left out
 
-# The centre distance is changed for its own limits only, where the spec gives it. The speed is a
-# requirement: it is changed where a limit forbids it, not for a part's size.
-LARGER, SLOWER = "center_distance_mm*20", "drive.n_rpm*0.001"
-LESS_LOAD = f"{SLOWER} {LARGER}"
-MOTION_ANGLE = "motion.alpha0_deg+-180 motion.alpha0_deg+180"
-MORE_SLOTS = f"wheel.z>{Z_USUAL}"
-MILDER = " ".join(
-    (
-        "drive.A>0.99 drive.A>-0.99 drive.eccentricity>0.99 drive.eccentricity>0",
-        "drive.before.A>0.99 drive.before.A>-0.99",
-        "drive.before.eccentricity>0.99 drive.before.eccentricity>0",
-        MOTION_ANGLE,
-        MORE_SLOTS,
-    )
-)
-WIDER, TIGHTER = "face_width_mm*10", "slot_clearance_mm>0"
-BLUNTER = f"lock_edge_mm*10 {WIDER} {LARGER}"
-OTHER_LOCK = "lock_radius_mm*0.3 lock_radius_mm*3 lock_radius_mm="
-CRANK = "crank_bore_mm*0.2 crank_bore_mm=0"
-THICK = " ".join(
-    f"{key}*0.3 {key}*3 {key}="
-    for key in ("wheel_thickness_mm", "face_width_mm", "lock_thickness_mm", "arm_thickness_mm")
-)
-SCREWS = "2,2.5,3,4,5,6,8,10,12,16,20"  # threads, mm
-# Sizes whose defaults free a machine that jams, and what else may free it.
-FREER = (
-    "drive.gear_ratio=shockless wheel_radius_mm~ lock_radius_mm~ relief~ relief_clearance_mm~ "
-    "slot_bottom_clearance_mm~ wheel_outer_radius_mm~ lock_clearance_mm>0 "
-    f"{TIGHTER} roller_radius_mm~ roller_radius_mm*0.4 wheel.offset_mm>0"
-)
-REMEDIES: dict[str, str] = {
-    "velocity_max": MILDER,
-    "acceleration_max": MILDER,
-    "acceleration_entry_max": MILDER,
-    "jerk_max": MILDER,
-    "pin_force_max_N": f"{LESS_LOAD} {MILDER}",
-    "input_torque_max_Nm": f"{SLOWER} {MILDER}",
-    "contact_stress_max_MPa": f"{SLOWER} {WIDER} {LARGER} {MILDER}",
-    "product_acceleration_max_m_s2": f"{SLOWER} {MILDER}",
-    "product_slip": f"{SLOWER} {MILDER}",
-    "stopping_torque_Nm": "drive.n_rpm*30",
-    "entry_shock_N": f"tolerance.crank_radius_mm>0 tolerance.center_distance_mm>0 {SLOWER}",
-    "reversal_shock_N": f"{TIGHTER} {SLOWER}",
-    "reversal_stress_MPa": f"{TIGHTER} {SLOWER} {WIDER} {LARGER}",
-    "pv_max_W_m2": f"{SLOWER} {WIDER} {LARGER}",
-    "roller_life_min_h": f"material.roller.dynamic_capacity_N*10 {LESS_LOAD}",
-    "slot_wear_max_mm_per_million": f"{WIDER} {LESS_LOAD}",
-    "pin_stress_MPa": f"pin_mm*1.9 roller_radius_mm*3 pin_held=fixed pin_mm= {TIGHTER} {LARGER}",
-    "horn_stress_MPa": f"{WIDER} lock_radius_mm*0.5 {LARGER}",
-    "lock_horn_stress_MPa": f"{WIDER} lock_radius_mm*0.5 {LARGER}",
-    "lock_stress_max_MPa": BLUNTER,
-    "lock_deflection_max_deg": f"lock_clearance_mm*0.1 {WIDER} {LARGER}",
-    "wheel_shaft_stress_MPa": "shaft.wheel_diameter_mm*5 shaft.wheel_overhang_mm*0.1 "
-    f"wheel_bore_mm*5 wheel_bore_mm= {LARGER}",
-    "crank_shaft_stress_MPa": "shaft.crank_diameter_mm*5 shaft.crank_overhang_mm*0.1 "
-    f"arm_bore_mm*5 arm_bore_mm= crank_bore_mm= {LARGER}",
-    "arm_stress_MPa": "arm_thickness_mm*10 arm_eye_mm*3 arm_hub_mm*3 arm_thickness_mm= " + LARGER,
-    # a first wheel is as thick as its crank, which is a link
-    "first_pin_stress_MPa": f"roller_radius_mm*3 pin_mm*1.9 {LARGER}",
-    "first_horn_stress_MPa": f"link_thickness_mm*10 {LARGER}",
-    "first_crank_shaft_stress_MPa": f"link_bore_mm*5 {LARGER}",
-    "first_arm_stress_MPa": f"link_thickness_mm*10 {LARGER}",
-    "wheel_clamp_Nm": f"wheel_hub_mm*5 wheel_clamp_mm={SCREWS} {LARGER}",
-    "crank_clamp_Nm": f"crank_hub_mm*5 crank_clamp_mm={SCREWS} {LARGER}",
-    "wheel_key_pressure_MPa": f"wheel_thickness_mm*10 wheel_bore_mm*5 {LARGER}",
-    "crank_key_pressure_MPa": f"arm_thickness_mm*10 arm_bore_mm*5 {LARGER}",
-    "pressure_angle_deg": f"motion.ratio=matched {MOTION_ANGLE} {MORE_SLOTS}",
-    "driven_fraction": f"drive.n_rpm*30 {MOTION_ANGLE}",
-    "undercut_mm": f"roller_radius_mm*0.2 {MOTION_ANGLE}",
-    "velocity_min": "motion.lambda=0.125,-0.125",
-    "dwell_deg": f"drive.rollers<1 {MOTION_ANGLE}",
-    "driver_gear_convexity": f"drive.eccentricity>0 drive.A>0 {MORE_SLOTS}",
-    "driven_gear_convexity": f"drive.eccentricity>0 drive.A>0 {MORE_SLOTS}",
-    "dwell_hold": "lock_radius_mm= wheel.held_by=detent",
-    "tolerance_slot_mm": "slot_clearance_mm+1",
-    "tolerance_lock_mm": "lock_clearance_mm+1",
-    "tolerance_turns": "",
-    "wall_between_slots_mm": f"roller_radius_mm*0.2 {TIGHTER}",
-    "horn_mm": f"{OTHER_LOCK} roller_radius_mm*0.2 lock_clearance_mm>0 {TIGHTER}",
-    "wheels_apart_mm": f"roller_radius_mm*0.2 {LARGER} drive.wheels<1",
-    "rollers_apart_mm": "roller_radius_mm*0.2 drive.sector_deg+30",
-    "crank_shaft_mm": f"crank_hub_mm>crank_bore_mm {CRANK}",
-    "crank_hub_mm": f"crank_hub_mm>crank_bore_mm {CRANK}",
-    "crank_bore_wall_mm": CRANK,
-    "wheel_shaft_mm": "wheel_hub_mm>wheel_bore_mm wheel_bore_mm*0.2 wheel_bore_mm=0",
-    "beside_shafts_mm": " ".join(
-        (
-            "wheel_hub_mm*0.5 crank_hub_mm*0.5 wheel_bore_mm*0.5 arm_eye_mm*0.5 crank_bore_mm=0",
-            *(
-                f"{part}_{key}_mm*0.3 {part}_{key}_mm*3 {part}_{key}_mm="
-                for part in ("wheel", "crank")
-                for key in ("hub", "hub_length", "shaft_low", "shaft_high")
-            ),
-        )
-    ),
-    "gear_gap_mm": "drive.gear_distance_mm*0.3 drive.eccentricity*0.3 drive.A*0.3 "
-    "drive.before.gear_distance_mm*0.3 drive.before.eccentricity*0.3 drive.before.A*0.3 "
-    "wheel_hub_mm=0 arm_bore_mm*0.3",
-    "wheel_bore_wall_mm": "wheel_hub_mm*0.2 wheel_bore_mm*0.2 wheel_bore_mm=0 wheel_hub_mm=",
-    "arm_wall_mm": "arm_hub_mm*0.3 arm_hub_mm*3 arm_hub_mm= arm_eye_mm*0.3 arm_eye_mm*3 "
-    "arm_eye_mm= arm_bore_mm*0.3 lock_bolt_mm*0.2 lock_bolt_circle_mm*0.3 lock_bolt_circle_mm*3 "
-    "lock_bolt_circle_mm= lock_bolts<0 crank_keyway= crank_bore=round",
-    "arm_to_hub_mm": "arm_eye_mm*0.2",
-    "link_wall_mm": "link_bore_mm*0.3 link_bore_mm*3 link_bore_mm= link_pin_mm*0.3 link_pin_mm*3 "
-    "link_pin_mm= link_width_mm*0.3 link_width_mm*3 link_width_mm= pin_mm*0.3 pin_mm*3 pin_mm=",
-    "link_gap_mm": "link_width_mm*0.3 link_width_mm*3 link_width_mm= link_pin_mm*0.3 link_pin_mm*3 "
-    "link_pin_mm= crank_shaft_low_mm= drive.before.input_crank_mm*0.2 wheel_hub_mm*0.5 "
-    "wheel_hub_mm=0",
-    "dial_wall_mm": "dial_bolt_circle_mm*0.3 dial_bolt_circle_mm*3 dial_bolt_circle_mm= "
-    "dial_bolt_mm*0.3 dial_bolt_mm*3 dial_bolt_mm= dial_bolts<0 wheel_bore_mm*0.3 wheel_keyway= "
-    "wheel_bore=round",
-    "outer_wall_mm": "wheel_outer_radius_mm*0.3 wheel_outer_radius_mm*3 wheel_outer_radius_mm=",
-    "cut_plate_mm": THICK,
-    "cut_slot_mm": f"roller_radius_mm*0.3 roller_radius_mm*3 roller_radius_mm= {THICK}",
-    "branches_apart_mm": f"roller_radius_mm*3 {MOTION_ANGLE}",
-    "branches_crossed_mm": f"roller_radius_mm*3 {MOTION_ANGLE}",
-}
+# Words in capitals stand for those of their own lines. The centre distance is changed for its own
+# limits only, where the spec gives it. The speed is a requirement: it is changed where a limit
+# forbids it, not for a part's size.
+_TABLE = """
+LARGER: center_distance_mm*20
+SLOWER: drive.n_rpm*0.001
+WIDER: face_width_mm*10
+TIGHTER: slot_clearance_mm>0
+SMALLER: roller_radius_mm*0.2
+SLOTS: wheel.z>24
+LONGER: motion.alpha0_deg+-180 motion.alpha0_deg+180
+ECCENTRIC: drive.eccentricity>0.99 drive.eccentricity>0
+BEFORE: drive.before.A>0.99 drive.before.A>-0.99 drive.before.eccentricity>0.99
+MILDER: drive.A>0.99 drive.A>-0.99 ECCENTRIC BEFORE drive.before.eccentricity>0 LONGER SLOTS
+BLUNTER: lock_edge_mm*10 WIDER LARGER
+CRANK: crank_bore_mm*0.2 crank_bore_mm=0
+THICK: wheel_thickness_mm? face_width_mm? lock_thickness_mm? arm_thickness_mm?
+velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
+pin_force_max_N: SLOWER LARGER MILDER
+input_torque_max_Nm product_acceleration_max_m_s2 product_slip: SLOWER MILDER
+contact_stress_max_MPa: SLOWER WIDER LARGER MILDER
+stopping_torque_Nm: drive.n_rpm*30
+entry_shock_N: tolerance.crank_radius_mm>0 tolerance.center_distance_mm>0 SLOWER
+reversal_shock_N: TIGHTER SLOWER
+reversal_stress_MPa: TIGHTER SLOWER WIDER LARGER
+pv_max_W_m2: SLOWER WIDER LARGER
+roller_life_min_h: material.roller.dynamic_capacity_N*10 SLOWER LARGER
+slot_wear_max_mm_per_million: WIDER SLOWER LARGER
+pin_stress_MPa: pin_mm*1.9 roller_radius_mm*3 pin_held=fixed pin_mm= TIGHTER LARGER
+horn_stress_MPa lock_horn_stress_MPa: WIDER lock_radius_mm*0.5 LARGER
+lock_stress_max_MPa: BLUNTER
+lock_deflection_max_deg: lock_clearance_mm*0.1 WIDER LARGER
+wheel_shaft_stress_MPa: shaft.wheel_diameter_mm*5 shaft.wheel_overhang_mm*0.1 wheel_bore_mm*5
+  wheel_bore_mm= LARGER
+crank_shaft_stress_MPa: shaft.crank_diameter_mm*5 shaft.crank_overhang_mm*0.1 arm_bore_mm*5
+  arm_bore_mm= crank_bore_mm= LARGER
+arm_stress_MPa: arm_thickness_mm*10 arm_eye_mm*3 arm_hub_mm*3 arm_thickness_mm= LARGER
+first_pin_stress_MPa: roller_radius_mm*3 pin_mm*1.9 LARGER
+first_horn_stress_MPa first_arm_stress_MPa: link_thickness_mm*10 LARGER
+first_crank_shaft_stress_MPa: link_bore_mm*5 LARGER
+wheel_clamp_Nm: wheel_hub_mm*5 wheel_clamp_mm=2,2.5,3,4,5,6,8,10,12,16,20 LARGER
+crank_clamp_Nm: crank_hub_mm*5 crank_clamp_mm=2,2.5,3,4,5,6,8,10,12,16,20 LARGER
+wheel_key_pressure_MPa: wheel_thickness_mm*10 wheel_bore_mm*5 LARGER
+crank_key_pressure_MPa: arm_thickness_mm*10 arm_bore_mm*5 LARGER
+pressure_angle_deg: motion.ratio=matched LONGER SLOTS
+driven_fraction: drive.n_rpm*30 LONGER
+undercut_mm: SMALLER LONGER
+velocity_min: motion.lambda=0.125,-0.125
+dwell_deg: drive.rollers<1 LONGER
+driver_gear_convexity driven_gear_convexity: drive.eccentricity>0 drive.A>0 SLOTS
+dwell_hold: lock_radius_mm= wheel.held_by=detent
+tolerance_slot_mm: slot_clearance_mm+1
+tolerance_lock_mm: lock_clearance_mm+1
+tolerance_turns:
+wall_between_slots_mm: SMALLER TIGHTER
+horn_mm: lock_radius_mm? SMALLER lock_clearance_mm>0 TIGHTER
+wheels_apart_mm: SMALLER LARGER drive.wheels<1
+rollers_apart_mm: SMALLER drive.sector_deg+30
+crank_shaft_mm crank_hub_mm: crank_hub_mm>crank_bore_mm CRANK
+crank_bore_wall_mm: CRANK
+wheel_shaft_mm: wheel_hub_mm>wheel_bore_mm wheel_bore_mm*0.2 wheel_bore_mm=0
+beside_shafts_mm: wheel_hub_mm*0.5 crank_hub_mm*0.5 wheel_bore_mm*0.5 arm_eye_mm*0.5
+  crank_bore_mm=0 wheel_hub_mm? wheel_hub_length_mm? wheel_shaft_low_mm? wheel_shaft_high_mm?
+  crank_hub_mm? crank_hub_length_mm? crank_shaft_low_mm? crank_shaft_high_mm?
+gear_gap_mm: drive.gear_distance_mm*0.3 drive.eccentricity*0.3 drive.A*0.3
+  drive.before.gear_distance_mm*0.3 drive.before.eccentricity*0.3 drive.before.A*0.3
+  wheel_hub_mm=0 arm_bore_mm*0.3
+wheel_bore_wall_mm: wheel_hub_mm*0.2 wheel_bore_mm*0.2 wheel_bore_mm=0 wheel_hub_mm=
+arm_wall_mm: arm_hub_mm? arm_eye_mm? arm_bore_mm*0.3 lock_bolt_mm*0.2 lock_bolt_circle_mm?
+  lock_bolts<0 crank_keyway= crank_bore=round
+arm_to_hub_mm: arm_eye_mm*0.2
+link_wall_mm: link_bore_mm? link_pin_mm? link_width_mm? pin_mm?
+link_gap_mm: link_width_mm? link_pin_mm? crank_shaft_low_mm= drive.before.input_crank_mm*0.2
+  wheel_hub_mm*0.5 wheel_hub_mm=0
+dial_wall_mm: dial_bolt_circle_mm? dial_bolt_mm? dial_bolts<0 wheel_bore_mm*0.3 wheel_keyway=
+  wheel_bore=round
+outer_wall_mm: wheel_outer_radius_mm?
+cut_plate_mm: THICK
+cut_slot_mm: roller_radius_mm? THICK
+branches_apart_mm branches_crossed_mm: roller_radius_mm*3 LONGER
+OTHERS: drive.gear_ratio=shockless wheel_radius_mm~ lock_radius_mm~ relief~
+  relief_clearance_mm~ slot_bottom_clearance_mm~ wheel_outer_radius_mm~ lock_clearance_mm>0
+  TIGHTER roller_radius_mm~ roller_radius_mm*0.4 wheel.offset_mm>0
+"""
+
+
+@cache
+def _table() -> dict[str, str]:
+    """The words of each check, with those in capitals spelled out."""
+    out: dict[str, str] = {}
+    rows = [row.partition(":") for row in _TABLE.strip().replace("\n  ", " ").splitlines()]
+    of_kinds = [(name, ":", words) for kind in KINDS for name, words in kind.remedies.items()]
+    for names, _, words in (*rows, *of_kinds):
+        spelled = " ".join(out.get(word, word) for word in words.split())
+        out |= dict.fromkeys(names.split(), spelled)
+    return out
+
+
 # Requirements on the machine's size, process and walls, which no advice reduces.
 REQUIRED = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
-_WORD = re.compile(r"(?:([\w.]+)\.)?(\w+)([*><+~=])(.*)")
+_WORD = re.compile(r"(?:([\w.]+)\.)?(\w+)([*><+~=?])(.*)")
 
 
 class Remedy(NamedTuple):
@@ -196,30 +178,25 @@ def rounded(good: float, far: float, bad: float) -> float:
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     """Changes of the spec that may make a failing check pass, the likeliest first."""
     spec, name = mechanism.spec, check.name
-    own = {} if {name} & {*MOTION, *LIMITS, *TOLERANCES} else dict(_own_sizes(spec.size))
-    known = REMEDIES.get(name)
-    if known is None:
-        path = next((k.remedies for k in KINDS if k.remedies and name in k.parts_checks), "")
-        known = load_named(path)[name] if path else FREER
+    own = {} if name in (*MOTION, *LIMITS, *TOLERANCES) else _own_sizes(spec.size)
     # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
-    words = [words for key, words in own.items() if key in check.why] + [known, *own.values()]
+    words = [words for key, words in own.items() if key in check.why]
+    words += [_table().get(name, _table()["OTHERS"]), *own.values()]
     limited = spec.limits.as_dict().get(name) is not None
     for word in " ".join(words).split():
-        if word == LARGER and spec.size.center_distance_mm is not None and not limited:
+        if word == _table()["LARGER"] and not limited and spec.size.center_distance_mm:
             continue
         yield from _remedies(word, mechanism)
 
 
-def _own_sizes(size: Size) -> Iterator[tuple[str, str]]:
-    """The sizes that the spec sets, each with its words."""
+def _own_sizes(size: Size) -> dict[str, str]:
+    """The words of each size that the spec sets: smaller, larger, or its default."""
     usual = Size().as_dict()
-    for key, value in size.as_dict().items():
-        if value == usual[key] or key in REQUIRED:
-            continue
-        if isinstance(value, bool | str):
-            yield key, f"{key}="
-        else:
-            yield key, f"{key}<0" if isinstance(value, int) else f"{key}*0.1 {key}*10 {key}="
+    return {
+        key: f"{key}=" if isinstance(value, bool | str) else f"{key}?"
+        for key, value in size.as_dict().items()
+        if value != usual[key] and key not in REQUIRED
+    }
 
 
 def _remedies(word: str, mechanism: Mechanism) -> Iterator[Remedy]:
@@ -228,6 +205,11 @@ def _remedies(word: str, mechanism: Mechanism) -> Iterator[Remedy]:
     table, key, how, end = match[1] or "size", match[2], match[3], match[4]
     spec = mechanism.spec
     if key not in spec.table(table):
+        return
+    if how == "?":
+        count = isinstance(spec.table(table)[key], int)
+        for every in ("<0",) if count else ("*0.1", "*10", "="):
+            yield from _remedies(f"{key}{every}", mechanism)
         return
     if how == "=":
         values = tuple(map(_value, end.split(",")))

@@ -17,7 +17,7 @@ def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
     """Let the machines of a batch's designs take from it what their checks need.
 
     The batch is searched when the first of them needs a value. A value that the batch lacks is
-    computed for the design alone. There are at most ``latest.KEPT`` machines.
+    computed for the design alone. There are at most ``kept.KEPT`` machines.
     """
     designs = Designs(batch, limited_loads(batch.spec), machines)
 

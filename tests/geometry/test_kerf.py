@@ -20,7 +20,8 @@ from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, about, backwards, closed
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.machine_sizes import outlines
+from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.spec.tables import Size
 
 SAGITTA = 1e-4  # mm, of the chords that shapely is given
@@ -102,7 +103,9 @@ def test_parts_of_machines(name, layer):
     st.sampled_from(["external", "internal"]),
 )
 def test_wheels_of_any_size(z, roller, kerf, gearing):
-    found = outlines(build(Spec(Wheel(z, gearing), size=Size(roller_radius_mm=roller))))
+    found = drawn(
+        *machine_sizes(build(Spec(Wheel(z, gearing), size=Size(roller_radius_mm=roller))))
+    )
     require_cut(found.wheel, gearing == "external", kerf)
 
 
@@ -145,7 +148,7 @@ def test_no_path_crosses_itself(corners, kerf, outside):
 
 def test_a_slot_is_as_wide_as_it_was():
     """The walls of a straight slot, which are a roller's diameter apart."""
-    found = outlines(build(Spec(Wheel(6), size=Size(roller_radius_mm=5.0))))
+    found = drawn(*machine_sizes(build(Spec(Wheel(6), size=Size(roller_radius_mm=5.0)))))
     path = offset(found.wheel, True, 0.1)
     lines = [s for s in path.segments if isinstance(s, Line)]
     ahead = [s for s in lines if min(s.start[0], s.end[0]) > 0 and abs(s.start[1]) < 6.0]

@@ -9,7 +9,7 @@ import repo
 from plane_stress import horn as in_plane_stress
 from words import Spec, Wheel
 
-from geneva_cli import Design, Internal, load
+from geneva_cli import load
 from geneva_cli.loads.strength.lock import LockUnderTorque, bending, loaded_locks
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.mechanism import build
@@ -72,13 +72,6 @@ def test_the_play_is_that_of_the_parts(name, on):
     """The parts turned against each other find it by bisection of outlines: to 3e-6 of it."""
     design = load(str(repo.DESIGNS / f"{name}.toml")).with_("size.lock_clearance_mm", 0.2)
     plays_as_its_parts(design, on)
-
-
-@pytest.mark.parametrize(("z", "lock"), [(6, 0.25), (6, 0.3), (8, 0.2)])
-def test_the_lock_is_as_wide_as_its_sector_is_cut(z, lock):
-    """A small sector of an internal wheel's crank, of which the wheel leaves 29 of 60 degrees."""
-    size = Size(100.0, 5.0, lock_radius_mm=100.0 * lock)
-    plays_as_its_parts(Design(Internal(z), size=size).with_("size.lock_clearance_mm", 0.1))
 
 
 def plays_as_its_parts(design, on="disc's end"):

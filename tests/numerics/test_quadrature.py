@@ -5,10 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.slot_and_motion import _sinc
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.numerics.latest import Latest
 from geneva_cli.numerics.quadrature import Integrands, lobatto, rule, span_integrals
 
 CLOSED = {  # over 2..5
@@ -54,27 +52,6 @@ def test_rules_are_exact_for_polynomials(nodes):
         for power in (0, 2, degree):
             assert x**power @ weight == pytest.approx(2.0 / (power + 1), abs=2e-15)
             assert x ** (power + 1) @ weight == pytest.approx(0.0, abs=2e-15)
-
-
-def test_the_latest_angles_are_known_by_array_and_values():
-    asked = []
-
-    def law(x, order):
-        asked.append(order)
-        return (ModifiedSine()(x, order),)
-
-    latest, x = Latest(), np.linspace(0.0, 1.0, 9)
-    high = latest(law, x, 3)[0]
-    low = latest(law, x, 1)[0]
-    assert asked == [3]
-    assert len(low.c) == 2
-    assert all(np.array_equal(a, b) for a, b in zip(low.c, high.c, strict=False))
-    x += 0.01 * (x < 0.5)  # written over: another array in the same place
-    assert np.array_equal(latest(law, x, 3)[0].c[0], ModifiedSine()(x, 0).c[0])
-    assert asked == [3, 3]
-    latest(law, x.copy(), 3)
-    latest(law, x, 4)
-    assert asked == [3, 3, 3, 4]
 
 
 @pytest.mark.parametrize("x", [0.0, 1e-9, -0.05, 0.3, 0.5])

@@ -23,7 +23,7 @@ from geneva_cli.motion import registry
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.links.link_sizes import places
-from geneva_cli.spec.processes import PROCESSES
+from geneva_cli.spec.workshops import PROCESSES
 from geneva_cli.specfile.template import template
 
 NEAR = 1e-6  # mm: more than rounding, less than any clearance

@@ -16,7 +16,6 @@ from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.bores import bore_of, radius_of
-from geneva_cli.spec.tables import Shaft
 
 
 def of(**size):
@@ -158,28 +157,6 @@ def test_one_shaft_runs_through_arm_and_crank(wheel):
 
 
 @pytest.mark.parametrize(
-    ("wheel", "most"),
-    # the cone of 5 mm at 100 mm is thinnest inside, at 95 mm
-    [(External(6), 9.5), (TILTED, 2.0 * 95.0 * math.sin(0.05) - 0.5)],
-)
-def test_a_roller_is_left_around_its_pin_and_their_fit(wheel, most):
-    def members(pin):
-        size = Size(100.0, 5.0, pin_mm=pin, shaft_fit_mm=0.5)
-        return parts_of(Design(wheel, size=size).mechanism).built.members
-
-    assert members(most - 1e-6)
-    with pytest.raises(GenevaError, match="it must be below"):
-        members(most + 1e-6)
-
-
-@pytest.mark.parametrize("wheel", [External(6), Spherical(6)])
-def test_a_wheel_is_bored_for_its_shaft(wheel):
-    design = Design(wheel, size=Size(80.0, 5.0), shaft=Shaft(wheel_diameter_mm=9.0))
-    bored, _ = parts_of(design.mechanism).built.hub_radii("wheel")
-    assert bored == 4.5
-
-
-@pytest.mark.parametrize(
     ("size", "key", "said"),
     [
         (
@@ -203,48 +180,3 @@ def test_refused(size, key, said):
     with pytest.raises(GenevaError, match=said) as caught:
         of(**size).drawing("wheel")
     assert caught.value.key == ("size", key)
-
-
-def test_edges_are_a_note_and_take_some_of_the_thickness():
-    """8 mm of contact and two edges of 0.5 mm make a wheel of 9 mm."""
-    design = of(edge_chamfer_mm=0.5, face_width_mm=8.0)
-    assert design.parts.sizes.wheel_thickness == 9.0
-    assert "chamfered 0.5 × 45°" in [label.text for label in design.sheet().texts]
-    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
-    assert rows["chamfer of all edges"]["value"] == 0.5
-    texts = [label.text for label in of(edge_fillet_mm=1.0).sheet().texts]
-    assert "rounded R 1" in texts
-
-
-HUBS = {
-    "wheel_hub_mm": 26.0,
-    "wheel_bore_mm": 16.0,
-    "crank_hub_mm": 20.0,
-    "crank_bore_mm": 10.0,
-    "crank_hub_length_mm": 20.0,
-}
-
-
-@pytest.mark.parametrize(
-    ("size", "said"),
-    [
-        ({"wheel_screw_mm": 4.0}, "wheel_screw_mm: a set screw needs a hub with a bore"),
-        ({**HUBS, "wheel_screw_mm": 6.0}, "its wall 5 mm thick, which holds a set screw up to 5"),
-        ({**HUBS, "wheel_screw_mm": 5.1}, "there is no such metric screw; use 5"),
-        ({**HUBS, "wheel_hub_mm": 25.0, "wheel_screw_mm": 5.0}, "a set screw up to 4"),  # wall 4.5
-        ({**HUBS, "wheel_hub_mm": 18.0, "wheel_screw_mm": 2.0}, "of no size: the hub must be"),
-        ({**HUBS, "wheel_hub_length_mm": 6.0, "wheel_screw_mm": 4.0}, "a set screw up to 3"),
-        ({**HUBS, "crank_screw_mm": 6.0}, "crank_screw_mm = 6: the hub is 10 mm long"),
-        (
-            {**HUBS, "crank_hub_length_mm": 9.0, "crank_screw_mm": 2.0},  # as high as the disc
-            "needs a hub with a bore; set a greater crank_hub_length_mm, or",
-        ),
-    ],
-)
-@pytest.mark.usefixtures("no_advice")
-def test_set_screws_that_no_hub_holds(size, said):
-    design = of(**size)
-    with pytest.raises(GenevaError, match=said) as caught:
-        design.drawing("assembly")
-    assert caught.value.key[1].endswith("_screw_mm")
-    assert any(check.passes is False and said in (check.why or "") for check in design.checks)

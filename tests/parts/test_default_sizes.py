@@ -44,14 +44,6 @@ def test_default_sizes_are_those_of_the_reference_page():
     assert sizes_of(Spec(Wheel(6), size=Size(149.9))).wheel_bore == 10.0
 
 
-def test_default_sizes_of_an_internal_wheel():
-    """Its slots end at L + R + r and their clearance; a roller's width is left, at least L/20."""
-    for r, left in ((4.0, 5.0), (8.0, 8.0)):
-        sizes = sizes_of(Spec(Wheel(6, "internal"), size=Size(L, r)))
-        assert sizes.slot_end == pytest.approx(L + 50.0 + r + r / 20.0)
-        assert sizes.outer == pytest.approx(sizes.slot_end + left)
-
-
 def test_default_sizes_of_the_arm():
     """An eye is twice as wide as its hole, up to what passes the wheel's hub; a hub is 1.6 bores.
 
@@ -69,21 +61,6 @@ def test_default_sizes_of_the_arm():
     (bolt,) = ring.bolts
     # the disc's radius is R - 2 r, so that 2 mm are left outside of the bolts' circle
     assert (*bolt.centre, bolt.radius) == pytest.approx((-36.0, 0.0, 0.625))
-
-
-def test_bores_and_hubs_of_a_narrow_wheel():
-    """Three slots: they end at L - R - r, less what is left below the deepest roller.
-
-    The bore is up to 0.8 of the slots' ends wide, and the hub up to 1.5. Bearings have bores of 6
-    and 5 mm, and 12 and 11 mm are rounded numbers.
-    """
-    whole = L - L * math.sin(math.pi / 3.0) - 5.0
-    for end, bore in ((7.5, 3.0), (7.49, 2.5)):
-        size = Size(L, 5.0, slot_bottom_clearance_mm=whole - end)
-        assert sizes_of(Spec(Wheel(3), size=size)).wheel_bore == bore
-    for end, hub in ((8.0, 6.0), (7.99, 5.5)):
-        size = Size(L, 5.0, slot_bottom_clearance_mm=whole - end, wheel_bore_mm=10.0)
-        assert sizes_of(Spec(Wheel(3), size=size)).wheel_hub == hub
 
 
 def test_the_shaft_goes_through_the_disc_where_it_leaves_a_hub():

@@ -11,8 +11,9 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.internal import Internal
-from geneva_cli.parts.machine_sizes import outlines
+from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines import locking_rings
+from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.locking_rings import polar_points, towards
 
 
@@ -20,7 +21,7 @@ from geneva_cli.parts.outlines.locking_rings import polar_points, towards
 def test_a_sector_is_the_widest_of_all_that_clear_the_wheel(monkeypatch, z, alpha0):
     """Every fiftieth of its width is tried, not only those that the halving meets."""
     spec = Spec(Internal(z), Cam(), motion=Motion(ModifiedSine(), alpha0_deg=alpha0))
-    own, tried = outlines(build(spec)).crank, []
+    own, tried = drawn(*machine_sizes(build(spec))).crank, []
 
     def widest_of_all(whole, clears):
         fits = [half for k in range(40) if clears(half := (1.0 - 0.02 * k) * whole)]
@@ -28,7 +29,7 @@ def test_a_sector_is_the_widest_of_all_that_clear_the_wheel(monkeypatch, z, alph
         return max(fits)
 
     monkeypatch.setattr(locking_rings, "widest", widest_of_all)
-    assert outlines(build(spec)).crank == own
+    assert drawn(*machine_sizes(build(spec))).crank == own
     assert tried
     # narrower ones clear it too
     assert all(

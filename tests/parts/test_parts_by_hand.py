@@ -31,8 +31,8 @@ from geneva_cli.parts.frame import passing_arm
 from geneva_cli.parts.gears.gear_pair import gear_shafts
 from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.links import drawn_links
-from geneva_cli.parts.machine_sizes import machine_sizes, outlines
-from geneva_cli.parts.outlines.cut_outlines import cut_arcs
+from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.outlines.cut_outlines import cut_arcs, drawn
 from geneva_cli.parts.outlines.reliefs import arc_floor, reliefs, widened
 from geneva_cli.parts.shafts.bores import Bore, bore_of
 from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
@@ -468,7 +468,7 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
     In a step the wheel turns up to 20 times as far, by 0.04 degrees. A horn reaches farthest where
     it leaves the disc, so that its last point inside comes less far by about half of that.
     """
-    parts = outlines(Design(wheel, size=Size(100.0, 4.0)).mechanism)
+    parts = drawn(*machine_sizes(Design(wheel, size=Size(100.0, 4.0)).mechanism))
     assembly, sizes = parts.assembly, parts.sizes
     mouths = mouth_corners(assembly, sizes.roller, sizes.recess, sizes.rim)
     wide = {one.motion: one for one in widened(assembly, sizes, mouths)}
@@ -488,7 +488,7 @@ def test_half_of_a_symmetric_motion_shows_where_the_wheel_reaches():
 
     The crank's only roller is at direction 0 at mid-motion, so that x is the axis of the mirror.
     """
-    gaps = outlines(Design(Internal(5), size=Size(100.0, 10.0)).mechanism).gaps
+    gaps = drawn(*machine_sizes(Design(Internal(5), size=Size(100.0, 10.0)).mechanism)).gaps
     x, y = gaps.swept(0, 1.0)
     whole = copy.copy(gaps)
     whole.pitch = 0.0  # as of a wheel whose slots differ

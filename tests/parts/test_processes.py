@@ -17,12 +17,10 @@ from geneva_cli.geometry.shapes import Circle, Point
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.machine_sizes import sizes
+from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import limits
-from geneva_cli.spec.processes import PROCESSES
-from geneva_cli.spec.workshops import deviation_mm
+from geneva_cli.spec.workshops import PROCESSES, deviation_mm
 from geneva_cli.verdict.checks.check import Check
 
 
@@ -266,7 +264,7 @@ def test_default_sizes_of_a_print_hold_as_pla() -> None:
         assert len(stresses) == 6
         assert all(check.passes for check in stresses), (torque, stresses)
         for one in (size, size.replace(process="mill")):
-            arms.append(sizes(assembly(build(Spec(External(6), size=one, load=load_)))))
+            arms.append(machine_sizes(build(Spec(External(6), size=one, load=load_)))[1])
     assert [arm.arm_thickness for arm in arms[1::2]] == [10.0, 10.0, 10.0]
     assert arms[4].arm_thickness > arms[0].arm_thickness == 10.0
 

@@ -2,8 +2,6 @@
 
 import pytest
 
-from geneva_cli import Design, External, Size
-from geneva_cli.errors import GenevaError
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through
 
 # Coarse threads of ISO 262, their clearance holes of the medium series of ISO 273, and the drills
@@ -55,14 +53,3 @@ def test_a_default_hole_is_for_the_largest_screw(
     assert 2.0 * bolt_radius(None, L, half_width) == pytest.approx(through, abs=1e-12)
     screw = screw_through(through)
     assert (screw and screw.thread) == thread
-
-
-def test_small_machines_have_no_screws() -> None:
-    """At L = 40 a hole of L/40 is 1 mm; a dial that needs some is told so."""
-    small = Design(External(6), size=Size(40.0))
-    assert not small.parts.flat.arm.bolts
-    for key in ("dial_bolts", "lock_bolts"):
-        parts = Design(External(6), size=Size(40.0, **{key: 2})).parts.flat
-        with pytest.raises(GenevaError, match=f"{key} = 2: .* too small for a screw of M1.6") as no:
-            parts.require()
-        assert no.value.key == ("size", key)

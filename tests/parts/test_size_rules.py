@@ -8,7 +8,8 @@ from words import Motion, Spec, Wheel
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.machine_sizes import outlines
+from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.spec.tables import Size
 
 HUGE = [
@@ -75,7 +76,7 @@ def test_slots_end_where_the_outline_does(offset: float, gap: float) -> None:
     """The round's centre is as far along the slot as the deepest roller, and the gap: its nearest
     point to the axis, whatever the slot misses that by, is where bores and hubs have to stay."""
     size = Size(slot_bottom_clearance_mm=gap)
-    found = outlines(build(Spec(Wheel(6, offset_mm=offset), size=size)))
+    found = drawn(*machine_sizes(build(Spec(Wheel(6, offset_mm=offset), size=size))))
     (round_end,) = {
         round(math.hypot(*arc.centre) - arc.radius, 9)
         for arc in found.wheel.segments

@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.motion.engagement import Anchor, Displacement, Slot, SlotAxis
+from geneva_cli.motion.engagement import Displacement, Slot, SlotAxis
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.pivots import Pivot
 from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, Output, RollerPlace
@@ -138,7 +138,7 @@ class ParallelSlot(Slot):
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever of the slot's normal about the pinion's axis, and the pin's speed along it."""
-        along = self.path.from_nearest(input_deg, order + 1)[0].derivative()
+        along = self.path.nearest(input_deg, order + 1)[0].derivative()
         return SlotAxis(along * 0.0 + 1.0, along)
 
     def play(self, clearance: Number) -> Number:
@@ -155,15 +155,12 @@ class ParallelSlotMotion(StraightSlotMotion):
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Travel from the pin's position across the slots; at rest at both ends."""
-
-        def solve(anchor: Anchor, x: Number) -> Jet:
-            return anchor.place(x, order)[1] + anchor.wheel
-
-        return self.path.solved(input_deg, solve)
+        _, across, ray = self.path.nearest(input_deg, order)
+        return across + ray
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Speed of the pin across the slots."""
-        return self.path.from_nearest(input_deg, order + 1)[1].derivative()
+        return self.path.nearest(input_deg, order + 1)[1].derivative()
 
 
 def guided(spec: Spec) -> bool:

@@ -13,7 +13,13 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinds.spherical.ball import PartDoesNotFit
+from geneva_cli.kinds.spherical.ball import (
+    Ball,
+    PartDoesNotFit,
+    about_crank,
+    inner_edge,
+    wheel_axle,
+)
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.rollers import places
@@ -30,7 +36,6 @@ from geneva_cli.spec.default_sizes import Thicknesses
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 if TYPE_CHECKING:
-    from geneva_cli.kinds.spherical.ball import Ball
     from geneva_cli.parts.stressed import Stressed
 
 
@@ -80,7 +85,6 @@ def horn_sizes(mechanism: Mechanism) -> tuple[float, float, float] | None:
 
 def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     """Return the sizes for a thickness of the wheel, or else its default."""
-    from geneva_cli.kinds.spherical.ball import Ball, about_crank, inner_edge, wheel_axle
 
     spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
     size, z = spec.size, spec.wheel.z

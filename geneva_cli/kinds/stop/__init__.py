@@ -17,7 +17,11 @@ KINDS = (
                 makes_parts=True,
             ),
         ),
-        remedies="kinds.stop.remedies:REMEDIES",
+        remedies={
+            "stop_turns": "lock_radius_mm? SMALLER",
+            "stop_overlap_mm": "lock_radius_mm? SMALLER",
+            "stop_stress_max_MPa": "BLUNTER",
+        },
         scene="kinds.stop.scene:StopScene",
         parts_checks={
             "stop_turns": "kinds.stop.checks:turns",

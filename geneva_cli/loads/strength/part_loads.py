@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.kept import Known
 from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.impacts.impacts import reversal_impacts
 from geneva_cli.loads.load_functions import LoadQuantity
@@ -23,7 +24,6 @@ from geneva_cli.loads.strength.shaft_stress import (
 from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import larger, parameter
-from geneva_cli.numerics.latest import Known
 
 
 class PartLoads(NamedTuple):

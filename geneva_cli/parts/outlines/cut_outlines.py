@@ -10,8 +10,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc, Contour
+from geneva_cli.kept import KEPT
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.numerics.latest import KEPT
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.crank_outline import arc_leaves_hub, crank_contours

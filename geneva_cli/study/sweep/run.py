@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 from geneva_cli import __version__
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.numerics.latest import KEPT
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting

@@ -2,26 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
-
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.shafts.held_hubs import clamp_of
 from geneva_cli.verdict.checks.check import Check, compared, gap
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.mechanism import Mechanism
-
-
-class Hubs(Protocol):
-    """Parts with hubs."""
-
-    @property
-    def mechanism(self) -> Mechanism:
-        """The machine."""
-
-    def hub_radii(self, part: str) -> tuple[float, float]:
-        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
 
 
 def crank_shaft(name: str, parts: FlatParts) -> Check | None:
@@ -87,7 +71,7 @@ def passing_gears(name: str, parts: FlatParts) -> Check | None:
     return gap(name, lambda: gear_gap(parts), parts.outlines.assembly.L)
 
 
-def held_torque(name: str, parts: Hubs) -> Check | None:
+def held_torque(name: str, parts: FlatParts) -> Check | None:
     """The torque that a clamp holds; None without a load, or a clamp that the hub has space for."""
     spec = parts.mechanism.spec
     part = name.partition("_")[0]

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Self, TypeAlias, TypeVar
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kept import cached_property
+from geneva_cli.kept import Known, cached_property
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.numerics.latest import Known
 from geneva_cli.spec.load_limits import LIMITED, limits_by_key
 
 if TYPE_CHECKING:

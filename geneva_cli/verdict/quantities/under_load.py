@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
 
 import numpy as np
 
@@ -39,6 +39,9 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.motion.mechanism import Mechanism
     from geneva_cli.verdict.quantities.batch_designs import Designs
+
+
+T = TypeVar("T")
 
 
 class LockSizes(NamedTuple):
@@ -88,15 +91,14 @@ class UnderLoad:
 
     @cached_property
     def _unloaded(self) -> list[Unloaded | None]:
-        """The parts of the designs without their loads: one for designs that differ in loads only.
-
-        None for one without flat parts.
-        """
-        of = self.machine.spec
+        """The parts of the designs without their loads; None for one without flat parts."""
+        of, count = self.machine.spec, self.machine.designs
         bare = Spec(
             of.wheel, of.drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
         )
-        return [_unloaded(build(taken(bare, i))) for i in range(designs_in(bare))]
+        if designs_in(bare) == 1:  # designs that differ in loads only have the same
+            return [_unloaded(build(taken(bare, 0)))] * count
+        return [_unloaded(one) for one in self.designs.each]
 
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
@@ -136,14 +138,21 @@ class UnderLoad:
 
     def horn_stress(self, width: float) -> HornStress:
         """The greatest stress in the horns under the roller, for a width of its contact."""
+        if self._sides is horns:
+            bent = self._flat_horns
+            return bent._replace(stress_MPa=parameter(bent.stress_MPa / np.ravel(width)))
+        assert self.horn_sizes
+        if not self.designs.single:
+            return greatest_stress(self._sides, self.machine, self.horn_sizes, width)
+        wide = float(np.ravel(width)[0])  # to be hashed
+        return single_stress(self._sides, self.machine, self.horn_sizes, wide)
+
+    @cached_property
+    def _flat_horns(self) -> HornStress:
+        """The greatest stress in flat horns for 1 mm of contact, as the parts are sized."""
         assert self.horn_sizes
         search = single_stress if self.designs.single else greatest_stress
-        if self._sides is not horns:
-            one = self.designs.single
-            wide = float(np.ravel(width)[0]) if one else width  # to be hashed
-            return search(self._sides, self.machine, self.horn_sizes, wide)
-        bent = search(horns, self.machine, self.horn_sizes)  # for 1 mm, as the parts are sized
-        return bent._replace(stress_MPa=parameter(bent.stress_MPa / np.ravel(width)))
+        return search(horns, self.machine, self.horn_sizes)
 
     def stoutest_horn(self) -> tuple[float, float]:
         """A single design's greatest thickness at the mouth over the recess's radius, and that."""
@@ -159,10 +168,9 @@ class UnderLoad:
         machines, size = self.designs.each, self.machine.spec.size
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
-            bent = horn_MPa(self.machine, *self.lock_sizes).tolist()
-        own = self._unloaded * (len(machines) // len(self._unloaded))
+            bent = horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
         loads = map(self.sizing_loads.of, range(len(machines)))
-        return list(map(_loaded, own, machines, loads, bent))
+        return list(map(_loaded, self._unloaded, machines, loads, bent))
 
     @cached_property
     def sizing_loads(self) -> PartLoads:
@@ -184,8 +192,12 @@ class UnderLoad:
         """The dimensions of stressed parts, (m,); None if no design has parts, or a load."""
         if not self.machine.spec.is_loaded:
             return None
-        each = zip(self.designs.each, self.layouts, strict=True)
-        return batched([_stressed(*one) for one in each])
+        own: Callable[[Mechanism], Stressed | None] | None
+        own = thing(self.machine.spec.wheel.NAME, "stressed")
+        if own:
+            each = (one if one.spec.has_parts else None for one in self.designs.each)
+            return batched([_or_none(own, one) if one else None for one in each])
+        return batched([stressed(*one) if one else None for one in self.layouts])
 
     @property
     def contact_mm(self) -> float | None:
@@ -247,10 +259,7 @@ class UnderLoad:
 
 def _unloaded(machine: Mechanism) -> Unloaded | None:
     """The parts of a design without its load; None for one without flat parts."""
-    try:
-        return unloaded(assembly(machine)) if machine.spec.is_flat else None
-    except GenevaError:  # the check of the parts reports the error
-        return None
+    return _or_none(lambda: unloaded(assembly(machine))) if machine.spec.is_flat else None
 
 
 def _loaded(
@@ -260,20 +269,15 @@ def _loaded(
     if parts is None:
         return None
     where = parts.assembly._replace(full=machine)
-    try:
-        return where, loaded(parts._replace(assembly=where), loads, bent_MPa)
-    except GenevaError:  # the check of the parts reports the error
-        return None
+    sizes = _or_none(loaded, parts._replace(assembly=where), loads, bent_MPa)
+    return (where, sizes) if sizes else None
 
 
-def _stressed(machine: Mechanism, layout: Layout | None) -> Stressed | None:
-    """The stressed parts of a design, flat ones by their layout; None if they do not fit."""
-    if layout or machine.spec.is_flat or not machine.spec.has_parts:
-        return stressed(*layout) if layout else None
+def _or_none(make: Callable[..., T], *of: object) -> T | None:
+    """The result of a function; None for an error, which the check of the parts reports."""
     try:
-        own = thing(machine.spec.wheel.NAME, "stressed")
-        return own(machine) if own else None
-    except GenevaError:  # the check of the parts reports the error
+        return make(*of)
+    except GenevaError:
         return None
 
 

@@ -10,18 +10,18 @@ import numpy as np
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.loads.impacts.impacts import mouth_jumps_worst
 from geneva_cli.loads.tolerance.dimensions import Deviations, corners, tolerances, without_effect
-from geneva_cli.loads.tolerance.draws import Draws
 from geneva_cli.loads.tolerance.entry_jump import entry_jumps
 from geneva_cli.loads.tolerance.locking import CutLock
 from geneva_cli.loads.tolerance.motion_error import WorstErrors, motion_errors
 from geneva_cli.loads.tolerance.random_machines import (
+    Draws,
     RandomMachines,
     Spread,
     likely_place,
     random_machines,
     spread,
 )
-from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst
+from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst, used
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.parts import Parts
@@ -57,7 +57,12 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
     Raises GenevaError without tolerances, and for numbers of samples and seeds out of range.
     """
     _refuse(mechanism, samples, seed)
-    use, warnings = _applicable(mechanism)
+    use, given = used(mechanism), tolerances(mechanism.spec)
+    warnings = [
+        Notice("tolerance-left-out", f"{name} is left out: {reason}")
+        for name, reason in without_effect(mechanism.spec).items()
+        if given[name]
+    ]
     _refuse_large(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
@@ -152,17 +157,6 @@ def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
                 "the wheel's axis or the crank's",
                 ("tolerance", "center_distance_mm"),
             )
-
-
-def _applicable(mechanism: Mechanism) -> tuple[dict[str, float], list[Notice]]:
-    """The tolerances, 0 for those without effect in this machine, and the reasons."""
-    use, warnings = dict(tolerances(mechanism.spec)), list[Notice]()
-    why = without_effect(mechanism.spec)
-    for name, reason in why.items():
-        if use[name]:
-            use[name] = 0.0
-            warnings.append(Notice("tolerance-left-out", f"{name} is left out: {reason}"))
-    return use, warnings
 
 
 def _locks(mechanism: Mechanism, parts: Parts, warnings: list[Notice]) -> Sequence[CutLock]:

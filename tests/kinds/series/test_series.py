@@ -42,7 +42,8 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.link_positions import links_at
-from geneva_cli.parts.machine_sizes import outlines
+from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.specfile.writer import spec_lines
@@ -167,7 +168,7 @@ def test_the_parts_of_wheel_and_crank_do_not_change(spec):
     for a, b in zip(here.slot(x, 0), own.slot(here.own_deg(x), 0), strict=True):
         assert np.abs(a.c[0] - b.c[0]).max() <= 1e-15
     assert here.inputs_deg(here.own_deg(x)) == pytest.approx(x, abs=1e-12)
-    assert outlines(geared).wheel == outlines(plain).wheel
+    assert drawn(*machine_sizes(geared)).wheel == drawn(*machine_sizes(plain)).wheel
 
 
 def test_both_rollers_of_gear_sectors_have_their_own_phase():

@@ -28,7 +28,6 @@ from geneva_cli.verdict.quantities.part_strength import (
     crank_shaft,
     horn,
     pin,
-    wheel_key,
     wheel_shaft,
 )
 
@@ -228,13 +227,3 @@ def test_a_batch_of_spheres_has_the_numbers_of_its_designs():
     )
     torques = np.geomspace(0.01, 3e3, some(8, 3))
     require_same_in_a_batch(spec, torques, (pin, horn, wheel_shaft, crank_shaft, arm, crank_key))
-
-
-def test_the_bore_of_a_sphere_s_wheel_holds_the_torque_of_the_dwell():
-    """Of 200 N m, 40 times the torque of the motion."""
-    size = Size(center_distance_mm=160.0, wheel_keyway="DIN 6885-1")
-    load = Load(torque_Nm=5.0, dwell_torque_Nm=200.0)
-    designs = Designs(build(Spec(Spherical(6), size=size, load=load)))
-    assert wheel_shaft(designs)["moment_Nm"] == pytest.approx(200.0, rel=1e-12)
-    assert wheel_shaft(designs)["margin"] >= 0.0
-    assert wheel_key(designs)["margin"] >= 0.0
