@@ -3,20 +3,16 @@
 import math
 import os
 import re
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import tomli
 from scipy.optimize import brentq
 
 from geneva_cli import GenevaError, load
 from geneva_cli.parts.parts import Parts
 from geneva_cli.study.sweep import best_search
 from geneva_cli.study.sweep.best import best_spec
-from geneva_cli.study.sweep.best_search import SweepSearch
 from geneva_cli.study.sweep.outcome import Outcome
-from geneva_cli.study.sweep.places import BestPlaces, closer
 from geneva_cli.study.sweep.request import request
 
 SPEC = os.path.join(os.path.dirname(__file__), *[os.pardir] * 2, "designs", "side-crank-z6.toml")
@@ -48,19 +44,6 @@ def test_the_bound_that_binds_is_met_exactly(tmp_path):
     assert any("timing.dwell_s >= 0.55" in line and "(binds)" in line for line in lines)
 
 
-def test_a_bound_that_rounding_breaks_is_said_to_be_met_to_rounding(tmp_path):
-    """A dwell of 2/3 s is what z = 6 has; asked for a little more, no key is free to give it."""
-    bound = 2.0 / 3.0 * (1.0 + 1e-10)
-    lines, _ = best(
-        tmp_path,
-        "drive.A=0",
-        best="min:acceleration.max",
-        random=None,
-        subject_to=[f"dwell_s >= {bound!r}"],
-    )
-    assert lines[1].endswith("(binds, met to rounding)")
-
-
 def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatch):
     """Its gaps take a full turn of the parts, which need not be made of a thousand designs."""
     turned = []
@@ -73,22 +56,6 @@ def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatc
     (gap,) = (check.value for check in design.checks if check.name == "gap_mm")
     assert float(said["parts.smallest_gap_mm"]) == gap
     assert (said["drive.kind"], said["checks.passes"]) == ("side-crank", "yes")
-
-
-@pytest.mark.parametrize(
-    ("goal", "bounds"),
-    [
-        ("min:timing.shortest_motion_s", []),
-        ("min:timing.motion_s", ["timing.shortest_motion_s >= 0.001"]),  # a batch has the goal
-    ],
-)
-def test_where_designs_are_worked_out_one_by_one_no_clouds_are(goal, bounds):
-    """The shortest motion of all is: 18,000 designs about the best ones would take minutes."""
-    spec = os.path.join(os.path.dirname(SPEC), "unequal-steps.toml")
-    asked = request(spec, ["drive.n_rpm=10..60"], random=2, jobs=1, best=goal, subject_to=bounds)
-    rows = [row for block in asked.blocks() for row in block]
-    search = SweepSearch(asked.sweep, asked.objectives[0], asked.constraints)
-    assert closer(search, rows) == rows
 
 
 def test_a_search_that_is_cut_short_says_so(tmp_path, monkeypatch):
@@ -114,37 +81,6 @@ def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):
     assert design.peaks.velocity.max <= 0.8
 
 
-def test_each_number_of_slots_has_a_place():
-    """The worst of 22 numbers is refined too, though 63 places of the others are better."""
-    rows = [(z, x, z + x) for z in range(3, 25) for x in (0.1, 0.5, 0.9)]
-    search = SimpleNamespace(
-        free=[1],
-        keys=lambda row: row[:2],
-        fractions=lambda row: np.array([row[1]]),
-        merit=lambda row: (0.0, row[2]),
-    )
-    places = BestPlaces(search)
-    places.add(rows)
-    best = places.best()
-    assert [row[2] for row in best] == sorted([z + 0.1 for z in range(3, 25)] + [3.5, 3.9])
-
-
-@pytest.mark.long
-def test_the_number_of_slots_is_not_left_to_luck(tmp_path):
-    """64 designs are three for each number of slots, and nearly none of them within the bounds.
-
-    More slots are gentler and so are a slower input and a longer motion, so that both bounds bind
-    with 24: 40 rpm, and A = sin((140 - 165)/2)/sin(165/2) by the law of sines (theory.md, 1.8).
-    """
-    bounds = ["cycle_s <= 1.5", "motion_deg <= 140"]
-    spans = ["drive.A=-0.9..0.95", "wheel.z=3..24", "drive.n_rpm=10..100"]
-    asked = {"best": "min:acceleration.max_rad_s2", "subject_to": bounds, "random": 64}
-    _, design = best(tmp_path, *spans, **asked)
-    A = np.sin(np.radians((140 - 165) / 2)) / np.sin(np.radians(165 / 2))
-    assert (design.spec.wheel.z, design.spec.drive.A) == (24, pytest.approx(A, abs=1e-6))
-    assert design.spec.drive.n_rpm == pytest.approx(40.0, rel=1e-8)
-
-
 def test_the_greatest_and_the_words(tmp_path):
     _, design = best(
         tmp_path,
@@ -154,13 +90,6 @@ def test_the_greatest_and_the_words(tmp_path):
         random=None,
     )
     assert (design.spec.wheel.z, design.spec.wheel.NAME) == (4, "external")
-
-
-def test_a_title_with_quotation_marks_survives(tmp_path):
-    found = request(SPEC, ["wheel.z=4,5"], ['title=a "b" c'], best="min:jerk.max", jobs=1)
-    assert tomli.loads("\n".join(best_spec(Outcome(found), found.blocks())))["title"] == (
-        'Least jerk.max, varied from: a "b" c'
-    )
 
 
 def test_a_front_within_bounds():

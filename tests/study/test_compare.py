@@ -1,8 +1,5 @@
 """Designs side by side: the same rows for every machine, and the numbers of their own reports."""
 
-import csv
-import io
-import json
 import os
 
 import pytest
@@ -31,16 +28,6 @@ def test_the_papers_ratios():
     found = by_quantity(compare([path("side-crank-z6.toml")], vary=["drive.A=0.6,0"], ratio=True))
     ratios = [found[f"{name}.max"]["drive.A=0"] for name in ("velocity", "acceleration", "power")]
     assert [round(r, 3) for r in ratios] == [1.6, 2.583, 4.164]
-
-
-def test_what_has_no_ratio_has_none():
-    """Over 0 and over nothing; 0 over a number is 0, and words stay."""
-    fields = ["acceleration.entry", "jerk.at_deg", "wheel.gearing", "not_driven_share"]
-    both = [path("press-345.toml"), path("press-straight.toml")]
-    found = by_quantity(compare(both, picks=fields, ratio=True))
-    assert [row["press-straight"] for row in found.values()] == [None, 0.0, "external", None]
-    swapped = by_quantity(compare(both[::-1], picks=fields, ratio=True))
-    assert [row["press-345"] for row in swapped.values()] == [0.0, None, "external", None]
 
 
 def test_what_nothing_bounds_is_none():
@@ -83,29 +70,12 @@ def test_keys_in_which_specs_differ(tmp_path):
     assert "drive.before.A" not in by_quantity(compare([near], vary=["drive.before.A=0.3,0.5"]))
 
 
-def test_a_single_design_differs_from_none():
-    table = compare([path("turret.toml")], picks=["k", "tau"])
-    assert table.names == ("quantity", "turret")
-    assert len(differing(table)) == 0
-
-
 def test_every_machine_has_the_same_rows():
     """Several designs at once; what a machine does not have is None."""
     names = some(NAMES[::3], NAMES[::9])
     table = compare([path(n) for n in names])
     assert len(table.names) == len(names) + 2
     assert by_quantity(table).keys() >= {"timing.dwell_s", "acceleration.max", "sizes.ratio"}
-
-
-def test_json_has_every_design_by_its_heading(capsys):
-    """drive.A=0.6 is no path: drive, A=0, 6 would be hidden by drive.A=0."""
-    from geneva_cli.output import show
-
-    varied = ["drive.A=0.6,0", "wheel.z=6"]
-    show(compare([path("side-crank-z6.toml")], vary=varied, picks=["k"]), "-", "json")
-    (row,) = json.loads(capsys.readouterr().out)["rows"]
-    assert list(row) == ["quantity", "drive.A=0.6 wheel.z=6", "drive.A=0 wheel.z=6", "differs"]
-    assert row["drive.A=0 wheel.z=6"] == pytest.approx(0.5, rel=1e-15)
 
 
 def test_differing_rows_are_marked_and_alone_on_request():
@@ -131,43 +101,11 @@ def test_rounding_is_no_difference(tmp_path):
     assert not pv["differs"] and L["differs"]
 
 
-def test_a_play_of_rounding_is_that_of_none():
-    """Two lock plays of 0 degrees, one of them 6e-15; the power of a watch is far below 1 nW."""
-    rows = by_quantity(
-        compare(
-            [path("internal-z6.toml")],
-            vary=["size.center_distance_mm=100,170"],
-            picks=["strength.lock.play_deg"],
-        )
-    )
-    assert not rows["strength.lock.play_deg"]["differs"]
-    watch = compare(
-        [path("wandering-hours.toml")],
-        vary=["load.inertia_kgm2=0.01,0.02"],
-        picks=["loads.kinetic_power_W", "cycle.power_W.min"],
-    )
-    assert all(row["differs"] for row in by_quantity(watch).values())
-
-
 def test_picked_quantities_by_whole_and_short_names():
     """And a check that other machines have, whose row here would be empty."""
     some = ["dwell_s", "acceleration.max", "passes", "branches_apart_mm"]
     table = compare([path("limits.toml")], picks=some)
     assert list(by_quantity(table)) == ["timing.dwell_s", "acceleration.max", "checks.passes"]
-
-
-def test_what_makes_parts_is_shown_only_where_it_is_picked(monkeypatch):
-    """Parts take seconds; tolerances.toml has all that they are made for."""
-
-    def made(*inputs):
-        raise AssertionError("parts are made")
-
-    monkeypatch.setattr("geneva_cli.parts.flat_parts.drawn", made)
-    found = by_quantity(compare([path("tolerances.toml")]))
-    assert "acceleration.max" in found
-    assert not [q for q in found if q.startswith(("parts", "tolerance", "checks"))]
-    with pytest.raises(AssertionError, match="parts are made"):
-        compare([path("tolerances.toml")], picks=["dwell_position.worst_deg"])
 
 
 def test_two_keys_vary_as_a_grid():
@@ -198,55 +136,3 @@ def test_what_cannot_be_compared(arguments, said):
     with pytest.raises(GenevaError) as error:
         compare([path("side-crank-z6.toml")], **arguments)
     assert said in str(error.value)
-
-
-def test_a_design_beside_itself_is_refused():
-    with pytest.raises(GenevaError, match="given twice"):
-        compare([path("limits.toml")] * 2)
-
-
-def test_a_small_number_is_no_noise_beside_another_quantity(capsys):
-    """In one column 1e-25 of jerk stands beside 1e9 s, unlike in a column of one quantity."""
-    from geneva_cli.output import show
-
-    slow = ["drive.n_rpm=1e-8"]
-    show(compare([path("side-crank-z6.toml")], slow, picks=["motion_s", "jerk.max_rad_s3"]))
-    jerk = capsys.readouterr().out.splitlines()[-1].split()
-    assert jerk[0] == "jerk.max_rad_s3" and 0.0 < float(jerk[1]) < 1e-20
-
-
-HOSTILE = ("a,b", "c\nd", "=cmd", "e\x1b[31mf", "g\u202eh", "[red]i|j")
-SHOWN = ("a,b", "c d", "=cmd", "e [31mf", "g h", "[red]i|j")  # as the table's other texts are
-
-
-def test_file_names_are_escaped_in_headings_as_in_cells(tmp_path, capsys):
-    """A name with a comma is one column, one with = no formula; none reaches the terminal raw."""
-    from geneva_cli.output import show, text
-    from geneva_cli.output.terminal import terminal_tables as terminal
-    from geneva_cli.output.terminal.layout import Window
-
-    with open(path("limits.toml"), encoding="utf-8") as file:
-        spec = file.read()
-    paths = [str(tmp_path / f"{name}.toml") for name in HOSTILE]
-    for one in paths:
-        with open(one, "w", encoding="utf-8") as file:
-            file.write(spec)
-    table = compare(paths, picks=["dwell_s"])
-
-    show(table, "-", "csv")
-    head, row = csv.reader(io.StringIO(capsys.readouterr().out))
-    formula = [f"'{name}" if name.startswith("=") else name for name in SHOWN]
-    assert head == ["quantity", *formula, "differs"]
-    assert len(row) == len(head)
-
-    show(table, "-", "json")
-    (found,) = json.loads(capsys.readouterr().out)["rows"]
-    assert list(found) == ["quantity", *HOSTILE, "differs"]
-
-    show(table, "-", "md")
-    said = capsys.readouterr().out
-    assert said.count("\n") == 3 and "\\[red\\]i\\|j" in said
-    seen = "".join(terminal.chunks(table, Window(80, styled=True)))
-    for written in (said, "".join(text.chunks(table)), seen):
-        assert "\x1b[31mf" not in written and "\u202e" not in written
-    assert "[red]i|j" in seen

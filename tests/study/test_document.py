@@ -2,9 +2,7 @@
 
 import functools
 import json
-import math
 import re
-import unicodedata
 from collections.abc import Iterator
 from html.parser import HTMLParser
 from pathlib import Path
@@ -18,10 +16,8 @@ from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
-from geneva_cli.geometry.shapes import Line, closed
-from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output import jsonfile
-from geneva_cli.output.document import document_markdown, document_pdf, html, pdf_table
+from geneva_cli.output.document import document_markdown, document_pdf, html
 from geneva_cli.output.document.blocks import (
     Document,
     Fact,
@@ -31,10 +27,8 @@ from geneva_cli.output.document.blocks import (
     TextList,
     value_text,
 )
-from geneva_cli.output.document.html import inline
 from geneva_cli.output.letters import western
-from geneva_cli.output.pdf import pdf_drawing, pdf_file
-from geneva_cli.output.pdf.pdf_pages import SOFT, lines, wide
+from geneva_cli.output.pdf.pdf_pages import wide
 from geneva_cli.study.document import document
 from geneva_cli.table import record_table
 
@@ -176,29 +170,6 @@ def test_a_page_is_well_formed_and_needs_nothing_else(name: str) -> None:
     assert text == "".join(html.chunks(found))
 
 
-def test_a_design_has_one_document() -> None:
-    """However often, and whichever answers were asked for before."""
-    design, found = of("spherical-z6")
-    again = Design.of(design.spec)
-    assert again.loads and "".join(html.chunks(document(again))) == "".join(html.chunks(found))
-
-
-def test_the_styles_of_a_drawing_are_its_own() -> None:
-    svg = (
-        '<?xml version="1.0"?>\n<svg xmlns="x"><title>a</title><style>\n'
-        "@media (prefers-color-scheme: dark) {\n.page { fill: #15181c } #TEXT, .b { fill: red }\n"
-        "g[id='WHEEL'] { stroke: #73b7ce }\n}\n</style>\n"
-        '<g id="WHEEL" fill="url(#hatch)"/></svg>'
-    )
-    assert inline([svg], "one") == (
-        '<svg id="one" xmlns="x"><title>a</title><style>\n'
-        "@media screen and (prefers-color-scheme: dark) {\n"
-        "#one .page { fill: #15181c }#one #one-TEXT, #one .b { fill: red }\n"
-        "#one g[id='one-WHEEL'] { stroke: #73b7ce }\n}\n</style>\n"
-        '<g id="one-WHEEL" fill="url(#one-hatch)"/></svg>'
-    )
-
-
 def said(text: str) -> tuple[list[str], dict[int, str]]:
     """The texts of a PDF in their order, and its objects."""
     found, _ = objects(text)
@@ -228,34 +199,6 @@ def test_a_pdf_holds_title_verdict_and_every_check(name: str, jams: str) -> None
     assert text == "".join(document_pdf.chunks(found)) and "CreationDate" not in text
 
 
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("name", ["turret", "spherical-z6", "press-curved", "internal-z6"])
-def test_page_1_is_machine_verdict_key_figures_and_motor(name: str) -> None:
-    _, found = of(name)
-    every, _ = objects("".join(document_pdf.chunks(found)))
-    first = next(body for _, body in sorted(every.items()) if "stream" in body)
-    texts = [_plain(t) for t in re.findall(r"\(((?:[^()\\]|\\.)*)\) Tj", first)]
-    assert found.verdict in texts
-    assert {"The machine", "In short", "Cycle", "Size", "Tightest", "Motor"} <= set(texts)
-    (grid,) = (b for b in found.blocks if isinstance(b, Grid) and b.caption == "In short")
-    assert len(grid.rows) == 7
-
-
-def test_the_parts_list_fits_its_columns() -> None:
-    """No heading and no number of it is broken."""
-    _, found = of("turret")
-    texts, _ = said("".join(document_pdf.chunks(found)))
-    assert {"Count", "Mass, kg", "461.94", "143.342", "material.wheel"} <= set(texts)
-    assert "Centroid x, mm" in texts
-
-
-def test_a_power_of_ten_is_raised_on_paper() -> None:
-    """The exponent is smaller and higher, and no caret stands before it."""
-    shown_ = pdf_file.text(western(value_text(1.21353e-6)), (0.0, 0.0), 10.0)
-    assert "10) Tj /F1 7 Tf 3.3 Ts (-6) Tj" in shown_
-    assert pdf_file.wide("10^-6", 10.0) < pdf_file.wide("10-6", 10.0)
-
-
 @pytest.mark.usefixtures("no_advice")
 def test_nothing_of_a_pdf_leaves_its_page(jams: str) -> None:
     """Texts end before the margin, and stand between the first line and the page's number."""
@@ -266,30 +209,6 @@ def test_nothing_of_a_pdf_leaves_its_page(jams: str) -> None:
         end = float(x) + wide(_plain(text), float(size), font == "2")
         assert float(x) >= 16.0 and end <= 210.0 - 15.9, text
         assert 11.0 <= float(y) <= 281.0, text
-
-
-@pytest.mark.parametrize(
-    ("wide_mm", "high_mm", "x", "y"),
-    [(400.0, 50.0, (19.0, 191.0), (225.5, 247.0)), (50.0, 400.0, (99.25, 110.75), (155.0, 247.0))],
-)
-def test_a_drawing_is_as_large_as_its_page_lets_it_be(wide_mm, high_mm, x, y) -> None:
-    """172 mm wide between margins of 16 + 3 mm, or 92 mm high, below a line at 250 mm."""
-    corners = [(0.0, 0.0), (wide_mm, 0.0), (wide_mm, high_mm), (0.0, high_mm)]
-    sides = [Line(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)]
-    stream = pdf_drawing.drawing(Drawing("", (closed("FRAME", sides),))).draw(250.0)
-    shapes, _, _ = stream.partition(SOFT)  # the ink of notes
-    points = re.findall(r"^(\S+) (\S+) [ml]$", shapes, re.MULTILINE)
-    xs, ys = ([float(one) for one in row] for row in zip(*points, strict=True))
-    assert (min(xs), max(xs)) == x
-    assert (min(ys), max(ys)) == y
-
-
-def test_lines_fit_and_lose_no_word() -> None:
-    text = "material.roller.youngs_modulus_GPa and a word that is very, very long " + "x" * 90
-    for room in (18.0, 40.0, 120.0):
-        found = lines(text, 2.8, room)
-        assert all(wide(line, 2.8) <= room + 1e-9 for line in found)
-        assert "".join(found).replace(" ", "") == text.replace(" ", "")
 
 
 @pytest.mark.usefixtures("no_advice")
@@ -355,12 +274,6 @@ def test_inputs_say_what_is_a_default() -> None:
     assert not {fact.name for fact in appendix.facts} & set(rows)
 
 
-def test_sources_are_those_of_the_machine() -> None:
-    for name, source in (("turret", "handbook no. 7"), ("cam-geneva", "law of sines")):
-        told = next(b for b in reversed(of(name)[1].blocks) if isinstance(b, TextList))
-        assert isinstance(told, TextList) and any(source in text for text in told.texts[:2])
-
-
 def test_what_is_not_drawn_is_said_in_its_place(tmp_path: Path) -> None:
     assert any(isinstance(block, Picture) for block in of("turret")[1].blocks)
     (flat,) = (b for b in of("spherical-z6")[1].blocks if isinstance(b, Picture))
@@ -369,25 +282,6 @@ def test_what_is_not_drawn_is_said_in_its_place(tmp_path: Path) -> None:
     file.write_text("[wheel]\nz = 400\n", encoding="utf-8")
     said_ = "".join(document_markdown.chunks(made(str(file))[1]))
     assert "Not drawn: z = 400" in said_
-
-
-def test_a_value_that_is_none_of_a_number_is_never_shown() -> None:
-    with pytest.raises(ArithmeticError, match="not a number"):
-        value_text(math.nan)
-    assert value_text(math.inf) == "no bound"
-    assert (value_text(-0.0, "°"), value_text((1.0, 2.5), "mm")) == ("0°", "1 mm, 2.5 mm")
-    assert value_text(1.21353e-6, "kg m²") == "1.21353\u00a0×\u00a010⁻⁶ kg m²"
-
-
-def test_letters_beyond_the_western_ones_are_spelled() -> None:
-    text = "ψ θ Ω d³ψ/dθ³ 10⁻⁶ 10⁻³ ≥ ñ ő Д 中 m²"
-    spelled = western(text)
-    assert spelled.encode("cp1252").decode("cp1252") == spelled
-    assert spelled == "psi theta Omega d³psi/dtheta³ 10^-6 10^-3 >= ñ o [U+0414] [U+4E2D] m²"
-    every = [chr(i) for i in range(32, 0x2800) if unicodedata.category(chr(i))[0] in "LNPS"]
-    asked = [c for c in every if "?" in unicodedata.normalize("NFKD", c)]
-    assert "?" in asked and len(asked) < 10
-    assert "?" not in western("".join(c for c in every if c not in asked))
 
 
 @pytest.mark.sampled(3)
@@ -401,12 +295,3 @@ def test_every_format_lists_the_same_warnings(name: str) -> None:
     told = design.report.table.to_dict()["warnings"]
     assert block.texts == told == tuple(design.warnings)
     assert sum("the wheel's own inertia" in text for text in told) == 1
-
-
-def test_a_unit_on_paper_is_not_broken() -> None:
-    """In a column of short words a cell has one text, of a sentence several."""
-    sentence = "a sentence that is long enough to be broken into lines " * 4
-    table = Grid("", ("Key", "Unit", "Meaning"), (("inertia", "kg m²", sentence),))
-    stream = "".join(item.draw(250.0) for item in pdf_table.grid(table))
-    assert stream.count(r"(kg m\262) Tj") == 1
-    assert sentence not in stream and "sentence" in stream

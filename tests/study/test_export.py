@@ -1,9 +1,7 @@
 """`geneva export`: the files of each trade, all or none, and no file of a person replaced."""
 
 import csv
-import math
 import os
-import stat
 
 import ezdxf
 import pytest
@@ -96,39 +94,6 @@ def test_what_is_printed_is_as_large_as_the_list_says(spec, tmp_path):
         assert mesh.volume == pytest.approx(volume, rel=0.02)
 
 
-def test_the_spec_makes_the_same_files(tmp_path):
-    """With the settings, and the points of the law, which are in the folder too."""
-    first, second = tmp_path / "first", tmp_path / "second"
-    settings = "--set", "size.process=laser", "--set", "size.center_distance_mm=50"
-    assert (
-        run(repo.DESIGNS / "table-law.toml", *settings, "--for", "laser", "-o", first).exit_code
-        == 0
-    )
-    assert run(first / "spec.toml", "--for", "laser", "-o", second).exit_code == 0
-    assert bytes_of(first) == bytes_of(second)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("name", ["ratio.csv", "parts.csv", "contents.csv", "a,b.csv"])
-def test_points_of_gears_are_in_the_folder(name, tmp_path):
-    """Whatever their file is called: the folder is replaced, and its spec makes the same files.
-
-    The sheet shows the file's name, which is another one only after the first time.
-    """
-    folders, source = [tmp_path / f"{i}" for i in range(3)], tmp_path / "gears.toml"
-    ratios = [(x, 1.0 - 0.3 * math.cos(math.radians(x))) for x in range(0, 361, 15)]
-    (tmp_path / name).write_text("".join(f"{x},{y:.6f}\n" for x, y in ratios))
-    source.write_text(
-        'title = "gears"\n[wheel]\nz = 6\n'
-        f'[drive]\nkind = "noncircular-gears"\nratio_file = "{name}"\n'
-    )
-    assert run(source, "--for", "laser", "-o", folders[0]).exit_code == 0
-    for spec, folder in zip([source, *(f / "spec.toml" for f in folders)], folders, strict=False):
-        assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
-    assert bytes_of(folders[1]) == bytes_of(folders[2])
-    assert set(bytes_of(folders[0])) == set(bytes_of(folders[1]))
-
-
 @pytest.mark.sampled(48)
 @pytest.mark.parametrize("design", sorted(repo.DESIGNS.glob("*.toml")), ids=lambda p: p.stem)
 @pytest.mark.parametrize("trade", [None, *TRADES])
@@ -138,16 +103,6 @@ def test_every_design_has_files_of_other_names(design, trade):
     names = [file.name for file in files]
     assert len(names) == len(set(names)) and not missing
     assert {"parts.csv", "spec.toml"} <= set(names)
-
-
-@pytest.mark.long
-def test_everything(tmp_path):
-    folder = tmp_path / "out"
-    assert run(repo.DESIGNS / "turret.toml", "-o", folder).exit_code == 0
-    first = bytes_of(folder)
-    assert {"report.html", "machine.html", "assembly.step", "plate.3mf"} <= set(first)
-    assert run(repo.DESIGNS / "turret.toml", "-o", folder).exit_code == 0
-    assert bytes_of(folder) == first
 
 
 def test_its_own_folder_is_replaced(spec, tmp_path):
@@ -200,23 +155,6 @@ def test_what_a_person_adds_or_changes_meanwhile_stays(spec, tmp_path, monkeypat
     assert bytes_of(folder) == before | {"notes.txt": b"work"}
 
 
-def test_a_changed_file_of_an_earlier_run_stays(spec, tmp_path):
-    folder = tmp_path / "out"
-    assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
-    (folder / "wheel-1x-3mm.dxf").write_text("work")
-    result = run(spec, "--for", "print", "-o", folder)
-    assert result.exit_code == 0
-    assert "wheel-1x-3mm.dxf: warning: no file of this design now" in result.stderr
-    assert [path.name for path in folder.glob("*.dxf")] == ["wheel-1x-3mm.dxf"]
-
-
-def test_the_current_folder(spec, tmp_path, monkeypatch):
-    (tmp_path / "out").mkdir()
-    monkeypatch.chdir(tmp_path / "out")
-    assert run(spec, "--for", "print", "-o", ".").exit_code == 0
-    assert {"wheel-1x-3mm.stl", "contents.csv"} <= set(os.listdir())
-
-
 def test_an_input_in_the_folder_stays(spec, tmp_path):
     folder = tmp_path / "out"
     assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
@@ -252,18 +190,3 @@ def test_refused(spec, tmp_path):
     assert jams.exit_code == 1
     assert "--force writes it anyway" in jams.stderr
     assert not (tmp_path / "out").exists()
-
-
-def test_permissions(spec, tmp_path):
-    """A new folder has the usual ones; an old one, and the files in it, keep theirs."""
-    folder, usual = tmp_path / "out", tmp_path / "usual"
-    usual.mkdir()
-    assert run(spec, "--for", "print", "-o", folder).exit_code == 0
-    assert folder.stat().st_mode == usual.stat().st_mode
-    kept = {folder: 0o2775, folder / "parts.csv": 0o640, folder / "contents.csv": 0o600}
-    for path, mode in kept.items():
-        path.chmod(mode)
-    inode = folder.stat().st_ino  # another folder could not be renamed over a mount point
-    assert run(spec, "--for", "print", "-o", folder).exit_code == 0
-    assert {path: stat.S_IMODE(path.stat().st_mode) for path in kept} == kept
-    assert folder.stat().st_ino == inode

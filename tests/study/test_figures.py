@@ -14,18 +14,16 @@ from geneva_cli import (
     EllipticalGears,
     External,
     Harmonic,
-    Internal,
     Load,
     Motion,
     load,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.cycle_figures import AXIS_BY_NAME, MACHINES_MAX, USUAL_QUANTITIES, figure
-from geneva_cli.loads.load_tables import SHOWN_QUANTITIES
+from geneva_cli.loads.cycle_figures import MACHINES_MAX, USUAL_QUANTITIES, figure
 from geneva_cli.loads.stages import motion_stages
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined, thinned
+from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 LOADED = Load(inertia_kgm2=0.4, torque_Nm=15)
@@ -136,30 +134,6 @@ def test_the_end_of_a_dwell_meets_the_next_motion():
             assert x[-1] == next_x[0], path
 
 
-def test_several_machines_share_an_axis():
-    """From the earliest entry, over the longest period; shaded where all rest."""
-    six, three = Design(External(6)), Design(External(3))
-    inner = Design(Internal(6))
-    found, left = figure({"a": six.cycle, "b": three.cycle, "c": inner.cycle}, ["velocity"])
-    assert found.window == pytest.approx((-120.0, 240.0))
-    assert found.shaded == ((pytest.approx(120.0), pytest.approx(240.0)),)
-    assert left == []
-    for curve in found.panels[0].curves:
-        xs = [x for x, _ in points(curve)]
-        assert (min(xs), max(xs)) == pytest.approx(found.window)
-    # a shorter period is repeated: what the wheel has turned adds up
-    many = load(str(repo.DESIGNS / "three-rollers-z4.toml"))
-    found, _ = figure({"a": six.cycle, "b": many.cycle}, ["wheel_deg"])
-    turned = found.panels[0].curves[1].pieces
-    assert turned[-1][1][-1] - turned[0][1][0] == pytest.approx(270.0, abs=1e-9)
-
-
-def test_rollers_without_a_dwell_between_them():
-    moving = load(str(repo.DESIGNS / "two-pins-z4.toml"))
-    rests = moving.figure(["velocity"]).shaded
-    assert rests == ((pytest.approx(135.0), pytest.approx(315.0)),)
-
-
 def test_a_load_without_a_bound_leaves_the_panel():
     """A slot that lies across the pin's way at mid-motion, and a torque that is not 0 there."""
     design = Design(External(6), motion=Motion(Cycloidal(), ratio=0.42), load=LOADED)
@@ -210,10 +184,6 @@ def test_what_cannot_be_shown():
     assert left[0][1].startswith("no curve of pin_force_N, input_torque_Nm, ")
 
 
-def test_every_load_can_be_asked_for():
-    assert set(SHOWN_QUANTITIES) < set(AXIS_BY_NAME)
-
-
 # Points on a curve
 
 
@@ -232,22 +202,3 @@ def test_chords_stay_within_the_miss():
             off / np.hypot(1.0, slope)
         ).max() < 1.5 * CHORD_ERROR  # a chord's middle is not its worst
     assert len(x) < 500
-
-
-def test_thinning_keeps_near():
-    x = np.linspace(0.0, 6.0, 2001)
-    y = np.sin(x)
-    kept = thinned(x, y, 1e-3)
-    assert kept[0] == 0 and kept[-1] == 2000 and len(kept) < 100
-    assert np.abs(np.interp(x, x[kept], y[kept]) - y).max() < 1.5e-3
-    assert thinned(np.array([1.0]), np.array([2.0]), 1e-3) == [0]
-    assert thinned(np.array([1.0, 1.0]), np.array([2.0, 2.0]), 1e-3) == [0, 1]
-
-
-@pytest.mark.parametrize(("name", "noun"), [("linear", "rack"), ("turret", "wheel")])
-def test_a_panel_names_what_moves(name, noun):
-    design = load(str(repo.DESIGNS / f"{name}.toml"))
-    labels = [panel.y.label for panel in design.figure(["velocity", "jerk"]).panels]
-    # a rack's motion has the words of its report: Peaks: derivatives of the rack's travel over R
-    to = "derivative of its travel over R" if noun == "rack" else "relative to the input"
-    assert labels == [f"{what} of the {noun}, {to}" for what in ("Speed", "Jerk")]

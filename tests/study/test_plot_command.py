@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
 from geneva_cli.errors import GenevaError
-from geneva_cli.figure import JOINED, LINE, POINTS
+from geneva_cli.figure import JOINED, POINTS
 from geneva_cli.study.figures import CURVES_MAX, of_table
 
 SPEC = str(repo.DESIGNS / "side-crank-z6.toml")
@@ -67,35 +67,6 @@ def test_a_front_is_joined():
     assert x == sorted(x) and y == sorted(y)
 
 
-def test_a_spectrum_is_a_curve():
-    spec = str(repo.DESIGNS / "press-straight.toml")
-    assert run("vibration", spec, "--period-ratio", "4", "-o", "s.csv").exit_code == 0
-    figure = of_table("s.csv", "n_rpm", ["residual_share", "residual_deg"])
-    assert [p.curves[0].style for p in figure.panels] == [LINE, LINE]
-    assert figure.window == pytest.approx((30.0, 120.0))  # half to twice 60
-
-
-def test_gaps_stay_gaps():
-    """A design that cannot be built has no value: no line runs over it."""
-    file = put("drive.A,acceleration.max,error\n0,1,\n0.1,2,\n0.2,,jams\n0.3,4,\n0.4,5,\n")
-    (curve,) = of_table(file, "drive.A", ["acceleration.max"]).panels[0].curves
-    assert [x for x, _ in curve.pieces] == [[0.0, 0.1], [0.3, 0.4]]
-
-
-def test_a_column_that_holds_no_numbers():
-    file = put('drive.A,motion.law,timing.tau,error\n0,cycloidal,0.5,"no, it jams"\n1,3-4-5,nan,\n')
-    for x, y, wants in (
-        ("drive.A", "motion.law", '--y motion.law: no numbers in this column of rows.csv (as "cy'),
-        ("motion.law", "timing.tau", "--x motion.law: no numbers"),
-        ("drive.B", "timing.tau", '--x drive.B: no column of rows.csv (did you mean "drive.A"?)'),
-        ("drive.A", "timing.tou", 'timing.tou: no column of rows.csv (did you mean "timing.tau"?)'),
-        ("", "timing.tau", "rows.csv: --x COLUMN and --y COLUMN"),
-    ):
-        with pytest.raises(GenevaError) as error:
-            of_table(file, x, [y])
-        assert wants in str(error.value)
-
-
 def test_a_column_by_any_name_of_its_quantity():
     """A varied limit ends like the peak's other name, and is not meant by it."""
     swept = put("limits.acceleration_max,acceleration.max\n1,2\n3,5\n")
@@ -105,43 +76,11 @@ def test_a_column_by_any_name_of_its_quantity():
     assert of_table(table, "wheel.z", ["acceleration.max"]).x.label == "z"
 
 
-def test_an_ending_that_two_names_share():
-    file = put("drive.A,motion.max,acceleration.max\n0,1,2\n")
-    with pytest.raises(GenevaError, match=r"use .*motion\.max or .*acceleration\.max"):
-        of_table(file, "drive.A", ["max"])
-
-
-@pytest.mark.parametrize(
-    ("text", "wants"),
-    [
-        ("", "rows.csv: no rows"),
-        ("a,b\n", "rows.csv: no rows"),
-        ("a,b\n1,2\n3\n", "rows.csv:3: 1 fields, but the first line names 2"),
-        ("a,b\n1,\n,2\n", "no row of rows.csv has both it and a"),
-        ("a,b\n" + "1,inf\n", "no numbers"),
-    ],
-)
-def test_a_csv_that_is_none(text, wants):
-    with pytest.raises(GenevaError) as error:
-        of_table(put(text), "a", ["b"])
-    assert wants in str(error.value)
-
-
 def test_too_many_curves():
     rows = [f"{a},{z},{a * z}\n" for a in range(3) for z in range(CURVES_MAX + 1)]
     file = put("drive.A,wheel.z,velocity.max\n" + "".join(rows))
     with pytest.raises(GenevaError, match="13 curves, one for each combination"):
         of_table(file, "drive.A", ["velocity.max"])
-
-
-def test_one_point_and_a_constant():
-    """Neither has a span of its own; both are drawn."""
-    for text in ("a,b\n1,2\n", "a,b\n1,2\n2,2\n3,2\n"):
-        put(text)
-        for output in ("a.svg", "a.txt"):
-            assert run("plot", "rows.csv", "--x", "a", "--y", "b", "-o", output).exit_code == 0
-            with open(output, encoding="utf-8") as file:
-                assert "nan" not in file.read()
 
 
 @pytest.mark.parametrize(
@@ -178,11 +117,6 @@ def test_a_quantity_that_one_design_lacks_is_left_out_with_a_word():
         assert 'class="curve c1"' in file.read()
 
 
-def test_a_key_over_the_file_s_reaches_the_curves():
-    found = run("plot", SPEC, "--set", "drive.A=0", "--pick", "velocity")
-    assert "velocity: peak 1 at 0.00 deg" in found.stdout  # of a plain crank and six slots
-
-
 def test_one_spec_through_values_is_a_curve_for_each():
     """The same curves as of the key set over the file; several files have none to vary."""
     found = run("plot", SPEC, "--vary", "drive.A=0,0.6", "--pick", "velocity", "--format", "json")
@@ -195,12 +129,3 @@ def test_one_spec_through_values_is_a_curve_for_each():
     assert len(moving) > 20 and moving <= first  # it begins to rest elsewhere in the window
     refused = run("plot", SPEC, SPEC, "--vary", "drive.A=0,0.6")
     assert refused.exit_code == 2 and "--vary is for one SPEC" in refused.output
-
-
-def test_a_quantity_is_drawn_by_any_of_its_names():
-    """A peak, or a column of ``geneva table``, stands for the curve that it is of."""
-    shown = [
-        run("plot", SPEC, "--pick", name).stdout
-        for name in ("acceleration", "acceleration.max", "acceleration_max")
-    ]
-    assert shown[0] and shown[0] == shown[1] == shown[2]

@@ -18,7 +18,7 @@ from geneva_cli.study.survey import NAMES as TABLE
 from geneva_cli.study.synth.machine_rows import Candidate
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import GROUPS
-from geneva_cli.verdict.quantities.quantity_names import WORDS, group_of, whole_name
+from geneva_cli.verdict.quantities.quantity_names import WORDS, whole_name
 
 pytestmark = pytest.mark.usefixtures("made_once")
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
@@ -106,27 +106,6 @@ def test_a_column_of_table_and_synth_is_named_alike_everywhere():
             whole_name(name)
 
 
-def test_a_wheels_own_values_under_the_columns_of_its_table():
-    """limits.toml is a plain wheel: the row of ``table`` at its speed has the same numbers."""
-    design = load(LIMITS)
-    n = design.spec.drive.n_rpm
-    (row,) = csv.DictReader(
-        io.StringIO(geneva("table", "--z", "8", "--n", f"{n}", "--format", "csv"))
-    )
-    names = [n for n in TABLE if n not in KEYS and n not in ("gearing", "Am", "Vm", "Qm")]
-    for name, value in zip(names, pick(names).of(design.mechanism), strict=True):
-        assert value == pytest.approx(float(row[name]), rel=1e-12), name
-
-
-def test_a_bound_is_on_the_peak_and_not_on_its_limit():
-    """Issue: z = 6 has a peak of 1.35 (and a limit of its own), and more slots are gentler."""
-    vary = ("sweep", LIMITS, "--vary", "wheel.z=6..12")
-    rows = geneva(*vary, "--subject-to", "acceleration_max <= 1").splitlines()[1:]
-    assert [int(row.partition(",")[0]) for row in rows] == [7, 8, 9, 10, 11, 12]
-    front = geneva(*vary, "--pareto", "min:acceleration_max,max:dwell_s").splitlines()[1:]
-    assert len(front) == 7  # more slots: gentler, and less dwell
-
-
 def test_compare_and_synth_read_the_same_names():
     told = geneva("compare", LIMITS, "--pick", "acceleration_max,n_rpm", "--format", "json")
     quantities = [row["quantity"] for row in json.loads(told)["rows"]]
@@ -159,16 +138,3 @@ def test_what_no_name_is(asked, said):
         whole_name(asked, "--sort")
     assert str(error.value).startswith(f"--sort {asked}: ") and said in str(error.value)
     assert str(error.value).count(" or ") <= 5
-
-
-def test_keys_and_checks_give_way():
-    """A key has its whole name alone; a check is meant where no other quantity ends so."""
-    assert whole_name("inertia_kgm2") == "sizing.inertia_kgm2"
-    assert whole_name("inputs.load.inertia_kgm2") == "inputs.load.inertia_kgm2"
-    assert whole_name("horn_mm") == "parts.horn_mm"
-    assert whole_name("branches_apart_mm") == "checks.branches_apart_mm"
-    assert whole_name("checks.acceleration_max") == "checks.acceleration_max"
-    assert whole_name("pin_force_N_max") == whole_name("pin_force_N.max") == "loads.pin_force_N.max"
-    assert whole_name("power_W.max") == "loads.power_W.max"
-    assert whole_name("crank_bearing_N.rms") == "loads.crank_bearing_N.rms"
-    assert all(whole_name(name) == name for name in group_of())

@@ -11,11 +11,9 @@ import subprocess
 import sys
 import time
 from contextlib import closing
-from functools import lru_cache
 
 import pytest
 import repo
-import tomli
 from repo import heed_signals
 from typer.testing import CliRunner
 
@@ -23,7 +21,6 @@ from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
 from geneva_cli.output.growing import GrowingFile
 from geneva_cli.specfile.reader import read
-from geneva_cli.study.pool import mapped
 from geneva_cli.study.sweep.plan import Shard, plan
 from geneva_cli.study.sweep.request import request
 from geneva_cli.study.sweep.run import blocks, sweep
@@ -61,31 +58,6 @@ def test_each_row_is_the_designs_own():
         assert found[:2] == pytest.approx(one, rel=1e-14)
         assert found[2:] == [design.mechanism.rollers_max, "side-crank"]
         assert error is None
-
-
-def test_other_quantities_change_no_column():
-    """Whatever is requested besides, a batch computes what it can: the same digits."""
-    picks, axes = ["acceleration.max", "pin_force_N.max", "dwell_s"], grid("load.inertia_kgm2=1..9")
-    alone = rows(sweep(read(SPEC), axes, picks=picks), workers=1)
-    mixed = rows(sweep(read(SPEC), axes, picks=[*picks, "drive.kind"]), workers=1)
-    checked = rows(sweep(read(SPEC), axes, picks=[*picks, *CHECKED]), workers=1)
-    assert [row[:4] for row in mixed] == [row[:4] for row in alone]
-    assert [row[:4] for row in checked] == [row[:4] for row in alone]
-    assert [row[4] for row in mixed] == ["side-crank"] * 9
-
-
-def test_the_text_is_parsed_once(monkeypatch):
-    """However many designs are read of it one by one, and for the files that it names."""
-    parsed = []
-
-    def once(text):
-        parsed.append(text)
-        return tomli.loads(text)
-
-    monkeypatch.setattr("geneva_cli.specfile.reader._parsed", lru_cache(once))
-    run = geneva("sweep", SPEC, "--vary", "wheel.z=5,6,7", "--pick", "drive.kind", "--jobs", "1")
-    assert run.exit_code == 0
-    assert len(parsed) == 1
 
 
 def test_words_and_kinds_vary_too():
@@ -141,20 +113,6 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     other = geneva(*arguments, "--set", "drive.n_rpm=90", "-o", str(file), "--resume")
     assert other.exit_code == 2 and "has the rows of another run" in other.stderr
     assert file.read_text() == whole
-
-
-@pytest.mark.parametrize("ending", ["csv", "parquet"])
-def test_a_job_may_always_resume(tmp_path, ending):
-    """Its first run begins, one after the last has nothing to do and says so, and ends with 0."""
-    arguments = ["sweep", SPEC, "--vary", GRID[0], "-o", str(tmp_path / f"rows.{ending}")]
-    first = geneva(*arguments, "--resume")
-    assert first.exit_code == 0 and "from the first row" in first.stderr
-    whole = (tmp_path / f"rows.{ending}").read_bytes()
-    again = geneva(*arguments, "--resume")
-    assert again.exit_code == 0 and "is whole already" in again.stderr
-    other = geneva(*arguments, "--set", "wheel.z=7", "--resume")
-    assert other.exit_code == 0 and "from the first row" in other.stderr
-    assert (tmp_path / f"rows.{ending}").read_bytes() != whole
 
 
 @pytest.mark.parametrize("named", ["by the spec", "by a varied key"])
@@ -248,54 +206,6 @@ def test_what_takes_long_is_there_soon(picks):
     assert 0 < len(next(blocks(found, workers=1))) <= 8
 
 
-def test_a_wrong_range_of_a_key_that_the_spec_lacks_is_what_is_said(tmp_path):
-    """Not that the key is missing, which --vary gives."""
-    spec = tmp_path / "spec.toml"
-    spec.write_text('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\n')
-    found = geneva("sweep", str(spec), "--vary", "drive.A=0..1:0")
-    assert found.exit_code == 2
-    assert found.stderr.startswith("--vary drive.A=0..1:0: a step of 0 does not lead from 0 to 1")
-    assert geneva("sweep", str(spec), "--vary", "drive.A=0..0.5:0.1").exit_code == 0
-
-
-def test_the_best_of_some_says_what_was_left_out():
-    """A word that is none would else be passed over without one."""
-    words = ("sweep", SPEC, "--vary", "wheel.gearing=external,intrenal", "--best", "min:jerk.max")
-    found = geneva(*words)
-    assert found.exit_code == 0 and "# The least jerk.max" in found.stdout
-    assert "1 of 2 designs cannot be built: the first: wheel.gearing=intrenal" in found.stderr
-    assert 'did you mean "internal"?' in found.stderr
-
-
-def test_the_note_of_the_best_counts_the_designs_of_its_file(tmp_path):
-    """A sample of 16 and the spec's own design are 17; of rollers up to 90 mm some do not fit."""
-    spec = tmp_path / "spec.toml"
-    spec.write_text("[wheel]\nz = 6\n[size]\nroller_radius_mm = 8\n")
-    words = ("--vary", "size.roller_radius_mm=5..90", "--random", "16", "--best", "min:jerk.max")
-    found = geneva("sweep", str(spec), *words)
-    assert "# The least jerk.max of 17 designs" in found.stdout
-    assert re.search(r"\d of 17 designs cannot be built", found.stderr), found.stderr
-
-
-def interrupted(x):
-    os.kill(os.getpid(), signal.SIGINT)
-    return x
-
-
-def test_a_run_that_ignores_ctrl_c_goes_on():
-    """As one in the background of a script, where Ctrl-C reaches the processes that it began."""
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        assert [*mapped(interrupted, range(3), 2)] == [0, 1, 2]
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-@pytest.mark.parametrize("count", [2, 5, 40])
-def test_results_of_processes_stay_in_order(count):
-    assert [*mapped(abs, range(-count, 0), 2)] == [*range(count, 0, -1)]
-
-
 def test_other_formats_hold_the_same():
     arguments = ["sweep", SPEC, "--vary", GRID[0], "--subject-to", "jerk.max <= 6"]
     rows = json.loads(geneva(*arguments, "--format", "json").stdout)["rows"]
@@ -336,20 +246,6 @@ def test_a_varied_key_that_is_picked_too_has_one_column(tmp_path):
     assert [line.partition(",")[0] for line in front] == ["wheel.z", "5", "6"]
 
 
-def test_the_spec_may_come_from_a_pipe():
-    with open(SPEC, encoding="utf-8") as file:
-        found = subprocess.run(
-            [sys.executable, "-m", "geneva_cli", "sweep", "-", "--vary", "drive.A=0,0.5"],
-            stdin=file,
-            capture_output=True,
-            text=True,
-            timeout=60,
-            check=True,
-        )
-    assert len(found.stdout.splitlines()) == 3
-
-
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
@@ -401,28 +297,6 @@ def test_where_no_row_is_left_it_says_why():
     assert unknown.stderr.endswith("is left: no design has a value of loads.pin_force_N.max\n")
 
 
-def test_one_design_anywhere_tells_what_there_is():
-    """The first 1000 cannot be built, nor the one in the middle; a later one can."""
-    found = sweep(read(SPEC), grid("drive.A=-5..0.9:0.001"), picks=["velocity.max"])
-    assert found.rows(5900, 5901)[0][1] == pytest.approx(1.0 / 1.9, rel=1e-15)
-    with pytest.raises(
-        GenevaError, match=r"none of 1000 designs from all over the range can be built: drive.A=2"
-    ):
-        sweep(read(SPEC), grid("drive.A=2..3:0.001"), picks=["velocity.max"])
-
-
-def test_a_key_that_the_spec_lacks_may_be_the_one_that_is_varied(tmp_path):
-    """A side-crank needs an A; what else is wrong is said as ever."""
-    file = tmp_path / "spec.toml"
-    file.write_text('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\n')
-    found = request(str(file), ["drive.A=0,0.3"], pick="velocity.max")
-    assert [row[1] for row in found.sweep.rows(0, 2)] == [1.0, 1.0 / 1.3]
-    with pytest.raises(GenevaError, match=r"needs A for kind"):
-        request(str(file), ["wheel.z=4,6"], pick="velocity.max")
-    with pytest.raises(GenevaError, match=r"needs A for kind"):
-        request(str(file), ["drive.A=5"], pick="velocity.max")
-
-
 # What a person sees
 
 
@@ -444,18 +318,3 @@ def test_a_person_sees_the_first_rows_and_the_best():
     assert "The 5 rows with the greatest timing.dwell_s" in seen
     rows = [line.split()[0] for line in seen.splitlines() if line.strip()[:1].isdigit()]
     assert rows == ["1", "2", "3", "4", "5"] * 2  # A = 0 rests longest, and is the first
-
-
-def test_a_person_sees_where_the_rest_is(tmp_path):
-    place = str(tmp_path / "a.csv")
-    seen = seen_on_a_terminal(SPEC, "--vary", "drive.A=0..0.9:0.05", "--jobs", "1", "-o", place)
-    assert "All 19 rows:" in seen and "a.csv" in seen
-    with open(place) as file:
-        assert len(file.readlines()) == 1 + 19
-
-
-def test_a_person_sees_all_of_a_few_rows():
-    seen = seen_on_a_terminal(SPEC, "--vary", "wheel.z=4..8", "--jobs", "1")
-    rows = [line.split()[:2] for line in seen.splitlines() if line.strip()[:1].isdigit()]
-    assert rows == [[str(i), str(z)] for i, z in enumerate(range(4, 9), 1)]
-    assert "All" not in seen

@@ -98,54 +98,6 @@ def test_locks_together_as_alone(spec):
             assert a == b or a == pytest.approx(b, **near), name
 
 
-NOTHING = ["load.inertia_kgm2=0", "load.torque_Nm=0"]
-
-
-def test_of_designs_without_a_load_each_is_asked():
-    """Nothing rises or falls under no load; a motion's factors are known all the same."""
-    picks = ["strength.pin.stress_MPa", "sizing.motor_torque_rms_Nm", "sizing.Am"]
-    together, alone, _ = rows("internal-z6.toml", ["size.face_width_mm=10,20", *NOTHING], picks)
-    assert together == alone
-    Am = math.tan(math.pi / 6) * (4 * math.pi / 3) ** 2 / (math.pi / 3)  # at the ends, in 240°
-    assert [row[3:] for row in alone] == [[None, None, pytest.approx(Am), None]] * 2
-
-
-def test_a_rack_has_no_errors_of_tolerances():
-    """Issue: NumPy warned of numbers that no wheel has: a slot across the rack has no angle."""
-    picks = ["tolerance.motion_play.worst_deg", "tolerance.entry_jump.worst"]
-    together, alone, _ = rows("linear.toml", ["size.center_distance_mm=97,100"], picks)
-    assert together == alone
-    assert [row[1:] for row in alone] == [[None, None, None]] * 2
-
-
-def test_where_a_torque_alone_resists():
-    """No sign ever changes; a flywheel needs a speed variation, and a drag what coasts."""
-    picks = ["loads.pin_force_N.max", "sizing.motor_torque_rms_Nm", "sizing.energy_fluctuation_J"]
-    picks += ["sizing.flywheel_kgm2", "shock.reversal.drag_Nm"]
-    together, alone, found = rows(
-        "side-crank-z6.toml", ["drive.A=0,0.3", "load.torque_Nm=10"], picks
-    )
-    every = found.plan.rows(0, 2)
-    assert len(found.known(every)) == 2
-    for one, other in zip(together, alone, strict=True):
-        assert one[-3:] == other[-3:] == [None, None, None]
-        assert one[:-3] == pytest.approx(other[:-3], rel=1e-12)
-
-
-def test_beside_a_pole_what_wears_has_no_value():
-    """A torque across the roller's way takes a force without a bound: no work, pressure or wear.
-
-    With friction there may be one.
-    """
-    picks = [f"life.{name}" for name in ("friction_work_J", "pv_max_W_m2", "roller_life_h")]
-    vary = ["motion.alpha0_deg=-5,5", "load.friction=0,0.1", "load.torque_Nm=10"]
-    together, alone, _ = rows("modified-sine-matched.toml", [*vary, "motion.ratio=0.5"], picks)
-    assert [row[4:] for row in together[::2]] == [[None] * 4] * 2
-    for one, other in zip(together, alone, strict=True):
-        for a, b in zip(one, other, strict=True):
-            assert a == b or a == pytest.approx(b, rel=1e-12)
-
-
 def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
     """Shards promise the bytes of one run: a block here ends with one design alone."""
     monkeypatch.chdir(tmp_path)

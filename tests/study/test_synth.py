@@ -1,7 +1,5 @@
 """From a wish to machines: closed forms against the built machine, the sources' tables, specs."""
 
-import csv
-import io
 import json
 import math
 from fractions import Fraction
@@ -20,17 +18,13 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak, worst
 from geneva_cli.motion.timing import timings
-from geneva_cli.output.terminal.layout import Window
-from geneva_cli.output.terminal.terminal_tables import chunks
-from geneva_cli.study.synth import synth_table as rows_shown
-from geneva_cli.study.synth.built import Built
 from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.machine_rows import NEAR_DEG, MachineRow, _slot_failure
 from geneva_cli.study.synth.parts_data import parts_data
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.shown import for_people, for_terminal
 from geneva_cli.study.synth.synth_search import search
-from geneva_cli.study.synth.synth_table import NAMES, chosen, commented, synthesis_table, turned
+from geneva_cli.study.synth.synth_table import chosen, commented, synthesis_table, turned
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.motion_checks import GROOVE_MAX_DEG, groove_pressure
 
@@ -165,15 +159,6 @@ def test_k_of_internal_wheels():
         assert candidate.k == pytest.approx((z + 2) / (z - 2), rel=1e-13)
 
 
-@pytest.mark.sampled(8)
-@pytest.mark.parametrize(("k", "z", "m"), [(3, 4, 3), (9, 5, 3), (1, 4, 2), (5, 3, 5), (2, 6, 2)])
-def test_k_above_1_outside(k, z, m):
-    assert (z, m) in {
-        (w.z, w.rollers)
-        for w in plain(candidates(tau=f"{k}/{k + 1}", z=f"3..{z + 1}", external=True, space=NEAR))
-    }
-
-
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("z", "motion", "A"),
@@ -294,18 +279,6 @@ WISHES = [
 
 @pytest.mark.sampled(9)
 @pytest.mark.parametrize("options", WISHES, ids=str)
-def test_rows_are_sorted_and_numbered(options):
-    target, found = searched(**options)
-    table = synthesis_table(target, 0, ranking=found)
-    assert table.names == NAMES
-    columns = dict(zip(table.names, table.columns, strict=True))
-    assert list(columns["no"]) == list(range(1, len(table) + 1))
-    peaks = columns["acceleration_max_rad_s2" if target.timed else "acceleration_max"]
-    assert all(a <= b * (1 + 1e-11) for a, b in zip(peaks, peaks[1:], strict=False))
-
-
-@pytest.mark.sampled(9)
-@pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
     target, found_rows = searched(**options)
     for number, (_, candidate, *_) in enumerate(found_rows.rows, 1):
@@ -366,15 +339,6 @@ def test_the_plain_crank_fits_within_a_millionth():
     assert not plain(candidates(motion_deg=repr(far), z="6", external=True))
     first, *_ = plain(candidates(tau="0.3333333", z="6", external=True))
     assert first.tau == pytest.approx(1 / 3, rel=1e-15)
-
-
-def test_several_rollers_share_the_turn():
-    for candidate in candidates(tau="0.6", z=some("3..7", "3,6")):
-        assert candidate.tau == pytest.approx(0.6, rel=1e-12)
-        assert candidate.rollers * (candidate.motion_deg + candidate.dwell_deg) == pytest.approx(
-            360.0
-        )
-        assert candidate.rollers == 1 or candidate.drive in ("crank", "cam")
 
 
 # Refusals
@@ -470,30 +434,6 @@ def test_the_reach_that_a_refusal_names_is_right():
 # The command
 
 
-def test_formats():
-    words = ["--tau", "1/3", "--z", "6", "--external", "--check", "0"]
-    assert (out := run(*words)).exit_code == 0
-    assert "tau = 0.3333333: " in out.stdout
-    table = list(csv.DictReader(io.StringIO(run(*words, "--format", "csv").stdout)))
-    rows = json.loads(run(*words, "--format", "json").stdout)["rows"]
-    assert tuple(table[0]) == tuple(rows[0]) == NAMES
-    for line, row in zip(table, rows, strict=True):
-        assert {k: v or None for k, v in line.items()} == {
-            k: None if v is None else str(v) for k, v in row.items()
-        }
-    md = run(*words, "--format", "md").stdout
-    assert md.count("\n| ") == len(rows) + 2
-
-
-def test_people_see_no_empty_columns():
-    head = run("--z", "6", "--cycle", "2", "--check", "0").stdout
-    assert "eccentricity" not in head
-    assert "rpm" in head
-    told = run("--motion-deg", "180", "--z", "6", "--check", "0").stdout
-    assert "motion_deg 180, dwell_deg 180, tau 0.5, k 1" in told.replace("\n", " ")
-    assert "rpm" not in told
-
-
 def test_write(tmp_path):
     file = tmp_path / "spec.toml"
     words = ["--motion-deg", "180", "--z", "6", "--external"]
@@ -523,12 +463,6 @@ def test_what_cannot_be_written(words, wants):
     assert wants in result.stderr
 
 
-def test_a_limit_comes_along():
-    target = read_target(subject_to=["acceleration.max <= 0.5"], z="6")
-    text = written(target, listed(target), 1)
-    assert "[limits]\nacceleration_max = 0.5" in text
-
-
 # What is listed
 
 
@@ -544,13 +478,6 @@ def test_rollers_beyond_those_of_straight_slots():
     (beyond,) = [w for w in more if w.law and w.drive == "crank"]
     assert beyond.parts.startswith("no: ")
     assert [w.rollers for w in found] == list(range(1, most + 1))
-
-
-def test_cams_too_carry_more_rollers_than_the_plain_wheel():
-    """A grid over alpha_0 found three of 55 degrees on z = 6, which pass every check."""
-    found = candidates(dwell_s="0.8..", cycle="1.5", motion_deg="..180", z="6", external=True)
-    (three,) = [w for w in found if w.drive == "cam" and w.rollers == 3]
-    assert three.motion_deg == pytest.approx(56.0, rel=1e-14) and three.parts == "maybe"
 
 
 @pytest.mark.sampled(6)
@@ -597,19 +524,6 @@ def test_the_shortest_extra_dwell(tmp_path):
     assert time.motion_s == pytest.approx(0.7, rel=1e-14)
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "wants"),
-    [(-1.0, 1.0, 0.0), (0.59999999, 0.6000001, 0.6), (8.571, 8.572, 8.572), (2.0, 2.0, 2.0)],
-)
-def test_shortest(low, high, wants):
-    assert closed.shortest(low, high) == wants
-
-
-def test_a_title_for_one_row():
-    out = run("--motion-deg", "180", "--z", "3", "--spherical", "--rollers", "1").stdout
-    assert out.startswith("A motion of 180 deg: 1 machine.\n")
-
-
 def test_the_roller_that_fills_the_way_in_and_out():
     """z = 6, two rollers in 54 degrees each: the two ways are 10.97 mm apart, the slot as wide."""
     (spec, candidate) = next(
@@ -619,16 +533,6 @@ def test_the_roller_that_fills_the_way_in_and_out():
     )
     assert spec.size.roller_radius_mm == 5.5
     assert candidate.parts == "maybe"
-
-
-def test_no_roller_fits_a_loop():
-    """z = 5, 120 degrees: 15.4 mm apart, where a roller of 7.7 undercuts or loses the lock."""
-    found = candidates(motion_deg="120", z="5", external=True, rollers=1)
-    (number,) = [i for i, w in enumerate(found, 1) if w.law and w.drive == "crank"]
-    assert found[number - 1].parts == "no: island"
-    words = ["--motion-deg", "120", "--z", "5", "--external", "--rollers", "1"]
-    head, _ = run(*words, "--write", str(number)).stdout.split("[wheel]")
-    assert "# Warning: its parts cannot be built: island." in head
 
 
 # Turned, written, checked and exported: a sample of the trial in tests/stress/stress_synth.py
@@ -673,48 +577,6 @@ def test_rows_are_turned_in_their_order():
     assert all(one.row.candidate[:10] == found.rows[one.no - 1].candidate[:10] for one in only)
 
 
-def test_a_replacement_stands_where_its_own_peak_belongs(monkeypatch):
-    """The first row fails, and the machine in its place has twice the greatest peak: it is last."""
-    _, found = searched(motion_deg="105", z="8", external=True, rollers=1)
-    first, gentle = found.rows[0], max(row.candidate.peak for row in found.rows)
-    peaks = {"acceleration_max": 2.0 * gentle, "acceleration_max_rad_s2": None, "parts": "yes"}
-    harsh = first._replace(candidate=first.candidate._replace(**peaks))
-
-    def half_built(spec, fixed):
-        return Built(spec, "gap_mm" if spec == first.spec else "")
-
-    monkeypatch.setattr(rows_shown, "built", half_built)
-    monkeypatch.setattr(rows_shown, "_others", lambda ranking, failing: {1: harsh})
-    monkeypatch.setattr(rows_shown, "mapped", lambda work, each, *rest: map(work, each))
-    shown = turned(found, buildable=True)
-    assert [one.no for one in shown][-1] == 1 and len(shown) > 1
-    # of one row fewer, the harsh machine is the one that is left out
-    assert 1 not in [one.no for one in turned(found, len(shown) - 1, buildable=True)]
-
-
-@pytest.mark.long
-def test_a_row_that_was_not_turned_is_written_with_its_own_numbers():
-    """Its parts fail: the file was once that of another machine, of 151 degrees."""
-    words = ["--dwell-s", "0.8..", "--cycle", "1.5", "--z", "8", "--check", "2"]
-    row = json.loads(run(*words, "--format", "json").stdout)["rows"][15]
-    assert row["parts"] == "maybe"
-    result = run(*words, "--write", "16")
-    assert f"It moves for {row['motion_deg']:.7g} deg" in result.stdout
-    assert "warning: its parts cannot be built" in result.stderr
-
-
-def test_a_written_row_is_cut(tmp_path):
-    """Once refused for a locking disc that nobody had asked for."""
-    file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"
-    target = ["--subject-to", "acceleration.max <= 0.5", "--z", "6", "--external", "--rollers", "1"]
-    assert run(*target, "--write", "3", "-o", str(file)).exit_code == 0
-    assert 'kind = "elliptical-gears"' in file.read_text()
-    words = ["profile", str(file), "--part", "wheel", "-o", str(wheel)]
-    result = CliRunner().invoke(app, words)
-    assert result.exit_code == 0, result.output
-    assert wheel.stat().st_size > 1000
-
-
 def test_a_groove_is_as_steep_as_its_check_says():
     """Told by a look at places, but for those that are near the limit and below it."""
     machines = [
@@ -751,35 +613,6 @@ def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():
     assert [row["no"] for row in seen.to_rows()] == [1, 2, 3]
     assert seen.title.endswith(f" The first 3 rows. All {len(rows)} rows: -o FILE.csv")
     assert for_terminal(table, len(rows)).title == table.title
-
-
-def test_machines_of_one_name_show_their_rollers_at_60_columns():
-    """A crank of one roller and one of two: they differ in the column that is hidden before."""
-    table = for_terminal(synthesis_table(read_target(z="6", cycle="1.5"), 0), 20)
-    lines = "".join(chunks(table, Window(60))).split("\n\n")[2].splitlines()
-    assert lines[0].split() == ["peak"]
-    assert lines[1].split() == ["no", "rollers", "machine", "acceleration"]
-    # a long name goes on in a second line, without a number
-    rows = [line.split(maxsplit=1)[1] for line in lines[2:] if line[:2].strip()]
-    assert len({*rows}) == len(rows) == len(table)
-    one = for_terminal(synthesis_table(read_target(z="6", motion_deg="180"), 0), 20)
-    assert "rollers" not in "".join(chunks(one, Window(60))).split("\n\n")[2].splitlines()[1]
-
-
-@pytest.mark.long
-def test_the_lowest_of_a_range_is_the_lowest_in_time():
-    """A motion of 0.2 s at any speed: in rad/s2 a side-crank's peak is least at another angle than
-    as an invariant, of which the longest motion has the least."""
-    asked = {"motion_s": "0.2", "motion_deg": "100..200", "z": "6", "external": True}
-    rows = search(read_target(**asked)).rows
-    best = next(row for row in rows if row.candidate.A is not None).candidate
-    scan = []
-    for motion in range(100, 201, some(8, 25)):
-        found = search(read_target(**(asked | {"motion_deg": str(motion)}))).rows
-        scan += [row.candidate for row in found if row.candidate.A is not None]
-    assert len(scan) > some(10, 3)
-    assert best.peak <= min(one.peak for one in scan) * (1.0 + 1e-9)
-    assert best.acceleration_max > min(one.acceleration_max for one in scan)
 
 
 @pytest.mark.sampled(3)

@@ -12,8 +12,8 @@ from geneva_cli.design import load
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
+from geneva_cli.study.synth import group_search as every
 from geneva_cli.study.synth.built import built
-from geneva_cli.study.synth.families import every
 from geneva_cli.study.synth.fast_parts import machine_and_parts
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
@@ -156,13 +156,3 @@ def test_more_rollers_where_only_shorter_motions_can_be_built():
         7,
         8,
     }
-
-
-def test_one_below_the_last_that_may_be_built_is_looked_for_too():
-    """Of those that are to pass, where no other stands in for it."""
-    found = search(read_target(motion_deg="100..200", z="8", **CURVED))
-    alone = found._replace(rows=curved(found)[:1])
-    assert [row.candidate.parts for row in alone.rows] == ["no: island"]
-    ((no, row),) = turned(alone, buildable=True)
-    assert (no, row.candidate.parts) == (1, "yes")
-    assert not [c for c in checks(build(row.spec)) if c.passes is False]

@@ -1,29 +1,22 @@
 """Wishes that combine: ranges, bounds, a frame, an order; against dense sweeps of every kind."""
 
-import json
 import math
 import os
 
 import numpy as np
 import pytest
 from searched import searched
-from typer.testing import CliRunner
 from words import Drive, Keys, Motion, Spec, Wheel, load
 
-from geneva_cli.cli.app import app
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.many import many
-from geneva_cli.motion.mechanism import build
-from geneva_cli.output.text import chunks
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.study.batches import columns
-from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Objective, objective
 from geneva_cli.study.synth.reading import SPANS, read_target, span
-from geneva_cli.study.synth.shown import for_people
 from geneva_cli.study.synth.synth_search import search
-from geneva_cli.study.synth.synth_table import synthesis_table
+from geneva_cli.study.target import AllowedSpan
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")
@@ -64,70 +57,6 @@ def test_wishes_for_times_leave_motions_and_cycles():
         rows(motion_s="0.5", dwell_s="1", tau="0.5")
 
 
-@pytest.mark.parametrize(
-    ("target", "rollers"),
-    [
-        ({"motion_deg": "54", "tau": "0.3"}, 2),
-        ({"motion_deg": "90", "dwell_deg": "90"}, 2),
-        ({"dwell_deg": "30..40", "tau": "0.7"}, 3),
-        ({"motion_deg": "80", "dwell_deg": "10", "z": "12"}, 4),  # more than the plain wheel takes
-    ],
-)
-def test_what_one_roller_cannot_do_several_may(target, rollers):
-    """Motion and dwell make up a turn over the number of rollers, whatever else they are."""
-    found = rows(**{"z": "6..12", **target})
-    assert found and {row.candidate.rollers for row in found} == {rollers}
-    for row in found:
-        c = row.candidate
-        assert c.motion_deg + c.dwell_deg == pytest.approx(360.0 / rollers, rel=1e-12)
-        assert c.tau == pytest.approx(c.motion_deg * rollers / 360.0, rel=1e-12)
-        assert all(abs(getattr(c, k) - float(v)) < 1e-9 for k, v in target.items() if ".." not in v)
-
-
-def test_a_wheel_that_is_not_drawn_carries_no_more_rollers_than_the_plain_one():
-    """Of parts that nobody draws it is not known whether they can be: it went on for ever."""
-    found = rows(tau="0.4", z="361", external=True, internal=True)
-    assert {row.candidate.law for row in found} == {None, "modified-sine"}
-    assert {row.candidate.rollers for row in found} == {1, 2}  # a plain wheel moves for 179 deg
-
-
-@pytest.mark.parametrize("format", ["table", "md", "csv", "json"])
-def test_where_none_is_buildable_that_is_said(format):
-    """No part of so many slots is drawn."""
-    target = ["--motion-deg", "150", "--z", "361", "--internal", "--buildable", "--format", format]
-    found = CliRunner().invoke(app, ["synth", *target])
-    assert (found.exit_code, found.stderr) == (0, "")
-    title, _, rest = found.stdout.partition("machines passes.\n")
-    if format in ("table", "md"):
-        assert title.endswith(": none of 4 ") and not rest.strip()
-    elif format == "csv":
-        assert found.stdout.startswith("no,z,gearing,") and found.stdout.count("\n") == 1
-    else:
-        assert json.loads(found.stdout) == {"rows": []}
-
-
-@pytest.mark.long
-def test_a_load_that_a_spec_leaves_unknown_is_no_refusal():
-    """Of a wheel without a face width no stress is known; its inertia resists all the same."""
-    frame = Design.of(Spec(Wheel(6), load=Load(inertia_kgm2=0.1))).spec
-    found = rows(tau="0.3", frame=frame, sort="min:loads.contact_stress_MPa.max")
-    assert found and {row.extra for row in found} == {(None,)}
-
-
-def test_rollers_that_leave_no_dwell_are_no_machines():
-    """Two rollers on right-angled shafts move the wheel all the time, whatever the speed."""
-    for row in rows(dwell_s="0.5", z="6", rollers=2):
-        assert row.candidate.motion_deg < 180.0
-        assert row.candidate.dwell_s == pytest.approx(0.5, rel=1e-12)
-
-
-def test_a_spec_alone_is_a_wish():
-    """For machines of its wheel that move as a plain crank does, at its speed."""
-    frame = load(os.path.join(DESIGNS, "three-rollers-z4.toml")).spec
-    table = synthesis_table(read_target(frame=frame), 0)
-    assert table.title.startswith("The spec alone: ")
-
-
 def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
     """A first wheel of n slots turns the crank by 360/n once a turn, and that is its motion."""
     found = rows(dwell_deg="1000..")
@@ -154,7 +83,7 @@ def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
 )
 def test_bounds_on_times_that_nothing_keeps_are_refused_at_once(target, bound, said, monkeypatch):
     """As the options are that say the same, and before any machine is looked for."""
-    monkeypatch.setattr("geneva_cli.study.synth.synth_search.families", None)
+    monkeypatch.setattr("geneva_cli.study.synth.group_search.families", None)
     with pytest.raises(GenevaError) as error:
         search(read_target(**target, subject_to=[bound]))
     assert said in str(error.value)
@@ -270,13 +199,6 @@ def test_in_a_range_the_best_of_a_kind_is_what_the_order_asks_for(sort):
     assert sign * ours.extra[0] <= theirs.min() + abs(theirs.min()) * NEAR
 
 
-def test_a_drive_that_does_nothing_is_no_row():
-    """Where the plain crank is the gentlest, gears of no eccentricity are not listed beside it."""
-    found = told(rows(motion_deg="100..180", z="8", spherical=True, rollers=1))
-    ones = [c for c in found if not c.of_two_numbers]  # both at once are gentler by 4 percent
-    assert [(candidate.drive, candidate.axes_deg) for candidate in ones] == [("crank", 90.0)]
-
-
 @pytest.mark.long
 def test_bounds_are_kept_where_the_gentlest_of_a_kind_breaks_them():
     """In a range the machine of a kind is the gentlest of those that keep the bound."""
@@ -363,37 +285,12 @@ def test_a_bound_on_how_long_a_motion_is_is_a_wish_for_it(target, bounds, same):
             assert getattr(ours, name) == near, name
 
 
-def test_a_bound_in_seconds_without_a_cycle_is_at_the_usual_speed():
-    """At 60 rpm a dwell of 0.7 s leaves 108 deg to the motion, and nobody asked for slower."""
-    found = rows(z="6", external=True, rollers=1, subject_to=["dwell_s >= 0.7"])
-    assert {row.spec.drive.n_rpm for row in found} == {60.0}
-    assert max(c.motion_deg for c in told(found)) == pytest.approx(108.0, rel=1e-9)
-
-
-def test_more_rollers_than_a_plain_wheel_takes_have_the_gentlest_of_their_motions_too():
-    """Three motions of at most 150 deg: as long as their third of a turn lets them be."""
-    found = rows(motion_deg="..150", z="4", external=True, rollers=3)
-    longest = max(c.motion_deg for c in told(found) if c.law)
-    assert longest == pytest.approx(0.99 * 120.0, rel=1e-12)
-
-
 @pytest.mark.parametrize(("limit", "said"), [(0.9, "maybe"), (0.5, "no: velocity_max")])
 def test_limits_are_kept_on_a_sphere(limit, said):
     """The plain crank's greatest velocity, tan(180/z), is 0.577."""
     frame = Spec(Wheel(6), limits=Limits(velocity_max=limit))
     found = rows(frame=frame, motion_deg="180", spherical=True)
     assert {row.candidate.parts for row in found} == {said}
-
-
-def test_what_no_array_has_is_asked_of_each_machine():
-    """Curved slots have no loads as arrays: their rows stay, with the machine's own."""
-    target = {"frame": load(os.path.join(DESIGNS, "press-345.toml")).spec, "motion_deg": "120"}
-    found = search(
-        read_target(**target, external=True, rollers=1, sort="min:loads.pin_force_N.max")
-    ).rows
-    (row,) = [r for r in found if r.candidate.law and r.candidate.drive == "crank"]
-    greatest = Design.of(row.spec).loads["pin_force_N"].max
-    assert row.extra[0] == pytest.approx(greatest, rel=1e-12)
 
 
 @pytest.mark.long
@@ -435,36 +332,6 @@ def test_a_frame_and_an_order():
     turned_round = search(target._replace(sort=Objective(-1.0, "acceleration.max"))).rows
     peaks = [row.candidate.acceleration_max for row in turned_round]
     assert peaks == pytest.approx(sorted(peaks, reverse=True), rel=1e-11)
-
-
-@pytest.mark.long
-def test_a_frame_s_sizes_stay(tmp_path):
-    file = tmp_path / "frame.toml"
-    file.write_text("[wheel]\nz = 6\n[size]\nroller_radius_mm = 3\n[limits]\nvelocity_max = 0.9\n")
-    table = synthesis_table(read_target(frame=load(file).spec, motion_deg="120", external=True), 20)
-    found = table.to_rows()
-    assert found
-    for row in found:
-        assert row["parts"].startswith(("yes", "no: "))
-        if row["velocity_max"] > 0.9:
-            assert "velocity_max" in row["parts"] or row["parts"].startswith("no: ")
-    for row in rows(frame=load(file).spec, motion_deg="120", external=True):
-        assert row.spec.size.roller_radius_mm == 3.0
-        build(row.spec)
-
-
-@pytest.mark.long
-@pytest.mark.sampled(6)
-@pytest.mark.parametrize(
-    "options",
-    [*WISHES, {"motion_deg": "150", "law": "all", "z": "5,6"}, {"z": "4", "cycle": "2"}],
-    ids=str,
-)
-def test_a_hundred_columns_hold_it(options):
-    target, found = searched(**options)
-    table = for_people(synthesis_table(target, 0, ranking=found))
-    assert max(map(len, "".join(chunks(table)).splitlines())) <= 100
-    assert {"no", "machine", "parts"} <= set(table.names)
 
 
 def dense(spec, key, values, names):

@@ -21,9 +21,6 @@ from geneva_cli.parts.slots.groove import greatest_pressure
 from geneva_cli.parts.slots.roller_paths import roller_paths
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.study.batches import numbers
-from geneva_cli.study.fields import pick
-from geneva_cli.study.synth import synth_search as searching
-from geneva_cli.study.synth.families.every import kinds
 from geneva_cli.study.synth.parts_data import (
     UNDERCUT_SAMPLES,
     _alike,
@@ -33,7 +30,6 @@ from geneva_cli.study.synth.parts_data import (
 )
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
-from geneva_cli.study.synth.synth_table import synthesis_table
 
 LAW = Cycloidal()
 MATCHED = Motion(LAW, ratio="matched")
@@ -71,37 +67,6 @@ def test_looks_at_parts():
         w = machine.roller_radius_mm + spec.size.allowances.slot_clearance_mm
         cut = [depths_mm(wall, w, machine.center_distance_mm)[0] for wall in seen.walls or ()]
         assert max(cut, default=0.0) == pytest.approx(found.depth_mm if found else 0.0, rel=1e-9)
-
-
-def test_a_straight_slot_and_its_neighbour():
-    """Radial slots b from each other's bisector are nearest at their ends: 2 end sin b."""
-    seen = parts_data(Spec(External(6)))
-    assert seen.between == pytest.approx(2.0 * seen.paths.ends[0] * math.sin(math.pi / 6))
-    assert seen.least == 0.0
-
-
-def test_what_nothing_bounds_is_told_last():
-    """The wall of a matched slot is undercut, and ends in an edge: the loads say no stress."""
-    frame = Spec(External(8), size=Size(face_width_mm=15.0), load=Load(inertia_kgm2=0.3))
-    target = read_target(
-        motion_deg="150",
-        rollers=2,
-        external=True,
-        frame=frame,
-        sort="min:loads.contact_stress_MPa.max",
-    )
-    found = search(target)
-    told = [row.extra[0] for row in found.rows]
-    count = sum(value is not None for value in told)
-    assert 0 < count < len(told)
-    assert told[:count] == sorted(told[:count])
-    assert set(told[count:]) == {None}
-    for row, value in zip(found.rows[count - 1 :], told[count - 1 : count + 1], strict=False):
-        machine = build(row.spec)
-        (alone,) = pick(found.requested.names).of(machine)
-        assert alone == (value and pytest.approx(value, rel=1e-9))
-    rows = synthesis_table(target, 0, ranking=found).to_rows()
-    assert [row["loads.contact_stress_MPa.max"] for row in rows] == told
 
 
 def test_side_cranks_that_differ_in_the_wheel_alone():
@@ -147,33 +112,6 @@ def test_a_refusal_names_the_bounds_that_no_machine_keeps(bounds, unkept):
     target = {"motion_deg": "250", "z": "6", "internal": True, "subject_to": bounds}
     with pytest.raises(GenevaError, match=unkept):
         search(read_target(**target))
-
-
-def test_cams_inside_move_as_the_plain_crank_or_as_long_as_their_rollers_let_them():
-    """Below the limit the plain crank's 240 degrees; two rollers leave 180 less a hundredth.
-
-    The modified sine's C_a of 5.5280 gives 0.33 there with one roller, and 0.6 with two.
-    """
-    rows = search(read_target(subject_to=["acceleration.max <= 1"], z="6", internal=True)).rows
-    cams = {
-        row.candidate.rollers: row.candidate.motion_deg
-        for row in rows
-        if row.candidate.drive == "cam"
-    }
-    assert cams == {1: pytest.approx(240.0), 2: pytest.approx(178.2)}
-    slots = [row.candidate for row in rows if row.candidate.drive == "crank" and row.spec.motion]
-    assert [one.motion_deg for one in slots] == [pytest.approx(240.0)]
-
-
-@pytest.mark.parametrize("options", [{}, {"internal": True, "law": "all"}, {"law": "all"}])
-def test_a_search_gives_its_parts_in_their_order(options, monkeypatch):
-    target = read_target(motion_deg="100..200", **options)
-    every = kinds(target)
-    monkeypatch.setattr(searching, "cores", lambda: 1)
-    monkeypatch.setattr(searching, "_kind_rows", lambda task, names, how_near: task)
-    assert searching._all_kinds(target, ()) == every
-    which = [i % 2 == 1 for i in range(len(every))]
-    assert searching._all_kinds(target, (), which=which) == every[1::2]
 
 
 def test_specs_of_one_kind_keep_their_own_loads_and_sizes():

@@ -13,16 +13,14 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.full_turn import gap_about, play_about
-from geneva_cli.spec.tables import Size
+from geneva_cli.parts.turn.full_turn import gap_about
 from geneva_cli.study.synth.built import built
 from geneva_cli.study.synth.fast_parts import USUAL, exact, parts, with_roller
 from geneva_cli.study.synth.parts_data import distances_at_rest, parts_data
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
 from geneva_cli.study.synth.turns import Turn
-from geneva_cli.verdict.checks import Check, checks
-from geneva_cli.verdict.checks.play_checks import finds_slot
+from geneva_cli.verdict.checks import checks
 
 
 @pytest.fixture(scope="module")
@@ -45,27 +43,6 @@ def test_a_gap_that_fails_is_found_where_it_failed_before(four_bar):
     assert Turn(build(next_)).some_failing(seen) == seen
     assert [c.name for c in checks(build(next_)) if c.passes is False] == ["gap_mm"]
     assert Turn(build(fits)).some_failing(seen) == []
-
-
-def test_a_play_that_fails_is_found_where_it_failed_before():
-    """A cam's hand-over: about the place of its largest play the next roller's is too large, too.
-
-    The play about a place is at most the whole turn's, but for what both searches leave: 1e-6.
-    """
-    rows = search(read_target(motion_deg="180", z="6", external=True, rollers=1)).rows
-    (spec,) = [row.spec for row in rows if row.candidate.drive == "cam"]
-    whole = parts_of(build(spec))
-    largest = whole.turn.hand_over
-    assert largest.deg > finds_slot(whole)
-    assert 0.9 < play_about(whole, largest.at_deg) / largest.deg <= 1.0 + 1e-6
-    seen = [Check("hand_over_play_deg", None, "at most", None, False, at_deg=largest.at_deg)]
-    assert Turn(build(with_roller(spec, 4.0))).some_failing(seen) == seen
-
-
-def test_play_in_a_slot_is_none_between_lock_and_slot():
-    """Amid a motion the roller is in its slot, however loose that is."""
-    loose = Spec(External(6), size=Size(slot_clearance_mm=0.5))
-    assert play_about(parts_of(build(loose)), 0.0) == 0.0
 
 
 @pytest.mark.parametrize("share", [0.05, 0.03, 0.02])

@@ -11,8 +11,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
-    from geneva_cli.study.sweep.digest import Digest
-    from geneva_cli.study.sweep.outcome import Outcome
+    from geneva_cli.study.sweep.outcome import Digest, Outcome
     from geneva_cli.study.sweep.request import SweepRequest
 
 Rows: TypeAlias = list[list[Any]]
@@ -128,7 +127,7 @@ def _write_rows(plan: "SweepRequest", outcome: "Outcome", output: str, resume: b
     """Write all rows or the chosen ones as they come; show a person some rows of the file."""
     from geneva_cli.output import is_seen
     from geneva_cli.output.growing import GrowingTable
-    from geneva_cli.study.sweep.digest import Digest
+    from geneva_cli.study.sweep.outcome import Digest
     from geneva_cli.study.sweep.run import TEXTS
 
     sweep = plan.sweep
@@ -161,7 +160,7 @@ def _show_rows(plan: "SweepRequest", outcome: "Outcome", output: str, format: st
 
 def _show_some(plan: "SweepRequest", outcome: "Outcome") -> None:
     """Show a person the first rows and the best."""
-    from geneva_cli.study.sweep.digest import Digest
+    from geneva_cli.study.sweep.outcome import Digest
 
     digest = Digest(plan)
     for block in outcome.rows(_tracked(plan, 0)):

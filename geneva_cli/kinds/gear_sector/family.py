@@ -13,7 +13,6 @@ from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.synth.families.family import (
     BARE,
     Family,
@@ -25,7 +24,7 @@ from geneva_cli.study.synth.families.family import (
     natural_deg,
     speeds,
 )
-from geneva_cli.study.target import Target
+from geneva_cli.study.target import AllowedSpan, Target
 
 
 def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:

@@ -24,7 +24,7 @@ from geneva_cli.parts.projection import (
     with_frame,
 )
 from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.shown_wheels import WheelScene
+from geneva_cli.study.animation.bodies import WheelScene
 from geneva_cli.study.animation.tracks import still
 
 if TYPE_CHECKING:

@@ -31,7 +31,6 @@ from geneva_cli.kinds.linkages.path_wheels import driven
 from geneva_cli.kinds.linkages.tangent_pairs import Pairs, newton, points, residual, sampled
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.families.family import (
     BARE,
@@ -43,7 +42,7 @@ from geneva_cli.study.synth.families.family import (
     natural_deg,
 )
 from geneva_cli.study.synth.optimiser import Places
-from geneva_cli.study.target import Target
+from geneva_cli.study.target import AllowedSpan, Target
 
 
 def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:

@@ -20,10 +20,9 @@ from geneva_cli.kinds.linkages.coupler import (
 from geneva_cli.kinds.linkages.coupler_costs import Costs, order
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.optimiser import Places, Zoom, sampled, zoom
-from geneva_cli.study.target import Target
+from geneva_cli.study.target import AllowedSpan, Target
 
 SAMPLES = (256, 2048)  # least and most four-bars that are sampled for one wheel
 SAMPLINGS = (14, 60)  # least and most closer samplings for one wheel

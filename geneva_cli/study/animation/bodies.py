@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import suppress
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Circle, Contour, Shape, polygon
+from geneva_cli.geometry.plates import Member, Plate, placed
+from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, polygon
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.pivots import Link
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.output.scene import Body
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.output.scene import Body, Box, Track
 from geneva_cli.parts.gears.gear_curves import gears_table
+from geneva_cli.parts.links.link_positions import links_at, same
+from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.shown_wheels import wheels_of
-from geneva_cli.study.animation.teeth import DrawnTeeth, round_gears
 from geneva_cli.study.animation.tracks import still
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.outlines.outlines import Outlines
 
 
 def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
@@ -86,3 +98,119 @@ def _pitch_curves(turn: MachineTurn, sign: float) -> list[tuple[Shape, ...]]:
 
 def _closed(x: Array, y: Array) -> Contour:
     return polygon("GEAR", list(zip(x[:-1].tolist(), y[:-1].tolist(), strict=True)))
+
+
+class DrawnTeeth(NamedTuple):
+    """Toothed outlines with bores, about each gear's axis at input angle 0, as far as there are."""
+
+    pair: tuple[tuple[Shape, ...], ...]  # driven gear and driver of noncircular ones
+    round: dict[str, tuple[Shape, ...]]
+    why: str = ""  # reason why teeth of the spec are not drawn
+
+
+def drawn_teeth(design: Design) -> DrawnTeeth:
+    """The teeth of a design's gears; none without a module."""
+    if design.spec.size.gear_module_mm is None:
+        return DrawnTeeth((), {})
+    try:
+        # a hundredth of a millimetre is less than a screen shows
+        *_, (_, built) = design.parts.all_built
+        parts = built().within(0.01, "arcs")
+        pair = tuple(map(_gear_shapes, parts.gear_pair))
+        return DrawnTeeth(
+            pair, {one.name: _gear_shapes(one.member) for one in parts.toothed if one.cut}
+        )
+    except GenevaError as error:
+        return DrawnTeeth((), {}, str(error))
+
+
+def _gear_shapes(gear: Member) -> tuple[Shape, ...]:
+    assert isinstance(gear.part, Plate)
+    return (gear.part.outline, *gear.part.holes)
+
+
+def round_gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
+    """Round gears with teeth on shafts that stand."""
+    for link in links_at(turn.mechanism, np.zeros(1)):
+        angle = _angle(turn, link)
+        if link.name in teeth.round and angle:
+            (x, y) = (float(c[0]) for c in link.joints[0])
+            yield Body(link.name, teeth.round[link.name], (x, y), angle)
+
+
+def _angle(turn: MachineTurn, link: Link) -> Track | None:
+    """The angle of a gear from its place at input angle 0; None on an axis that moves."""
+    at = (float(link.joints[0][0][0]), float(link.joints[0][1][0]))
+    if link.teeth.fixed:
+        return still()
+    if same(at, turn.mechanism.crank_shaft.at, turn.L):
+        return turn.crank_from_mid()
+    if same(at, (0.0, 0.0), turn.L):
+        return turn.wheel(turn.mechanism.wheel_places[0])
+    return None
+
+
+def carried_gear(turn: MachineTurn, teeth: DrawnTeeth, link: Link) -> tuple[Shape, ...]:
+    """The gear with teeth that turns with a link about its first joint; empty without one.
+
+    Its shapes are in the link's frame, whose x is towards the second joint.
+    """
+    joints = [complex(*(float(c[0]) for c in joint)) for joint in link.joints]
+    for other in links_at(turn.mechanism, np.zeros(1)):
+        here = abs(complex(places(other)[0][0]) - joints[0]) < SAME_LENGTH * turn.L
+        if other.name in teeth.round and here and len(joints) > 1 and not _angle(turn, other):
+            ahead = joints[1] - joints[0]
+            back = -math.atan2(ahead.imag, ahead.real)
+            return tuple(placed(shape, (0.0, 0.0), back) for shape in teeth.round[other.name])
+    return ()
+
+
+class WheelScene:
+    """What a page shows of wheels that turn without end."""
+
+    def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
+        """All wheels; without shapes, as symbols."""
+        wheel = (*(shapes or _slots(turn)), _mark(shapes, turn))
+        for place in turn.mechanism.wheel_places:
+            name = f"wheel {place.number}" if place.number > 1 else "wheel"
+            yield Body(name, wheel, place.at, turn.wheel(place))
+
+    def view(self, wheel: Body, box: Box, turn: MachineTurn) -> Box:
+        """The box that a page shows; ``box`` bounds all that turns."""
+        return box
+
+    def stops(self, outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float] | None:
+        """Input angles, degrees from the start, between which the machine moves; None for all."""
+        return None
+
+
+def wheels_of(spec: Spec) -> WheelScene:
+    """What a page shows of a machine's wheels."""
+    wheels: WheelScene = (thing(spec.wheel.NAME, "scene") or WheelScene)()
+    return wheels
+
+
+def _slots(turn: MachineTurn) -> tuple[Shape, ...]:
+    """A symbol for a wheel without drawing: a disc with a line along each slot."""
+    spec, reach = turn.mechanism.spec, _reach(turn)
+    lines = [
+        Contour("WHEEL", (Line(_at(reach.min(), a), _at(reach.max(), a)),), closed=False)
+        for a in np.arange(spec.wheel.z) * math.tau / spec.wheel.z
+    ]
+    return (Circle("WHEEL", (0.0, 0.0), 1.02 * float(reach.max())), *lines)
+
+
+def _reach(turn: MachineTurn) -> Array:
+    """The distances of the first roller from the wheel's axis in its slot."""
+    one = turn.passages[0]
+    return np.hypot(*turn.assembly.driving(0, np.linspace(one.entry, one.exit, 181)).T)
+
+
+def _at(r: float, a: float) -> tuple[float, float]:
+    return float(r * math.cos(a)), float(r * math.sin(a))
+
+
+def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
+    """A dot behind the end of the first slot, which tells the slots apart."""
+    least = float(_reach(turn).min())
+    return Circle("PITCH", (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)

@@ -32,11 +32,15 @@ from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.bodies import bodies
+from geneva_cli.study.animation.bodies import (
+    DrawnTeeth,
+    bodies,
+    carried_gear,
+    drawn_teeth,
+    wheels_of,
+)
 from geneva_cli.study.animation.pushes import pushes
-from geneva_cli.study.animation.shown_wheels import wheels_of
-from geneva_cli.study.animation.teeth import DrawnTeeth, carried_gear, drawn_teeth
-from geneva_cli.study.summary.titles import title_of
+from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.verdict.report.words import words
 
 if TYPE_CHECKING:

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from geneva_cli.design import Design
 from geneva_cli.output.document.blocks import Document, Prose
-from geneva_cli.study.document import answers, inputs, pictures, verdict
+from geneva_cli.study.document import answers, facts, verdict
 from geneva_cli.study.document.facts import RemainingValues
 from geneva_cli.study.document.verdict import key_figures
-from geneva_cli.study.summary.titles import title_of
+from geneva_cli.study.summary.load_lines import title_of
 
 
 def document(design: Design) -> Document:
@@ -29,12 +29,12 @@ def document(design: Design) -> Document:
     state, headline, reasons = verdict.verdict(design, left)
     blocks = (
         Prose(table.prose),
-        *pictures.drawn(design),
+        *verdict.drawn(design),
         key_figures(design),
         *verdict.warnings(left),
-        *inputs.inputs(design.spec, design.with_units),
+        *facts.inputs(design.spec, design.with_units),
         *answers.timing(left, design.spec.drive.n_rpm, design.spec.output),
-        *pictures.curves(design),
+        *verdict.curves(design),
         *answers.loads(design, left),
         *answers.special(left),
         *answers.sizes(left),
@@ -44,6 +44,6 @@ def document(design: Design) -> Document:
         *answers.swinging(left),
         *answers.parts(left),
         *verdict.remarks(design, left),
-        *inputs.defaults(design.spec),
+        *facts.defaults(design.spec),
     )
     return Document(title_of(design), state, headline, reasons, blocks)

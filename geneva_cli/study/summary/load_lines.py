@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
@@ -14,8 +14,13 @@ from geneva_cli.loads.load_tables import no_load
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.spec.tables import Motor
 from geneva_cli.study.fields import pick
-from geneva_cli.study.summary.titles import summary_of
-from geneva_cli.verdict.headline import bare, measured
+from geneva_cli.table import Table
+from geneva_cli.verdict.headline import (
+    bare,
+    below_summary,
+    measured,
+    warning,
+)
 
 NO_BOUND = "no bound: see the warnings"
 
@@ -178,3 +183,36 @@ def _powers(design: Design) -> Iterator[SummaryLine]:
     known = [(size, text) for size, text in powers if size is not None]
     for size, text in sorted(known, key=lambda pair: -pair[0]):
         yield SummaryLine(measured(size, "W"), text)
+
+
+def record_answer(
+    design: Design, record: Table, lines: Iterable[SummaryLine], warnings: Sequence[str]
+) -> Answer:
+    """An answer of some lines and warnings, with the other values of a record below them."""
+    summary = summary_of(design, lines, warnings)
+    return Answer((summary,), below_summary(record, without=("title",)), record)
+
+
+def summary_of(design: Design, lines: Iterable[SummaryLine], warnings: Sequence[str]) -> Summary:
+    """Some lines and warnings about a design, whose headline counts the warnings."""
+    head = f"{title_of(design)}{counted(warnings)}"
+    return Summary(head, (*lines, *map(warning, warnings)), WARNS if warnings else "")
+
+
+def title_of(design: Design) -> str:
+    """The title of a design, or else its description.
+
+    >>> title_of(Design(External(6)))
+    'Geneva wheel of 6 slots'
+    """
+    return design.spec.title or design.spec.wheel.title
+
+
+def counted(warnings: Sequence[str]) -> str:
+    """The number of warnings behind a headline; empty without any.
+
+    >>> counted(["a", "b"]), counted([])
+    (': 2 warnings', '')
+    """
+    many = len(warnings)
+    return f": {many} warning{'s' * (many != 1)}" if many else ""

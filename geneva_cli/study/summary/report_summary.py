@@ -7,8 +7,7 @@ from typing import Any
 
 from geneva_cli.answer import Answer, Summary, SummaryLine
 from geneva_cli.design import Design
-from geneva_cli.study.summary.load_lines import cycle_lines, motor_line
-from geneva_cli.study.summary.titles import title_of
+from geneva_cli.study.summary.load_lines import cycle_lines, motor_line, title_of
 from geneva_cli.verdict.headline import (
     below_summary,
     both_ways_lines,

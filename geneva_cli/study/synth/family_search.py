@@ -8,8 +8,8 @@ cannot be built, the best that can be built is searched between it and worse one
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple, TypeAlias
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,23 +21,16 @@ from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.study.batches import BatchKey, columns, numbers, split
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
-from geneva_cli.study.synth.fast_parts import has_no_obstacle
-from geneva_cli.study.synth.machine_rows import MachineRow, rows, with_peak_limit
 from geneva_cli.study.synth.optimiser import (
     KEPT,
+    SETTLED,
     Places,
     Zoom,
-    accepted,
     sampled,
     tops,
     zoom,
 )
-from geneva_cli.study.synth.parts_data import compute_parts_data
 from geneva_cli.study.target import Target
-
-# A function that turns a machine's parts and returns its row, None if they fail. It uses the sizes
-# of another row that passes or, without one, the first sizes that do.
-Turn: TypeAlias = Callable[[MachineRow, MachineRow | None], MachineRow | None]
 
 GRID = 24  # intervals of the span of one number, sampled first
 QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
@@ -115,7 +108,9 @@ def _best_places(free: FamilyCosts, freedom: int, how_near: bool) -> Places:
     first = tops(lambda of, at: free(left[of], at), len(left), axes, most)
     first = first._replace(of=left[first.of])
     tracks = first.joined(nearest.take(np.isin(nearest.of, left))).best(most)
-    return zoom(free, tracks, how, patient=how_near).joined(done).best(1)
+    # at equal costs the plain crank's place, which may be another family's machine
+    plainly = nearest._replace(cost=nearest.cost - SETTLED * np.abs(nearest.cost))
+    return zoom(free, tracks, how, patient=how_near).joined(done, plainly).best(1)
 
 
 class FamilyCosts:
@@ -226,67 +221,3 @@ class FamilyCosts:
                 # what no batch computes is computed later: it keeps its bounds so far
                 values = [*peak, *(np.full(count, b.bound) for b in self.bounds)]
         return batch.which, np.reshape(values or [], (len(names), -1)).T
-
-
-def replacement_rows(
-    target: Target, first: Sequence[MachineRow], ranked: Sequence[MachineRow]
-) -> list[MachineRow]:
-    """Replacements for the ``first`` rows that cannot be built: the best of their families.
-
-    Rows that break a limit of the frame are left out; another search replaces them.
-    """
-    able = {row.family for row in ranked if not row.is_impossible}
-    stuck = [row.family for row in first if row.is_impossible and not row.breaks_limit]
-    families = [*dict.fromkeys(family for family in stuck if family and family not in able)]
-    known = {row.spec for row in ranked}
-    others = buildable_rows(target, families) if families else []
-    return [row._replace(is_replacement=True) for row in others if row and row.spec not in known]
-
-
-def buildable_rows(
-    target: Target, families: Sequence[Family], turn: Turn | None = None
-) -> list[MachineRow | None]:
-    """For each family the row of its best machine that may be built; None for a family without.
-
-    The place is precise to some thousandths of the span. With ``turn`` the machine passes a full
-    turn, which takes a hundred times as long as a test: only a few are turned.
-    """
-    free = FamilyCosts(families, target)
-    known: dict[tuple[int, float], MachineRow] = {}
-    best_rows: dict[int, MachineRow] = {}
-
-    def accept(places: Places) -> Mask:
-        each = [*zip(places.of.tolist(), places.at[:, 0].tolist(), strict=True)]
-        specs = [
-            families[i].at(free.place(i, at)) for i, at in zip(places.of, places.at, strict=True)
-        ]
-        limited = [spec and with_peak_limit(target, spec) for spec in specs]
-        compute_parts_data(spec for spec in limited if spec)
-        drawn = [k for k, spec in enumerate(limited) if spec and has_no_obstacle(spec)]
-        for k, row in zip(drawn, rows(target, [limited[k] for k in drawn], []), strict=True):
-            i, _ = each[k]
-            if row and not row.is_impossible:
-                own = row._replace(family=families[i])
-                passing = turn(own, best_rows.get(i)) if turn else own
-                if passing:
-                    known[each[k]] = passing
-        return np.array([one in known for one in each], dtype=bool)
-
-    intervals, parts, samplings = (8, 2, 4) if turn else (16, 4, 4)
-    counts = [f.several or intervals + 1 for f in families]
-    at = np.concatenate([np.linspace(0.0, 1.0, count) for count in counts])[:, None]
-    every = sampled(free, np.repeat(np.arange(len(families)), counts), at)
-    good = accepted(every, accept)
-    for number in range(samplings + 1):
-        best_rows |= {
-            i: known[i, x] for i, (x,) in zip(good.of.tolist(), good.at.tolist(), strict=True)
-        }
-        if number == samplings:
-            break
-        step = np.arange(-parts + 1, parts) / (intervals * parts ** (number + 1))
-        refined = good.take(~np.isin(good.of, [i for i, f in enumerate(families) if f.several]))
-        near = np.clip(refined.at + step, 0.0, 1.0).reshape(-1, 1)
-        samples = sampled(free, np.repeat(refined.of, len(step)), near)
-        better = samples.take(samples.cost < np.repeat(refined.cost, len(step)))
-        good = accepted(better, accept).joined(good).best(1)
-    return [best_rows.get(i) for i in range(len(families))]

@@ -12,7 +12,6 @@ from geneva_cli.motion.records import KINDS
 from geneva_cli.motion.registry import STANDARD_LAWS as LAWS
 from geneva_cli.spec.rules import POSITIVE, Range, range_text
 from geneva_cli.spec.schema import fields
-from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import (
     Constraint,
@@ -21,7 +20,7 @@ from geneva_cli.study.sweep.constraints import (
     refuse_contradictions,
     refuse_words,
 )
-from geneva_cli.study.target import GEARINGS, PEAK, ROLLERS_MAX, SPACE, Target
+from geneva_cli.study.target import GEARINGS, PEAK, ROLLERS_MAX, SPACE, AllowedSpan, Target
 
 # The requirements for a number or a range: allowed values, and name and unit in words.
 SPANS = {

@@ -5,26 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.progress import tracked
-from geneva_cli.study.batches import numbers
+from geneva_cli.spec.load_limits import LIMITED
+from geneva_cli.study.fields import Cell, Pick
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.study.sweep.constraints import Constraint, is_number
+from geneva_cli.study.sweep.constraints import Constraint, Nearness, is_number
 from geneva_cli.study.synth.families import closed
-from geneva_cli.study.synth.families.every import Kind, families, kinds
-from geneva_cli.study.synth.families.family import natural_deg, pieces
-from geneva_cli.study.synth.family_search import best, replacement_rows
-from geneva_cli.study.synth.limited import (
-    first_of_each,
-    frame_limits,
-    with_replacements,
-)
-from geneva_cli.study.synth.machine_rows import MachineRow, rows
-from geneva_cli.study.synth.quantities import bounded, with_batch_values
+from geneva_cli.study.synth.families.family import natural_deg
+from geneva_cli.study.synth.group_search import all_kinds, replacement_rows, with_batch_values
+from geneva_cli.study.synth.machine_rows import MachineRow
 from geneva_cli.study.target import TURNS, Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
@@ -52,14 +47,6 @@ class Ranking(NamedTuple):
             return None
 
 
-class _KindRows(NamedTuple):
-    """The rows of one kind of machine, and whether one of its machines keeps the bounds."""
-
-    rows: list[MachineRow]
-    keeps: bool
-    errors: list[str]
-
-
 def search(target: Target) -> Ranking:
     """The machines that meet the requirement, in order; no part has been turned yet.
 
@@ -67,10 +54,10 @@ def search(target: Target) -> Ranking:
     """
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
-    by_kind = _all_kinds(narrowed, target.names)
+    by_kind = all_kinds(narrowed, target.names)
     # the error message says how near they come
     if target.acceleration_max is None and not any(kind.keeps for kind in by_kind):
-        by_kind = _all_kinds(target, target.names, how_near=True)
+        by_kind = all_kinds(target, target.names, how_near=True)
     errors = [error for kind in by_kind for error in kind.errors]
     every = [row for kind in by_kind for row in kind.rows]
     if not every:
@@ -105,69 +92,12 @@ def _within_limits(target: Target, narrowed: Target, which: Sequence[bool]) -> l
     ``narrowed`` is the requirement with its bounds on times as ranges.
     """
     strict = narrowed._replace(bounds=(*narrowed.bounds, *frame_limits(target)))
-    by_kind = _all_kinds(strict, target.names, which=which)
+    by_kind = all_kinds(strict, target.names, which=which)
     kept = [row for kind in by_kind for row in kind.rows if not row.breaks_limit]
     try:
         return _ranked(target, kept)
     except GenevaError:  # none keeps the bounds as well
         return []
-
-
-def _all_kinds(
-    target: Target,
-    names: Sequence[str],
-    how_near: bool = False,
-    which: Sequence[bool] = (),
-) -> list[_KindRows]:
-    """The results of all groups of machines, or of ``which``, in order, from all cores."""
-    tasks = [task for i, task in enumerate(kinds(target)) if not which or which[i]]
-    wheels = len(target.gearings) * len(target.z) * len(target.laws)
-    many = which or wheels > 6  # a smaller search ends before a second process has started
-    workers = min(len(tasks), cores()) if many else 1
-    work = partial(_kind_rows, names=names, how_near=how_near)
-    done = mapped(work, tasks, workers, "machines")
-    return list(tracked(done, "groups of machines", len(tasks)))
-
-
-def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _KindRows:
-    kind, target = task
-    errors: list[str] = []
-    thing = [*families(kind, target)]
-    if not in_batch(target.quantities):
-        # the search cannot see them: they are computed for the best of several pieces of a family
-        thing = pieces(thing, 120)
-    one_each, near = best(thing, target, how_near)
-    of = {one.spec: one.family for one in reversed([*one_each, *near])}
-    keeps, kept, broken = _divided(
-        target.known_bounds, [*dict.fromkeys(one.spec for one in one_each)]
-    )
-    shown = [*kept, *broken, *(one.spec for one in near)] if how_near else kept
-    built_rows = [
-        row._replace(family=of[spec].whole) if of[spec].can_vary else row
-        for spec, row in zip(shown, rows(target, shown, errors), strict=True)
-        if row
-    ]
-    return _KindRows(with_batch_values(names, built_rows), keeps, errors)
-
-
-def _divided(
-    bounds: Sequence[Constraint], specs: list[Spec]
-) -> tuple[bool, list[Spec], list[Spec]]:
-    """Divide specs by the bounds that do not depend on the roller.
-
-    Returns whether one of them is known to keep all, the specs that may keep them, and the others.
-    """
-    whatever = [b for b in bounds if not b.name.startswith("loads.")]
-    if not whatever:
-        return bool(specs), specs, []
-    values = numbers(specs, [b.name for b in whatever])
-    broken = [
-        own is not None and not all(b.kept(x) for b, x in zip(whatever, own, strict=True))
-        for own in values
-    ]
-    keeps = any(own and not out for own, out in zip(values, broken, strict=True))
-    kept = [spec for spec, out in zip(specs, broken, strict=True) if not out]
-    return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
 
 
 def _rank(target: Target, row: MachineRow) -> tuple[object, ...]:
@@ -271,3 +201,84 @@ def _out_of_reach(target: Target, errors: list[str]) -> str:
         + (f", and no drive goes beyond A or eccentricity {closed.PARAMETER_MAX}" if m == 1 else "")
         + f"; use more slots or a longer motion{first}"
     )
+
+
+def frame_limits(target: Target) -> tuple[Constraint, ...]:
+    """The frame's limits as bounds; the lock's load is equal in all machines of a wheel."""
+    values = target.frame.limits.as_dict() if target.frame else {}
+    return tuple(
+        Constraint(name, ">=" if "_min" in key else "<=", float(values[key]))
+        for key, name in LIMITED.items()
+        if values.get(key) is not None
+    )
+
+
+def _kind(row: MachineRow) -> tuple[object, ...]:
+    """A key that is equal for all machines of one wheel, drive, law and number of rollers."""
+    one = row.candidate
+    return one.gearing, one.z, one.drive, one.law, one.fixed, one.rollers
+
+
+def first_of_each(rows: Sequence[MachineRow], linkages: bool = False) -> list[MachineRow]:
+    """The first row of every kind, or the first that may be built if that one cannot.
+
+    With ``linkages`` every linkage counts as a kind, as several rows stand for those searched.
+    """
+    kept: list[MachineRow] = []
+    can_be: dict[Any, bool] = {}  # by kind, whether one of the kept rows may be built
+    for i, row in enumerate(rows):
+        apart = linkages and row.candidate.crank_mm is None
+        own = i if apart else _kind(row)
+        if own not in can_be or (not can_be[own] and not row.is_impossible):
+            kept.append(row)
+            can_be[own] = not row.is_impossible
+    return kept
+
+
+def with_replacements(rows: Sequence[MachineRow], kept: Sequence[MachineRow]) -> list[MachineRow]:
+    """The rows, with those that break a limit replaced by rows ``kept`` of their kind."""
+    broken = {_kind(row) for row in rows if row.breaks_limit}
+    instead = [row for row in kept if _kind(row) in broken and not row.breaks_limit]
+    mended = {_kind(row) for row in instead}
+    return [*(row for row in rows if _kind(row) not in mended), *instead]
+
+
+def bounded(target: Target, rows: Sequence[MachineRow]) -> list[MachineRow]:
+    """The rows that keep the bounds, with the quantities that the requirement names."""
+    names = target.names
+    alone = [row.spec for row in rows if not row.extra]
+    rest = mapped(partial(_values, Pick(names)), alone, min(cores(), len(alone)), "machines")
+    rest = tracked(rest, "machines computed", len(alone))
+    values = [row.extra or next(rest) for row in rows]
+    known = [(row, cells) for row, cells in zip(rows, values, strict=True) if cells is not None]
+    nearness = Nearness([(names.index(b.name), b) for b in target.bounds])
+    nearness.add([cells for _, cells in known])
+    kept = [
+        row._replace(extra=cells)
+        for row, cells in known
+        if all(b.kept(cells[i]) for i, b in nearness.bounds)
+    ]
+    if not kept:
+        raise GenevaError(f"--subject-to: {_how_near(nearness, len(rows))}")
+    return kept
+
+
+def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
+    try:
+        return tuple(of.of(build(spec)))
+    except GenevaError:  # parts that cannot be drawn have no quantities
+        return None
+
+
+def _how_near(nearness: Nearness, count: int) -> str:
+    """The bounds that none of the machines keeps, and how near one is; or that none keeps all."""
+    each = [*zip(nearness.bounds, nearness.kept, nearness.nearest, strict=True)]
+    phrases = [
+        f"{b} (not known)" if nearest is None else f"{b} (nearest {nearest:.6g})"
+        for (_, b), kept, nearest in each
+        if not kept
+    ]
+    if not phrases:
+        *others, last = [str(b) for _, b in nearness.bounds]
+        phrases = [*others, f"{last} at once"]
+    return f"none of {count} machines that keep all other bounds keeps {' and '.join(phrases)}"

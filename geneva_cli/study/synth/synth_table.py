@@ -11,8 +11,8 @@ from geneva_cli.progress import tracked
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.synth.built import Built, built, passes
-from geneva_cli.study.synth.family_search import buildable_rows
 from geneva_cli.study.synth.fast_parts import MAYBE, YES
+from geneva_cli.study.synth.group_search import buildable_rows
 from geneva_cli.study.synth.machine_rows import Candidate, MachineRow
 from geneva_cli.study.synth.synth_search import TURNED, Ranking, search
 from geneva_cli.study.target import Target

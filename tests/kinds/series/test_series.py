@@ -48,8 +48,7 @@ from geneva_cli.parts.parts import parts_of
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.specfile.writer import spec_lines
 from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.bodies import bodies
-from geneva_cli.study.animation.teeth import drawn_teeth
+from geneva_cli.study.animation.bodies import bodies, drawn_teeth
 
 GEARS = EllipticalGears(eccentricity=0.2, gear_distance_mm=50.0)
 PLANET = Epicyclic(planet_ratio="shockless")

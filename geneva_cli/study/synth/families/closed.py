@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 
 from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
-from geneva_cli.study.spans import AllowedSpan
+from geneva_cli.study.target import AllowedSpan
 
 AXES = AllowedSpan(1.0, 179.0)  # angles between the shafts of a spherical wheel, degrees
 PARAMETER_MAX = 0.9999  # greatest |A| and eccentricity: beyond, the drive nearly stops or jumps

@@ -23,7 +23,6 @@ from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import MARGIN
 from geneva_cli.study.law_values import characteristic
-from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.family import (
     OPEN_END,
@@ -40,7 +39,7 @@ from geneva_cli.study.synth.families.family import (
 )
 from geneva_cli.study.synth.fast_parts import has_no_obstacle
 from geneva_cli.study.synth.parts_data import compute_parts_data
-from geneva_cli.study.target import Target
+from geneva_cli.study.target import AllowedSpan, Target
 
 
 @cache

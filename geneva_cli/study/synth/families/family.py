@@ -19,8 +19,7 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.study.spans import AllowedSpan
-from geneva_cli.study.target import Target
+from geneva_cli.study.target import AllowedSpan, Target
 
 # fraction of a turn over m that an open end of a range leaves to motion and to dwell
 OPEN_END = 0.01

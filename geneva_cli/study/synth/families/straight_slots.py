@@ -26,7 +26,6 @@ from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.family import (
     Family,
@@ -41,7 +40,7 @@ from geneva_cli.study.synth.families.family import (
     rollers,
     speeds,
 )
-from geneva_cli.study.target import Target
+from geneva_cli.study.target import AllowedSpan, Target
 from geneva_cli.verdict.quantities.quantity_names import is_motion
 
 MOST = closed.PARAMETER_MAX
