@@ -154,11 +154,11 @@ class Cutter:
         A kink or a pole leaves some rows at each level, noise twice as many as before.
         """
         first = np.bincount(rows.design, minlength=len(self.noisy))
-        for _ in range(60):  # halvings: all rows are too narrow for more by then
+        for depth in range(60):  # halvings: all rows are too narrow for more by then
             if not len(rows.design):
                 break
             count = np.bincount(rows.design, minlength=len(self.noisy))
-            self.noisy |= count > MOST_ROWS + 2 * first
+            self.noisy |= (count > MOST_ROWS + 2 * first) | (depth == 59)
             self.todo: list[Rows] = []
             yield [rows.take(block) for block in blocks(len(rows.design), BLOCK)]
             rows = joined([rows.take(slice(0)), *self.todo])
