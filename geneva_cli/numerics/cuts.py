@@ -28,7 +28,7 @@ from geneva_cli.numerics.arrays import (
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 
 BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
-MOST_ROWS = 2000  # of a design at a time: more are rounding, as of laws by points
+MOST_ROWS = 100  # of a design at a time, beyond twice those of its spans: more are rounding
 AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
 LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later terms
 NEWTON_STEPS = 6  # of Newton's method, from the zero of a series
@@ -153,8 +153,12 @@ class Cutter:
 
         A kink or a pole leaves some rows at each level, noise twice as many as before.
         """
-        while len(rows.design):
-            self.noisy |= np.bincount(rows.design, minlength=len(self.noisy)) > MOST_ROWS
+        first = np.bincount(rows.design, minlength=len(self.noisy))
+        for depth in range(60):  # halvings: all rows are too narrow for more by then
+            if not len(rows.design):
+                break
+            count = np.bincount(rows.design, minlength=len(self.noisy))
+            self.noisy |= (count > MOST_ROWS + 2 * first) | (depth == 59)
             self.todo: list[Rows] = []
             yield [rows.take(block) for block in blocks(len(rows.design), BLOCK)]
             rows = joined([rows.take(slice(0)), *self.todo])
