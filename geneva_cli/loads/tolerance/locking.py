@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
 import numpy as np
 
@@ -53,8 +53,11 @@ class LockPlay(NamedTuple):
     jams: Mask  # True if they do not fit together
 
 
-# The play to one side of a lock of parts as they are cut, by deviations.
-CutLock: TypeAlias = "Callable[[Deviations], LockPlay]"
+class CutLock(Protocol):
+    """A lock of parts as they are cut, whose play deviations change."""
+
+    def __call__(self, by: Deviations) -> LockPlay:
+        """Play of the wheel to one side."""
 
 
 class LockContact(NamedTuple):

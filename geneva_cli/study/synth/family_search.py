@@ -145,7 +145,8 @@ class FamilyCosts:
 
     def place(self, i: int, at: Array) -> Sequence[float]:
         """The numbers of a family at a place of the unit cube."""
-        return self._places(np.array([i]), at[None])[0].tolist()  # type: ignore[no-any-return]
+        numbers: list[float] = self._places(np.array([i]), at[None])[0].tolist()
+        return numbers
 
     def _places(self, of: Whole, at: Array) -> Array:
         low, high = self.low[of], self.high[of]

@@ -196,8 +196,11 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
         moved = all(map(is_motion, target.quantities))
         for drive in (SIDE_CRANK,) if moved else (SIDE_CRANK, *GEARS):
             keys, spec = partial(_both, target, z, drive), drive.spec(target, wheel)
-            scale, right = (180.0, closed.AXES.high - closed.AXES.low), (natural_deg(wheel), 90.0)
-            yield Family(spec, keys, low, high, right, scale, known=right)
+            scale, at_right = (
+                (180.0, closed.AXES.high - closed.AXES.low),
+                (natural_deg(wheel), 90.0),
+            )
+            yield Family(spec, keys, low, high, at_right, scale, known=at_right)
 
 
 def _on_axes(target: Target, z: int, m: int, at: Array) -> dict[str, Array]:
