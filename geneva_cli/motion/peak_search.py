@@ -63,7 +63,8 @@ def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     blur = motion.BREAKS_TO * (places[-1] - places[0])
     inner = [(x, np.where(x == 0.0, 0.0, blur)) for x in places[1:-1]]
     # beyond 0 the next double would become 0 again where it is scaled
-    beyond = [np.where(x == 0.0, 1e-300, np.nextafter(x, np.inf)) for x, _ in inner]
+    with np.errstate(under="ignore"):  # of 0, which is replaced
+        beyond = [np.where(x == 0.0, 1e-300, np.nextafter(x, np.inf)) for x, _ in inner]
     begins = [np.maximum(after, x + clear) for after, (x, clear) in zip(beyond, inner, strict=True)]
     ends = [x - clear for x, clear in inner]
     pairs = zip([places[0], *begins], [*ends, places[-1]], strict=True)

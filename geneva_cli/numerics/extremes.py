@@ -452,7 +452,7 @@ def bar(most: Array, size: Array) -> Array:
     # Extremes within 1e-12 of their size are equal. So are values within 1e-13 of the function's
     # size: at a computed root it is not exactly 0.
     tie = np.maximum(1e-12 * np.abs(most), 1e-13 * size)
-    return np.where(np.isfinite(most), most - tie, most)
+    return most - np.where(np.isfinite(most), tie, 0.0)
 
 
 def first_greatest(value: Array, place: Array, size: Array) -> tuple[Array, Array]:

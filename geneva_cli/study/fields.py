@@ -45,7 +45,7 @@ class Pick(NamedTuple):
         """The groups that contain them, those that make parts last."""
         groups = dict.fromkeys(group_of()[name] for name in self.names)
         # another group may compute all names of a short one as well
-        own = [one for one in groups if not any(set(one.own) < set(x.own) for x in groups)]
+        own = [one for one in groups if not any(set(one.names) < set(x.names) for x in groups)]
         return tuple(sorted(own, key=lambda group: group.makes_parts))
 
     @property

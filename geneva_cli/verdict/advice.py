@@ -221,13 +221,16 @@ class Adviser:
 
         turned = any(name in TURNING for name in self.units)
         at = _edge(remedy, both if turned else quick, 0.0, -1.0)
-        if at is not None and self.whole(remedy, remedy.rounded(at)) >= 0.0:
-            return remedy, remedy.rounded(at)
-        if at is not None and not turned:
+        found = self._rounded(remedy, at)
+        if found is None and at is not None and not turned:
             at = _edge(remedy, both, at, -math.inf)
-            if at is not None and self.whole(remedy, remedy.rounded(at)) >= 0.0:
-                return remedy, remedy.rounded(at)
-        return None if at is None else (remedy, remedy.at(at))
+            found = self._rounded(remedy, at)
+        return found or (None if at is None else (remedy, remedy.at(at)))
+
+    def _rounded(self, remedy: Remedy, at: float | None) -> Advice | None:
+        """The value at a fraction with few digits, if it is sufficient."""
+        values = [] if at is None else remedy.rounded(at)
+        return next(((remedy, v) for v in values if self.whole(remedy, v) >= 0.0), None)
 
     def quick(self, remedy: Remedy, value: Value) -> float:
         """A margin of the wanted checks, relative to its present violation.

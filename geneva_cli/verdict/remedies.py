@@ -154,10 +154,24 @@ class Remedy(NamedTuple):
         value = self.now + (self.end - self.now) * fraction
         return round(value) if isinstance(self.now, int) else float(f"{value:.12g}")
 
-    def rounded(self, fraction: float) -> float | int:
-        """The value at a fraction, with few digits, and not nearer to the present one."""
+    def rounded(self, fraction: float) -> list[float | int]:
+        """The value at a fraction with few digits: a limit beside it, or one farther away."""
         value = self.at(fraction)
-        return value if isinstance(value, int) else rounded(value, self.end, self.now)
+        if isinstance(value, int):
+            return [value]
+        limit, away = limit_beside(value, self.now), rounded(value, self.end, self.now)
+        return [away] if limit is None else [limit, away]
+
+
+def limit_beside(good: float, bad: float) -> float | None:
+    """A value of two digits next to ``good``, on the side of ``bad``: a limit is often one.
+
+    >>> limit_beside(31.97, 40.0)
+    32.0
+    """
+    shown = float(f"{good:.2g}")
+    beyond = (shown - good) * (bad - good) > 0.0
+    return shown if beyond and abs(shown - good) <= NEARLY * abs(good - bad) else None
 
 
 def rounded(good: float, far: float, bad: float) -> float:

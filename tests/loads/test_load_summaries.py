@@ -232,8 +232,10 @@ def test_one_name_has_one_meaning_in_all_answers():
     force = np.asarray(rows["pin_force_N"])
     assert force.min() < -50.0
     for load in ("pin_force_N", "input_torque_Nm", "contact_stress_MPa"):
-        assert values[f"{load}.max"] == report[f"loads.{load}.max"]
-        assert values[f"{load}.max_at_deg"] == report[f"loads.{load}.at_deg"]
+        # the cycle searches more functions together: its places may differ by rounding
+        assert values[f"{load}.max"] == pytest.approx(report[f"loads.{load}.max"], rel=1e-15)
+        places = values[f"{load}.max_at_deg"], report[f"loads.{load}.at_deg"]
+        assert places[0] == pytest.approx(places[1], abs=1e-9)
     # samples 0.018 degrees apart: extremes within 1e-6, sums to the square of the spacing
     assert values["pin_force_N.max"] == pytest.approx(abs(force).max(), rel=1e-6)
     assert values["pin_force_N.min"] == 0.0

@@ -5,7 +5,7 @@ import math
 import pytest
 import repo
 
-from geneva_cli import Design, External, Size, load
+from geneva_cli import Design, External, Internal, SideCrank, Size, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import plates
 from geneva_cli.parts.arm import crank_arm
@@ -111,6 +111,17 @@ def test_an_arm_beside_the_wheels_hub():
     assert short == (pytest.approx(100.0 - 50.0 - 2.5 - 44.0), "wheel's hub", "pin")
 
 
+def test_a_crank_shaft_through_an_internal_wheel():
+    """Its horns come as near to the wheel's axis as the rim, and the crank's axis is beyond."""
+    design = Design(Internal(6), size=Size(crank_shaft_high_mm=4.0))
+    sizes = design.parts.sizes
+    found = gap_of(design)
+    radius = part(design, "crank's shaft").outline.radius
+    assert found.gap == pytest.approx(sizes.rim - 100.0 - radius, abs=1e-6)
+    assert (found.shaft, found.part) == ("crank's shaft", "wheel")
+    assert gap_of(Design(Internal(6))) is None
+
+
 def test_a_shaft_in_a_disc_must_move_outside_and_in_a_ring_may_move_inside():
     assert ring_gap(3.0, 0.0, 10.0, 1.0) == -8.0
     assert ring_gap(3.0, 2.0, 10.0, 1.0) == -2.0
@@ -134,6 +145,23 @@ def test_a_shaft_ends_above_a_link_that_is_in_its_way():
     design = load(str(repo.DESIGNS / "side-crank-z6.toml"))
     assert part(design, "crank's shaft").low == part(design, "coulisse").low
     assert part(design, "wheel's shaft").low == part(design, "frame").low
+
+
+@pytest.mark.parametrize("low", [-20.0, -20.5, -36.0])
+def test_a_shaft_that_the_spec_takes_through_a_link(low):
+    """A side-crank's input crank turns in -30..-20 mm, and the coulisse above it.
+
+    Its axis is 0.6 R from the crank's. There the belt round its hub and the eye of its pin, R away,
+    is as wide as a share of 0.6 of the way from the one to the other.
+    """
+    size = Size(crank_shaft_low_mm=low)
+    found = row(Design(External(6), SideCrank(A=0.6), size=size), "link_gap_mm")
+    hub, eye, shaft = 8.0, 5.0, 4.5  # radii: 1.6 bores of 5, 2 pins of 2.5, the crank's bore
+    if low == -20.0:
+        assert found.passes
+    else:
+        assert found.value == pytest.approx(-(hub + 0.6 * (eye - hub)) - shaft, abs=1e-9)
+        assert found.passes is False and found.nearest == "leaving out crank_shaft_low_mm"
 
 
 def test_a_keyway_leaves_a_wall_of_its_hub():

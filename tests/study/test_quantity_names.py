@@ -68,7 +68,9 @@ def test_what_loads_shows_is_a_quantity(name):
     }
     assert "loads.power_W.max_at_deg" in shown
     alone = pick([*shown]).of(design.mechanism)
-    assert dict(zip(shown, alone, strict=True)) == shown
+    # the cycle searches more functions together: places and sums may differ by rounding
+    for value, (key, own) in zip(alone, shown.items(), strict=True):
+        assert value == (own and pytest.approx(own, rel=1e-14, abs=1e-13)), key
     (together,) = numbers([design.spec], [*shown])
     for value, (key, own) in zip(together, shown.items(), strict=True):
         if own is None:  # a wheel has no loads of a rack, nor a rack those of a wheel

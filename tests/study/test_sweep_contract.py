@@ -30,7 +30,9 @@ def test_slots_of_an_unbalanced_wheel_on_a_carrier_vary_alone(tmp_path):
     path = str(tmp_path / "spec.toml")
     assert not may_vary(load(path).spec, "wheel.z")
     single = [load(path, [f"wheel.z={z}"]).loads["input_torque_Nm"] for z in (5, 6)]
-    assert [row[1] for row in rows] == [max(one.max, -one.min) for one in single]
+    # the cycle searches more functions together: its places may differ by rounding
+    sizes = [max(one.max, -one.min) for one in single]
+    assert [row[1] for row in rows] == pytest.approx(sizes, rel=1e-15)
 
 
 HORN = "[size]\nface_width_mm = 10\n[load]\ninertia_kgm2 = 0.3\n"

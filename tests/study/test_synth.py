@@ -279,6 +279,17 @@ WISHES = [
 
 @pytest.mark.sampled(9)
 @pytest.mark.parametrize("options", WISHES, ids=str)
+def test_rows_are_sorted_and_numbered(options):
+    target, found = searched(**options)
+    table = synthesis_table(target, 0, ranking=found)
+    columns = dict(zip(table.names, table.columns, strict=True))
+    assert list(columns["no"]) == list(range(1, len(table) + 1))
+    peaks = columns["acceleration_max_rad_s2" if target.timed else "acceleration_max"]
+    assert all(a <= b * (1 + 1e-11) for a, b in zip(peaks, peaks[1:], strict=False))
+
+
+@pytest.mark.sampled(9)
+@pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
     target, found_rows = searched(**options)
     for number, (_, candidate, *_) in enumerate(found_rows.rows, 1):

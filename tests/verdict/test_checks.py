@@ -86,6 +86,12 @@ def test_something_must_hold_the_wheel_in_the_dwell() -> None:
     assert not motion_warnings(build(without.replace(wheel=Wheel(6, held_by="brake"))))
 
 
+def test_what_is_not_proved_is_said() -> None:
+    parts = rows(Spec(Wheel(400)))["parts"]
+    assert parts.passes is None
+    assert parts.why == "wheels of more than 360 slots are not drawn"
+
+
 @pytest.mark.parametrize(
     ("value", "must_be", "limit", "kept"),
     [

@@ -109,7 +109,8 @@ def _best_places(free: FamilyCosts, freedom: int, how_near: bool) -> Places:
     first = first._replace(of=left[first.of])
     tracks = first.joined(nearest.take(np.isin(nearest.of, left))).best(most)
     # at equal costs the plain crank's place, which may be another family's machine
-    plainly = nearest._replace(cost=nearest.cost - SETTLED * np.abs(nearest.cost))
+    settled = np.where(np.isfinite(nearest.cost), SETTLED * np.abs(nearest.cost), 0.0)
+    plainly = nearest._replace(cost=nearest.cost - settled)
     return zoom(free, tracks, how, patient=how_near).joined(done, plainly).best(1)
 
 
