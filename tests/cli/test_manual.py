@@ -6,7 +6,6 @@
 import os
 import re
 import shlex
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,7 +16,8 @@ from typer.testing import CliRunner
 from windows import looking
 
 from geneva_cli import output
-from geneva_cli.cli.app import app
+from geneva_cli.cli.app import COMMANDS, app
+from geneva_cli.cli.commands import help
 from geneva_cli.manual import GROUPS, TITLES, TOPICS, page, path
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -137,9 +137,6 @@ def test_the_pictures_are_what_their_commands_draw(file: Path, tmp_path: Path) -
         assert numbers[0] == pytest.approx(numbers[1], abs=0.01)
 
 
-SHELL = re.compile(r"```sh\n(.*?)```", re.DOTALL)
-
-
 def commands_in(block: str) -> list[str]:
     """The commands of a shell block, but those of a job array's variables."""
     lines = block.replace("\\\n", " ").splitlines()
@@ -153,33 +150,26 @@ def words_of(command: str) -> list[str]:
     return words[1 : words.index(">") if ">" in words else None]
 
 
-def commands_of(file: Path) -> list[str]:
-    """The commands of a page that is not done alone, in shell blocks."""
-    if file in ALONE:
-        return []
-    return commands_in("\n".join(SHELL.findall(text_of(file))))
-
-
-@pytest.mark.parametrize("file", [p for p in PAGES if commands_of(p)], ids=lambda file: file.stem)
-def test_the_commands_run_as_they_stand(
-    file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """One after the other where a reader has a spec.toml and the designs."""
-    monkeypatch.chdir(tmp_path)
-    shutil.copytree(ROOT / "designs", "designs")
-    spec = text_of(ROOT / "designs" / "tolerances.toml")
-    Path("spec.toml").write_text(spec, encoding="utf-8")
-    shutil.copy("designs/side-crank-z6.toml", "wish.toml")  # some pages have it from another
-    for command in commands_of(file):
-        invoke(words_of(command))
-
-
 def test_the_readme_is_short_and_leads_to_the_manual() -> None:
     text = text_of(README)
     assert len(text.splitlines()) <= 120
     links = re.findall(r"\]\(([^)]+)\)", text)
     assert {name for name in links if not (ROOT / name).exists()} == set()
     assert "geneva_cli/manual" in links and "`geneva help`" in text
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_is_in_the_manual(command: str) -> None:
+    assert any(f"geneva {command}" in text_of(file) for file in PAGES)
+
+
+def test_pages_begin_with_a_title_and_name_pages_that_exist() -> None:
+    for topic in TOPICS:
+        text = page(topic)
+        assert text.startswith("# ") and "<img" not in text and "<!--" not in text, topic
+        named = set(re.findall(r"geneva help ([a-z-]+)", text))
+        searched = {line.split()[-1] for line in help.EXAMPLES}  # words that help searches for
+        assert named <= {*TOPICS, *COMMANDS, *searched}, topic
 
 
 def test_help_prints_the_page_the_list_or_the_options_of_a_command() -> None:
