@@ -116,7 +116,12 @@ class Pieces(NamedTuple):
     @property
     def whole(self) -> Mask:
         """Masks of the pieces that are whole rows."""
-        return np.asarray((self.part[0] == -1.0) & (self.part[1] == 1.0))
+        return is_whole(self.part)
+
+
+def is_whole(part: Array) -> Mask:
+    """Masks of the parts (2, m) of rows, by both ends from -1 to 1, that are whole rows."""
+    return np.asarray((part[0] == -1.0) & (part[1] == 1.0))
 
 
 class Cutter:
@@ -193,8 +198,7 @@ class Cutter:
             unsure, cut, t = self._zeros(kind, here, sign, part, q)
             unsure &= ~self.is_settled(here)
             if unsure.any():
-                whole = (part[0] == -1.0) & (part[1] == 1.0)
-                self.again(here.part(part, self.w), whole, unsure)
+                self.again(here.part(part, self.w), is_whole(part), unsure)
             if len(cut):
                 number, part = _between(cut, t, part)
                 own, unsure, q = own[number], unsure[number], rows_taken(q, number)
@@ -285,7 +289,7 @@ class Cutter:
 
 def _other_sign(q: Array, part: Array, sign: Array) -> Whole:
     """Numbers of the parts in whose middle a function does not have the sign of its row."""
-    some = np.flatnonzero((part[0] != -1.0) | (part[1] != 1.0))
+    some = np.flatnonzero(~is_whole(part))
     middle = chebyshev.at(chebyshev.series(rows_taken(q, some)), 0.5 * part.sum(axis=0)[some])
     return some[np.where(middle > 0.0, 1.0, -1.0) != sign[some]]
 

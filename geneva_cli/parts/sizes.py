@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
-
-from geneva_cli.numerics.preferred import rounded_below
-from geneva_cli.spec.default_sizes import Thicknesses, half_or, value_or
-
-if TYPE_CHECKING:
-    from geneva_cli.spec.tables import Size
-
-
 import math
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.numerics.preferred import bore_radius, rounded_radius
+from geneva_cli.numerics.preferred import bore_radius, rounded_below, rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.shafts.bores import bore_of, has_shape, reach_or_bore
+from geneva_cli.spec.default_sizes import Thicknesses, half_or, value_or
 from geneva_cli.spec.least_wall import eye_about
 from geneva_cli.spec.tables import Size
 

@@ -25,8 +25,7 @@ def count(frame, event, _):
         depth += 1
         deepest = max(deepest, depth)
         if not code.co_name.startswith("<module"):
-            name = code.co_qualname if sys.version_info >= (3, 11) else code.co_name
-            functions.add((code.co_filename, name))
+            functions.add((code.co_filename, code.co_qualname))
     elif event == "return":
         depth -= 1
 sys.setprofile(count)

@@ -102,7 +102,7 @@ def test_the_same_motion_path_and_slot(case):
 
 
 def test_parts_of_the_designs_asked_at_the_same_angles_answer_for_themselves(case):
-    """What is kept of the latest angles was worked out of other designs."""
+    """At the same angles as the whole batch before them, and to the last bit."""
     found = case[2]
     motion, n = found.machine.engagements[0].motion, len(found.which)
     x = np.linspace(-1e-3, 1e-3, 3)

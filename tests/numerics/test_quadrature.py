@@ -1,4 +1,4 @@
-"""Integrals with roots at their ends, and what is kept of the latest angles."""
+"""Integrals with roots at their ends, and the sine over its angle with its derivatives."""
 
 import math
 

@@ -20,7 +20,6 @@ from geneva_cli.kinds.linkages.tangent_pairs import (
     SAME_ENTRY,
     Pairs,
     PathSamples,
-    bernstein,
     pairs,
     points,
     sampled,
@@ -101,7 +100,7 @@ def _block(path: LinkPath, samples: PathSamples, found: Pairs) -> PathWheels:
     moment, short = course[0][:, :-1], course[2][:, :-1]
     right = np.where(inside, (moment >= 0.0) & (short >= 0.0), short <= 0.0)
     good = np.all(right, axis=1)
-    moments, shorts = bernstein(third, *course[:2]), bernstein(third, *course[2:])
+    moments, shorts = _bernstein(third, *course[:2]), _bernstein(third, *course[2:])
     # A quotient of cubics is between the quotients of their Bernstein coefficients.
     square = wheels.square[:, None]
     least = most = moments[0] / (square - shorts[0])
@@ -113,6 +112,12 @@ def _block(path: LinkPath, samples: PathSamples, found: Pairs) -> PathWheels:
     i, j = np.nonzero(_open(moments, shorts, inside, *rounding) & good[:, None])
     between = place[i, j, None], place[i, j + 1, None]
     return taken(wheels, good & ~_leaves(path, wheels, i, between, inside[i, j, None], rounding))
+
+
+def _bernstein(third: Array, value: Array, slope: Array) -> tuple[Array, Array, Array, Array]:
+    """Bernstein coefficients of cubics between adjacent columns, and a third of their width."""
+    a, d = value[:, :-1], value[:, 1:]
+    return a, a + third * slope[:, :-1], d - third * slope[:, 1:], d
 
 
 def _open(
@@ -152,7 +157,7 @@ def _leaves(
         wrong = np.where(inside, (moment < -least) | (short < -most), short > most)
         fails[wheel[wrong.any(axis=1)]] = True
         third = np.diff(place) / 3.0
-        moments, shorts = bernstein(third, moment, by_phi), bernstein(third, short, slope)
+        moments, shorts = _bernstein(third, moment, by_phi), _bernstein(third, short, slope)
         i, j = np.nonzero(_open(moments, shorts, inside, least, most) & ~fails[wheel][:, None])
         between, wheel, inside = (place[i, j, None], place[i, j + 1, None]), wheel[i], inside[i]
     return fails

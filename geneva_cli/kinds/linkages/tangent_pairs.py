@@ -193,12 +193,6 @@ def _bends(left: PathPoints, right: PathPoints) -> Mask:
     return wrong | (half * np.abs(right.turn - left.turn) > 0.25)  # radians
 
 
-def bernstein(third: Array, value: Array, slope: Array) -> tuple[Array, Array, Array, Array]:
-    """Bernstein coefficients of cubics between adjacent columns, and a third of their width."""
-    a, d = value[:, FIRST], value[:, LAST]
-    return a, a + third * slope[:, FIRST], d - third * slope[:, LAST], d
-
-
 def pairs(path: LinkPath, samples: Sequence[PathSamples], b: Array) -> Pairs:
     """All pairs of designs with half index angles b, (n, 1), from samples of their paths."""
     if not samples:

@@ -9,15 +9,16 @@ from __future__ import annotations
 import math
 from functools import lru_cache, partial
 from itertools import takewhile
-from typing import TYPE_CHECKING
 
 from geneva_cli.kinds.spherical.ball import Ball, hub_about, inner_edge
 from geneva_cli.kinds.spherical.horn import sphere_horns
+from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
 from geneva_cli.loads.strength.horn_search import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
 from geneva_cli.loads.strength.shaft_stress import (
     LoadedShaft,
+    ShaftForces,
     crank_forces,
     shafts_under_load,
     wheel_forces,
@@ -35,17 +36,10 @@ from geneva_cli.parts.sized_by_load import (
     shaft_holds,
 )
 from geneva_cli.parts.sizes import arm_hub, hole_radius, largest_hub, within_hub
-from geneva_cli.spec.least_wall import wall_min
-from geneva_cli.spec.materials import wheel_material
-
-if TYPE_CHECKING:
-    from geneva_cli.loads.strength.shaft_stress import ShaftForces
-
-
-from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
 from geneva_cli.parts.stressed import Stressed, key_of, shaft_of
 from geneva_cli.spec.default_sizes import half_or, value_or
-from geneva_cli.spec.least_wall import eye_about
+from geneva_cli.spec.least_wall import eye_about, wall_min
+from geneva_cli.spec.materials import wheel_material
 
 
 def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:

@@ -1,7 +1,7 @@
 """SVG at true size: one path for each part, circles for bores, in plain coordinates.
 
 Drawings to cut have hairlines only. Drawings to view have lines in proportion to their size, filled
-plates, and notes; see ``svg_look``.
+plates, and notes.
 """
 
 from __future__ import annotations

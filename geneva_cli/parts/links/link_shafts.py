@@ -2,7 +2,7 @@
 
 Fixed shafts end in the frame's lower face, like those of wheel and crank. A link on a shaft other
 than the crank's lies in the lowest plane, so that nothing passes below it. A planet's shaft moves,
-and joins the parts on it. Each shaft is as wide as the bores on its axis (``link_axes``). A link
+and joins the parts on it. Each shaft is as wide as the bores on its axis (``link_pins``). A link
 without a bore is one piece with its shaft, which ends at the link's faces.
 """
 

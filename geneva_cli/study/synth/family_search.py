@@ -22,7 +22,7 @@ from geneva_cli.study.batches import BatchKey, columns, numbers, split
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
 from geneva_cli.study.synth.optimiser import (
-    KEPT,
+    BROKEN,
     SETTLED,
     Places,
     Zoom,
@@ -70,8 +70,8 @@ def best(
             free = FamilyCosts([families[i] for i in some], target)
             found = _best_places(free, freedom, how_near)
             for of, at, broken in zip(found.of.tolist(), found.at, found.violation, strict=True):
-                if broken < KEPT or freedom == 1:
-                    chosen[some[of]] = free.place(of, at), bool(broken < KEPT)
+                if broken < BROKEN or freedom == 1:
+                    chosen[some[of]] = free.place(of, at), bool(broken < BROKEN)
     kept: list[FamilyMachine] = []
     broken_ones: list[FamilyMachine] = []
     for i, f in enumerate(families):

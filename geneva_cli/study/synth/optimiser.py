@@ -13,8 +13,9 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Whole, joined
 
+BROKEN = 1e-200  # a violation below it is rounding; each bound kept by rounding adds 1e-300
 SETTLED = 1e-11  # fraction of a cost: samples nearer to the best than this are equally good
 # Violations, and costs, of places (n, d) of tasks by their numbers; infinite without a machine.
 Evaluate: TypeAlias = Callable[[Whole, Array], "tuple[Array, Array]"]
@@ -39,7 +40,7 @@ class Places(NamedTuple):
 
     def joined(self, *others: Places) -> Places:
         """These places and others."""
-        return Places(*map(np.concatenate, zip(self, *others, strict=True)))
+        return joined([self, *others], 0)
 
 
 class Zoom(NamedTuple):
@@ -122,7 +123,7 @@ def accepted(places: Places, accept: Accept) -> Places:
 
     One place of each task is tested at a time, the best first.
     """
-    left = places.take(np.isfinite(places.cost) & (places.violation < KEPT))
+    left = places.take(np.isfinite(places.cost) & (places.violation < BROKEN))
     found = left.take(slice(0))
     while len(left.of):
         which = _first(left, left.of, 1)
@@ -132,9 +133,6 @@ def accepted(places: Places, accept: Accept) -> Places:
         rest[which] = False
         left = left.take(rest & ~np.isin(left.of, found.of))
     return found.best(1)
-
-
-KEPT = 1e-200  # a violation below it is rounding; each bound that is kept by rounding adds 1e-300
 
 
 def _first(places: Places, group: Whole, count: int) -> Whole:
@@ -147,23 +145,23 @@ def _first(places: Places, group: Whole, count: int) -> Whole:
 
 def _settled(best: Places, violation: Array, cost: Array) -> Mask:
     """Mask of places whose samples (n, k) are as good, or which stay the best in a corner."""
-    kept = (violation < KEPT).all(axis=1) & (best.violation < KEPT)
+    kept = (violation < BROKEN).all(axis=1) & (best.violation < BROKEN)
     off = np.abs(cost - best.cost[:, None]).max(axis=1)
     corner = np.isin(best.at, (0.0, 1.0)).all(axis=1)
     flat = (off <= SETTLED * np.abs(best.cost)) | corner
     alike = np.abs(violation - best.violation[:, None]).max(axis=1) <= SETTLED * best.violation
-    settled: Mask = (kept & flat) | (alike & (best.violation > KEPT))
+    settled: Mask = (kept & flat) | (alike & (best.violation > BROKEN))
     return settled
 
 
 def _beaten(best: Places, live: Mask, cost: Array) -> Mask:
     """Mask of live places that another place of their task beats by more than samples differ."""
     least = np.full(best.of.max() + 1, math.inf)
-    np.minimum.at(least, best.of, np.where(best.violation < KEPT, best.cost, math.inf))
+    np.minimum.at(least, best.of, np.where(best.violation < BROKEN, best.cost, math.inf))
     own = best.take(live)
     spread = np.abs(cost - own.cost[:, None]).max(axis=1)
     beaten: Mask = own.cost - 4.0 * spread > least[own.of]
-    return beaten | ((own.violation > KEPT) & np.isfinite(least[own.of]))
+    return beaten | ((own.violation > BROKEN) & np.isfinite(least[own.of]))
 
 
 def _hopeless(best: Array, violation: Array) -> Mask:
@@ -171,5 +169,5 @@ def _hopeless(best: Array, violation: Array) -> Mask:
 
     The violation is more than twice what a step near them changes.
     """
-    hopeless: Mask = (best > KEPT) & (best > 2.0 * (violation.max(axis=1) - best))
+    hopeless: Mask = (best > BROKEN) & (best > 2.0 * (violation.max(axis=1) - best))
     return hopeless

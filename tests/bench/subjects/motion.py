@@ -176,8 +176,8 @@ def _in_blocks(formula: Callable[[Array], Any], x: Array, size: int = 8192) -> A
 
 
 def _jet_rates(motion: WheelMotion, angles: Array) -> list[Any]:
-    """The derivatives from one jet; of a copy, as a motion keeps its latest jet."""
-    return list(motion(angles.copy(), ORDERS[-1]).derivatives()[1:])
+    """The derivatives from one jet."""
+    return list(motion(angles, ORDERS[-1]).derivatives()[1:])
 
 
 def _kind_error(motion: WheelMotion, angles: Array, results: Sequence[Any]) -> float:

@@ -74,11 +74,6 @@ def gears_motion(natural_deg: float, e: float) -> float:
     return 4.0 * math.atan(tangent) / DEGREE
 
 
-def phased(e: float) -> tuple[float, str]:
-    """A signed eccentricity as the keys of a spec: its size and its phase."""
-    return abs(e), "quick" if e < 0.0 else "slow"
-
-
 def law_motion_deg(step: float, C_a: float, acceleration: float) -> float:
     """The motion with which a law has a given peak: step C_a / phi_1² (step in radians)."""
     return math.sqrt(step * C_a / acceleration) / DEGREE
