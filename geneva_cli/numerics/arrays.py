@@ -265,18 +265,6 @@ def record_taken(record: Record, which: Which) -> Record:
     return record_of(record, [columns_taken(c, which) for c in cast("tuple[Array, ...]", record)])
 
 
-def rows_taken(values: Array, which: Which) -> Array:
-    """Some rows of values (..., m, k), in memory with the m side by side."""
-    return columns_taken(values.swapaxes(-1, -2), which).swapaxes(-1, -2)
-
-
-def rows_joined(parts: Sequence[Array]) -> Array:
-    """Several arrays of rows (m, k) as one, in memory with the rows side by side."""
-    import numpy
-
-    return numpy.concatenate([part.T for part in parts], axis=1).T
-
-
 def blocks(count: int, size: int) -> list[slice]:
     """Adjacent slices of at most ``size`` numbers that divide ``count`` numbers.
 
