@@ -320,8 +320,8 @@ class _Extremes:
             x[live] += step
             # after a step of 1e-6 of the search range, a maximum's place is exact
             live = live[np.abs(step) > 1e-6 * some.near[live]]
-        # on the way to a flat end a step only halves the distance; and 1e-9 is rounding
-        reached = 1e-9 * some.near
+        # on the way to a flat end a step only halves the distance; and 1e-16 is rounding
+        reached = 1e-16 * some.near
         reached[live] = 0.02 * some.near[live]
         for end in some.ends:
             x = np.where(np.abs(x - end) <= reached, end, x)
