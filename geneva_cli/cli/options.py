@@ -26,9 +26,9 @@ def option(
     metavar: str,
     help: str,
     heading: str | None = None,
+    complete: completion.Offer | Iterable[str] | None = None,
     *,
     name: str = "",
-    complete: completion.Offer | Iterable[str] | None = None,
     default: str | bool = True,
 ) -> Any:
     """An option with a value, below a heading of the help.

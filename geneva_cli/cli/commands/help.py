@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 import typer
 
-from geneva_cli.cli import completion
+from geneva_cli.cli.completion import topics
 from geneva_cli.errors import GenevaError, cut, nearest
 
 EXAMPLES = (
@@ -21,7 +21,7 @@ def run(
         typer.Argument(
             metavar="[WORD...]",
             help="A page, a command, or words to search for; without one: all pages.",
-            autocompletion=completion.topics,
+            autocompletion=topics,
         ),
     ] = None,
 ) -> None:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli import completion
+from geneva_cli.cli.completion import tables_and_keys
 from geneva_cli.cli.options import Format, Output
 
 EXAMPLES = (
@@ -19,7 +19,7 @@ def run(
         typer.Argument(
             metavar="[TABLE|KEY]",
             help="drive, drive.A or A; without one: all.",
-            autocompletion=completion.tables_and_keys,
+            autocompletion=tables_and_keys,
         ),
     ] = "",
     output: Output = "-",
