@@ -12,13 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import factorial
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TypeVar, cast
 
 from geneva_cli.numerics.arrays import (
     SINGLE,
     Enclosed,
-    Mask,
-    Whole,
     enclosed,
     library,
     piece_of,
@@ -26,10 +24,6 @@ from geneva_cli.numerics.arrays import (
 )
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 
 class Jet:
@@ -308,29 +302,16 @@ def _moment(x: Sequence[Number], y: Sequence[Number], k: int) -> Number:
 def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Number], Jet]]) -> Jet:
     """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
 
-    For one design each piece is evaluated at its own part of an array of angles. In a batch, whose
-    cuts may differ, a piece that applies anywhere is evaluated at all angles. So it is faster to
-    request angles that lie in one piece.
+    A piece that applies anywhere is evaluated at all angles. So it is faster to request angles that
+    lie in one piece.
     """
     if isinstance(x, SINGLE) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return pieces[piece_of(x, cast("Sequence[float]", cuts))](x)
     import numpy as np
 
     angles = np.asarray(x)
-    plain = [cut for cut in cuts if isinstance(cut, float)]
-    if angles.ndim < 2 and len(plain) == len(cuts):
-        return _by_parts(angles, np.searchsorted(plain, angles), pieces)
     none = np.zeros(angles.shape, np.int8)
     index = sum(((angles > cut).astype(np.int8) for cut in cuts), none)
-    return _by_choice(x, index, pieces)
-
-
-def _by_choice(
-    x: Number, index: NDArray[np.int8], pieces: Sequence[Callable[[Number], Jet]]
-) -> Jet:
-    """Evaluate each piece that applies anywhere at all angles, and choose its own part."""
-    import numpy as np
-
     first, last = int(index.min(initial=len(pieces) - 1)), int(index.max(initial=0))
     if first >= last:
         return pieces[last](x)
@@ -343,25 +324,4 @@ def _by_choice(
                 if piece not in jets:
                     jets[piece] = piece(x).c
                 out = [np.where(here, b, a) for a, b in zip(out, jets[piece], strict=True)]
-    return Jet(out)
-
-
-def _by_parts(x: Array, index: Whole, pieces: Sequence[Callable[[Array], Jet]]) -> Jet:
-    """Evaluate each piece at its own part of angles (k,), for one design or a batch."""
-    import numpy as np
-
-    if not x.size:
-        return pieces[0](x)
-    # np.unique would import numpy.ma, a sixth of a short run
-    parts: dict[Callable[[Array], Jet], Mask] = {}
-    for i in np.bincount(index.ravel()).nonzero()[0].tolist():
-        here, piece = index == i, pieces[i]
-        parts[piece] = parts[piece] | here if piece in parts else here
-    alone = len(parts) == 1  # the same array object, for which values may be cached
-    jets = [(where, piece(x if alone else x[where]).c) for piece, where in parts.items()]
-    designs = np.broadcast_shapes(*{np.shape(c)[:-1] for _, jet in jets for c in jet})
-    out = [np.empty((*designs, *x.shape)) for _ in jets[0][1]]
-    for where, jet in jets:
-        for total, part in zip(out, jet, strict=True):
-            total[..., where] = part
     return Jet(out)
