@@ -69,7 +69,7 @@ class Jet:
 
     def __add__(self, other: Jet | Number) -> Jet:
         if isinstance(other, Jet):
-            return Jet([_sum(a, b) for a, b in zip(self.c, other.c, strict=True)])
+            return Jet([a + b for a, b in zip(self.c, other.c, strict=True)])
         return Jet((self.c[0] + other, *self.c[1:]))
 
     __radd__ = __add__
@@ -93,8 +93,6 @@ class Jet:
             return Jet(_scaled(a, b[0]))
         if _is_constant(a):
             return Jet(_scaled(b, a[0]))
-        if a is b:
-            return Jet([_square(a, k, 0) for k in range(len(a))])
         return Jet([_convolve(a, b, k, 0) for k in range(len(a))])
 
     __rmul__ = __mul__
@@ -133,13 +131,6 @@ def _are_zero(c: Sequence[Number]) -> bool:
     return True
 
 
-def _sum(a: Number, b: Number) -> Number:
-    """a + b; if one of them is the number 0, the other unchanged."""
-    if isinstance(a, float) and not a:
-        return b
-    return a if isinstance(b, float) and not b else a + b
-
-
 def _scaled(c: Sequence[Number], factor: Number) -> list[Number]:
     """Coefficients times a factor; those that are the number 0 stay so."""
     if isinstance(factor, float) and not factor:
@@ -158,18 +149,6 @@ def _convolve(
     for i in range(first + 1, k + 1 if last is None else last):
         total = total + a[i] * b[k - i]
     return total
-
-
-def _square(a: Sequence[Number], k: int, first: int) -> Number:
-    """The sum of a[i] a[k - i] from i = first to k - first."""
-    half = (k + 1) // 2
-    if first == half:
-        return a[half] * a[half]
-    total = a[first] * a[k - first]
-    for i in range(first + 1, half):
-        total = total + a[i] * a[k - i]
-    total = total + total
-    return total if k % 2 else total + a[half] * a[half]
 
 
 def sin_cos(x: Jet) -> tuple[Jet, Jet]:
@@ -260,7 +239,7 @@ def sqrt(x: Jet) -> Jet:
     q = [library(x.c[0]).sqrt(x.c[0])]
     twice = 2 * q[0]
     for k in range(1, len(x.c)):
-        q.append((x.c[k] - _square(q, k, 1) if k > 1 else x.c[k]) / twice)
+        q.append((x.c[k] - _convolve(q, q, k, 1, k) if k > 1 else x.c[k]) / twice)
     return Jet(q)
 
 
