@@ -679,11 +679,7 @@ class Design:
 
     @question
     def save(
-        self,
-        path: str,
-        part: str = "",
-        tolerance_mm: float | None = None,
-        force: bool = False,
+        self, path: str, part: str = "", tolerance_mm: float | None = None, force: bool = False
     ) -> None:
         """Write a part to a file, as ``geneva profile`` does; the extension gives the format.
 

@@ -281,8 +281,7 @@ def _table_options(
 
 def _unit_option(
     shown_units: Annotated[
-        str,
-        typer.Option("--units", metavar="UNIT", help="Numbers in mm, or in inch and lb."),
+        str, typer.Option("--units", metavar="UNIT", help="Numbers in mm, or in inch and lb.")
     ] = "mm",
 ) -> None:
     """The option of commands whose numbers have units."""

@@ -14,15 +14,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from geneva_cli.numerics import chebyshev
-from geneva_cli.numerics.arrays import (
-    Array,
-    Mask,
-    Which,
-    Whole,
-    blocks,
-    joined,
-    record_taken,
-)
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 
 BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache

@@ -15,15 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.numerics import chebyshev
-from geneva_cli.numerics.arrays import (
-    Array,
-    Mask,
-    Which,
-    Whole,
-    blocks,
-    joined,
-    record_taken,
-)
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.cuts import (
     BLOCK,

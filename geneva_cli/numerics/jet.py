@@ -14,14 +14,7 @@ from collections.abc import Callable, Sequence
 from math import factorial
 from typing import TypeVar, cast
 
-from geneva_cli.numerics.arrays import (
-    SINGLE,
-    Enclosed,
-    enclosed,
-    library,
-    piece_of,
-    size,
-)
+from geneva_cli.numerics.arrays import SINGLE, Enclosed, enclosed, library, piece_of, size
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
 
@@ -135,10 +128,7 @@ def _scaled(c: Sequence[Number], factor: Number) -> list[Number]:
     """Coefficients times a factor; those that are the number 0 stay so."""
     if isinstance(factor, float) and not factor:
         return [c[0] * factor, *[0.0] * (len(c) - 1)]
-    return [
-        c[0] * factor,
-        *[0.0 if isinstance(a, float) and not a else a * factor for a in c[1:]],
-    ]
+    return [c[0] * factor, *[0.0 if isinstance(a, float) and not a else a * factor for a in c[1:]]]
 
 
 def _convolve(

@@ -7,11 +7,7 @@ import typer
 from geneva_cli.cli.completion import topics
 from geneva_cli.errors import GenevaError, cut, nearest
 
-EXAMPLES = (
-    "geneva help",
-    "geneva help cycle",
-    "geneva help friction",
-)
+EXAMPLES = ("geneva help", "geneva help cycle", "geneva help friction")
 
 
 def run(

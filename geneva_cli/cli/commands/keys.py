@@ -7,10 +7,7 @@ import typer
 from geneva_cli.cli.completion import tables_and_keys
 from geneva_cli.cli.options import Format, Output
 
-EXAMPLES = (
-    "geneva keys drive",
-    "geneva keys size.center_distance_mm",
-)
+EXAMPLES = ("geneva keys drive", "geneva keys size.center_distance_mm")
 
 
 def run(

@@ -66,8 +66,7 @@ def run(
         bool, flag("--center-marks", "A cross in every circle, on layer CENTER.", DRAWING)
     ] = False,
     units: Annotated[
-        str,
-        option("UNIT", "Unit of drawings and tables: mm or inch.", DRAWING, ("mm", "inch")),
+        str, option("UNIT", "Unit of drawings and tables: mm or inch.", DRAWING, ("mm", "inch"))
     ] = "mm",
     dxf_version: Annotated[
         str | None,
@@ -82,8 +81,7 @@ def run(
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
-        str,
-        option("FORMAT", one_of(WRITTEN), complete=WRITTEN, name="--format"),
+        str, option("FORMAT", one_of(WRITTEN), complete=WRITTEN, name="--format")
     ] = "",
 ) -> None:
     """Write a part as a table of points, or as a drawing to cut: csv, dxf, svg, step or pdf.

@@ -55,8 +55,7 @@ def run(
     ] = "",
     settings: Settings = None,
     sort: Annotated[
-        str,
-        option("min:FIELD", "The least first; max:FIELD: the greatest.", ROWS, fields),
+        str, option("min:FIELD", "The least first; max:FIELD: the greatest.", ROWS, fields)
     ] = "",
     check: Annotated[int, option("N", "Turn and check the parts of N rows.", ROWS)] = 20,
     buildable: Annotated[bool, flag("--buildable", "Only rows that pass.", ROWS)] = False,
