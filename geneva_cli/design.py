@@ -735,7 +735,9 @@ class Design:
         >>> first.name, first.value, first.must_be, first.limit, first.passes
         ('dwell_deg', 240.0, 'at least', 0.0, True)
         """
-        return self._proved(None)
+        from geneva_cli.verdict.checks import proofs
+
+        return self._judged + (proofs(self.parts) if self.spec.is_turned else [])
 
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
@@ -747,15 +749,11 @@ class Design:
         'collision-free, proved to 0.2 µm (608 intervals)'
         """
         from geneva_cli.spec.rules import Range, require_mm
+        from geneva_cli.verdict.checks import proofs
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--proof", to_mm, allowed, "the roller's radius")
-        return self._proved(to_mm)
-
-    def _proved(self, proof_mm: float | None) -> list[Check]:
-        from geneva_cli.verdict.checks import proofs
-
-        return self._judged + (proofs(self.parts, proof_mm) if self.spec.is_turned else [])
+        return self._judged + (proofs(self.parts, to_mm) if self.spec.is_turned else [])
 
     @answer
     def _judged(self) -> list[Check]:
