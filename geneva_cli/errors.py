@@ -138,7 +138,7 @@ def few(word: Any, known: Iterable[str]) -> str:
     from difflib import SequenceMatcher
 
     matcher = SequenceMatcher(b=cut(word).casefold())
-    unlike = []
+    unlike: list[tuple[float, int, str]] = []
     for one in words:
         matcher.set_seq1(one.casefold())
         unlike.append((-matcher.ratio(), len(unlike), one))

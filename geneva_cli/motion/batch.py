@@ -64,8 +64,9 @@ def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
     copy = thing
     if any(a is not b for a, b in zip(new, old, strict=True)):
         if own is not None:
-            copy = object.__new__(kind)
-            vars(copy).update(zip(own, new, strict=True))
+            fresh: object = object.__new__(kind)
+            vars(fresh).update(zip(own, new, strict=True))
+            copy = fresh
         else:
             copy = record_of(thing, new) if isinstance(thing, tuple) else new
     done[id(thing)] = copy

@@ -236,7 +236,12 @@ def _each(f: Callable[..., float], *x: Bound) -> Array:
 
 def _rising(f: Callable[[float], float]) -> Callable[[object, Interval | float], Interval]:
     """A function that rises everywhere in its domain."""
-    return lambda _, x: _outwards(*(_each(f, end) for end in _ends(x)), LIBRARY_UNITS)
+
+    def of(_: object, x: Interval | float) -> Interval:
+        low, high = _ends(x)
+        return _outwards(_each(f, low), _each(f, high), LIBRARY_UNITS)
+
+    return of
 
 
 class _Intervals:
