@@ -2,7 +2,8 @@
 
 An engagement is one roller's passage through one slot. Input angles are in degrees from its own
 mid-motion. Wheel angles are in radians from the middle of the step. Lengths are in units of the
-centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0).
+centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0). Derivatives are by
+the input angle in radians.
 """
 
 from __future__ import annotations
@@ -10,76 +11,42 @@ from __future__ import annotations
 import copy
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.kept import cached_property
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Batchable, all_true, array, blocks, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
+if TYPE_CHECKING:
+    from geneva_cli.motion.slot_and_motion import Groove
+    from geneva_cli.motion.wheels.spherical import Height
+
 K = TypeVar("K", float, "Array")
 
 BLOCK = 12288  # angles: their jets stay in the processor's cache
 
 Vector: TypeAlias = tuple[Jet, Jet]
+# The pin's displacement since a moment, along a ray and across it; or a crank's rotation d, as sin
+# d and 1 - cos d. Arguments: input radians since then, and the order of the jets.
+Displacement: TypeAlias = Callable[[Number, int], Vector]
+# Rate of the body that carries the roller, positive with the wheel: input radians after mid-motion,
+# and the order.
+CarrierRate: TypeAlias = Callable[[Number, int], Jet]
+# A force at the pin's centre and a couple, both on the roller's body; the couple in that unit x L.
+Load: TypeAlias = tuple[Vector, Jet]
+# Reactions of the crank's shaft and of the body's other guide to each load, without mass and
+# friction. Arguments: input angle in degrees, the pin's path, one order above the loads, and loads.
+Reactions: TypeAlias = Callable[[Number, Vector, Sequence[Load]], list[tuple[Vector, Vector]]]
 
 
 class Path(Protocol):
     """The roller centre's position in the fixed frame, as the input turns."""
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
-        """Pin (x, y) with its derivatives by the input angle in radians."""
-
-
-class Displacement(Protocol):
-    """The displacement of a pin, or of a crank as its sine and versine, since a place."""
-
-    def __call__(self, tau: Number, order: int) -> Vector:
-        """Displacement along a ray and across it, ``tau`` input radians later."""
-
-
-class Groove(Protocol):
-    """A fixed groove about the crank's axis, which guides the roller along the crank."""
-
-    sign: float  # 1 for an external wheel, -1 for an internal one
-
-    @property
-    def motion(self) -> WheelMotion:
-        """Motion of the wheel, from which the groove follows."""
-
-    def distances(self, input_deg: Number, order: int = 3) -> Vector:
-        """Roller distances from the wheel's axis and from the crank's, in units of L."""
-
-    def groove(self, input_deg: Number, order: int = 3) -> Vector:
-        """Pitch curve (x, y) of the groove about the crank's axis."""
-
-    @property
-    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
-        """Roller distance from the crank's axis with two derivatives, at entry and exit."""
-
-
-class CarrierVelocity(Protocol):
-    """Angular velocity of the body that carries the roller, if that is not the crank's arm."""
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """Rate in radians per input radian, positive with the wheel, ``tau`` after mid-motion."""
-
-
-class Reactions(Protocol):
-    """Reactions on the body that carries the roller, held by links without mass or friction."""
-
-    def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
-    ) -> list[tuple[Vector, Vector]]:
-        """Two reactions to each load: on the crank's shaft, and on the body's other guide.
-
-        A load is a force at the pin's centre and a couple, both on the roller's body. ``path`` is
-        the pin's path, one order higher than the loads. The guide is a rocker, slider, groove or
-        fixed gear. Forces are in any unit, couples in that unit times L. Meshing gears push along
-        the common tangent of their pitch circles.
-        """
+        """Pin (x, y) with its derivatives."""
 
 
 class SlotAxis(NamedTuple):
@@ -103,19 +70,8 @@ class ConstantRate(NamedTuple):
     rate: float
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """Constant rate as a jet."""
+        """The rate as a jet."""
         return Jet((tau * 0.0 + self.rate, *[0.0] * order))
-
-
-class Level(Protocol):
-    """A pin's position along the wheel's axis, as the input turns."""
-
-    @property
-    def hub(self) -> float:
-        """Position of the centre of the pin's circle."""
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """Position ``tau`` input radians after mid-motion."""
 
 
 class Slot(Batchable, ABC):
@@ -130,7 +86,7 @@ class Slot(Batchable, ABC):
     # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0
     # The pin's position along the wheel's axis on a sphere, where the path is a projection.
-    height: Level | None = None
+    height: Height | None = None
 
     @property
     def walls_flat(self) -> bool:
@@ -174,19 +130,13 @@ class Peak(NamedTuple, Generic[K]):
     at_deg: K
 
 
-class ClosedPeaks(Protocol):
-    """Peaks in closed form, or by a search that is faster than the general one."""
-
-    def __call__(self, quantity: str) -> Peak[float] | None:
-        """Peak of a quantity, or None if it needs the general search."""
-
-
 class WheelMotion(Batchable, ABC):
     """The wheel's angle as the input turns, from rest to rest."""
 
     # False if the two halves of the path differ
     mirrored = True
-    closed_peaks: ClosedPeaks | None = None
+    # Peak of a quantity without the general search; None if it has none
+    closed_peaks: Callable[[str], Peak[float] | None] | None = None
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
     BREAKS_TO: ClassVar[float] = 0.0
 
@@ -237,7 +187,12 @@ class WheelMotion(Batchable, ABC):
 
         None if there is neither; in a batch NaN for each design that has neither.
         """
-        return None
+        return self.closed_peaks(quantity) if self.closed_peaks else None
+
+    def end_rates(self, input_deg: float) -> tuple[float, float]:
+        """Sizes of acceleration and jerk at entry or exit, from inside the motion."""
+        _, _, acceleration, jerk = self(input_deg).scalars()
+        return abs(acceleration), abs(jerk)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """Wheel angle and its derivatives at many ascending input angles (k,).
@@ -285,7 +240,7 @@ class Engagement(Batchable):
     path: Path
     slot: Slot
     motion: WheelMotion
-    body: CarrierVelocity | None = None
+    body: CarrierRate | None = None
     reactions: Reactions | None = None
     crank_sense: float = 0.0
     groove: Groove | None = None
@@ -433,13 +388,8 @@ class Anchor(NamedTuple):
 
     def place(self, input_deg: Number, order: int) -> Vector:
         """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
-        along, across = self.displacement(radians(input_deg - self.input_deg), order)
+        along, across = self.displacement_at(input_deg, order)
         return along + self.along, across
-
-    def stacked(self, input_deg: Number, order: int) -> Jet:
-        """Coefficients of that position and the ray's direction, one after the other in a jet."""
-        along, across = self.displacement(radians(input_deg - self.input_deg), order)
-        return Jet((*(along + self.along).c, *across.c, self.wheel))
 
 
 def in_wheel(path: Vector, wheel: Jet) -> Vector:

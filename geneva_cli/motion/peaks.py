@@ -61,9 +61,8 @@ def peak(motion: WheelMotion, quantity: str) -> Peak[float]:
 
 def ends(engagement: Engagement) -> EndSizes:
     """Sizes at both ends, from inside the motion."""
-    first = engagement.motion(engagement.entry_deg).scalars()
-    last = engagement.motion(engagement.exit_deg).scalars()
-    return EndSizes(abs(first[2]), abs(last[2]), abs(first[3]), abs(last[3]))
+    first, last = (engagement.motion.end_rates(engagement.end_deg(end)) for end in (-1.0, 1.0))
+    return EndSizes(first[0], last[0], first[1], last[1])
 
 
 def peaks(engagement: Engagement) -> Peaks:

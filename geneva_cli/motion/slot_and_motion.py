@@ -26,8 +26,11 @@ NEAR, TERMS = 1.0 / 30.0, 15
 NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
 
 
-class SolvedPath(Batchable):
-    """The roller's path in the fixed frame; ``sign`` is +1 outside, -1 inside."""
+class Groove(Batchable):
+    """A fixed groove about the crank's axis, which guides the roller along the crank.
+
+    Called with input angles it returns the roller's path. ``sign`` is +1 outside, -1 inside.
+    """
 
     def __init__(self, motion: LawMotion, sign: float) -> None:
         self.motion, self.sign = motion, sign
@@ -114,7 +117,7 @@ class SolvedPath(Batchable):
 class SolvedPathSlot(Slot):
     """The straight radial slot of a solved path."""
 
-    def __init__(self, path: SolvedPath) -> None:
+    def __init__(self, path: Groove) -> None:
         self.path = path
 
     @property

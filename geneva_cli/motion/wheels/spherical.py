@@ -110,23 +110,6 @@ class Spherical(Gearing):
 
         return rate
 
-    def body(self, place: RollerPlace, turn: Displacement) -> CrankCone:
-        """Angular velocity of the crank, whose axis differs from the roller's."""
-        return CrankCone(turn, place.cone)
-
-
-class CrankCone(NamedTuple):
-    """Rotation of a spherical crank about the axis of its roller, which it carries on a cone."""
-
-    turn: Displacement
-    cos_th: float
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """Rate, positive with the wheel, ``tau`` input radians after mid-motion."""
-        sine, versine = self.turn(tau, order + 1)
-        out: Jet = turning(1.0 - versine, sine) * -self.cos_th
-        return out
-
 
 class Height(NamedTuple):
     """The pin's position along the wheel's axis: top - fall (1 - cos a)."""

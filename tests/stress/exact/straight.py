@@ -13,7 +13,7 @@ from exact.table import strictly, ulps, unit
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peaks
-from geneva_cli.motion.wheels import classic_arrays
+from geneva_cli.motion.wheels import classic
 
 
 def ratio_files(table, sample):
@@ -184,7 +184,7 @@ def arrays(table, sample):
             C = [g * mp.mpf(l) * mp.expj(-g * to_radians(v)) for v in x]
             turn = -1j * g
             exact = [angle_rates((1 - c, *[-c * turn**n for n in range(1, 6)])) for c in C]
-            got = strictly(partial(classic_arrays.derivatives, float(g), l, rest), x, (0, 1, 2, 3))
+            got = strictly(partial(classic.derivatives, float(g), l, rest), x, (0, 1, 2, 3))
             place = [f"l=1-1e-{k} at {v:.17g}" for v in x]
             for n, name in enumerate(NAMES):
                 values = [e[n] for e in exact]
