@@ -5,17 +5,14 @@ turns that shaft by theta = g(phi), where phi is the machine's input. So path, s
 p(g(phi)), M(g(phi)) and psi(g(phi)), and their derivatives follow by the chain rule: the wheel's
 speed is psi'(theta) g', its acceleration psi''(theta) g'² + psi'(theta) g''. A law holds by theta,
 for which slot or groove are cut: whatever turns the shaft, wheel and crank stay the same.
-
-The angle g is written about entry, mid-motion and exit, so that it is exact at each of them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
 
-from geneva_cli.drives.pushed import DrivenShaft, ShaftPath
+from geneva_cli.drives.driven_shaft import DrivenShaft, ShaftPath, Timing, angle_of
 from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
@@ -28,11 +25,8 @@ from geneva_cli.motion.engagement import (
     Vector,
     WheelMotion,
 )
-from geneva_cli.motion.path_and_slot import cuts
-from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import Array, Batchable, array, library, narrowed
-from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
-from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.arrays import Array, Batchable, array
+from geneva_cli.numerics.jet import Jet, Number, composed
 
 if TYPE_CHECKING:
     from geneva_cli.drives.transmission import Transmission
@@ -63,77 +57,6 @@ def _engagement(own: Engagement, timing: Timing, spec: Spec, L: float) -> Engage
     return _Engagement(own, timing, push)  # a crank that carries its rollers
 
 
-class Timing(Batchable):
-    """Angle of a drive's own input shaft over one engagement, by the machine's input angle.
-
-    ``late_deg`` is the own angle by which the engagement follows the one that it repeats.
-    """
-
-    def __init__(self, before: Transmission, own: Engagement, late_deg: float) -> None:
-        mid = own.mid_deg + late_deg
-        turns = library(mid).floor(mid / 360.0 + 0.5)
-        self.before, self.shaft_deg = before, mid
-        self.rest_deg = mid - 360.0 * turns  # ``about`` covers one turn of the shaft
-        self.ends_deg = (own.entry_deg, 0.0, own.exit_deg)  # of the own shaft
-        local = [before.about(self.rest_deg + end) for end in self.ends_deg]
-        self.within_deg = local[1].input_deg  # input angle of mid-motion in that turn
-        self.mid_deg = 360.0 * before.turns * turns + self.within_deg
-        self.even = local[1].even
-        self.at_deg = tuple(one.input_deg - self.within_deg for one in local)
-        self.advances = tuple(one.advance for one in local)
-        # input angles at which the formula about another place takes over, or the gears' own
-        self.cuts = cuts(self.at_deg)
-        self.changes_deg = tuple(
-            at + cut / DEGREE
-            for at, one in zip(self.at_deg, local, strict=True)
-            for cut in one.cuts
-        )
-
-    def of(self, other: Engagement, ahead_deg: float) -> Timing:
-        """The timing of another engagement, whose mid-motion is earlier by an own angle."""
-        return Timing(self.before, other, self.shaft_deg - ahead_deg - other.mid_deg)
-
-    def input_deg(self, own_deg: float) -> float:
-        """Machine's input angle at an angle of the driven shaft, both from mid-motion, degrees."""
-        return self.before.about(self.rest_deg + own_deg).input_deg - self.within_deg
-
-    def inputs_deg(self, own_deg: Array) -> Array:
-        """Machine's input angles at angles of the driven shaft within the motion, degrees.
-
-        They are bisected, as the gears of a ratio file are known about one angle at a time.
-        """
-        first, last = (array(self.at_deg[k]) + 0.0 * own_deg for k in (0, -1))
-        return boundary(lambda x: array(self.at(x, 0)[0]) <= own_deg, first, last)
-
-    def __call__(self, input_deg: Number, order: int) -> Jet:
-        """Angle of the driven shaft in radians from mid-motion, at input angles in degrees."""
-        return self.at(input_deg, order)[1]
-
-    def at(self, input_deg: Number, order: int) -> tuple[Number, Jet]:
-        """Angle of the driven shaft in degrees, and in radians with its derivatives."""
-        pieces = [partial(self._about, i, order) for i in range(3)]
-        own = piecewise(input_deg, self.cuts, pieces)
-        return own.c[0], Jet((radians(own.c[0]), *own.c[1:]))
-
-    def _about(self, i: int, order: int, input_deg: Number) -> Jet:
-        """Angle of the driven shaft in degrees, with its derivatives in radians."""
-        turn, advance = radians(input_deg - self.at_deg[i]), self.advances[i]
-        turned = _angle(advance, turn, order)
-        # the shaft never turns back, so the ends of an enclosure of angles decide
-        angle = narrowed(
-            turned.c[0],
-            lambda x: _angle(advance, radians(x - self.at_deg[i]), 0).c[0],
-            input_deg,
-        )
-        return Jet((self.ends_deg[i] + library(angle).degrees(angle), *turned.c[1:]))
-
-    def vector(self, own: Callable[[Number, int], Vector], x: Number, order: int) -> Vector:
-        """A vector of the own drive by the machine's input angle."""
-        at, turned = self.at(x, order)
-        a, b = own(at, order)
-        return composed(a, turned), composed(b, turned)
-
-
 class _Displacement(NamedTuple):
     """A displacement by the input's rotation, through the driven shaft's."""
 
@@ -141,7 +64,7 @@ class _Displacement(NamedTuple):
     advance: Displacement
 
     def __call__(self, tau: Number, order: int) -> Vector:
-        turned = _angle(self.advance, tau, order)
+        turned = angle_of(self.advance, tau, order)
         along, across = self.displacement(turned.c[0], order)
         return composed(along, turned), composed(across, turned)
 
@@ -285,12 +208,6 @@ class _Engagement(Engagement):
     @property
     def own(self) -> Engagement:
         return self._own
-
-
-def _angle(advance: Displacement, tau: Number, order: int) -> Jet:
-    """Angle by which the driven shaft advances in ``tau`` input radians, radians."""
-    sine, versine = advance(tau, order)
-    return atan2(sine, 1.0 - versine)
 
 
 def _of_rate(rate: Jet, turned: Jet) -> Jet:
