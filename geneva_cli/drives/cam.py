@@ -15,7 +15,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import ConstantRate, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_motion import LawMotion, refuse_alpha0
-from geneva_cli.motion.slot_and_motion import Groove, SolvedPathSlot
+from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.jet import Number
@@ -60,7 +60,7 @@ class Cam(PinPath, kw_only=True):
         # At input 0 the roller crosses the line of centres, and the wheel is half-way.
         early = motion.law.half_way * motion_deg
         turned = LawMotion(-early, motion_deg - early, wheel.step.b, motion.law)
-        path = Groove(turned, wheel.SIGN)
+        path = SolvedPath(turned, wheel.SIGN)
         _refuse_unreachable(turned, wheel.SIGN)
         body = ConstantRate(-wheel.SIGN)  # the roller slides along the crank and turns with it
         slot = SolvedPathSlot(path)

@@ -13,16 +13,12 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
+from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.kept import cached_property
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Batchable, all_true, array, blocks, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.slot_and_motion import Groove
-    from geneva_cli.motion.wheels.spherical import Height
 
 K = TypeVar("K", float, "Array")
 
@@ -47,6 +43,41 @@ class Path(Protocol):
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) with its derivatives."""
+
+
+class Groove(Path, Protocol):
+    """A fixed groove about the crank's axis, which guides the roller along the crank."""
+
+    sign: float  # 1 for an external wheel, -1 for an internal one
+
+    @property
+    def motion(self) -> WheelMotion:
+        """Motion of the wheel, from which the groove follows."""
+
+    def distances(self, input_deg: Number, order: int = 3) -> Vector:
+        """Roller distances from the wheel's axis and from the crank's, in units of L."""
+
+    @property
+    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
+        """Roller distance from the crank's axis with two derivatives, at entry and exit."""
+
+
+class Height(NamedTuple):
+    """A pin's position along a spherical wheel's axis: top - fall (1 - cos a)."""
+
+    top: float
+    fall: float
+    turn: Displacement  # of the crank
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Position ``tau`` input radians after mid-motion."""
+        out: Jet = self.top - self.turn(tau, order)[1] * self.fall
+        return out
+
+    @property
+    def hub(self) -> float:
+        """Position of the centre of the pin's circle."""
+        return self.top - self.fall
 
 
 class SlotAxis(NamedTuple):

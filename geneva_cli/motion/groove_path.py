@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from geneva_cli.motion.slot_and_motion import Groove
+from geneva_cli.motion.engagement import Groove
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, Number, scalar, smaller
 

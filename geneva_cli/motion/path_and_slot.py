@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
-from geneva_cli.motion.engagement import Anchor, Peak, Slot, SlotAxis, Vector, WheelMotion
+from geneva_cli.motion.engagement import Anchor, Height, Peak, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import (
@@ -29,9 +28,6 @@ from geneva_cli.numerics.jet import (
     sqrt,
     turning,
 )
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.wheels.spherical import Height
 
 END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 

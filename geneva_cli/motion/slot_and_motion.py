@@ -26,7 +26,7 @@ NEAR, TERMS = 1.0 / 30.0, 15
 NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
 
 
-class Groove(Batchable):
+class SolvedPath(Batchable):
     """A fixed groove about the crank's axis, which guides the roller along the crank.
 
     Called with input angles it returns the roller's path. ``sign`` is +1 outside, -1 inside.
@@ -117,7 +117,7 @@ class Groove(Batchable):
 class SolvedPathSlot(Slot):
     """The straight radial slot of a solved path."""
 
-    def __init__(self, path: Groove) -> None:
+    def __init__(self, path: SolvedPath) -> None:
         self.path = path
 
     @property

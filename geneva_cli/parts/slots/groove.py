@@ -10,10 +10,10 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import chords
+from geneva_cli.motion.engagement import Groove
 from geneva_cli.motion.groove_path import back, distances
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import WALLED
-from geneva_cli.motion.slot_and_motion import Groove
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
 from geneva_cli.table import Table
