@@ -11,7 +11,7 @@ from geneva_cli.drives import whitworth
 from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import Displacement, Path
+from geneva_cli.motion.engagement import ClosedPeaks, Displacement, Path
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
@@ -107,6 +107,6 @@ class SideCrank(Transmission, kw_only=True):
             return None
         return whitworth.SlidingBlock(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
 
-    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> whitworth.SideCrankPeak | None:
+    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
         """Peaks of batches of plain wheels; None for others."""
         return whitworth.closed_peaks(self.A, wheel, place)

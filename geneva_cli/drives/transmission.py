@@ -11,11 +11,11 @@ from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
+    ClosedPeaks,
     ConstantRate,
     Displacement,
     Engagement,
     Path,
-    Peak,
     Vector,
 )
 from geneva_cli.motion.path_and_slot import AnchoredPath, ClassicMotion
@@ -95,9 +95,7 @@ class Transmission(Drive, kw_only=True):
         """Greatest crank angle from mid-motion at which the crank may move the wheel, degrees."""
         return 180.0
 
-    def closed_peaks(
-        self, wheel: Gearing, place: RollerPlace
-    ) -> Callable[[str], Peak[float] | None] | None:
+    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
         """Peaks behind this transmission that need no general search; None if there are none."""
         return None
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import copy
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
@@ -25,17 +25,8 @@ K = TypeVar("K", float, "Array")
 BLOCK = 12288  # angles: their jets stay in the processor's cache
 
 Vector: TypeAlias = tuple[Jet, Jet]
-# The pin's displacement since a moment, along a ray and across it; or a crank's rotation d, as sin
-# d and 1 - cos d. Arguments: input radians since then, and the order of the jets.
-Displacement: TypeAlias = Callable[[Number, int], Vector]
-# Rate of the body that carries the roller, positive with the wheel: input radians after mid-motion,
-# and the order.
-CarrierRate: TypeAlias = Callable[[Number, int], Jet]
 # A force at the pin's centre and a couple, both on the roller's body; the couple in that unit x L.
 Load: TypeAlias = tuple[Vector, Jet]
-# Reactions of the crank's shaft and of the body's other guide to each load, without mass and
-# friction. Arguments: input angle in degrees, the pin's path, one order above the loads, and loads.
-Reactions: TypeAlias = Callable[[Number, Vector, Sequence[Load]], list[tuple[Vector, Vector]]]
 
 
 class Path(Protocol):
@@ -43,6 +34,43 @@ class Path(Protocol):
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) with its derivatives."""
+
+
+class Displacement(Protocol):
+    """A pin's displacement since a moment, along a ray and across it.
+
+    Or a crank's rotation d since then, as sin d and 1 - cos d.
+    """
+
+    def __call__(self, tau: Number, order: int) -> Vector:
+        """Displacement ``tau`` input radians later."""
+
+
+class CarrierRate(Protocol):
+    """Rate of the body that carries the roller, positive with the wheel."""
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Rate in radians per input radian, ``tau`` after mid-motion."""
+
+
+class ClosedPeaks(Protocol):
+    """Peaks in closed form, or by a search that is faster than the general one."""
+
+    def __call__(self, quantity: str) -> Peak[float] | None:
+        """Peak of a quantity, or None if it needs the general search."""
+
+
+class Reactions(Protocol):
+    """Reactions on the body that carries the roller, held by links without mass or friction."""
+
+    def __call__(
+        self, input_deg: Number, path: Vector, loads: Sequence[Load]
+    ) -> list[tuple[Vector, Vector]]:
+        """Reactions of the crank's shaft, and of the body's other guide, to each load.
+
+        ``path`` is the pin's path, one order higher than the loads. The guide is a rocker, slider,
+        groove or fixed gear.
+        """
 
 
 class Groove(Path, Protocol):
@@ -56,6 +84,9 @@ class Groove(Path, Protocol):
 
     def distances(self, input_deg: Number, order: int = 3) -> Vector:
         """Roller distances from the wheel's axis and from the crank's, in units of L."""
+
+    def groove(self, input_deg: Number, order: int = 3) -> Vector:
+        """Pitch curve (x, y) of the groove about the crank's axis."""
 
     @property
     def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
@@ -166,8 +197,7 @@ class WheelMotion(Batchable, ABC):
 
     # False if the two halves of the path differ
     mirrored = True
-    # Peak of a quantity without the general search; None if it has none
-    closed_peaks: Callable[[str], Peak[float] | None] | None = None
+    closed_peaks: ClosedPeaks | None = None
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
     BREAKS_TO: ClassVar[float] = 0.0
 
