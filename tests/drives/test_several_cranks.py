@@ -23,6 +23,8 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import may_vary
 from geneva_cli.motion.mechanism import build
 
+pytestmark = pytest.mark.usefixtures("no_advice")
+
 # steps in a revolution, places of the cranks in steps, and the slots that they enter
 MACHINES = [
     (6, (0, 3), (0, 2, 4)),
