@@ -560,3 +560,32 @@ def test_the_wheel_s_shaft_bears_its_bodies(count):
     torque = design.loads["wheel_torque_Nm"]
     assert greatest * a * 0.9999 <= moment
     assert moment <= 1.5 * math.hypot(greatest * a, max(torque.max, -torque.min))
+
+
+@pytest.mark.long
+def test_neighbours_by_their_places():
+    """Gap and envelope from the places of pivots, and of a block's corners at all angles."""
+    L, wheels, z = 100.0, 3, 4
+    for mass, reach in (
+        ((), math.hypot(L * math.cos(math.pi / z), 5.0)),  # a rim that the roller just enters
+        ((Mass("block", mass_kg=1.0, length_mm=60.0, width_mm=80.0),), None),
+        ((Mass("disc", mass_kg=1.0, diameter_mm=40.0, radius_mm=70.0, count=2),), 90.0),
+    ):
+        design = Design(External(z), Carousel(wheels=wheels), mass=mass)
+        reach = reach or max(abs(complex(30.0, 40.0)), math.hypot(L * math.cos(math.pi / z), 5.0))
+        pivots = [L * np.exp(2j * math.pi * k / wheels) for k in range(wheels)]
+        gap = min(abs(a - b) for i, a in enumerate(pivots) for b in pivots[:i]) - 2.0 * reach
+        (check,) = (c for c in design.checks if c.name == "wheels_apart_mm")
+        assert check.value == pytest.approx(gap, rel=1e-13)
+        assert check.passes == (gap >= 0.0)
+        assert values_of(design)["carousel.envelope_mm"] == pytest.approx(L + reach, rel=1e-14)
+
+
+def test_a_report_lists_when_each_wheel_moves():
+    design = Design(External(4), Carousel(wheels=3, n_rpm=1.0))
+    table = design.report.table.to_dict()["wheels"]
+    assert table == [
+        {"wheel": 1, "behind_deg": 0.0, "entry_deg": -45.0, "exit_deg": 45.0, "entry_s": 0.0},
+        {"wheel": 2, "behind_deg": 120.0, "entry_deg": 75.0, "exit_deg": 165.0, "entry_s": 20.0},
+        {"wheel": 3, "behind_deg": 240.0, "entry_deg": 195.0, "exit_deg": 285.0, "entry_s": 40.0},
+    ]
