@@ -372,8 +372,7 @@ class Design:
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
         """
-        from geneva_cli.motion.knots import knots_deg, periods
-        from geneva_cli.motion.motion_table import motion_table, turns_table
+        from geneva_cli.motion.motion_table import knots_deg, motion_table, periods, turns_table
 
         if turns is None:
             return motion_table(self.mechanism, samples)
