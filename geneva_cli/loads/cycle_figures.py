@@ -18,8 +18,7 @@ from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.loads import load_tables
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import FORCE, WALL_FORCE, sources
-from geneva_cli.loads.load_peaks import load_summaries
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.loads.stages import MOTION_QUANTITIES, Stage, load_stages, motion_stages, pieces
 from geneva_cli.motion import peaks
 from geneva_cli.motion.mechanism import Mechanism

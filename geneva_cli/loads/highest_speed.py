@@ -18,7 +18,7 @@ from geneva_cli.loads.forces import LoadCase, QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, LoadQuantity
-from geneva_cli.loads.load_peaks import load_peaks, search_loads, shown_deg
+from geneva_cli.loads.load_peaks import load_peaks, shown_deg
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray
@@ -123,7 +123,7 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
         for factor in factors[name]:
             own[f"slowness {len(own)}"] = Slowness(factor, most, case)
     still = case._replace(resists_Nm=0.0)
-    result = search_loads(LoadFunctions(engagement, still, tuple(own), own))
+    result = LoadFunctions(engagement, still, tuple(own), own).search()
     return max(0.0, float(result.most[: len(own)].max()))
 
 

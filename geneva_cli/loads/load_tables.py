@@ -10,18 +10,17 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import Notice
-from geneva_cli.loads.cycle import Cycle, greatest
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import (
     PRESSED,
     PV,
-    REPORTED_PEAKS,
     STRESS,
     known_quantities,
     multiples,
     plain_of,
     sources,
 )
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
@@ -58,10 +57,10 @@ def summaries(cycle: Cycle) -> Mapping[str, LoadSummary[float | None]]:
     """
     known, none = cycle.extremes, [None] * len(LoadSummary._fields)
     out = {name: LoadSummary(*map(_finite, known.get(name, none))) for name in SHOWN_QUANTITIES}
-    for name in REPORTED_PEAKS:
-        if name in known and name in out:
-            peak = greatest(cycle.mechanism, name)
-            out[name] = out[name]._replace(max=_finite(peak.max), max_at_deg=peak.at_deg)
+    for name, (most, at_deg) in cycle.peaks.items():
+        if name in out:
+            one = {"max": _finite(most.item()), "max_at_deg": at_deg.item()}
+            out[name] = out[name]._replace(**one)
     return out
 
 

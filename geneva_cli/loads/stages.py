@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.figure import Piece
-from geneva_cli.loads.contact import NEAR_CUSP, is_straight
-from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.stretches import Stretch, smooth_ranges
+from geneva_cli.loads.contact import NEAR_CUSP
+from geneva_cli.loads.cycle import Cycle, Stretch
 from geneva_cli.motion.engagement import Engagement, WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import spans
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, places, refined, thinned
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -50,9 +50,7 @@ def motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]
     for i, engagement in enumerate(mechanism.engagements):
         mid, motion = engagement.mid_deg, engagement.motion
         up = base + engagement.half_step
-        for (a, b), inside in zip(
-            pairwise(motion.breaks_deg), smooth_ranges(engagement), strict=True
-        ):
+        for (a, b), inside in zip(pairwise(motion.breaks_deg), _smooth(engagement), strict=True):
             yield Stage(mid + a, mid + b, partial(_moved, motion, quantities, mid, inside, up))
         base += 2.0 * engagement.half_step
         rest = [base * output.per_radian if n == output.column else 0.0 for n in names]
@@ -73,13 +71,18 @@ def load_stages(
         yield from _dwell(cycle.mechanism, i, [0.0] * len(names))
 
 
+def _smooth(engagement: Engagement) -> list[tuple[float, float]]:
+    """Ends of the smooth parts of a motion, clear of the breaks between them."""
+    return [(start.item(), end.item()) for start, end in spans(engagement.motion, 1)]
+
+
 def _clear_of_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
     """The stretch clear of breaks; next to a cusp it ends before values are rounding."""
     middle = 0.5 * (stretch.start + stretch.end)
-    smooth = ((a, b) for a, b in smooth_ranges(engagement) if a < middle < b)
+    smooth = ((a, b) for a, b in _smooth(engagement) if a < middle < b)
     a, b = next(smooth, (stretch.start, stretch.end))
     start, end = max(stretch.start, a), min(stretch.end, b)
-    if not is_straight(engagement):
+    if engagement.slot.curved:
         before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg
         start = after if abs(start) < after else start
         end = before if abs(end) < -before else end

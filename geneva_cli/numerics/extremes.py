@@ -283,10 +283,12 @@ class _Extremes:
         open_ = ~(left <= PRECISE * np.maximum(np.abs(low), np.abs(high))) | (left == np.inf)
         # by how much an extreme between samples exceeds them, over their range
         more = np.where(open_, 1.0, 0.15) * (high - low) + UNFINISHED * left
-        may = self._may_be(np.arange(len(value))[:, None], design, low - more, high + more)
+        reach = _reach_at_poles(value, open_, low - more, high + more)
+        may = self._may_be(np.arange(len(value))[:, None], design, *reach)
         # a row of lower samples may have the peak whose flank another row's sample was on
         (a, b), best = pieces.rows.x, self.at_sample[..., design]
-        may |= open_ & ((best >= a) & (best <= b)).any(axis=0)
+        bounded = self.most[..., design] < np.inf
+        may |= open_ & ((best >= a) & (best <= b) & bounded).any(axis=0)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
         number, piece = np.nonzero(may)
         each = [
@@ -371,6 +373,19 @@ class _Extremes:
             out[:, some] = [c[self.f.signs + own, np.arange(len(some)), 0] for c in jets]
         out[2] *= 2.0
         return out
+
+
+def _reach_at_poles(value: Array, open_: Mask, low: Array, high: Array) -> tuple[Array, Array]:
+    """Bounds of functions on rows; towards a pole, whose series has no end, the reciprocals'."""
+    number, row = np.nonzero(open_)
+    inverse = 1.0 / value[number, row]
+    left, least, most = chebyshev.remainder(inverse), inverse.min(axis=1), inverse.max(axis=1)
+    ended = left <= PRECISE * np.maximum(np.abs(least), np.abs(most))
+    more = 0.15 * (most - least) + UNFINISHED * left
+    for bound, own, end in ((low, least >= 0.0, most + more), (high, most <= 0.0, least - more)):
+        here = ended & own
+        bound[number[here], row[here]] = 1.0 / end[here]
+    return low, high
 
 
 def _tops(value: Array, bars: Array) -> tuple[Whole, Whole, Mask, Array]:

@@ -18,14 +18,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.contact import contact, is_straight
+from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.forces import Contact, LoadCase
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadFunctions
-from geneva_cli.loads.load_peaks import search_loads
-from geneva_cli.loads.stretches import refuse_noise, to_mid_motion
+from geneva_cli.loads.load_functions import LoadFunctions, refuse_noise
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -76,9 +74,9 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     more = ("slides", "along") if turns_back(engagement) else ("slides",)
     load, n = LoadFunctions(engagement, case, (FORCE,), more=more), case.designs
     # spans end at mid-motion, where a roller on an arm turns back in a straight slot
-    result = search_loads(load)
-    bounded, pieces = np.isfinite(result.most[0]), result.stretches
-    design, _, (a, b), positive = to_mid_motion(engagement, pieces, n)
+    result = load.search()
+    bounded = np.isfinite(result.most[0])
+    design, _, (a, b), positive = load.stretches(result)
     own = np.flatnonzero(half * (a + b) >= 0.0)
     design, a, b, positive = design[own], a[own], b[own], positive[:, own]
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
@@ -110,7 +108,7 @@ def turns_back(engagement: Engagement) -> bool:
     A roller on a crank's arm turns back on the line of centres, unless its motion is tilted. In a
     curved slot both branches begin at mid-motion.
     """
-    return is_straight(engagement) and not (engagement.on_arm and engagement.motion.symmetric)
+    return not engagement.slot.curved and not (engagement.on_arm and engagement.motion.symmetric)
 
 
 def passing(case: LoadCase, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:
