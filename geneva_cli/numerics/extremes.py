@@ -243,7 +243,8 @@ class _Extremes:
         outside = (x < a[:, None]) | (x > b[:, None])
         for side, sense in enumerate(self.senses):
             own = self._sided(sense, pieces.value)
-            endless = (own == np.inf).all(axis=2)
+            # from its begin on, where a margin changes its sign
+            endless = ((own == np.inf) | outside).all(axis=2) & (own == np.inf).any(axis=2)
             own = np.where(outside, -np.inf, own) if outside.any() else own
             best = own.argmax(axis=2)
             top, place = own[number, every, best], x[every, best]
