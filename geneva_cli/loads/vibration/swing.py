@@ -21,7 +21,7 @@ from geneva_cli.numerics.arrays import Array, Complex, Whole, matrix_product
 from geneva_cli.numerics.quadrature import rule
 
 NODE, WEIGHT = rule(64)  # exact to a double for |p h| up to TERMS
-_VALUES = np.polynomial.legendre.legvander(NODE, TERMS - 1).T
+_VALUES: Array = np.polynomial.legendre.legvander(NODE, TERMS - 1).T.astype(float)
 
 
 def residual_swing(panels: Panels, motion: Whole, swing: Oscillator[Array]) -> Complex:
