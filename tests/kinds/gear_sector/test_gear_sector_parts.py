@@ -26,7 +26,7 @@ from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.turning_scene import scene
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import single_check
-from geneva_cli.verdict.checks.shocks import stopping_torque
+from geneva_cli.verdict.checks.load_checks import stopping_torque
 from geneva_cli.verdict.cycle_warnings import cycle_warnings
 
 MACHINES = {
