@@ -825,7 +825,7 @@ class Design:
         >>> indexed.tolerance().to_dict()["dwell_position.worst_arcsec"]
         72.0
         """
-        from geneva_cli.verdict.tolerance.tolerance_tables import tolerance_table
+        from geneva_cli.verdict.tolerance.study import tolerance_table
 
         return tolerance_table(self.mechanism, self.parts, samples, seed, radius_mm)
 
@@ -839,7 +839,7 @@ class Design:
         >>> len(found["dwell_position_deg"]), float(sum(found["dwell_position_share"]))
         (60, 1.0)
         """
-        from geneva_cli.verdict.tolerance.tolerance_tables import histogram_table
+        from geneva_cli.verdict.tolerance.study import histogram_table
 
         return histogram_table(self.mechanism, self.parts, samples, seed)
 

@@ -22,7 +22,7 @@ from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.verdict.checks.all_checks import turn_checks
-from geneva_cli.verdict.tolerance.lock_tolerances import flat_locks
+from geneva_cli.verdict.tolerance.needed import flat_locks
 from tests.repo import ROOT
 
 pytestmark = pytest.mark.usefixtures("made_once")

@@ -167,21 +167,21 @@ def _group(
 MACHINE = _group(
     "",
     "wheel.z wheel.gearing drive.kind drive.rollers drive.before.kind motion.law",
-    "verdict.quantities.single:machine",
+    "verdict.report_sections:machine",
 )
 # Quantities of a report, in the order shown, but those of kinds.
 _REPORT = (
     QuantityGroup(
         "inputs",
         tuple(f"{table}.{key}" for table, names in ECHOED.items() for key in names),
-        "verdict.report.sizes_report:inputs",
+        "verdict.report_sections:inputs",
     ),
     _group(
         "timing",
         "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm",
         batch="verdict.quantities.motion_quantities:timing",
     ),
-    _group("timing", "shortest_motion_s", "verdict.report.stations:shortest_motion"),
+    _group("timing", "shortest_motion_s", "verdict.report_sections:shortest_motion"),
     _group("timing", "k_r", batch="verdict.quantities.motion_quantities:timing"),
     QuantityGroup(
         "",
@@ -195,7 +195,7 @@ _REPORT = (
         ),
         batch="verdict.quantities.motion_quantities:peaks",
     ),
-    _group("", "", "verdict.report.stations:stations"),
+    _group("", "", "verdict.report_sections:stations"),
     QuantityGroup(
         "loads",
         (
@@ -208,19 +208,19 @@ _REPORT = (
     QuantityGroup(
         "cycle",
         _product("input_torque_Nm power_W crank_bearing_N", "max min mean rms"),
-        "verdict.report.load_report:cycle",
+        "verdict.report_sections:cycle",
     ),
     _group(
         "shock.entry",
         "at_deg jump force_N moment_Nms",
-        batch="verdict.quantities.disturbances:entry",
+        batch="verdict.quantities.load_quantities:entry",
     ),
     _group(
         "shock.reversal",
         "at_deg jump force_N moment_Nms contact_stress_MPa drag_Nm",
-        batch="verdict.quantities.disturbances:reversal",
+        batch="verdict.quantities.load_quantities:reversal",
     ),
-    _group("slot", "positively_driven", "verdict.report.load_report:slot"),
+    _group("slot", "positively_driven", "verdict.report_sections:slot"),
     _group(
         "slot",
         "not_driven_share branch_gap_mm branch_gap_at_deg",
@@ -230,8 +230,8 @@ _REPORT = (
         "vibration",
         "none period_ratio damping_ratio natural_Hz residual_share residual_deg "
         "residual_share_worst steady_share dynamic_factor windup_deg",
-        "verdict.report.load_report:vibration",
-        "verdict.quantities.disturbances:vibration",
+        "verdict.report_sections:vibration",
+        "verdict.quantities.load_quantities:vibration",
     )._replace(one_by_one=("none",)),
     QuantityGroup(
         "product",
@@ -244,30 +244,30 @@ _REPORT = (
         ),
         batch="verdict.quantities.motion_quantities:product",
     ),
-    _group("", "", "verdict.report.stations:wheels"),
-    _group("", "", "verdict.report.stations:cranks"),
+    _group("", "", "verdict.report_sections:wheels"),
+    _group("", "", "verdict.report_sections:cranks"),
     _group(
         "sizes",
         "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "
         "center_distance_mm crank_radius_mm ratio roller_radius_mm slot_width_mm clearances_from "
         "slot_mouth_radius_mm slot_bottom_radius_mm wheel_radius_mm rim_radius_mm "
         "pressure_angle_max_deg rollers_max",
-        "verdict.report.sizes_report:sizes",
+        "verdict.report_sections:sizes",
     ),
     _group(
         "parts",
         "none rim_radius_mm slot_end_radius_mm lock_radius_mm recess_radius_mm relief horn_mm "
         "wheel_bore_mm crank_bore_mm",
-        "verdict.report.parts_report:parts",
+        "verdict.report_sections:parts",
         makes_parts=True,
     ),
     _group(
         "parts",
         "smallest_gap_mm smallest_gap_at_deg dwell_play_deg dwell_play_mm",
-        "verdict.report.parts_report:turned",
+        "verdict.report_sections:turned",
         makes_parts=True,
     ),
-    _group("parts_list", "", "verdict.report.parts_report:parts_list_tables", makes_parts=True),
+    _group("parts_list", "", "verdict.report_sections:parts_list_tables", makes_parts=True),
     QuantityGroup(
         "tolerance",
         (
@@ -275,8 +275,8 @@ _REPORT = (
             *_product("entry_jump", "mean worst mouth_worst"),
             *_product("clearances", "slot_needed_mm lock_needed_mm turns"),
         ),
-        "verdict.report.load_report:tolerances",
-        "verdict.quantities.disturbances:tolerances",
+        "verdict.report_sections:tolerances",
+        "verdict.quantities.load_quantities:tolerances",
         (
             *_product("dwell_position", "worst_deg rss_deg p997_deg"),
             *("motion_play.p997_deg", "entry_jump.mean", "entry_jump.mouth_worst"),
@@ -339,7 +339,7 @@ _REPORT = (
         "roller_life_turns roller_life_motions roller_life_h slot_wear_mm_per_million",
         batch="verdict.quantities.part_strength:wear",
     ),
-    _group("strength", "", "verdict.report.load_report:needs"),
+    _group("strength", "", "verdict.report_sections:needs"),
     _group("", "", "verdict.both_directions:differences"),
 )
 
@@ -377,18 +377,18 @@ STUDY = (
     QuantityGroup(
         "checks",
         BEFORE_TURN,
-        "verdict.quantities.single:values_before_turn",
+        "verdict.both_directions:values_before_turn",
         makes_parts=True,
     ),
     QuantityGroup(
         "checks",
         (*OF_TURN, "passes", "failed"),
-        "verdict.quantities.single:check_values",
+        "verdict.both_directions:check_values",
         makes_parts=True,
     ),
     # alone, until the first check that fails
-    QuantityGroup("checks", ("passes",), "verdict.quantities.single:passes", makes_parts=True),
-    QuantityGroup("checks", tuple(PROOFS), "verdict.quantities.single:proved", makes_parts=True),
+    QuantityGroup("checks", ("passes",), "verdict.both_directions:passes", makes_parts=True),
+    QuantityGroup("checks", tuple(PROOFS), "verdict.both_directions:proved", makes_parts=True),
 )
 # All quantities; those that make parts come last.
 GROUPS = tuple(sorted((MACHINE, *REPORT, *STUDY), key=lambda group: group.makes_parts))

@@ -1,9 +1,10 @@
-"""The effects of one machine's tolerances on its dwell, motion, entry and clearances; its locks."""
+"""The effects of tolerances on dwell, motion, entry and clearances: ``geneva tolerance``."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,8 +26,13 @@ from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst, used
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.tolerance.lock_tolerances import cut_parts
-from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
+from geneva_cli.spec.rules import POSITIVE, require_mm
+from geneva_cli.table import Table, record_table, rows_table
+from geneva_cli.verdict.tolerance.needed import (
+    RequiredClearances,
+    cut_parts,
+    required_clearances,
+)
 
 
 class EntryJumps(NamedTuple):
@@ -176,3 +182,91 @@ def _single_design(errors: WorstErrors) -> tuple[float, float, float]:
 
 def _greatest(values: Array) -> float:
     return float(np.max(values))
+
+
+ANGLES = ("worst", "rss", "mean", "std", "p997")
+
+
+def tolerance_table(
+    mechanism: Mechanism, parts: Parts, samples: int, seed: int, radius_mm: float | None = None
+) -> Table:
+    """The study as a record, with micrometres at ``radius_mm``, if not None."""
+    if radius_mm is not None:
+        require_mm("--radius", radius_mm, POSITIVE)
+    results = study(mechanism, parts, samples, seed)
+    spec, size, entry = mechanism.spec, mechanism.spec.size, results.entry
+    locked = results.clearances.lock_mm is not None
+    values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
+    values |= {"samples": samples, "seed": seed, "distribution": spec.tolerance.distribution}
+    values["radius_mm"] = radius_mm
+    values |= _angles("dwell_position", results.dwell, radius_mm)
+    values |= _angles("motion_play", results.motion, radius_mm)
+    values["motion_play.at_deg"] = results.motion_at_deg
+    values["contributions"] = _contributions(mechanism, results)
+    fields = {name: f"entry_jump.{name}" for name in ("mean", "std", "worst")}
+    fields |= {"missed": "entry_jump.missed_share", "mouth": "entry_jump.mouth_worst"}
+    values |= {name: getattr(entry, field) if entry else None for field, name in fields.items()}
+    values |= {
+        "clearances.slot_mm": size.allowances.slot_clearance_mm,
+        "clearances.slot_needed_mm": results.clearances.slot_mm,
+        "clearances.lock_mm": size.allowances.lock_clearance_mm if locked else None,
+        "clearances.lock_needed_mm": results.clearances.lock_mm,
+        "clearances.turns": results.clearances.turns,
+        "clearances.jam_share": results.jams,
+        "warnings": (*results.warnings, *_unscaled(results, radius_mm)),
+    }
+    return record_table(values, spec.title)
+
+
+def histogram_table(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Table:
+    """Histograms of the machines: for each angle the middles of bins, and the fraction in each.
+
+    Raises GenevaError if neither angle is known.
+    """
+    results = study(mechanism, parts, samples, seed)
+    known = {"dwell_position": results.dwell, "motion_play": results.motion}
+    columns: dict[str, list[float]] = {}
+    for name, one in known.items():
+        if one:
+            columns[f"{name}_deg"], columns[f"{name}_share"] = map(
+                list, zip(*one.shape, strict=True)
+            )
+    if not columns:
+        raise GenevaError(f"--histogram: {'; '.join(results.warnings)}")
+    return Table(tuple(columns), list(columns.values()), title=mechanism.spec.title)
+
+
+def _angles(name: str, of: Spread | None, radius_mm: float | None) -> dict[str, float | None]:
+    """The five numbers of a spread in degrees, arc seconds, and micrometres at a radius."""
+    micron = None if radius_mm is None else math.radians(1.0) * radius_mm * 1e3
+    units = {"deg": 1.0, "arcsec": 3600.0, "um": micron}
+    return {
+        f"{name}.{angle}_{unit}": None
+        if of is None or scale is None
+        else getattr(of, angle) * scale
+        for unit, scale in units.items()
+        for angle in ANGLES
+    }
+
+
+def _unscaled(results: Study, radius_mm: float | None) -> list[Notice]:
+    """A note on the micrometres, if there are angles and no radius."""
+    angles = {"dwell_position": results.dwell, "motion_play": results.motion}
+    known = [name for name, of in angles.items() if of]
+    if radius_mm is not None or not known:
+        return []
+    return [Notice("not-known", f"micrometres of {' and '.join(known)}: need --radius")]
+
+
+def _contributions(mechanism: Mechanism, results: Study) -> Table:
+    """A row for each dimension that deviates: its fraction of the squares, its plus or minus."""
+    names = ("dimension", "share", "dwell_position_deg", "motion_share", "motion_play_deg")
+    rows = []
+    for i, name in enumerate(Deviations._fields):
+        if tolerances(mechanism.spec)[name]:
+            row: list[Any] = [name]
+            for of in (results.dwell, results.motion):
+                row += [of.fractions[i], of.parts[i]] if of else [None, None]
+            rows.append(tuple(row))
+    rows.sort(key=lambda row: -(row[1] or 0.0))
+    return rows_table(names, rows)
