@@ -200,10 +200,10 @@ class Adviser:
 
         if remedy.values:
             return next(((remedy, value) for value in remedy.values if passes(value)), None)
-        # a whole turn costs as much as all checks, which are made last otherwise
-        turned = any(name in OF_TURN for name in self.units)
+        # parts that are built or turned anyway cost as much as all checks, which are last otherwise
+        at_once = any(name in OF_TURN or name == "parts" for name in self.units)
         at, short = 0.0, -1.0
-        for every in (True,) if turned else (False, True):
+        for every in (True,) if at_once else (False, True):
             edge = _edge(remedy, margins[every], at, short)
             if edge is None:
                 return None
