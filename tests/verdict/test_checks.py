@@ -19,7 +19,7 @@ from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.all_checks import standing_checks
 from geneva_cli.verdict.motion_warnings import motion_warnings
-from geneva_cli.verdict.parts_warnings import turn_warnings
+from geneva_cli.verdict.warnings import turn_warnings
 
 DESIGNS = repo.DESIGNS
 

@@ -264,7 +264,7 @@ def test_the_lag_and_where_the_wheel_is_struck():
 def test_what_is_said_of_a_wheel_that_lags():
     def of(torque, inertia=0.01):
         design = loaded(torque, inertia)
-        said = cycle_warnings(design.cycle, design.loads)
+        said = cycle_warnings(design.mechanism)
         return stopping_torque("", design.mechanism), {c.name: str(c) for c in said}
 
     check, said = of(0.0)
