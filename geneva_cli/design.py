@@ -753,7 +753,9 @@ class Design:
         >>> first.name, first.value, first.must_be, first.limit, first.passes
         ('dwell_deg', 240.0, 'at least', 0.0, True)
         """
-        return self._proved(None)
+        from geneva_cli.verdict.checks import proofs
+
+        return [*self._judged, *proofs(self.parts)]
 
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
@@ -768,13 +770,9 @@ class Design:
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--proof", to_mm, allowed, "the roller's radius")
-        return self._proved(to_mm)
-
-    def _proved(self, proof_mm: float | None) -> list[Check]:
         from geneva_cli.verdict.checks import proofs
 
-        turned = self.spec.is_turned
-        return [*self._judged, *(proofs(self.parts, proof_mm) if turned else ())]
+        return [*self._judged, *proofs(self.parts, to_mm)]
 
     @answer
     def _judged(self) -> list[Check]:

@@ -178,18 +178,18 @@ def check_named(among: Checks, name: str, *of: object) -> Check | None:
 
 def untold(among: Checks, *of: object) -> Iterator[Check]:
     """The checks of a list that apply to ``of``; those that fail have no reason in words yet."""
-    for name in among:
-        check = check_named(among, name, *of)
-        if check is not None:
+    for name, path in among.items():
+        if check := load_named(path)(name, *of):
             yield check
 
 
 def applicable(among: Checks, *of: object) -> Iterator[Check]:
     """The checks of a list that apply to ``of``; of those that fail for one reason, the first."""
     reasons = set()
-    for check in untold(among, *of):
-        told = check.told
-        if told.passes is not False or told.why not in reasons:
-            yield told
-        if told.passes is False and told.why:
-            reasons.add(told.why)
+    for name, path in among.items():
+        if check := load_named(path)(name, *of):
+            told = check.told
+            if told.passes is not False or told.why not in reasons:
+                yield told
+            if told.passes is False and told.why:
+                reasons.add(told.why)
