@@ -15,8 +15,6 @@ from geneva_cli.loads.forces import wheel_grip
 from geneva_cli.loads.impacts.arrival import arrival
 from geneva_cli.loads.load_summary import LoadSummary
 from geneva_cli.loads.load_tables import summaries
-from geneva_cli.loads.stretches import Stretch
-from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking
 from geneva_cli.motion.peaks import worst
@@ -28,12 +26,15 @@ from geneva_cli.spec.load_limits import limits_by_key, load_limits
 def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
     """Warnings about a loaded machine: loads without a bound, a wheel that drives or lags."""
     cycle = cycle_of(mechanism)
-    out = [*_jammed(cycle), *_on_an_edge(cycle)]
-    # the search for a speed is needed only if the present one breaks a limit
-    if not _keeps_limits(cycle) and highest_speed.fastest_rpm(mechanism) is None:
-        out.append(_no_speed(mechanism))
     sums = summaries(cycle)
-    return [*out, *_back_driven(cycle, sums), *_lags(mechanism), *_unbalanced(cycle, sums)]
+    return [
+        *_jammed(cycle),
+        *_on_an_edge(cycle),
+        *_no_speed(cycle),
+        *_back_driven(cycle, sums),
+        *_lags(mechanism),
+        *_unbalanced(cycle, sums),
+    ]
 
 
 def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
@@ -44,19 +45,16 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
         a, b = (engagement.mid_deg + x for x in stretch[:2])
         # Over less than 1e-4 of a motion, next to a rest, the sign is rounding.
         driven = stretch.feeds < 0.0 and b - a > 1e-4 * engagement.motion_deg
-        driven = driven and not _held(cycle, engagement, stretch)
+        if driven:  # where friction alone holds the wheel, it drives nothing
+            at = contact(engagement, 0.5 * (stretch.start + stretch.end), 1, reactions=False)
+            grip = wheel_grip(cycle.case, at, stretch.drives, stretch.slides)
+            driven = grip.scalars()[0] > 0.0
         if driven and last == a:
             out[-1] = out[-1][0], shown(b)
         elif driven:
             out.append((shown(a), shown(b)))
         last = b if driven else None
     return out
-
-
-def _held(cycle: Cycle, engagement: Engagement, stretch: Stretch) -> bool:
-    """True if friction alone holds the wheel in a stretch, so that it drives nothing."""
-    at = contact(engagement, 0.5 * (stretch.start + stretch.end), 1, reactions=False)
-    return wheel_grip(cycle.case, at, stretch.drives, stretch.slides).scalars()[0] <= 0.0
 
 
 def _back_driven(cycle: Cycle, sums: Mapping[str, LoadSummary[float | None]]) -> Iterator[Notice]:
@@ -132,15 +130,6 @@ def _unbalanced(cycle: Cycle, sums: Mapping[str, LoadSummary[float | None]]) -> 
     )
 
 
-def _keeps_limits(cycle: Cycle) -> bool:
-    """Return True if the limits on loads are kept at the present speed."""
-    bounds = load_limits(cycle.mechanism.spec.limits)
-    if not bounds.keys() <= cycle.extremes.keys():
-        return False
-    extremes = [(cycle.extremes[name], limit) for name, limit in bounds.items()]
-    return all(max(one.max, -one.min) <= limit for one, limit in extremes)
-
-
 def _jammed(cycle: Cycle) -> Iterator[Notice]:
     force, case = cycle.extremes[FORCE], cycle.case
     endless = [
@@ -178,12 +167,21 @@ def _on_an_edge(cycle: Cycle) -> Iterator[Notice]:
     )
 
 
-def _no_speed(mechanism: Mechanism) -> Notice:
-    limits = limits_by_key(mechanism.spec.limits)
-    broken = " and ".join(f"{key} = {limit:g}" for key, limit in limits.items())
-    resisting = "torque" if mechanism.output.turns else "force"
-    key = "torque_Nm" if mechanism.output.turns else "force_N"
-    return Notice(
+def _no_speed(cycle: Cycle) -> Iterator[Notice]:
+    """A warning if no speed keeps the limits on loads."""
+    mechanism, limits = cycle.mechanism, cycle.mechanism.spec.limits
+    bounds = load_limits(limits)
+    keeps = bounds.keys() <= cycle.extremes.keys() and all(
+        max(cycle.extremes[name].max, -cycle.extremes[name].min) <= limit
+        for name, limit in bounds.items()
+    )
+    # the search for a speed is needed only if the present one breaks a limit
+    if keeps or highest_speed.fastest_rpm(mechanism) is not None:
+        return
+    broken = " and ".join(f"{key} = {limit:g}" for key, limit in limits_by_key(limits).items())
+    turns = mechanism.output.turns
+    resisting, key = ("torque", "torque_Nm") if turns else ("force", "force_N")
+    yield Notice(
         "no-speed",
         f"no speed keeps {broken}, so there is no shortest motion: the resisting {resisting} "
         f"alone exceeds it, or nothing bounds the load. Use a larger machine or less {key}",

@@ -16,7 +16,6 @@ from geneva_cli.loads.tolerance.locking import CutLock
 from geneva_cli.loads.tolerance.motion_error import WorstErrors, motion_errors
 from geneva_cli.loads.tolerance.random_machines import (
     Draws,
-    RandomMachines,
     Spread,
     likely_place,
     random_machines,
@@ -72,7 +71,12 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
     _refuse_large(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
-    every_lock = _locks(mechanism, parts, warnings)
+    every_lock: Sequence[CutLock] = []
+    if mechanism.spec.is_turned:
+        try:
+            every_lock = cut_parts(parts.turned).locks()
+        except GenevaError as error:
+            warnings.append(Notice("not-known", f"no parts: {error}"))
     lock = max(every_lock, key=lambda one: _greatest(one(ends).angle.arrays()[0]), default=None)
     motions = motion_errors(mechanism)
     errors = [(one, *_single_design(one.greatest(ends))) for one in motions]
@@ -106,8 +110,14 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
                 "motion_play is not known: curved slots are computed for a path without errors",
             )
         )
-    entry = _entry(mechanism, use, drawn) if jumps else None
-    if entry is None:
+    entry = None
+    if jumps:
+        worst_jump = entry_jumps_worst(mechanism, use)
+        assert worst_jump is not None  # there are slots to enter
+        mean, deviation = float(drawn.jump.mean()), float(drawn.jump.std())
+        mouth = mouth_jumps_worst(mechanism).item()
+        entry = EntryJumps(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
+    else:
         warnings.append(
             Notice(
                 "not-known",
@@ -119,15 +129,6 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
         what = "not every machine turns" if clearances.turns is False else "no turn was computed"
         warnings.append(Notice("not-every-machine-turns", f"{what}: {clearances.why}"))
     return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(warnings))
-
-
-def _entry(mechanism: Mechanism, use: dict[str, float], drawn: RandomMachines) -> EntryJumps:
-    """The jumps at entry of a machine whose roller runs along its slot there."""
-    worst = entry_jumps_worst(mechanism, use)
-    assert worst is not None  # there are slots to enter
-    mouth = mouth_jumps_worst(mechanism).item()
-    mean, deviation = float(drawn.jump.mean()), float(drawn.jump.std())
-    return EntryJumps(float(worst[0]), mean, deviation, drawn.missed, mouth)
 
 
 def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
@@ -163,16 +164,6 @@ def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
                 "the wheel's axis or the crank's",
                 ("tolerance", "center_distance_mm"),
             )
-
-
-def _locks(mechanism: Mechanism, parts: Parts, warnings: list[Notice]) -> Sequence[CutLock]:
-    if not mechanism.spec.is_turned:
-        return []
-    try:
-        return cut_parts(parts.turned).locks()
-    except GenevaError as error:
-        warnings.append(Notice("not-known", f"no parts: {error}"))
-        return []
 
 
 def _single_design(errors: WorstErrors) -> tuple[float, float, float]:
