@@ -127,10 +127,7 @@ def _leave_walls(parts: Outlines, screwed: list[Circle]) -> bool:
 
 
 def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
-    """Return the radius at which bolts in some directions leave the widest walls in the disc.
-
-    The second number is the least distance of their axes from the walls, 0 or more.
-    """
+    """Return the radius at which bolts in some directions leave the widest walls in the disc."""
     count = 400  # radii; their spacing is far below a wall
     own = parts.assembly.mechanism.spec.size.lock_bolt_circle_mm
     radii = np.linspace(0.0, parts.sizes.lock, count) if own is None else np.array([0.5 * own])

@@ -131,11 +131,7 @@ def _why_above(shaft: Shaft, size: Size, bars: Links, top: float) -> str:
 def _drilled(
     mechanism: Mechanism, shafts_: Sequence[Member], places: Sequence[Point], top: float
 ) -> Iterator[Circle]:
-    """Yield the holes of the shafts that reach below the frame's upper face.
-
-    They are as wide as bores for these shafts, or as the bearings on them.
-    A wheel or a crank without a bore is one piece with its shaft, whose diameter is in [shaft].
-    """
+    """Yield the holes of the shafts that reach below the frame's upper face."""
     L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
     cranks = [one.at for one in mechanism.crank_places]
     for at in places:
@@ -149,10 +145,7 @@ def _drilled(
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
-    """Yield the positions of shafts, each once: of the wheels, the crank, and its drive.
-
-    An internal wheel is open in the middle, where its crank turns below it. It is held from above.
-    """
+    """Yield the positions of shafts, each once: of the wheels, the crank, and its drive."""
     L = mechanism.center_distance_mm
     wheels = [one.at for one in mechanism.wheel_places]
     cranks = [one.at for one in mechanism.crank_places]
@@ -184,10 +177,7 @@ def _mounted(base: Plate, L: float) -> Iterator[Fixed]:
 
 
 def _spacer(screw: Circle, part: Plate, top: float) -> Member:
-    """Return the ring about a screw, twice as wide, between the frame and the fixed part.
-
-    It is turned from a rod: often it is higher than wide.
-    """
+    """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
     outline, bore = Circle("SHAFT", ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
     plate = Plate(f"spacer of the {part.name}", "SHAFT", outline, (bore,), top, part.low)
     return Member(plate, screw.centre)

@@ -209,11 +209,7 @@ def usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
 
 
 def _crank_bore(spec: Spec, space: float, L: float) -> float:
-    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``space``.
-
-    It is 0 where ``space``, the radius inside the relief, is too small. Then the shaft ends in the
-    arm.
-    """
+    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``space``."""
     size = spec.size
     if size.crank_bore_mm is not None:
         return 0.5 * size.crank_bore_mm
@@ -228,10 +224,7 @@ def _crank_bore(spec: Spec, space: float, L: float) -> float:
 
 
 def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
-    """Return the locking disc's radius: it leaves a horn as thick as the roller's radius.
-
-    The horn is at most a fifth of the available radius. 0 for no disc; linkages have none.
-    """
+    """Return the locking disc's radius: it leaves a horn as thick as the roller's radius."""
     spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
     if not spec.has_lock:
         return 0.0
@@ -267,11 +260,7 @@ def require_lock_between(lock_radius_mm: float, least: float, limit: float) -> N
 
 
 def _bottom(deepest: float, offset: float, gap: float) -> float:
-    """Return the distance of the centre of a slot's round end from the wheel's axis, mm.
-
-    The gap between it and the deepest roller is along the slot, whose axis may be offset from the
-    wheel's. Beyond the wheel's axis the distance is negative.
-    """
+    """Return the distance of the centre of a slot's round end from the wheel's axis, mm."""
     along = math.sqrt(max(deepest * deepest - offset * offset, 0.0)) - gap
     return math.copysign(math.hypot(along, offset), along)
 

@@ -214,11 +214,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
 def _crank_bored(
     assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float, keyed: bool
 ) -> Sizes:
-    """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
-
-    Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
-    Unless ``keyed``, the bore is not sized by its key.
-    """
+    """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there."""
     spec = assembly.full.spec
     size = spec.size
     own = (size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm)

@@ -113,11 +113,7 @@ def shaft_of(
 
 
 def _to_frame(assembly: Assembly, sizes: Sizes, hub_mm: float) -> float:
-    """Return the distance of the frame's upper face from the middle of the wheel's thickness.
-
-    The frame lies a washer below the lowest of the wheel's hub, which is ``hub_mm`` long, the arm,
-    links, gears, and the base of a groove's plate.
-    """
+    """Return the distance of the frame's upper face from the middle of the wheel's thickness."""
     machine, spec = assembly.full, assembly.full.spec
     gap, arm, washer = spec.size.allowances.pin_gap_mm, sizes.arm_thickness, spec.size.washer_mm
     first = arm if spec.drive.ONE_ARM else sizes.link_thickness

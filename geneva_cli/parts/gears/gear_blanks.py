@@ -129,10 +129,7 @@ def link_gear(
 
 
 def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:
-    """Return the outline of a gear with teeth, or of the opening of a ring.
-
-    ``hub`` is the radius of the outline between sectors.
-    """
+    """Return the outline of a gear with teeth, or of the opening of a ring."""
     one, step = gear.teeth.one(write), gear.teeth.step
     last = gear.teeth._replace(tip=gear.last_tip).one(write) if gear.last_tip else one
     between = [gear.teeth.between()]
@@ -172,10 +169,7 @@ def _bored_by(at: Point, L: float) -> str:
 
 
 def _refuse(name: str, wall: float, what: str, shaft: str) -> None:
-    """Raise GenevaError where a hole, or a hub, leaves nothing of a gear.
-
-    ``shaft`` is the key that sets its bore.
-    """
+    """Raise GenevaError where a hole, or a hub, leaves nothing of a gear."""
     if wall > 0.0:
         return
     if what == "bolts":

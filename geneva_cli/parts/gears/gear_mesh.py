@@ -91,11 +91,7 @@ class GearMesh(NamedTuple):
 def with_tips(
     one: RoundTeeth, other: RoundTeeth, shifts: tuple[float, float], distance: float, angle: float
 ) -> tuple[RoundTeeth, RoundTeeth]:
-    """Return two outer gears at a distance of their axes, mm, with tips.
-
-    A tip ends a quarter of a module from the other gear's root, and no farther out than the other
-    gear's flank reaches. ``angle`` is the pressure angle at work, radians.
-    """
+    """Return two outer gears at a distance of their axes, mm, with tips."""
     far, module = distance * math.sin(angle), one.rack.module
     tips = [
         min(
@@ -274,10 +270,7 @@ class _Pair:
     def _all_round(
         self, small: RoundTeeth, large: RoundTeeth
     ) -> dict[str, tuple[tuple[float, ...], ...]]:
-        """Return the directions of all teeth: the smaller gear has one on the line of centres.
-
-        It lies in a space of the larger one.
-        """
+        """Return the directions of all teeth: the smaller gear has one on the line of centres."""
         out: dict[str, tuple[tuple[float, ...], ...]] = {}
         space = 0.0 if self.ring else 0.5
         pairs = zip(
@@ -293,12 +286,7 @@ class _Pair:
     def _sectors(
         self, small: RoundTeeth, large: RoundTeeth
     ) -> tuple[dict[str, tuple[tuple[float, ...], ...]], float]:
-        """Return the directions of the teeth on sectors, and the driver's last tip, mm.
-
-        Before and after the driving arc the driven gear is slower than the teeth. So the first pair
-        comes into contact where the arc starts. The driver's last tooth is lower, so that it leaves
-        where the arc ends; else it would jam.
-        """
+        """Return the directions of the teeth on sectors, and the driver's last tip, mm."""
         teeth = dict(zip((self.small.name, self.large.name), (small, large), strict=True))
         towards = dict(zip(teeth, self.towards, strict=True))
         one, two = teeth[self.driver.name], teeth[self.driven.name]

@@ -141,11 +141,7 @@ def gear_shafts(
 def _shafts(
     mechanism: Mechanism, parts: Outlines | None, on_crank: float
 ) -> list[tuple[Point, float]]:
-    """Return position and radius of the shafts of driven gear and driver.
-
-    The first is the crank's, or that of another drive. Raises GenevaError where a pitch curve is no
-    gear.
-    """
+    """Return position and radius of the shafts of driven gear and driver."""
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
     sizes, ((driven, _), _) = link_sizes(mechanism, [], parts), pitch_radii(pair)
     usual, x = bore_radius(L / 20.0), mechanism.gear_shaft.x_mm
@@ -170,11 +166,7 @@ def _driver_bore(mechanism: Mechanism, parts: Outlines | None) -> float:
 def gear_bores(
     mechanism: Mechanism, parts: Outlines | None, on_crank: float = 0.0
 ) -> list[tuple[Point, ShaftBore]]:
-    """Return position and bore of driven gear and driver; of radius 0 for none.
-
-    Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
-    no gear.
-    """
+    """Return position and bore of driven gear and driver; of radius 0 for none."""
     pair = required_gears(mechanism)
     (driven, _), (driver, _) = pitch_radii(pair)
     if teeth := pair_teeth(pair, mechanism.spec.size):

@@ -131,10 +131,7 @@ def toothed_curve(teeth: PairTeeth, driver: bool, curve: Curve, sense: float) ->
 
 
 def _refuse(bends: tuple[float, float], rack: Rack, tip: float) -> None:
-    """Raise GenevaError where a pitch curve, of some curvatures, is too narrow for its teeth.
-
-    On a convex bend the rack undercuts the flank below it, on a hollow one the flank above it.
-    """
+    """Raise GenevaError where a pitch curve, of some curvatures, is too narrow for its teeth."""
     most = max(bends[1] * rack.straight, -bends[0] * tip) / math.sin(rack.angle) ** 2
     if most > 1.0:
         raise GenevaError(

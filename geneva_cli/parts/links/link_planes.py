@@ -86,10 +86,7 @@ def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Plan
 
 
 def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
-    """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane.
-
-    A first wheel is no gear: ``shaft_gap`` computes its gap.
-    """
+    """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane."""
     assert bars.sizes is not None
     if parts.assembly.full.first_wheel:
         return

@@ -196,10 +196,7 @@ def _refuse_unused(
 def _gears(
     links: list[Link], turning: list[LinkAxis], sizes: LinkSizes, mechanism: Mechanism
 ) -> tuple[GearMesh | None, list[Gear]]:
-    """Return the teeth of gears, if they have some, and the gears, bored for their shafts.
-
-    Raises GenevaError, naming the key, for teeth that do not mesh, or not in both directions.
-    """
+    """Return the teeth of gears, if they have some, and the gears, bored for their shafts."""
     from geneva_cli.parts.gears.gear_blanks import link_gear
     from geneva_cli.parts.gears.gear_mesh import gear_mesh
 

@@ -73,12 +73,7 @@ def arc_leaves_hub(assembly: Assembly, sizes: Sizes) -> bool:
 
 
 def _arc(sizes: Sizes, relief: Relief) -> Segment:
-    """Return one arc that meets the disc at right angles at both ends.
-
-    For a radial slot entered without shock it is the triangle of wheel, crank and roller at entry,
-    scaled down to the disc. Its centre is L rk/R from the axis, its radius is L cos b rk/R. Raises
-    GenevaError where the wheel moves over half a turn of the crank or more.
-    """
+    """Return one arc that meets the disc at right angles at both ends."""
     if relief.half > 0.5 * math.pi - SAME_ANGLE:
         raise GenevaError(
             f'relief = "arc": the wheel moves over {math.degrees(2.0 * relief.half):.6g} deg of '

@@ -72,12 +72,7 @@ def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: floa
 
 
 def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:
-    """Return the crank with the relief of the spec, or else the first kind that clears the wheel.
-
-    An arc leaves the most of the disc and is one cut. If it collides, as with many slots, or leaves
-    too little around the crank's bore or hub, the whole sector is cut down to where the wheel never
-    comes.
-    """
+    """Return the crank with the spec's relief, or else the first kind that clears the wheel."""
     assembly = bare.assembly
     if not sizes.lock:
         return [], "none", bare
@@ -105,10 +100,7 @@ def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], st
 
 
 def _overlap(gaps: Gaps, close: float) -> float:
-    """Return the greatest overlap of crank and wheel in all motions, mm.
-
-    Gaps wider than ``close`` count as ``close``.
-    """
+    """Return the greatest overlap of crank and wheel in all motions, mm."""
     least = 0.0
     for engagement, behind in gaps.assembly.motions:
         count = 2 + int(engagement.motion_deg / SWEPT_DEG)

@@ -105,11 +105,7 @@ def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -
 
 
 def inner_arc(sizes: Sizes, half: float, wheel: PolarPoints, more: float) -> tuple[float, float]:
-    """Return the inner arc of a locking sector: its distance at the edges and in the middle.
-
-    Directions are from the sector's middle. Through each point there is one circle that meets both
-    edges where this arc does. The circle that is farthest out in the middle clears all points.
-    """
+    """Return the inner arc of a locking sector: its distance at the edges and in the middle."""
     inside = np.abs(wheel.direction) < half
     radius, off = wheel.radius[inside], wheel.direction[inside]
     at_edge = float(radius[np.abs(off) > half - 0.035].max(initial=0.0))  # within two degrees

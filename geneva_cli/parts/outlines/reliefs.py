@@ -102,12 +102,7 @@ def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
 
 
 def _widened(assembly: Assembly, sizes: Sizes, one: Relief, mouths: Mouths) -> Relief:
-    """Return a relief that clears both horns beside the slot of its motion.
-
-    A horn's corner, p from the wheel's axis, is on the circle of the disc or of the recess where it
-    is chi from the line of centres: p² + L² - 2 p L cos chi = k². In the motion it comes from the
-    recess, passes the line and leaves the disc. It reaches farthest round the crank by then.
-    """
+    """Return a relief that clears both horns beside the slot of its motion."""
     engagement, behind = assembly.motions[one.motion]
     L, half_step, middle = assembly.L, engagement.half_step, 0.5 * (one.start + one.end)
     # samples 1/2000 of the motion apart bring a greatest value to 1e-5 degrees

@@ -95,11 +95,7 @@ def _between(assembly: Assembly, start: float, end: float) -> float:
 
 
 def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) -> list[Segment]:
-    """Return the rim from one slot's corner, through the recess, to the next slot's corner.
-
-    Mouths of offset slots and of unequal steps end at different radii. One that the recess does not
-    reach is extended to the recess, along the roller's circle about the crank's axis.
-    """
+    """Return the rim from one slot's corner, through the recess, to the next slot's corner."""
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
     if math.remainder(last - first, math.tau) <= 0.0:
         raise GenevaError(

@@ -101,10 +101,7 @@ def _on_wheel(parts: Outlines) -> tuple[float, float]:
 
 
 def _on_crank(parts: Outlines) -> tuple[float, float]:
-    """Return the lower and upper end of what the crank's shaft carries, along the axis.
-
-    The upper end is in the arm, or in a bored locking disc or its hub.
-    """
+    """Return the lower and upper end of what the crank's shaft carries, along the axis."""
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     on_arm = 0.0 - size.allowances.pin_gap_mm  # no -0.0
     high = on_arm

@@ -98,10 +98,7 @@ def groove_stack(
 
 
 def groove_reaches(assembly: Assembly, sizes: Sizes) -> tuple[float, float]:
-    """Return the groove's reach from the crank's axis, and the width of the rim around it, mm.
-
-    Raises GenevaError, naming the key, where the wheel's hub leaves no space for the rim.
-    """
+    """Return the groove's reach from the crank's axis, and the width of the rim around it, mm."""
     far, wall = _farthest(assembly, sizes), sizes.wall_min
     space = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
     # where it fits, the rim around the groove is 1.5 roller radii wide
@@ -117,10 +114,7 @@ def groove_reaches(assembly: Assembly, sizes: Sizes) -> tuple[float, float]:
 
 
 def _farthest(assembly: Assembly, sizes: Sizes) -> float:
-    """Return the groove's reach from the crank's axis: its farthest middle and half its width.
-
-    There a flank is normal to the ray. The result does not depend on the drawing's tolerance.
-    """
+    """Return the groove's reach from the crank's axis: its farthest middle and half its width."""
     guide = assembly.rollers[0][0].groove
     assert guide is not None  # otherwise there is no plate
     # 3601 angles of a turn: the error of the farthest point is quadratic in their distance

@@ -146,10 +146,7 @@ class FlatPairs:
         return self.gaps.rollers(on.at_middle)[:, roller]
 
     def _along(self, segments: Segments, centre: Array, gap: Array) -> Array:
-        """Return the gap of a roller whose centre moves along segments.
-
-        In the middle of an interval it is at ``centre`` and has the gap ``gap``.
-        """
+        """Return the gap of a roller whose centre moves along segments."""
         start, end, aside = segments
         radius = self.gaps.sizes.roller
         off = np.hypot(*(0.5 * (start + end) - centre).T)

@@ -55,12 +55,7 @@ def candidates(
 def _on_arcs(
     own: Polyarc, near: Near, centres: tuple[Array, Array], normals: tuple[Array, Array]
 ) -> Iterator[tuple[Whole, Array, Array]]:
-    """Yield points of arcs in the directions of centres and normals, (k, pieces) each.
-
-    Coordinates are from each arc's centre, along its chord and outwards, over its radius. They are
-    computed from the chord's middle: the centre of an arc fitted to a nearly straight wall is too
-    far away.
-    """
+    """Yield points of arcs in the directions of centres and normals, (k, pieces) each."""
     owner, piece = near
     bent = np.flatnonzero(own.arc[piece])
     i = piece[bent]

@@ -43,11 +43,7 @@ class FirstContact(NamedTuple):
 
 
 def first_contact(parts: MachineParts) -> FirstContact:
-    """Return the first contact that is farthest off its slot's middle.
-
-    Each kind of motion has one, at entry or at exit: where the roller comes nearer to the rim's
-    inside. At the other end no rim reaches it that lets it pass at both.
-    """
+    """Return the first contact that is farthest off its slot's middle."""
     motions: dict[Engagement, int] = {}
     for i, (engagement, _) in enumerate(parts.assembly.motions):
         motions.setdefault(engagement, i)
@@ -58,10 +54,7 @@ def first_contact(parts: MachineParts) -> FirstContact:
 
 
 def _tighter_end(parts: MachineParts, engagement: Engagement) -> float:
-    """Return the end of a motion that limits the rim, as in ``mouth``: -1 for entry, 1 for exit.
-
-    The mouth of an offset slot has a corner for each end, and the rim is at the farther one.
-    """
+    """Return the end of a motion that limits the rim, as in ``mouth``: -1 for entry, 1 for exit."""
     ahead = scalar(engagement.exit_reach) - scalar(engagement.entry_reach)
     farther = -1.0 if engagement.slot.offset else parts.assembly.sign
     return 1.0 if farther * ahead < -SAME_LENGTH else -1.0
@@ -198,11 +191,7 @@ def _shown(parts: MachineParts, place: Place) -> Place:
 
 
 def _earlier(parts: MachineParts) -> Earlier:
-    """Return a sort key of input angles: the order in which they are shown.
-
-    One turn of the input is shown from half a turn before mid-motion, so that the second half of
-    the last dwell comes first. A period of several turns is shown from the first entry.
-    """
+    """Return a sort key of input angles: the order in which they are shown."""
     *_, last = windows(parts)
     turn, several = parts.assembly.turn_deg, parts.assembly.full.spec.turns > 1
     middle = 0.5 * (last.start + last.end) if last.rests and not several else last.end

@@ -191,11 +191,7 @@ def _peaks(parts: MachineParts, play: Play) -> Whole:
 
 
 def _changes(parts: MachineParts, play: Play) -> Whole:
-    """Return the intervals in which the roller changes from one wall of its slot to the other.
-
-    One play grows there as the other vanishes, and the smaller one may have a narrow peak between
-    two positions. Where both change steadily, it is at most the smaller of their greater ends.
-    """
+    """Return the intervals in which the roller changes from one wall of its slot to the other."""
     ends = [np.maximum(edge[:-1], edge[1:]) for edge in (play.back, play.on)]
     guided, most = play.guided[:-1] & play.guided[1:], np.minimum(*ends)
     known = max(_held_deg(parts), play.both[play.guided].max(initial=0.0))
@@ -234,11 +230,7 @@ def free_angles(parts: MachineParts, at: Array, fits: bool = False) -> tuple[Arr
 
 
 def wheel_stops(parts: MachineParts, at: Array, fits: bool = False) -> tuple[Stop, Stop]:
-    """Return the stops of the wheel, turned back and turned on at input angles (n,).
-
-    ``fits`` says that no parts overlap there; otherwise that is tested. Where gears drive the wheel
-    they hold it both ways: their teeth are assumed to mesh without play.
-    """
+    """Return the stops of the wheel, turned back and turned on at input angles (n,)."""
     gaps, close = parts.gaps, parts.close
     pose, held = gaps.pose(at), parts.assembly.geared(at)
     if not fits:  # parts that overlap from the start leave no play

@@ -119,10 +119,7 @@ def _least(
     parts: str,
     refined: bool,
 ) -> Gap:
-    """Return the smallest gap over the whole turn.
-
-    It is computed at the positions ``at``, and refined around each local minimum.
-    """
+    """Return the smallest gap over the whole turn."""
     values = gap(at)
     inner = np.arange(1, len(at) - 1)
     dips = inner[

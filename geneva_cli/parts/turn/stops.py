@@ -86,10 +86,7 @@ class Stops(ABC):
     def _blocked(
         self, others: Branches, wheel: Branches, turn: Array, most: float
     ) -> tuple[Array, Array]:
-        """Return how far the wheel turns back and on until branches meet, and their level there.
-
-        Both are (2, n), for wheels at the angles ``turn``, (n,).
-        """
+        """Return how far the wheel turns back and on until branches meet, and their level there."""
         leads, levels = np.full((2, len(turn)), most), np.zeros((2, len(turn)))
         step = max(1, BLOCK // max(1, len(wheel.low)))
         for block in range(0, len(others.low), step):

@@ -104,11 +104,7 @@ class _Boxes(NamedTuple):
 
 
 def curve_rates(curve: Curve, start: Array, end: Array) -> Array:
-    """Return the greatest sizes of a curve's two derivatives on n cells (2, n).
-
-    They are infinite where none is known. Cells with different formulas are evaluated apart. Where
-    another formula takes over within a cell, it is halved down to that place.
-    """
+    """Return the greatest sizes of a curve's two derivatives on n cells (2, n)."""
     rates, tries = np.zeros((2, len(start))), np.zeros(len(start), dtype=int)
     left = [_Boxes(np.arange(len(start)), start, end)]
     while left:

@@ -69,10 +69,7 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
 
 
 def _mirrored(flank: Wall, curve: Curve) -> Wall:
-    """Return the flank out of a slot with two equal branches, from the one on its way in.
-
-    The roller runs back over the mirror image of its path, with the same wall on its left.
-    """
+    """Return the flank out of a slot with two equal branches, from the one on its way in."""
     points, tangents = flank.points[::-1] * (1.0, -1.0), flank.tangents[::-1] * (-1.0, 1.0)
     return Wall(curve, -flank.t[::-1], points, tangents, flank.free[::-1])
 
@@ -86,10 +83,7 @@ def _meets(flank: Wall, centre: tuple[float, float]) -> float:
 def _circle(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, end: float
 ) -> tuple[tuple[float, float], Array]:
-    """Return the roller's path before entry (-1) or after exit (1): its centre and its points.
-
-    The points lead outwards from the slot until the roller has left the wheel.
-    """
+    """Return the roller's path before entry (-1) or after exit (1): its centre and its points."""
     centre = rest(assembly, engagement, end)
     x, y = _pitch(assembly, engagement, np.array([engagement.end_deg(end)]))[0]
     radius, start = math.dist((x, y), centre), math.atan2(y - centre[1], x - centre[0])
@@ -138,11 +132,7 @@ def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: b
 
 
 def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array:
-    """Return a flank's samples without the fold at mid-motion.
-
-    The roller stops there, and its path turns sharply. On the inner side of the turn the flank
-    folds back into the roller's own outline. The flank is cut where it leaves that outline.
-    """
+    """Return a flank's samples without the fold at mid-motion."""
     order = np.argsort(np.abs(t))
     # a smaller fold is ignored
     folded = L * array(at.speed)[order] < side * array(at.turning)[order] - 1e-7 * L
@@ -173,11 +163,7 @@ def _tangent_in(engagement: Engagement) -> tuple[float, float]:
 
 
 def _free(points: Array, path: Array, least: float) -> Mask:
-    """Return a mask of the points that no position of the roller covers.
-
-    A block of neighbouring points is compared only with the part of the path near its bounding
-    circle.
-    """
+    """Return a mask of the points that no position of the roller covers."""
     out = np.ones(len(points), dtype=bool)
     start, steps = path[:-1], np.diff(path, axis=0)
     square = np.maximum((steps * steps).sum(axis=1), 1e-300)

@@ -96,10 +96,7 @@ def _rim(
     level: float,
     side: float,
 ) -> float:
-    """Return the wheel's radius at one side of the slot's mouth.
-
-    If the spec sets the rim, it moves all mouths by as much as the widest one.
-    """
+    """Return the wheel's radius at one side of the slot's mouth."""
     largest = max(mouth(assembly, s, sizes.roller) for s in assembly.kinds)
     own = mouth(assembly, engagement, sizes.roller)
     if level:
