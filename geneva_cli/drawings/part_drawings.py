@@ -18,8 +18,8 @@ from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, closed, join
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.arm import arm_plate, crank_arm
-from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled
 
 

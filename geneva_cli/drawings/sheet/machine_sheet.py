@@ -29,9 +29,8 @@ from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
-from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.parts import Parts
+from geneva_cli.parts.parts import EdgedParts, Parts
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.written import length, quantity

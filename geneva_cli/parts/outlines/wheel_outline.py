@@ -16,7 +16,7 @@ from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.walls.straight import straight_walls
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import least_mouth
-from geneva_cli.parts.turn.machine_parts import CONTACT
+from geneva_cli.parts.turn.pairs import CONTACT
 
 CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
 
