@@ -23,8 +23,7 @@ from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.links.link_shafts import links_to_fix
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.cut_outlines import drawn
-from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.cut_outlines import Outlines, drawn
 from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, NamedBuilds
