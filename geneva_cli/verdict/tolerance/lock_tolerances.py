@@ -9,7 +9,8 @@ from typing import TypeAlias
 from geneva_cli.loads.tolerance.locking import CutLock, Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.records import thing
-from geneva_cli.parts.outlines.cut_outlines import Outlines, cut_arcs
+from geneva_cli.parts.outlines.cut_outlines import cut_arcs
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import Parts
 
 SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
