@@ -24,7 +24,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.links.link_positions import gear_plane, links_at, same, turn_deg
 from geneva_cli.parts.links.link_sizes import LinkSizes, places
-from geneva_cli.parts.links.links import Links
+from geneva_cli.parts.links.links import Links, joined
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
 from geneva_cli.parts.shafts.hub_and_shafts import wheel_shaft_ends, wheel_shaft_radius
@@ -64,47 +64,27 @@ def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Plan
     """
     mechanism = parts.assembly.full
     turn = turn_deg(mechanism)  # the error of a gap is quadratic in their distance
-    links_and_gears = links_at(mechanism, turn)
-    links = [link for link in links_and_gears if not link.radius_mm]
-    if not links_and_gears:
+    every = links_at(mechanism, turn)
+    if bars.sizes is None:
         return Planes(None, None)
-    assert bars.sizes is not None
-    geared = list(_gears(parts, bars, links_and_gears, turn))
+    met = list(_gears(parts, bars, [link for link in every if link.radius_mm], turn))
+    links = [link for link in every if not link.radius_mm]
     if not links:
-        return Planes(min(geared, default=None), None)
+        return Planes(min(met, default=None), None)
     shaft = _Shaft(parts, links, bars)
-    passing = [*_passing(parts, links, bars.sizes, turn), *shaft.between()]
-    passing += _standing(parts, bars, spacers, turn)
-    met = [
+    rounds = [
+        *_on_wheel(parts, links, bars.sizes, 0.0 * turn),
+        *_on_pins(links, bars.sizes, SAME_LENGTH * parts.assembly.L),
+        *shaft.between(),
+        *_standing(parts, bars, spacers, turn),
+    ]
+    met += [
         _meeting(link, shaft.outlines[link.name], one, turn)
         for link in links
-        for one in passing
+        for one in rounds
         if one.plane == link.plane
     ]
-    met += geared
     return Planes(min(met, default=None), None if shaft.through else shaft.blocked(turn))
-
-
-def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
-    """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane."""
-    assert bars.sizes is not None
-    if parts.assembly.full.first_wheel:
-        return
-    gears = [link for link in links if link.radius_mm]
-    for gear, link in zip(bars.gears, gears, strict=True):
-        away = np.abs(places(link)[0])
-        on_shaft = bool(
-            away.max() < SAME_LENGTH * parts.assembly.L
-        )  # a shaft fills the gear's bore, a hub does not
-        for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
-            gaps = away - gear.outer - one.radius
-            if on_shaft:
-                wide = gear.bore.bore.cut.around
-                if one.radius <= wide:
-                    continue
-                gaps = away + (wide - one.radius)
-            least = int(np.argmin(gaps))
-            yield Meeting(float(gaps[least]), float(turn[least]), gear.name, one.name)
 
 
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
@@ -120,15 +100,34 @@ def crank_stop(parts: Outlines, bars: Links) -> float | None:
     return bars.sizes.span(max(shaft.carries))[0] if max(shaft.carries) else -bars.sizes.gap
 
 
-def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) -> Iterator[Round]:
-    from geneva_cli.parts.links.link_pins import joined
+def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iterator[Meeting]:
+    """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane.
 
-    yield from _on_wheel(parts, links, sizes, 0.0 * turn)
-    for one in joined(links, SAME_LENGTH * parts.assembly.L):
-        for plane in range(min(one.planes) + 1, max(one.planes)):
-            if plane not in one.planes:
-                name = f"the pin of {' and '.join(one.names)}"
-                yield Round(name, plane, one.path, sizes.ring)
+    A first wheel is no gear: ``shaft_gap`` computes its gap.
+    """
+    if parts.assembly.full.first_wheel or bars.sizes is None:
+        return
+    for gear, link in zip(bars.gears, gears, strict=True):
+        away = np.abs(places(link)[0])
+        on_shaft = bool(away.max() < SAME_LENGTH * parts.assembly.L)
+        # a shaft fills the gear's bore, a hub does not
+        wide = gear.bore.bore.cut.around
+        for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
+            if on_shaft and one.radius <= wide:
+                continue
+            gaps = away + (wide - one.radius) if on_shaft else away - gear.outer - one.radius
+            least = int(np.argmin(gaps))
+            yield Meeting(float(gaps[least]), float(turn[least]), gear.name, one.name)
+
+
+def _on_pins(links: list[Link], sizes: LinkSizes, near: float) -> Iterator[Round]:
+    """Yield the spacers on pins that join links of distant planes."""
+    for path, both in joined(links, near):
+        name = f"the pin of {' and '.join(link.name for link in both)}"
+        own = [link.plane for link in both]
+        for plane in range(min(own) + 1, max(own)):
+            if plane not in own:
+                yield Round(name, plane, path, sizes.ring)
 
 
 def _standing(

@@ -21,7 +21,7 @@ from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, seat_of, shaft_ends
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.links.link_pins import LinkAxis
+    from geneva_cli.parts.links.links import LinkAxis
 
 
 def link_shafts(
