@@ -1,8 +1,6 @@
 """The first of two wheels in series with its crank, as a machine in front of the second one.
 
-The first wheel is fixed on the second's crank shaft, in the plane below the crank arm. Its locking
-disc lies in that plane on the first crank, which is a link. All other sizes are those of the
-second.
+It is fixed on the second's crank shaft, in the plane below the crank arm, and its crank is a link.
 """
 
 from __future__ import annotations

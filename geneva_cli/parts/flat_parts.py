@@ -275,7 +275,7 @@ class FlatParts(EdgedParts):
     @property
     def tooth_dimensions(self) -> tuple[Dimension, ...]:
         """Dimensions of the gears' teeth; none without teeth."""
-        from geneva_cli.parts.gears.pair_teeth import pair_teeth
+        from geneva_cli.parts.gears.gear_curves import pair_teeth
 
         teeth = pair_teeth(self.mechanism.spec.gears, self.mechanism.spec.size)
         meshes = (teeth, self.links.mesh)
@@ -294,14 +294,14 @@ class FlatParts(EdgedParts):
     def _base(self) -> Plate | None:
         if self.drawn is None or self.drawn.assembly.rollers[0][0].groove is None:
             return None
-        from geneva_cli.parts.slots.groove_plate import groove_base
+        from geneva_cli.parts.slots.groove import groove_base
 
         return groove_base(self.drawn, self.links)
 
     @cached_property
     def groove(self) -> tuple[Contour, Contour, Contour]:
         """The flanks of a cam's groove and its pitch curve; raises GenevaError without a groove."""
-        from geneva_cli.parts.slots.groove_plate import groove_lines
+        from geneva_cli.parts.slots.groove import groove_lines
 
         return groove_lines(self.outlines, self.tolerance, self.curves)
 
@@ -310,7 +310,7 @@ class FlatParts(EdgedParts):
         """The plates with a cam's groove: base, ring and island."""
         if self._base is None:
             return ()
-        from geneva_cli.parts.slots.groove_plate import groove_stack
+        from geneva_cli.parts.slots.groove import groove_stack
 
         stack = groove_stack(self._base, self.links, self.groove[:2])
         return self._edged(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)

@@ -1,17 +1,9 @@
 """The frame: one plate with a hole for every shaft that reaches it, and four mounting holes.
 
-External wheels that orbit have a carrier instead, without mounting holes: it turns on the finger's
-shaft, and has eyes for all wheels.
-
-It lies below all moving parts. A shaft that ends above it, such as an internal wheel's, has its
-bearing elsewhere. The wheel's axis is the origin, and the crank's is on the x axis. Holes are as
-wide as the bores on their shafts. Turned shafts have a ball bearing in the frame, which is at least
-as thick.
-
-The input crank of a side-crank turns below the coulisse, over the axis of the crank's shaft. That
-shaft leaves the machine through the locking disc. A bridge over the crank bears it from above. It
-lies on two posts on the frame, beside all that turns about the crank's axis, at right angles to the
-line of centres: there the wheel does not reach the posts.
+It lies below all moving parts. External wheels that orbit have a carrier instead, which turns on
+the finger's shaft. A shaft that ends above the frame has its bearing elsewhere: an internal
+wheel's, or a side-crank's, whose input crank turns over the axis of the crank's shaft. That one is
+borne by a bridge over the crank, on two posts beside all that turns about the crank's axis.
 """
 
 from __future__ import annotations
@@ -29,9 +21,8 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.links.link_planes import crank_stop
 from geneva_cli.parts.links.link_positions import is_bridged, links_at, same, turn_deg
-from geneva_cli.parts.links.link_shafts import carried, link_shafts, outside_links
+from geneva_cli.parts.links.link_shafts import carried, crank_stop, link_shafts, outside_links
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
@@ -46,11 +37,17 @@ from geneva_cli.parts.mounted_plate import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub
-from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.hub_and_shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, tapped
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, seat_of
-from geneva_cli.parts.shafts.turned_shafts import built_shafts, shoulder_mm
+from geneva_cli.parts.shafts.shaft import (
+    Ends,
+    Seat,
+    Shaft,
+    built_shafts,
+    seat_of,
+    shoulder_length,
+    shoulder_mm,
+)
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size

@@ -100,7 +100,7 @@ def shaft_of(
     size, table = spec.size, vars(spec.shaft)
     diameter, overhang = 2.0 * bore or math.nan, to_frame + 0.5 * thick
     if size.shafts == "turned":
-        from geneva_cli.parts.shafts.bearings import bearing_within, shoulder_length
+        from geneva_cli.parts.shafts.shaft import bearing_within, shoulder_length
 
         if bearing := bearing_within(diameter):
             diameter = bearing.bore

@@ -169,7 +169,7 @@ def geared(begin: Begin, parts: EdgedParts) -> Iterator[View]:
     """Yield the view of noncircular gears in mesh, if there are any."""
     if parts.gear_pair:
         from geneva_cli.drawings.sheet.gears import draw_gears
-        from geneva_cli.parts.gears.pair_teeth import pair_teeth
+        from geneva_cli.parts.gears.gear_curves import pair_teeth
 
         names = [member.part.name for member in parts.gear_pair]
         view, to_fix = begin(*names), set(names).intersection(parts.to_fix)

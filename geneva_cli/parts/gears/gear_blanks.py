@@ -1,8 +1,7 @@
-"""Round gears as plates: whole, in sectors about a hub, or as a ring.
+"""Round gears as plates: whole, in sectors about a hub, or as a ring; with teeth or as blanks.
 
-With ``gear_module_mm`` they have teeth. Without it they are blanks up to the pitch circle. Teeth
-stand out of it about as much as their gaps go into it. So a blank's mass is a gear's within a few
-percent. A gear that stands still is screwed to the frame.
+Teeth stand out of the pitch circle about as much as their gaps go into it. So a blank's mass is a
+gear's within a few percent. A gear that stands still is screwed to the frame.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Numbers of teeth and profile shifts of two round gears, for the distance of their axes.
+"""Numbers of teeth and profile shifts of two round gears, for the distance a of their axes.
 
-Module, ratio and distance a are known. Whole gears get the numbers of teeth whose distance without
-shift comes nearest to a. The sum of the shifts x makes up the rest:
+Whole gears get the numbers of teeth whose distance without shift comes nearest to a. The sum of the
+shifts x makes up the rest:
 
     inv w = inv 20° + 2 (x1 + x2) tan 20°/(z1 + z2),    cos w = cos 20° (z1 + z2) m/(2 a)
 

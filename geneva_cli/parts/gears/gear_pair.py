@@ -19,8 +19,15 @@ from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.preferred import bore_radius
-from geneva_cli.parts.gears.gear_curves import SAMPLES, radii, ratio_and_turn, required_gears
-from geneva_cli.parts.gears.pair_teeth import ToothedCurve, pair_teeth, toothed_curve
+from geneva_cli.parts.gears.gear_curves import (
+    SAMPLES,
+    ToothedCurve,
+    pair_teeth,
+    radii,
+    ratio_and_turn,
+    required_gears,
+    toothed_curve,
+)
 from geneva_cli.parts.links.link_positions import gear_plane, same
 from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.links.links import drawn_links

@@ -2,8 +2,7 @@
 
 A link's own frame has its first joint as origin, and x through its second. Its outline is the
 convex hull of an eye about each hole. A pin that slides along a link has a block, and the link has
-a slot as long as the pin's path. Links on one axis have one shaft. Pins that stand in the frame
-belong to the frame, like shafts. Gears are blanks (``gear_blanks``), drawn by their pitch circles.
+a slot as long as the pin's path. Links on one axis have one shaft.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
-"""Limits of the fits (ISO 286) that the drawings use.
+"""Limits of the fits (ISO 286) that the drawings use, and clearances of parts that slide.
 
-H7 is for holes, g6 and h6 for shafts in them. A pin is h6 all along: parts pressed on it are P7,
-parts that turn on it are F7 (shaft-basis fits, ISO 286-1). The loosest and the closest clearance of
-parts that slide are here too.
+H7 is for holes, g6 and h6 for shafts in them. A pin is h6: parts pressed on it are P7, parts that
+turn on it are F7 (shaft-basis fits, ISO 286-1).
 """
 
 from __future__ import annotations

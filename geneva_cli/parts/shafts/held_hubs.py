@@ -1,8 +1,7 @@
 """Hubs with what holds them on their shafts: a slit with a clamp screw, or radial set screws.
 
-A clamp screw pulls the jaws of a slit hub together, and friction holds the shaft. The hub stays
-within its circle. Screw and head are in a notch whose face is as far from the slit as the thread is
-wide. The other jaw has the thread.
+A clamp's screw and head are in a notch within the hub's circle, whose face is as far from the slit
+as the thread is wide. The other jaw has the thread. Friction holds the shaft.
 """
 
 from __future__ import annotations

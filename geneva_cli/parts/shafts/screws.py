@@ -1,7 +1,6 @@
-"""Metric screws: their holes, where these lie on a circle, and the force that they hold with.
+"""Metric screws: their holes, and where these lie on a circle.
 
-A screw passes the part that it fixes, and its thread is in the part below. Default holes are
-clearance holes of ISO 273 for screws of ISO 262.
+A screw passes the part that it fixes, and its thread is in the part below.
 """
 
 from __future__ import annotations

@@ -1,11 +1,8 @@
 """Proved lower bounds of the gaps between wheel, crank and rollers on intervals of the input angle.
 
-A point at a distance r from an axis moves at most r times the angle by which its part turns about
-it; a rack moves by its pinion's radius a radian. So a gap is at least the gap in the middle of an
-interval, less how far the parts move from there. Pairs that touch by design have more exact bounds:
-a roller in its own slot, and the locking disc in its recess, in the dwell and beside it. ``geneva
-help certificates`` derives them. How far a roller moves comes from its path's formulas, evaluated
-on intervals.
+A gap is at least that in the middle of an interval, less how far the parts move from there: a point
+at most its lever times its part's turn, a roller as its path's formulas on intervals say. Pairs
+that touch by design have more exact bounds. ``geneva help certificates`` derives them.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
 """The full turn: a collision check of the parts through a whole turn of the crank.
 
-At each position the wheel stands where the mechanism puts it. From there it is pushed back and on
-until slot or lock stop it: that is its play. No parts may overlap, and in every dwell something
-must hold the wheel. If the wheel is off by its play as the roller arrives, the roller must push it
-into line and not jam.
+No parts may overlap, and in every dwell something must hold the wheel. From its place in the ideal
+motion the wheel is pushed back and on until slot or lock stop it: that is its play. If it is off by
+that as the roller arrives, the roller must push it into line and not jam.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, Mask, rising, scalar
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
-from geneva_cli.parts.turn.pairs import WorkLimit
+from geneva_cli.parts.turn.pairs import TurnedParts, WorkLimit
 from geneva_cli.parts.turn.play import (
     EXACT,
     Play,
@@ -28,7 +27,6 @@ from geneva_cli.parts.turn.play import (
     search_deg,
     windows,
 )
-from geneva_cli.parts.turn.turned_parts import TurnedParts
 
 POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs more is not proved
 DIP = 1e-9  # mm: gaps that differ by less count as equal

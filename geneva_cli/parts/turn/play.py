@@ -15,8 +15,7 @@ import numpy as np
 
 from geneva_cli.numerics.arrays import Array, Mask, Whole, rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-from geneva_cli.parts.turn.pairs import Clearances, Pose, Stop, Window
-from geneva_cli.parts.turn.turned_parts import TurnedParts
+from geneva_cli.parts.turn.pairs import Clearances, Pose, Stop, TurnedParts, Window
 
 AROUND = 5  # parts into which an interval is divided about a peak
 SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed

@@ -1,8 +1,7 @@
 """Certificate of the full turn: a proved lower bound of the gap at every input angle.
 
-The sampled full turn gives the smallest gap. The certificate proves that no gap is smaller by more
-than a tolerance, by halving intervals. It takes distances at single positions as exact, up to their
-rounding.
+It proves by halving intervals that no gap is smaller than the smallest sampled one by more than a
+tolerance. Distances at single positions are taken as exact, up to their rounding.
 """
 
 from __future__ import annotations
@@ -15,9 +14,8 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, Window
+from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, TurnedParts, Window
 from geneva_cli.parts.turn.play import windows
-from geneva_cli.parts.turn.turned_parts import TurnedParts
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
 
