@@ -285,7 +285,10 @@ class _Pair:
         where the arc ends; else it would jam.
         """
         names = [link.name for link in self.links]
-        teeth, towards = (dict(zip(names, each, strict=True)) for each in (both, self.towards))
+        teeth, towards = (
+            dict(zip(names, both, strict=True)),
+            dict(zip(names, self.towards, strict=True)),
+        )
         one, two = teeth[self.driver.name], teeth[self.driven.name]
         arc = self.driver.radius_mm * math.radians(self.driver.teeth.each_deg)
         pitch = one.rack.pitch

@@ -62,25 +62,6 @@ def screw(key: str, thread: float) -> Screw:
     )
 
 
-def change_for_hub(size: Size, part: str) -> str:
-    """Return the change of the spec that gives a part, "wheel" or "crank", a hub with a bore.
-
-    >>> change_for_hub(Size(crank_hub_mm=20.0), "crank")
-    'set crank_bore_mm'
-    >>> change_for_hub(Size(crank_hub_mm=20.0, crank_bore_mm=10.0), "crank")
-    'set a greater crank_hub_length_mm'
-    """
-    values = vars(size)
-    hub, bore, length = (f"{part}_{name}_mm" for name in ("hub", "bore", "hub_length"))
-    missing = [hub] if values[hub] is None and values[length] is None else []
-    missing += [] if values[bore] else [bore]
-    if missing:
-        return f"set {' and '.join(missing)}"
-    if values[hub] is not None and values[hub] <= values[bore]:
-        return f"set {hub} above {bore}"
-    return f"set a greater {length}"  # the hub does not reach past what it stands on
-
-
 class BoltCircle(NamedTuple):
     """Holes evenly on a circle about an axis: both radii, mm, and the holes' directions."""
 
