@@ -224,7 +224,7 @@ class Adviser:
         -inf. With ``every`` all checks are made, in the ``turn`` too, and another one that begins
         to fail gives ``OTHER``.
         """
-        from geneva_cli.parts.turn.machine_parts import WorkLimit
+        from geneva_cli.parts.turn.pairs import WorkLimit
 
         least = math.inf
         try:

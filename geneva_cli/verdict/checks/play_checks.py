@@ -9,9 +9,9 @@ import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.parts.parts import Parts
+from geneva_cli.parts.turn.bounds import UNKNOWN
 from geneva_cli.parts.turn.full_turn import FullTurn, Most
-from geneva_cli.parts.turn.machine_parts import WorkLimit
-from geneva_cli.parts.turn.travel import UNKNOWN
+from geneva_cli.parts.turn.pairs import WorkLimit
 from geneva_cli.parts.turn.turn_certificate import Certificate, certificate, tolerance_mm
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
