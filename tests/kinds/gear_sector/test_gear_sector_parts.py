@@ -284,7 +284,8 @@ def test_what_is_said_of_a_wheel_that_lags():
     assert single_check(faster.mechanism, "stopping_torque_Nm").passes
     check, _ = of(1.0, 0.0)
     assert (check.limit, check.passes) == (0.0, False) and "inertia_kgm2" in check.why
-    assert of(0.0, 0.0)[0] is None  # nothing is known of the load
+    bare = loaded(0.0, 0.0).mechanism
+    assert stopping_torque("", bare) is None  # nothing is known of the load
     plain = Design(External(3), load=Load(inertia_kgm2=0.01, torque_Nm=1.0))
     assert stopping_torque("", plain.mechanism) is None
 
