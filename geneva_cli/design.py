@@ -736,7 +736,7 @@ class Design:
         """
         from geneva_cli.verdict.checks import proofs
 
-        return self._judged + (proofs(self.parts) if self.spec.is_turned else [])
+        return [*self._judged, *proofs(self.parts)]
 
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
@@ -752,7 +752,7 @@ class Design:
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--proof", to_mm, allowed, "the roller's radius")
-        return self._judged + (proofs(self.parts, to_mm) if self.spec.is_turned else [])
+        return [*self._judged, *proofs(self.parts, to_mm)]
 
     @answer
     def _judged(self) -> list[Check]:
@@ -803,7 +803,7 @@ class Design:
         >>> indexed.tolerance().to_dict()["dwell_position.worst_arcsec"]
         72.0
         """
-        from geneva_cli.verdict.tolerance.tolerance_tables import tolerance_table
+        from geneva_cli.verdict.tolerance.study import tolerance_table
 
         return tolerance_table(self.mechanism, self.parts, samples, seed, radius_mm)
 
@@ -817,7 +817,7 @@ class Design:
         >>> len(found["dwell_position_deg"]), float(sum(found["dwell_position_share"]))
         (60, 1.0)
         """
-        from geneva_cli.verdict.tolerance.tolerance_tables import histogram_table
+        from geneva_cli.verdict.tolerance.study import histogram_table
 
         return histogram_table(self.mechanism, self.parts, samples, seed)
 

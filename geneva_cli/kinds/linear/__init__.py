@@ -47,7 +47,7 @@ KINDS = (
             "gear_gap_mm": "kinds.linear.parts_checks:passing_gears",
             "cut_plate_mm": "kinds.linear.parts_checks:thickest_plate",
             "cut_slot_mm": "kinds.linear.parts_checks:slot_width",
-            "parts": "verdict.checks.process:plates_built",
+            "parts": "verdict.checks.clearances:plates_built",
         },
     ),
 )

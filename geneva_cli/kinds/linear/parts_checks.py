@@ -14,7 +14,7 @@ from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sizes import drawn_thicknesses
 from geneva_cli.verdict.checks.check import Check, gap
-from geneva_cli.verdict.checks.process import cut_width, plate_thickness
+from geneva_cli.verdict.checks.clearances import cut_width, plate_thickness
 from geneva_cli.verdict.shaft_gap import Ring, ShaftGap, gear_rings, least_gap, rings_of
 
 

@@ -12,7 +12,7 @@ from geneva_cli.kinds.spherical.shaft_gap import shaft_gap
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import refuse_thin_hub
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
-from geneva_cli.verdict.checks.process import built, cut_width, plate_thickness
+from geneva_cli.verdict.checks.clearances import built, cut_width, plate_thickness
 
 
 def between_slots(name: str, parts: SphereParts) -> Check:

@@ -17,7 +17,7 @@ from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit
 from geneva_cli.kinds.spherical.wheel import QUARTER, edge_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.outlines.locking_rings import widest
+from geneva_cli.parts.outlines.crank_outline import widest
 
 
 def sectors(ball: Ball) -> list[Region]:

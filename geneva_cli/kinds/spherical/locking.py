@@ -35,7 +35,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import array, choose
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.tolerance.lock_tolerances import SAME, Corners, CutParts
+from geneva_cli.verdict.tolerance.needed import SAME, Corners, CutParts
 
 
 class SphereLock(NamedTuple):

@@ -32,11 +32,9 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
-from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.held_hubs import held_hub
-from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends
-from geneva_cli.parts.shafts.turned_shafts import turned_shaft
+from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends, shoulder_length, turned_shaft
 from geneva_cli.parts.sizes import refuse_thin_hub
 from geneva_cli.spec.materials import wheel_material
 from geneva_cli.spec.tables import Size
