@@ -169,10 +169,7 @@ def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:
 
 
 def locking_plates(parts: Outlines) -> list[Plate]:
-    """Return the crank's locking disc, or its sectors, with bolts and bore.
-
-    A bore is omitted where the disc has nothing left about the axis: the arm has it.
-    """
+    """Return the crank's locking disc, or its sectors, with bolts and bore."""
     assembly, sizes = parts.assembly, parts.sizes
     low = -assembly.mechanism.spec.size.allowances.pin_gap_mm  # the disc stands on the arm
     high = low + sizes.lock_thickness

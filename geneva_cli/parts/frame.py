@@ -168,11 +168,7 @@ def _swept_mm(mechanism: Mechanism, parts: Outlines, bars: Links) -> float:
 def _drilled(
     mechanism: Mechanism, axles: Sequence[Member], standing: Sequence[Point], top: float
 ) -> Iterator[Circle]:
-    """Yield the holes of the shafts that reach below the frame's upper face.
-
-    They are as wide as bores for these shafts, or as the bearings on them.
-    A wheel or a crank without a bore is one piece with its shaft, whose diameter is in [shaft].
-    """
+    """Yield the holes of the shafts that reach below the frame's upper face."""
     L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
     cranks = [one.at for one in mechanism.crank_places]
     for at in standing:
@@ -215,10 +211,7 @@ def _fixed(bars: Links) -> Iterator[tuple[Circle, Plate]]:
 
 
 def _spacer(screw: Circle, part: Plate, top: float) -> Member:
-    """Return the ring about a screw, twice as wide, between the frame and the fixed part.
-
-    It is turned from a rod: often it is higher than wide.
-    """
+    """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
     outline, bore = Circle("SHAFT", ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
     plate = Plate(f"spacer of the {part.name}", "SHAFT", outline, (bore,), top, part.low)
     return Member(plate, screw.centre)

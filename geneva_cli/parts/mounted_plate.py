@@ -62,10 +62,7 @@ def corner_radius(size: Size, L: float) -> float:
 
 
 def shaft_hole(shaft: Plate | Stack, at: Point, top: float, fit_mm: float) -> Circle:
-    """Return the hole of a shaft in a frame with the upper face ``top``.
-
-    It is as wide as the bearing on a turned shaft, or as a bore for a plain one.
-    """
+    """Return the hole of a shaft in a frame with the upper face ``top``."""
     if isinstance(shaft, Stack):
         # both are exactly the numbers of which the steps were made
         seat = next(step for step in shaft.plates if step.high == top)

@@ -326,11 +326,7 @@ def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
 def first_sizes(
     mechanism: Mechanism, sized: Callable[[Mechanism, PartLoads], tuple[Assembly, Sizes] | None]
 ) -> FirstSizes | None:
-    """Return what the load needs of a first wheel and its crank; None without load or first wheel.
-
-    ``sized`` sizes a machine by its load, for that of the second wheel asks for the first one's.
-    The crank is a link, with the bore of a link: larger ones are tried until its shaft holds.
-    """
+    """Return what the load needs of a first wheel and its crank; None without either."""
     first = mechanism.first_wheel
     spec = None if first is None else first_spec(mechanism, first)
     if spec is None or not spec.is_loaded:

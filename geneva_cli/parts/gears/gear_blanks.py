@@ -92,11 +92,7 @@ def link_gear(
     mechanism: Mechanism,
     cut: ToothedGear | None,
 ) -> Gear:
-    """Return the gear of a link that is a pitch circle, on a shaft; ``cut`` has its teeth.
-
-    A gear that is fixed to the frame does not turn with the shaft, and is bored round.
-    Raises GenevaError, naming the key, where its bore or its bolts leave nothing of it.
-    """
+    """Return the gear of a link that is a pitch circle, on a shaft; ``cut`` has its teeth."""
     teeth, size, L = link.teeth, mechanism.spec.size, mechanism.center_distance_mm
     radius = link.radius_mm
     if cut:

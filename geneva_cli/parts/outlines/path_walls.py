@@ -146,11 +146,7 @@ def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: b
 
 
 def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array:
-    """Return a flank's samples without the fold at mid-motion.
-
-    The roller stops there, and its path turns sharply. On the inner side of the turn the flank
-    folds back into the roller's own outline. The flank is cut where it leaves that outline.
-    """
+    """Return a flank's samples without the fold at mid-motion."""
     order = np.argsort(np.abs(t))
     # a smaller fold is ignored
     folded = L * array(at.speed)[order] < side * array(at.turning)[order] - 1e-7 * L

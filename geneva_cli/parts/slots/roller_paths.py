@@ -64,11 +64,7 @@ def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> 
 
 
 def least_mouth(L: float, recess: float, rim: float) -> float:
-    """Return the radius to which lower mouths are extended, mm.
-
-    It is a fifth of the way from the recess to the rim. The disc then has an arc to lock, and the
-    relief needs to clear little more.
-    """
+    """Return the radius to which lower mouths are extended, mm."""
     reach = L - recess
     return reach + 0.2 * (rim - reach)
 
@@ -76,11 +72,7 @@ def least_mouth(L: float, recess: float, rim: float) -> float:
 def mouth_corners(
     assembly: Assembly, r: float, recess: float, rim: float
 ) -> dict[Engagement, tuple[float, float]]:
-    """Return the radii of each mouth's corners where the roller comes and goes, mm.
-
-    The mouths of offset slots and of unequal steps end at different radii. If the spec sets the
-    rim, it moves all mouths by as much as the widest one.
-    """
+    """Return the radii of each mouth's corners where the roller comes and goes, mm."""
     widest = {kind: mouth(assembly, kind, r) for kind in assembly.kinds}
     shift = rim - max(widest.values())
     least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0

@@ -221,10 +221,7 @@ def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> b
 
 
 def _places_within(place: Array, period: float, middle: Array, half: float) -> tuple[Whole, Whole]:
-    """Return the middles (n,) and places (k,), by index, that are within ``half`` of each other.
-
-    With a finite ``period``, a whole turn, places are directions.
-    """
+    """Return the middles (n,) and places (k,), by index, that are within ``half`` of each other."""
     if not math.isfinite(period):
         owner, which = np.nonzero(np.abs(place - middle[:, None]) <= half)
         return owner, which
