@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.hull import convex_hull, farthest
-from geneva_cli.geometry.plates import Member, Plate, Stack
+from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
@@ -33,7 +33,7 @@ from geneva_cli.parts.mounted_plate import (
     hole_without_shaft,
     mounted_plate,
     require_walls,
-    shaft_hole,
+    shaft_holes,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub
@@ -172,10 +172,8 @@ def _drilled(
     L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
     cranks = [one.at for one in mechanism.crank_places]
     for at in standing:
-        here = [one.part for one in axles if same(one.at, at, L)]
-        for one in here:
-            if isinstance(one, Plate | Stack) and one.low < top:
-                yield shaft_hole(one, at, top, mechanism.spec.size.allowances.shaft_fit_mm)
+        here = [one._replace(at=at) for one in axles if same(one.at, at, L)]
+        yield from shaft_holes(mechanism.spec.size, here, top)
         if not here:
             diameter = shaft.crank_diameter_mm if at in cranks else shaft.wheel_diameter_mm
             yield hole_without_shaft(diameter, at, L)
