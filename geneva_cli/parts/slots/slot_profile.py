@@ -76,7 +76,8 @@ def _lines(
     back = retraces(engagement) & (input_deg > 0.0)
     if engagement.slot.axis(engagement.entry_deg) is not None:
         first = pitch(engagement, engagement.entry_deg)
-        back = at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y < 0.0
+        ahead = array(at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y)
+        back = ahead < 0.0
     side = np.where(back, -1.0, 1.0)
     offset = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
     normal = np.column_stack((-at.tangent_y * side, at.tangent_x * side))
