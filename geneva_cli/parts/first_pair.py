@@ -17,10 +17,7 @@ from geneva_cli.spec.least_wall import wall_min
 
 
 def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
-    """Return the first wheel and its crank as a machine, for the ``outlines`` of the second pair.
-
-    Raises GenevaError for a machine without a first wheel.
-    """
+    """Return the first wheel and its crank as a machine, for the second pair's ``outlines``."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     first = mechanism.first_wheel
     if first is None:

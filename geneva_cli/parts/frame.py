@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.hull import convex_hull, farthest
-from geneva_cli.geometry.plates import Member, Plate, Stack
+from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
@@ -33,7 +33,7 @@ from geneva_cli.parts.mounted_plate import (
     hole_without_shaft,
     mounted_plate,
     require_walls,
-    shaft_hole,
+    shaft_holes,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub
@@ -168,18 +168,12 @@ def _swept_mm(mechanism: Mechanism, parts: Outlines, bars: Links) -> float:
 def _drilled(
     mechanism: Mechanism, axles: Sequence[Member], standing: Sequence[Point], top: float
 ) -> Iterator[Circle]:
-    """Yield the holes of the shafts that reach below the frame's upper face.
-
-    They are as wide as bores for these shafts, or as the bearings on them.
-    A wheel or a crank without a bore is one piece with its shaft, whose diameter is in [shaft].
-    """
+    """Yield the holes of the shafts that reach below the frame's upper face."""
     L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
     cranks = [one.at for one in mechanism.crank_places]
     for at in standing:
-        here = [one.part for one in axles if same(one.at, at, L)]
-        for one in here:
-            if isinstance(one, Plate | Stack) and one.low < top:
-                yield shaft_hole(one, at, top, mechanism.spec.size.allowances.shaft_fit_mm)
+        here = [one._replace(at=at) for one in axles if same(one.at, at, L)]
+        yield from shaft_holes(mechanism.spec.size, here, top)
         if not here:
             diameter = shaft.crank_diameter_mm if at in cranks else shaft.wheel_diameter_mm
             yield hole_without_shaft(diameter, at, L)
@@ -215,10 +209,7 @@ def _fixed(bars: Links) -> Iterator[tuple[Circle, Plate]]:
 
 
 def _spacer(screw: Circle, part: Plate, top: float) -> Member:
-    """Return the ring about a screw, twice as wide, between the frame and the fixed part.
-
-    It is turned from a rod: often it is higher than wide.
-    """
+    """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
     outline, bore = Circle("SHAFT", ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
     plate = Plate(f"spacer of the {part.name}", "SHAFT", outline, (bore,), top, part.low)
     return Member(plate, screw.centre)

@@ -89,11 +89,7 @@ def pin_radius(size: Size, r: float, parts: Sizes | None = None) -> float:
 def plane_span(
     plane: int, gap: float, first: float, link: float, washer: float
 ) -> tuple[float, float]:
-    """Return lower and upper end, along the axis, of parts in a plane below the wheel's, mm.
-
-    The first plane is ``gap`` mm below the wheel and ``first`` mm thick. Those below it are
-    ``link`` mm thick, with washers between.
-    """
+    """Return lower and upper end, along the axis, of parts in a plane below the wheel's, mm."""
     high = -gap
     if plane > 1:
         high -= first + washer + (plane - 2) * (link + washer)

@@ -93,7 +93,7 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     span = heights.plain, heights.top, heights.top
     own = list(_shafts(mechanism, heights))
     axles, bottom = built_shafts(size, own, [], span)
-    bored = shaft_holes(size, axles, heights.top)
+    bored = list(shaft_holes(size, axles, heights.top))
     require_walls(bored, wall_min(size, sizes.arm), axles)
     if not has_arm(mechanism):
         diameter = mechanism.spec.shaft.crank_diameter_mm

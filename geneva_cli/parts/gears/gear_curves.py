@@ -173,10 +173,7 @@ def _ratio(gears: Gears, phi: np.ndarray) -> tuple[np.ndarray, Jet]:
 
 
 def ratio_and_turn(gears: Gears, phi: np.ndarray) -> tuple[Jet, np.ndarray]:
-    """Return the ratio with two derivatives by the input's angle, and the driven gear's turn.
-
-    The turn is a unit complex number, counted from input angle 0. Angles are in radians.
-    """
+    """Return the ratio with two derivatives by the input's angle, and the driven gear's turn."""
     sine, versine = gears.advance(phi, 3)
     cosine = 1.0 - versine
     low_cosine, low_sine = cosine.lower, sine.lower
@@ -271,13 +268,7 @@ class ToothedCurve(NamedTuple):
 
 
 def toothed_curve(teeth: PairTeeth, driver: bool, curve: Curve, sense: float) -> ToothedCurve:
-    """Return the teeth of the driver or the driven gear.
-
-    ``curve`` is its pitch curve by the input's angle, and ``sense`` is 1 if it runs
-    counterclockwise. At input angle 0 a tooth of the driver is on the line of centres.
-
-    Raises GenevaError, naming the key, where the pitch curve bends too much for its teeth.
-    """
+    """Return the teeth of the driver or the driven gear."""
 
     def pitch(s: Array) -> tuple[Array, Array]:
         points, tangents = curve(teeth.length.angle(sense * s))

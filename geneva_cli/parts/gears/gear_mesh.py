@@ -109,10 +109,7 @@ def with_tips(
 
 
 def contact_ratio(small: RoundTeeth, large: RoundTeeth, distance: float, angle: float) -> float:
-    """Return the mean number of teeth in contact of two gears, or of a gear in a ring.
-
-    It is the length of the line of action between their tips, over the pitch of the base circles.
-    """
+    """Return the mean number of teeth in contact of two gears, or of a gear in a ring."""
     sign, rack = -1.0 if large.opening else 1.0, small.rack
     path = small.tangent(small.tip) - sign * distance * math.sin(angle)
     path += sign * large.tangent(large.opening or large.tip)
@@ -264,10 +261,7 @@ class _Pair:
         )
 
     def _all_round(self, *both: RoundTeeth) -> tuple[dict[str, Middles], float]:
-        """Return the directions of all teeth: the smaller gear has one on the line of centres.
-
-        It lies in a space of the larger one. No last tooth is lower.
-        """
+        """Return the directions of all teeth: the smaller gear has one on the line of centres."""
         out: dict[str, Middles] = {}
         firsts = 0.0, 0.0 if self.ring else 0.5
         for link, teeth, towards, first in zip(self.links, both, self.towards, firsts, strict=True):

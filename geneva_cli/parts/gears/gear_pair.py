@@ -87,10 +87,7 @@ def gear_pair(
 
 
 def pair_with_teeth(mechanism: Mechanism) -> list[ToothedCurve]:
-    """Return the teeth of driven gear and driver; none without a module.
-
-    Raises GenevaError, naming the key, for teeth that do not fit.
-    """
+    """Return the teeth of driven gear and driver; none without a module."""
     pair, sense = mechanism.spec.gears, mechanism.gear_shaft.sense
     teeth = pair_teeth(pair, mechanism.spec.size)
     if pair is None or teeth is None:
@@ -167,11 +164,7 @@ def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:
 def gear_bores(
     mechanism: Mechanism, parts: Outlines | None, on_crank: float = 0.0
 ) -> list[tuple[Point, ShaftBore]]:
-    """Return position and bore of driven gear and driver; of radius 0 for none.
-
-    Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
-    no gear.
-    """
+    """Return position and bore of driven gear and driver; of radius 0 for none."""
     pair, size = required_gears(mechanism), mechanism.spec.size
     (driven, _), (driver, _) = pitch_radii(pair)
     if teeth := pair_teeth(pair, size):

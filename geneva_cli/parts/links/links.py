@@ -180,10 +180,7 @@ def _with_shaft(
     known: float,
     mechanism: Mechanism,
 ) -> LinkAxis:
-    """Return an axis with its shaft's bore, and the links that are too small to be bored.
-
-    ``known`` is the radius of the shaft of wheel or crank, 0 of another.
-    """
+    """Return an axis with its shaft's bore, and the links that are too small to be bored."""
     if SHAFT not in axis.kinds:
         return axis._replace(bore=ShaftBore(round_bore(mechanism.spec.size, sizes.pin)))
     z, L = complex(*axis.at), mechanism.center_distance_mm

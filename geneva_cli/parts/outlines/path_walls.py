@@ -19,7 +19,7 @@ from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import rest
-from geneva_cli.parts.slots.slot_profile import heading_at, nodes, pitch_at
+from geneva_cli.parts.slots.slot_profile import nodes, pitch_at
 
 Curve: TypeAlias = "Callable[[Array], tuple[Array, Array]]"  # parameters -> points and tangents
 
@@ -80,7 +80,7 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
         return [*arcs, *flanks]
     # the roller's own outline where it stops in the wheel, between the flanks that leave it
     x, y = _pitch(L, engagement, np.zeros(1))[0]
-    at = heading_at(engagement, np.zeros(1))
+    at = pitch_at(engagement, np.zeros(1))
     ahead = math.atan2(float(array(at.tangent_y)[0]), float(array(at.tangent_x)[0]))
     ends = [flank.points[-1 if flank.t[-1] <= 0.0 else 0] for flank in flanks]
     turns = [math.atan2(v - y, u - x) - ahead for u, v in ends]
@@ -135,7 +135,7 @@ def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: b
     back, L = retraces(engagement), assembly.L
 
     def curve(t: Array) -> tuple[Array, Array]:
-        at = heading_at(engagement, t)
+        at = pitch_at(engagement, t)
         tangent = np.column_stack((at.tangent_x, at.tangent_y))
         if back and outward:  # at mid-motion the tangent is the limit from the entry
             tangent[t == 0.0] *= -1.0
@@ -146,11 +146,7 @@ def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: b
 
 
 def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array:
-    """Return a flank's samples without the fold at mid-motion.
-
-    The roller stops there, and its path turns sharply. On the inner side of the turn the flank
-    folds back into the roller's own outline. The flank is cut where it leaves that outline.
-    """
+    """Return a flank's samples without the fold at mid-motion."""
     order = np.argsort(np.abs(t))
     # a smaller fold is ignored
     folded = L * array(at.speed)[order] < side * array(at.turning)[order] - 1e-7 * L

@@ -54,10 +54,7 @@ def reliefs(assembly: Assembly) -> list[Relief]:
 
 
 def arc_floor(assembly: Assembly, lock: float) -> float:
-    """Return the least distance from the axis of an arc that meets the disc at right angles.
-
-    It is that of the widest relief; 0 for half a turn or more, where there is no such arc.
-    """
+    """Return the least distance from the axis of an arc that meets the disc at right angles."""
     half = max(one.half for one in reliefs(assembly))
     wide = half > 0.5 * math.pi - SAME_ANGLE
     return 0.0 if wide else lock * math.tan(0.25 * math.pi - 0.5 * half)
@@ -83,10 +80,7 @@ def followed(around: list[Relief]) -> list[tuple[Relief, float]]:
 
 
 def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
-    """Return the reliefs as wide as the wheel's horns need, with those that touch joined.
-
-    The horns of offset slots and of unequal steps may reach beyond a relief's edges.
-    """
+    """Return the reliefs as wide as the wheel's horns need, with those that touch joined."""
     joined: list[Relief] = []
     for one in (_widened(assembly, sizes, relief, mouths) for relief in reliefs(assembly)):
         if not joined or one.start - joined[-1].end > SAME_ANGLE:
@@ -141,11 +135,7 @@ def keyway_direction(assembly: Assembly) -> float:
 
 
 def lock_of(where: Assembly, size: Sizes, cut: Sequence[float] = ()) -> Lock:
-    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs.
-
-    Its corner is that of the mouth that leaves the most play. ``cut`` has half the angles of the
-    crank's locking arcs, radians, if they are known and may be narrower.
-    """
+    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
     mouths = mouth_corners(where, size.roller, size.recess, size.rim)
     # arcs end where the motions do
     arcs = not is_whole(where, size) or where.mechanism.spec.size.relief == "arc"

@@ -92,11 +92,7 @@ class Bore(NamedTuple):
 
     @property
     def end_diameter(self) -> float | None:
-        """Diameter of a round end of the shaft beyond the bore; None where there is none.
-
-        A flat is milled up to the shaft's end. Within a hexagon the lathe leaves a twentieth less
-        than the width across its flats.
-        """
+        """Diameter of a round end of the shaft beyond the bore; None where there is none."""
         if self.form == "D":
             return None
         return (1.9 if self.form == "hex" else 2.0) * self.radius

@@ -162,12 +162,7 @@ def held_hub(size: Size, part: str, hub: Plate | None, direction: float) -> Plat
 
 
 def _with_set_screw(size: Size, part: str, hub: Plate | None, direction: float) -> Plate:
-    """Return the hub of a part with the hole of its set screw.
-
-    The hole is for the thread to be cut, amid the hub's length, and reaches the bore at its flat or
-    side in ``direction``, or a quarter of a turn from its keyway. The thread is at least one
-    diameter long, and the hub two diameters, so that half a diameter is left on each side.
-    """
+    """Return the hub of a part with the hole of its set screw."""
     key = f"{part}_screw_mm"
     thread: float = vars(size)[key]
     if hub is None or not hub.holes:

@@ -165,10 +165,7 @@ MOUNTS = 4
 def groove_lines(
     parts: Outlines, tolerance: float | None, curves: str
 ) -> tuple[Contour, Contour, Contour]:
-    """Return both flanks of the groove all round, about the crank's axis, and its pitch curve.
-
-    Raises GenevaError for a machine without a groove.
-    """
+    """Return both flanks of the groove all round, about the crank's axis, and its pitch curve."""
     guide = parts.assembly.rollers[0][0].groove
     if guide is None:
         kind = parts.assembly.full.spec.drive.NAME
@@ -190,10 +187,7 @@ def groove_lines(
 
 
 def groove_base(parts: Outlines, bars: Links) -> Plate:
-    """Return the base below the groove, with its holes.
-
-    ``bars`` are the links of the machine. Raises GenevaError where it meets the wheel's shaft.
-    """
+    """Return the base below the groove, with its holes."""
     assert bars.sizes is not None  # the crank is a link
     L = parts.assembly.L
     far, rim = groove_reaches(parts.assembly, parts.sizes)
