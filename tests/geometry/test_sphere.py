@@ -9,7 +9,7 @@ from geneva_cli.geometry.plates import Shell
 from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.geometry.sphere import Region, Rotation, SphereArc, cross, place, unit
 from geneva_cli.geometry.sphere_arcs import SphereArcs
-from geneva_cli.geometry.sphere_hull import Cap, convex_hull
+from geneva_cli.geometry.sphere import Cap, convex_hull
 
 POLE = (0.0, 0.0, 1.0)
 CLOSE = 1e-14  # sums of some numbers up to 2 pi

@@ -6,19 +6,19 @@ Layers: WHEEL and CRANK are cut; ROLLER is the hole of a roller; PITCH is the ro
 from __future__ import annotations
 
 import math
+from functools import partial
+from itertools import chain
 
 from geneva_cli.geometry.measure import bounds, mapped
 from geneva_cli.geometry.plates import Group, Member, Part, Plate
-from geneva_cli.geometry.shapes import Contour, Line, Point, Segment, Shape, closed, joined
+from geneva_cli.geometry.shapes import Contour, Line, Segment, Shape, closed, joined
 from geneva_cli.geometry.sheet import Annotations, Drawing
-from geneva_cli.geometry.sphere import Region, SphereArc, place
-from geneva_cli.geometry.sphere_hull import Cap
+from geneva_cli.geometry.sphere import Cap, Region, SphereArc, place
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.kinds.spherical.crank import locked, rollers
 from geneva_cli.kinds.spherical.laid_flat import Cone, crank_cone, flat_region, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts, arm_solids
-from geneva_cli.kinds.spherical.wheel import edge
+from geneva_cli.kinds.spherical.regions import edge, locked, rollers
 from geneva_cli.parts.projection import titled
 
 
@@ -45,7 +45,7 @@ def assembly(parts: SphereParts) -> Drawing:
     shift -= min(bounds(shape).x0 for shape in right)
     moved = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
     whole = Group(title, parts.members)
-    return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations((), ()))
+    return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations())
 
 
 def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) -> Drawing:
@@ -64,18 +64,14 @@ def wheel_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
     ball = parts.ball
     b = ball.half_step
     slot = slot_flat(ball, cone, parts.tolerance or 0.0, parts.curves)
-    mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
-    ends = [cone.point(polar, 0.0) for polar in (mouth, ball.bottom)]
-    path = Contour("PITCH", (Line(*ends),), closed=False)
+    path = Line(*(cone.point(polar, 0.0) for polar in (ball.wall_mouth, ball.bottom)))
+    both = Contour("PITCH", (*slot.segments, path), closed=False)
     outer: list[Segment] = []
     pitch: list[Shape] = []
     for k in range(ball.z):
-
-        def to(p: Point, k: int = k) -> Point:
-            return cone.turned(p, 2 * k * b)
-
-        outer += mapped(slot, to).segments
-        pitch.append(mapped(path, to))
+        *walls, axis = mapped(both, partial(cone.turned, azimuth=2 * k * b)).segments
+        outer += walls
+        pitch.append(Contour("PITCH", (axis,), closed=False))
     inner = [cone.point(ball.inner, (2 * k - 1) * b) for k in range(ball.z + 1)][::-1]
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
     first, last = outer[0].start, outer[-1].end
@@ -85,10 +81,8 @@ def wheel_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
 
 def slot_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> Contour:
     """Return the edge about the first slot, half-way to the adjacent slots on either side."""
-    one: list[Segment] = []
-    for arc in edge(ball):
-        one += cone.segments(arc, 0.0, tolerance, curves)
-    return Contour("WHEEL", joined(one), closed=False)
+    each = (cone.segments(arc, 0.0, tolerance, curves) for arc in edge(ball))
+    return Contour("WHEEL", joined(chain(*each)), closed=False)
 
 
 def crank_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
@@ -111,8 +105,7 @@ def arm(parts: SphereParts) -> Drawing:
     """
     ball = parts.ball
     # the error says why there is no arm
-    size = parts.mechanism.spec.size
-    cap_arm = parts.arm or crank_arm(parts.ball, parts.shells.crank, size)
+    cap_arm = parts.arm or crank_arm(ball, parts.shells.crank, parts.mechanism.spec.size)
     shapes = arm_flat(parts, cap_arm)
     low, high = ball.arm_span_mm
     plate = Plate("arm", "ARM", shapes[0], tuple(shapes[1:]), 0.0, high - low)

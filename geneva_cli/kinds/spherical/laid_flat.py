@@ -131,8 +131,7 @@ class Cone(NamedTuple):
 
 def wheel_cone(ball: Ball) -> Cone:
     """Return the cone that touches the sphere in the middle of the slots' length."""
-    mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
-    return Cone(ball.radius_mm, 0.5 * (ball.bottom + mouth))
+    return Cone(ball.radius_mm, 0.5 * (ball.bottom + ball.wall_mouth))
 
 
 def crank_cone(ball: Ball) -> Cone:

@@ -18,7 +18,7 @@ from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE, polar
 from geneva_cli.kinds.spherical.arm import CapArm
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts
-from geneva_cli.kinds.spherical.wheel import QUARTER
+from geneva_cli.kinds.spherical.regions import QUARTER
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.bores import around, radius_of
 from geneva_cli.spec.written import degrees
@@ -34,10 +34,9 @@ def section(parts: SphereParts, scale: float, items: Mapping[str, int]) -> View:
     """
     ball, view = parts.ball, View("section through both shafts", scale)
     inner, outer = ball.span_mm
-    end = ball.bottom - ball.half_width
+    end = ball.slot_end
     # opposite, across the wheel's axis, there is a slot too, or the edge between two slots
-    between = ball.axes - ball.recess if ball.recess else ball.rim
-    back = between if ball.z % 2 else end
+    back = ball.between_slots if ball.z % 2 else end
     opening = parallel(0.0, ball.opening_mm) if ball.opening_mm else radial(ball.inner)
     closing = parallel(0.0, -ball.opening_mm) if ball.opening_mm else radial(-ball.inner)
     cut: dict[str, list[Contour]] = {"wheel": []}

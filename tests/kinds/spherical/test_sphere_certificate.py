@@ -19,7 +19,7 @@ from words import load
 from geneva_cli import Crank, Design, Size, Spherical
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import Rotation
-from geneva_cli.geometry.sphere_hull import Circle, FromCircle, farthest
+from geneva_cli.geometry.sphere_arcs import Circle, FromCircle, farthest
 from geneva_cli.kinds.spherical.gaps import BallGaps
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
