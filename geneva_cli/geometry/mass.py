@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.geometry.moments import Moments, moments, oriented, total
 from geneva_cli.geometry.plates import Plate, Stack
-from geneva_cli.geometry.shapes import Circle, Contour, Point, Shape
+from geneva_cli.geometry.shapes import Point, Shape
 from geneva_cli.geometry.stacks import require_faces
 
 if TYPE_CHECKING:
@@ -80,19 +80,13 @@ def face(plate: Plate) -> Moments:
     >>> face(washer).area / 3.141592653589793
     16.0
     """
-    return _counterclockwise(plate.outline).less(total(map(_counterclockwise, plate.holes)))
-
-
-def _counterclockwise(shape: Contour | Circle) -> Moments:
-    own = moments(shape)
-    return own.times(math.copysign(1.0, own.area))
+    out, *holes = (moments(shape) for shape in (plate.outline, *plate.holes))
+    cut = (hole.times(-math.copysign(1.0, hole.area)) for hole in holes)
+    return total((out.times(math.copysign(1.0, out.area)), *cut))
 
 
 def _between(plate: Plate) -> Moments:
-    """Return the moments of the layer in one edge, added up along the axis, by Gauss's points.
-
-    The moments of an inset are polynomials of the depth, but for the corners, whose share is small.
-    """
+    """Return the moments of the layer in one edge, added up along the axis."""
     from geneva_cli.geometry.inset import inset, lines_and_arcs
 
     require_faces(plate)
@@ -105,11 +99,8 @@ def _between(plate: Plate) -> Moments:
 
 
 def _removed(hole: CrossHole, shapes: Sequence[Shape]) -> Moments:
-    """Return the moments of the material that the hole takes, added up along the plate's axis.
-
-    With y = r sin t the integrals over the width are those of smooth periodic functions, whose
-    means over evenly spaced t converge faster than any power of their number.
-    """
+    """Return the moments of the material that the hole takes, added up along the plate's axis."""
+    # with y = r sin t the integrals over the width are means of smooth periodic functions
     entry, exit_ = hole.openings(shapes)
     ax, ay = hole.seen((0.0, 0.0))  # the axis in the hole's frame
     count, r = 128, hole.radius  # to rounding, up to a hole of 0.97 of its wall's width

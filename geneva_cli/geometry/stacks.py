@@ -16,7 +16,7 @@ from geneva_cli.geometry.plates import Plate, Stack
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape, as_contour
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.edges import Edge
+    from geneva_cli.geometry.plates import Edge
 
 
 Side: TypeAlias = Line | Arc

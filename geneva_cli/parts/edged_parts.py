@@ -6,8 +6,7 @@ from abc import abstractmethod
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from geneva_cli.geometry.edges import Edge
-from geneva_cli.geometry.plates import Member, Plate, edged, plates
+from geneva_cli.geometry.plates import Edge, Member, Plate, edged, plates
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.kept import cached_property
 from geneva_cli.parts.parts import Parts

@@ -7,9 +7,17 @@ import pytest
 
 from geneva_cli.geometry.plates import Shell
 from geneva_cli.geometry.round_holes import RoundHole
-from geneva_cli.geometry.sphere import Region, Rotation, SphereArc, cross, place, unit
+from geneva_cli.geometry.sphere import (
+    Cap,
+    Region,
+    Rotation,
+    SphereArc,
+    convex_hull,
+    cross,
+    place,
+    unit,
+)
 from geneva_cli.geometry.sphere_arcs import SphereArcs
-from geneva_cli.geometry.sphere import Cap, convex_hull
 
 POLE = (0.0, 0.0, 1.0)
 CLOSE = 1e-14  # sums of some numbers up to 2 pi
