@@ -15,9 +15,9 @@ from geneva_cli.design import load
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import solids
+from geneva_cli.kinds.linear.frame import rack_stressed
 from geneva_cli.kinds.linear.outlines import turned_rack
 from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
-from geneva_cli.kinds.linear.stressed import rack_stressed
 from geneva_cli.parts.turn.full_turn import full_turn
 
 R, r = 50.0, 6.0
