@@ -110,11 +110,10 @@ def _swept(segment: Segment) -> Moments:
         thirds = (a + c) / 6.0, (b + d) / 6.0
         return Moments(cross / 2.0, cross * thirds[0], cross * thirds[1], cross * squares / 12.0)
     rows = []
-    for node, weight in GAUSS:
-        for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
-            (x, y), (dx, dy) = at(segment, t), _rate(segment, t)
-            swept = 0.5 * weight * (x * dy - y * dx)
-            rows.append(Moments(0.5, x / 3.0, y / 3.0, 0.25 * (x * x + y * y)).times(swept))
+    for t, weight in GAUSS:
+        (x, y), (dx, dy) = at(segment, t), _rate(segment, t)
+        swept = weight * (x * dy - y * dx)
+        rows.append(Moments(0.5, x / 3.0, y / 3.0, 0.25 * (x * x + y * y)).times(swept))
     return total(rows)
 
 

@@ -13,7 +13,6 @@ from geneva_cli.geometry.shapes import (
     Contour,
     Cubic,
     Line,
-    Point,
     Segment,
     Shape,
     closed,
@@ -63,19 +62,14 @@ def prepared(drawing: Drawing, units: str = "mm") -> Drawing:
     """
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
-    shapes = [shape for original in drawing.shapes for shape in _cleaned(original)]
-    return drawing._replace(
-        shapes=tuple(_divided(shape, UNITS[units]) for shape in dict.fromkeys(shapes))
-    )
+    unit = UNITS[units]
 
+    def divided(shape: Shape) -> Shape:
+        # a single rounding, so that 25.4 mm are exactly 1 inch
+        return mapped(shape, lambda p: (p[0] / unit, p[1] / unit), lambda radius: radius / unit)
 
-def _divided(shape: Shape, unit: float) -> Shape:
-    """Shape divided by a unit, with a single rounding, so that 25.4 mm are exactly 1 inch."""
-
-    def point(p: Point) -> Point:
-        return p[0] / unit, p[1] / unit
-
-    return mapped(shape, point, lambda radius: radius / unit)
+    shapes = dict.fromkeys(shape for original in drawing.shapes for shape in _cleaned(original))
+    return drawing._replace(shapes=tuple(map(divided, shapes)))
 
 
 def _cleaned(shape: Shape) -> Iterator[Shape]:
@@ -85,12 +79,10 @@ def _cleaned(shape: Shape) -> Iterator[Shape]:
             yield shape
         return
     kept = [_straightened(s) for s in shape.segments if segment_length(s) > SHORTEST_MM]
-    if kept:
-        yield (
-            closed(shape.layer, kept)
-            if shape.closed
-            else Contour(shape.layer, joined(kept), closed=False)
-        )
+    if kept and shape.closed:
+        yield closed(shape.layer, kept)
+    elif kept:
+        yield Contour(shape.layer, joined(kept), closed=False)
 
 
 def _straightened(segment: Segment) -> Segment:

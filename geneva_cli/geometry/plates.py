@@ -58,9 +58,8 @@ class Edge(NamedTuple):
 
     def layers(self) -> Iterator[tuple[float, float]]:
         """Yield depths and thicknesses of layers that stand for the edge, at Gauss's points."""
-        for node, weight in GAUSS:
-            for fraction in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
-                yield self.at(fraction)[0], 0.5 * weight * self.slope(fraction)[1]
+        for fraction, weight in GAUSS:
+            yield self.at(fraction)[0], weight * self.slope(fraction)[1]
 
 
 class Plate(NamedTuple):

@@ -12,8 +12,8 @@ import math
 
 import numpy as np
 
-from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.hull import convex_hull, farthest
+from geneva_cli.geometry.distance import Polyarc, farthest
+from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, as_contour
 from geneva_cli.motion.mechanism import Mechanism

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from geneva_cli.geometry.fit.arcs import arcs
-from geneva_cli.geometry.fit.cubics import cubics
+from geneva_cli.geometry.fit.arcs import arcs as arcs
+from geneva_cli.geometry.fit.cubics import cubics as cubics
 from geneva_cli.geometry.fit.path import Curve
 from geneva_cli.geometry.shapes import Segment
 

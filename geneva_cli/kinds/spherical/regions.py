@@ -201,8 +201,9 @@ def swept(ball: Ball) -> tuple[Array, Array]:
     wheel = edge_points(ball, 100)
     # the wheel turns by half a step either way: the position nearest to the crank's axis counts
     off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - ball.half_step, 0.0)
-    flat = math.sin(ball.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
-    wheel = wheel[math.cos(ball.axes) * wheel[:, 2] + flat > math.cos(ball.lock) - SAME_ANGLE]
+    nearest = math.sin(ball.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
+    nearest += math.cos(ball.axes) * wheel[:, 2]
+    wheel = wheel[nearest > math.cos(ball.lock) - SAME_ANGLE]
     turns = np.linspace(-ball.half_motion, ball.half_motion, 361)
     # rotations (n, 3, 3) of rows of points that bring the wheel's slot under the roller
     flat, up = math.sin(ball.arm), np.full(len(turns), math.cos(ball.arm))
