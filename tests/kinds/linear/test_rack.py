@@ -268,6 +268,7 @@ def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
     assert values["guide.locks_at_friction"] == pytest.approx(half / lever, rel=1e-14)
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
     """At entry, without friction in the slot: both ends' friction is nu (|N1| + |N2|)."""
     loaded = design(**PARTS).with_("load.force_N", 10.0)
@@ -285,7 +286,7 @@ def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
 
 
 @pytest.mark.usefixtures("no_advice")
-@pytest.mark.parametrize("mu", (0.0, 0.3, 0.63))
+@pytest.mark.parametrize("mu", (0.0, 0.63))
 def test_a_guide_locks_where_the_loads_lose_their_bound(mu):
     """A percent below that friction the pin's force has a bound, a percent above it has none."""
     feeder = load(str(repo.DESIGNS / "linear.toml"), [f"load.friction={mu}"])
