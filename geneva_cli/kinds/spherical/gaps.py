@@ -18,7 +18,7 @@ from geneva_cli.kinds.spherical.regions import at_mid_motion, edge
 from geneva_cli.kinds.spherical.sizes import fitted
 from geneva_cli.kinds.spherical.stops import SphereStops, about, polar
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly, assembled
 from geneva_cli.parts.turn.pairs import Pose, Stop
@@ -42,9 +42,7 @@ class BallGaps:
         self._stops = SphereStops(
             self.around, 2.0 * ball.half_step, self.sectors, self._out_each, ball.roller
         )
-        self.crank_frame = np.array(
-            at_mid_motion(ball)
-        )  # rows: the crank's axes in the wheel's frame
+        self.crank_frame = np.array(at_mid_motion(ball))  # rows: the crank's axes, in the wheel's
         self._rollers = np.array([place(ball.arm, azimuth) for azimuth in ball.rollers])
         corners = [
             one.at(np.arange(len(one)), fraction * one.sweep)
@@ -105,11 +103,8 @@ class BallGaps:
         far = np.arccos(np.clip(axis @ self.wheel.middle.T, -1.0, 1.0)) - self.wheel.size
         # an angle computed from its cosine is wrong by up to 1e-7 radians
         owner, piece = np.nonzero(far <= self.ball.lock + least[0] + 1e-7)
-        owners: list[Whole] = []
-        points: list[Array] = []
-        for fraction in ARC_SAMPLES:
-            owners.append(owner)
-            points.append(self.wheel.at(piece, fraction * self.wheel.sweep[piece]))
+        owners, sweep = [owner] * len(ARC_SAMPLES), self.wheel.sweep[piece]
+        points = [self.wheel.at(piece, fraction * sweep) for fraction in ARC_SAMPLES]
         for one in self._facing:
             towards = about(self._out(one, pose.crank[owner]), -turn[owner])
             which, at = self.wheel.facing(piece, towards)
@@ -148,10 +143,9 @@ class BallGaps:
         return self.around.signed(about(points, -back))
 
     def _out(self, of_crank: Array, turn: Array) -> Array:
-        """Return directions (n, 3) of the crank's frame in the wheel's frame, at crank angles.
+        """Return one or n directions of the crank's frame in the wheel's, at crank angles, (n, 3).
 
-        ``of_crank`` is one direction or n of them. The crank turns clockwise about its axis where
-        the wheel turns counterclockwise.
+        The crank turns clockwise about its axis where the wheel turns counterclockwise.
         """
         return about(np.broadcast_to(of_crank, (len(turn), 3)), -turn) @ self.crank_frame
 

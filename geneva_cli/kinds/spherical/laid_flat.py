@@ -8,6 +8,7 @@ it has on the cone. The cone's sector is 2 pi cos(polar) wide; at 90 degrees it 
 from __future__ import annotations
 
 import math
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
@@ -148,7 +149,5 @@ def flat_region(
     curves: str,
 ) -> Contour:
     """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
-    segments: list[Segment] = []
-    for arc in region.boundary:
-        segments += cone.segments(arc, about, tolerance or 0.0, curves)
-    return closed(layer, segments)
+    each = (cone.segments(arc, about, tolerance or 0.0, curves) for arc in region.boundary)
+    return closed(layer, chain(*each))

@@ -99,21 +99,19 @@ def _arm(parts: SphereParts, arm: CapArm, flat: list[Contour], scale: float) -> 
 def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
     """Yield views of hubs along their axes, with bores and keyways, and of shafts' sides."""
     size = parts.mechanism.spec.size
+
+    def begin(name: str, thick: bool) -> View:
+        return View(name, scale, Fits(size.process))
+
     for part, whose in ((parts.wheel, "wheel"), (parts.crank, "crank")):
-        for hub in plates(part.part):
-            if hub.layer == "ROLLER":
-                continue
-            view = View(hub.name, scale, Fits(size.process))
+        for hub in (plate for plate in plates(part.part) if plate.layer != "ROLLER"):
+            view = begin(hub.name, True)
             view.draw_plate(hub)
             bored(view, hub.holes, size, whose)
             view.to_fix(hub.name, parts.to_fix)
             draw_hub(view, hub, hub_note(size, whose) if hub.layer == "HUB" else "")
             view.remark(f"{length(hub.thickness)} long")
             yield view
-
-    def begin(name: str, thick: bool) -> View:
-        return View(name, scale, Fits(size.process))
-
     yield from shafted(begin, parts.shafts)
 
 
@@ -122,12 +120,11 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
     view = View(f"{whose}, laid flat", scale)
     view.remark(cone.described(whose))
     shift = _shift(ball, cone)
-    near = shift != 0.0
     moved = [mapped(s, lambda p: (p[0] + shift, p[1])) for s in shapes]
     for shape in moved:
         view.draw(shape, CENTRE if shape.layer == "PITCH" else OUTLINE)
     contours = [s for s in moved if isinstance(s, Contour)]
-    if near:
+    if shift:
         view.cross((0.0, 0.0), 0.05 * ball.radius_mm)
         far = max(math.hypot(*s.start) for c in contours for s in c.segments)
         _sectors(view, [c.segments[0] for c in contours if c.layer == "CRANK"], far)
@@ -144,7 +141,7 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
         return view
     first, after = axes[:2]
     view.linear(*first, 0.0, sized.plain(math.dist(*first)), near=True)
-    if near:
+    if shift:
         low, high = sorted(math.atan2(line.start[1], line.start[0]) for line in (first, after))
         view.angular([(low, high)], far, far, times(ball.z - 1, degrees(high - low, 4)))
     else:
