@@ -351,8 +351,8 @@ class _Extremes:
             short = np.abs(step) <= 1e-3 * some.near[live]
             value[live] = v + np.where(short, 0.5 * slope * step, 0.0)
             x[live] += step
-            # after a step of 1e-6 of the search range, a maximum's place is exact
-            live = live[np.abs(step) > 1e-6 * some.near[live]]
+            # after a step of 1e-8 of the search range, a maximum's place is exact
+            live = live[np.abs(step) > 1e-8 * some.near[live]]
         # on the way to a flat end a step only halves the distance
         for end in some.ends[:, live]:
             x[live] = np.where(np.abs(x[live] - end) <= 0.02 * some.near[live], end, x[live])
