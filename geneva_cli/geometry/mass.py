@@ -35,29 +35,21 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
     0.5
     """
-    within = plate.thickness - 2.0 * plate.edge.size
-    whole = face_properties(face(plate), within, density_kgm3)
+    rows = [face(plate).times(plate.thickness - 2.0 * plate.edge.size)]
     if plate.edge.size:
-        edges = _between(plate)
-        whole = added(whole, face_properties(edges, 2.0, density_kgm3))  # moments of 1 mm, twice
-    if not plate.cross:
-        return whole
-    from geneva_cli.geometry.round_holes import drilled
+        rows.append(_between(plate).times(2.0))
+    if plate.cross:
+        from geneva_cli.geometry.round_holes import drilled
 
-    contours = drilled((plate.outline, *plate.holes), plate.cross)
-    taken = total(_removed(hole, contours) for hole in plate.cross)
-    return added(whole, face_properties(taken, -1.0, density_kgm3))  # moments of 1 mm
+        contours = drilled((plate.outline, *plate.holes), plate.cross)
+        rows += [_removed(hole, contours).times(-1.0) for hole in plate.cross]
+    whole, per = total(rows), density_kgm3 * MM**3
+    return MassProperties(per * whole.area, whole.centroid, per * MM**2 * whole.polar)
 
 
 def solid_properties(solid: Plate | Stack, density_kgm3: float) -> MassProperties:
     """Mass, centroid and inertia of a flat or a turned part."""
     return reduce(added, (mass_properties(one, density_kgm3) for one in solid.plates))
-
-
-def face_properties(section: Moments, thickness_mm: float, density_kgm3: float) -> MassProperties:
-    """Mass, centroid and inertia of a plate from the moments of its face."""
-    per = density_kgm3 * thickness_mm * MM
-    return MassProperties(per * section.area * MM**2, section.centroid, per * section.polar * MM**4)
 
 
 def added(one: MassProperties, other: MassProperties) -> MassProperties:

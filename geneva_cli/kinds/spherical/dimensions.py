@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.kinds.spherical.arm import dial_holes
-from geneva_cli.kinds.spherical.laid_flat import crank_cone, wheel_cone
+from geneva_cli.kinds.spherical.drawings import crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension

@@ -28,13 +28,15 @@ from geneva_cli.kinds.spherical.arm import CapArm
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.dimensions import dimensions
 from geneva_cli.kinds.spherical.drawings import (
+    Cone,
     arm_cone,
     arm_flat,
+    crank_cone,
     crank_flat,
     slot_flat,
+    wheel_cone,
     wheel_flat,
 )
-from geneva_cli.kinds.spherical.laid_flat import Cone, crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.section import section
 from geneva_cli.motion.pivots import Dimension
@@ -48,8 +50,7 @@ from geneva_cli.spec.written import degrees, length, quantity
 def sheet(parts: SphereParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
     ball = parts.ball
-    wheel = wheel_flat(parts, wheel_cone(ball))
-    crank = crank_flat(parts, crank_cone(ball))
+    wheel, crank = wheel_flat(parts), crank_flat(parts)
     arm = arm_flat(parts, parts.arm) if parts.arm else []
     # 4 decimals of a degree are 0.2 um on 100 mm
     rows = [
@@ -158,11 +159,12 @@ def _shift(ball: Ball, cone: Cone) -> float:
 
 def flat_slot(ball: Ball, tolerance: float) -> Block:
     """Return a table of half of a flat slot: its edge from between two slots to its end."""
-    cone, close = wheel_cone(ball), max(tolerance, COARSE * ball.radius_mm)
+    close = max(tolerance, COARSE * ball.radius_mm)
+    cone = wheel_cone(ball)._replace(tolerance_mm=0.1 * close)
     shift = _shift(ball, cone)
     points: list[Point] = []
     # the fitted curve is ten times as accurate as the table that samples it
-    for piece in slot_flat(ball, cone, 0.1 * close, "arcs").segments:
+    for piece in slot_flat(ball, cone).segments:
 
         def curve(t: Array, piece: Segment = piece) -> Array:
             return np.array([at(piece, float(fraction)) for fraction in t])

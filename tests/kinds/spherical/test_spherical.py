@@ -12,8 +12,7 @@ from geneva_cli.geometry.shapes import Contour
 from geneva_cli.geometry.sphere import POLE
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.kinds.spherical.arm import crank_arm
-from geneva_cli.kinds.spherical.drawings import arm_cone
-from geneva_cli.kinds.spherical.laid_flat import crank_cone, wheel_cone
+from geneva_cli.kinds.spherical.drawings import arm_cone, crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import wheel_shell
 from geneva_cli.kinds.spherical.regions import (
     at_mid_motion,
