@@ -1,10 +1,8 @@
 """The crank arm, the plate that carries the rollers' pins, and the crank's solids.
 
-Its frame is the crank's, as for the locking disc, which lies on the arm. Its outline is the convex
-hull of circles: a hub about the crank's shaft, and an eye about each pin and each bolt. With one
-roller it is an arm with two eyes, with several a plate that joins all. The shaft of an internal
-wheel's crank ends in the arm, below the wheel. That crank is overhung, and its hub is a disc that
-carries the locking sectors.
+Its frame is the crank's. Its outline is the convex hull of circles: a hub about the crank's shaft,
+and an eye about each pin and each bolt. An internal wheel's shaft ends in the arm, and its hub is a
+disc that carries the locking sectors.
 """
 
 from __future__ import annotations
@@ -127,10 +125,7 @@ def _leave_walls(parts: Outlines, screwed: list[Circle]) -> bool:
 
 
 def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
-    """Return the radius at which bolts in some directions leave the widest walls in the disc.
-
-    The second number is the least distance of their axes from the walls, 0 or more.
-    """
+    """Return the radius at which bolts in some directions leave the widest walls in the disc."""
     count = 400  # radii; their spacing is far below a wall
     own = parts.assembly.mechanism.spec.size.lock_bolt_circle_mm
     radii = np.linspace(0.0, parts.sizes.lock, count) if own is None else np.array([0.5 * own])

@@ -13,9 +13,9 @@ from geneva_cli.geometry.plates import Member, Plate, Stack
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point
 from geneva_cli.geometry.stacks import apart
 from geneva_cli.numerics.preferred import bore_radius
-from geneva_cli.parts.shafts.bearings import SERIES_60
 from geneva_cli.parts.shafts.bores import around
 from geneva_cli.parts.shafts.screws import Screws, screw_through, tapped
+from geneva_cli.parts.shafts.shaft import SERIES_60
 from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size

@@ -1,17 +1,13 @@
 """Default sizes under a load: thicknesses, pin, bores and hubs as large as the load needs.
 
-The loads follow from the motion, the roller and what the wheel turns, never from these sizes, but
-that a stiffer pin is struck harder where the roller changes sides. With friction on the pin all
-loads depend on its diameter: then it stays the usual one. The sizes are
-computed one after the other. The wheel's thickness follows from its horns, then the pin from that.
-For one thickness of the arm after the other there are shafts, until the arm holds.
+The loads never depend on these sizes, but that a stiffer pin is struck harder where the roller
+changes sides; with friction on the pin it stays the usual one. The sizes are computed one after the
+other: the wheel's thickness from its horns, then the pin, then for each thickness of the arm the
+shafts, until the arm holds. Each is the first preferred number that keeps the allowable stress,
+from the usual size on. If there is none, it is the largest that fits, and a check fails.
 
-Each size is the first preferred number that keeps the allowable stress, from the usual size on.
-If there is none, it is the largest that fits, and a check fails.
-
-The first of two wheels in series carries the second's crank. Its load is taken to be constant: the
-greatest torque in the shaft of that crank, so that no place of the roller is loaded less than it
-is. Then it is a machine of its own, sized as any other.
+The first of two wheels in series carries the second's crank. Its load is the greatest torque in the
+shaft of that crank. Then it is a machine of its own, sized as any other.
 """
 
 from __future__ import annotations
@@ -214,11 +210,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
 def _crank_bored(
     assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float, keyed: bool
 ) -> Sizes:
-    """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
-
-    Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
-    Unless ``keyed``, the bore is not sized by its key.
-    """
+    """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there."""
     spec = assembly.full.spec
     size = spec.size
     own = (size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm)

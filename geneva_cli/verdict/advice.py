@@ -258,7 +258,7 @@ class Adviser:
 
     def holds(self, spec: Spec | None, turn: bool = True) -> float:
         """The least margin of the wanted checks, negative if any check fails that must pass."""
-        from geneva_cli.parts.turn.machine_parts import WorkLimit
+        from geneva_cli.parts.turn.pairs import WorkLimit
 
         least = math.inf
         try:

@@ -26,7 +26,7 @@ from geneva_cli.parts.outlines.reliefs import reliefs
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.machine_parts import WorkLimit
+from geneva_cli.parts.turn.pairs import WorkLimit
 
 
 def overlaps(found: Parts, count: int = 60) -> Iterator[float]:

@@ -9,7 +9,7 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines import locking_rings
+from geneva_cli.parts.outlines import crank_outline
 from geneva_cli.parts.outlines.cut_outlines import drawn
 
 
@@ -24,7 +24,7 @@ def test_a_sector_is_the_widest_of_all_that_clear_the_wheel(monkeypatch, z, alph
         tried.append((whole, fits))
         return max(fits)
 
-    monkeypatch.setattr(locking_rings, "widest", widest_of_all)
+    monkeypatch.setattr(crank_outline, "widest", widest_of_all)
     assert drawn(*machine_sizes(build(spec))).crank == own
     assert tried
     # narrower ones clear it too

@@ -27,9 +27,7 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion as Given
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.machine_sizes import sizes
-from geneva_cli.parts.outlines.cut_outlines import CURVED
-from geneva_cli.parts.outlines.walls.straight import straight_walls
-from geneva_cli.parts.outlines.wheel_outline import wheel_contour
+from geneva_cli.parts.outlines.wheel_outline import CURVED, straight_walls, wheel_contour
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.spec.tables import Size
 

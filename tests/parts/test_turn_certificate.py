@@ -30,8 +30,8 @@ from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn import turn_certificate as halving
+from geneva_cli.parts.turn.bounds import path_travel, slot_travel
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.travel import path_travel, slot_travel
 from geneva_cli.parts.turn.turn_certificate import certificate
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.proved import least_gap as least_gap_check

@@ -12,7 +12,7 @@ from geneva_cli.motion import registry
 from geneva_cli.parts.links.links import placed_holes
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.shafts.bearings import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
+from geneva_cli.parts.shafts.shaft import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
 from geneva_cli.parts.stressed import stressed
 from geneva_cli.specfile.template import template
 

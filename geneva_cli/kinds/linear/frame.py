@@ -41,11 +41,17 @@ from geneva_cli.parts.mounted_plate import (
     require_walls,
     shaft_holes,
 )
-from geneva_cli.parts.shafts.bearings import bearing_up_to, shoulder_length
 from geneva_cli.parts.shafts.bores import bore_of, reach_or_bore
 from geneva_cli.parts.shafts.screws import bolt_radius, tapped
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
-from geneva_cli.parts.shafts.turned_shafts import built_shafts
+from geneva_cli.parts.shafts.shaft import (
+    Ends,
+    Seat,
+    Shaft,
+    bearing_up_to,
+    built_shafts,
+    shaft_ends,
+    shoulder_length,
+)
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.stressed import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.spec.default_sizes import value_or

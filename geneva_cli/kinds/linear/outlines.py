@@ -16,8 +16,16 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
-from geneva_cli.parts.turn.stops import Branches, Stops, cut, masked, merged
-from geneva_cli.parts.turn.turning_stops import TurningStops, inset_ends, rotated
+from geneva_cli.parts.turn.stops import (
+    Branches,
+    Stops,
+    TurningStops,
+    cut,
+    inset_ends,
+    masked,
+    merged,
+    rotated,
+)
 
 
 class SlidingStops(TurningStops):

@@ -34,9 +34,8 @@ from geneva_cli.kinds.linear.rack import (
 )
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.assembly import assembled
-from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.gears.gear_pair import gear_pair
-from geneva_cli.parts.parts import NamedBuilds
+from geneva_cli.parts.parts import EdgedParts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses

@@ -6,23 +6,17 @@ centre; they are returned as arc lengths on the sphere, mm.
 
 from __future__ import annotations
 
-import math
-from typing import NamedTuple
-
 import numpy as np
 
 from geneva_cli.geometry.sphere import Region, opposite, place
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import at_mid_motion, edge
-from geneva_cli.kinds.spherical.sizes import fitted
 from geneva_cli.kinds.spherical.stops import SphereStops, about, polar
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.assembly import Assembly, assembled
+from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.pairs import Pose, Stop
-from geneva_cli.spec.least_wall import wall_min
 
 # Fractions of an arc at which it is sampled: its start and middle, and points next to its corners.
 # A corner itself may lie on an edge where all else overlaps.
@@ -157,45 +151,3 @@ class BallGaps:
     def in_crank(self, points: Array, turn: Array) -> Array:
         """Return directions in the crank's frame at crank angles."""
         return about(points @ self.crank_frame.T, turn)
-
-
-class BallLengths(NamedTuple):
-    """Arc lengths on the sphere, mm; ``rim`` and ``outer`` are distances from the wheel's axis."""
-
-    roller: float
-    half_width: float
-    rim: float
-    outer: float  # the sphere's radius, where the rim lies beyond its equator, else 0
-    arm: float
-    horn: float
-    wall_min: float
-
-
-class Shells(NamedTuple):
-    """Wheel and crank on a sphere, and the gaps between them."""
-
-    assembly: Assembly
-    ball: Ball
-    sizes: BallLengths
-    crank: list[Region]
-    gaps: BallGaps
-
-
-def shells(mechanism: Mechanism, advice: bool = True) -> Shells:
-    """Return the shells of a machine.
-
-    Raises GenevaError, naming the key, where its sizes leave none. With ``advice`` the message
-    names a roller that fits.
-    """
-    ball, locks = fitted(mechanism, advice)
-    L, assembly = ball.radius_mm, assembled(mechanism)
-    lengths = BallLengths(
-        roller=L * ball.roller,
-        half_width=L * ball.half_width,
-        rim=L * math.sin(ball.rim),
-        outer=L if ball.rim > 0.5 * math.pi else 0.0,
-        arm=L * math.sin(ball.arm),
-        horn=L * (ball.arm - ball.half_width - ball.recess),
-        wall_min=wall_min(mechanism.spec.size, L),
-    )
-    return Shells(assembly, ball, lengths, locks, BallGaps(assembly, ball, locks))

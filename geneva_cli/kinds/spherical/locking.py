@@ -27,8 +27,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.kinds.spherical.gaps import Shells
-from geneva_cli.kinds.spherical.parts import SphereParts
+from geneva_cli.kinds.spherical.parts import Shells, SphereParts
 from geneva_cli.loads.tolerance.dimensions import Deviations
 from geneva_cli.loads.tolerance.locking import ROUNDING, LockPlay, positive_root
 from geneva_cli.motion.machine_spec import Spec

@@ -7,8 +7,9 @@ are projections of them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -17,31 +18,53 @@ from geneva_cli.geometry.mass import MM, MassProperties, added, mass_properties
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell, inwards
 from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour
-from geneva_cli.geometry.sphere import POLE, Cap, Rotation, axis_frame, place
+from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, axis_frame, place
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, dial_holes
 from geneva_cli.kinds.spherical.ball import Ball, crank_hub, refuse_wide
 from geneva_cli.kinds.spherical.gap_bounds import SpherePairs
-from geneva_cli.kinds.spherical.gaps import Shells, shells
+from geneva_cli.kinds.spherical.gaps import BallGaps
 from geneva_cli.kinds.spherical.regions import (
     at_mid_motion,
     web_angle,
     web_region,
     wheel_regions,
 )
-from geneva_cli.kinds.spherical.sizes import ball
+from geneva_cli.kinds.spherical.sizes import ball, fitted
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
+from geneva_cli.parts.assembly import Assembly, assembled
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
-from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.held_hubs import held_hub
-from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends
-from geneva_cli.parts.shafts.turned_shafts import turned_shaft
+from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends, shoulder_length, turned_shaft
 from geneva_cli.parts.sizes import refuse_thin_hub
+from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.materials import wheel_material
 from geneva_cli.spec.tables import Size
+
+
+class BallLengths(NamedTuple):
+    """Arc lengths on the sphere, mm; ``rim`` and ``outer`` are distances from the wheel's axis."""
+
+    roller: float
+    half_width: float
+    rim: float
+    outer: float  # the sphere's radius, where the rim lies beyond its equator, else 0
+    arm: float
+    horn: float
+    wall_min: float
+
+
+class Shells(NamedTuple):
+    """Wheel and crank on a sphere, and the gaps between them."""
+
+    assembly: Assembly
+    ball: Ball
+    sizes: BallLengths
+    crank: list[Region]
+    gaps: BallGaps
 
 
 class SphereParts(Parts):
@@ -54,7 +77,18 @@ class SphereParts(Parts):
 
     @cached_property
     def _shape(self) -> Shells:
-        return shells(self.mechanism, self.advice)
+        ball, locks = fitted(self.mechanism, self.advice)
+        L, assembly = ball.radius_mm, assembled(self.mechanism)
+        lengths = BallLengths(
+            roller=L * ball.roller,
+            half_width=L * ball.half_width,
+            rim=L * math.sin(ball.rim),
+            outer=L if ball.rim > 0.5 * math.pi else 0.0,
+            arm=L * math.sin(ball.arm),
+            horn=L * (ball.arm - ball.half_width - ball.recess),
+            wall_min=wall_min(self.mechanism.spec.size, L),
+        )
+        return Shells(assembly, ball, lengths, locks, BallGaps(assembly, ball, locks))
 
     @property
     def shells(self) -> Shells:

@@ -27,7 +27,7 @@ from geneva_cli.geometry.sphere import (
 from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.outlines.locking_rings import widest
+from geneva_cli.parts.outlines.crank_outline import widest
 
 QUARTER = 0.5 * math.pi
 

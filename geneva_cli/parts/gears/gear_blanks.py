@@ -1,8 +1,7 @@
-"""Round gears as plates: whole, in sectors about a hub, or as a ring.
+"""Round gears as plates: whole, in sectors about a hub, or as a ring; with teeth or as blanks.
 
-With ``gear_module_mm`` they have teeth. Without it they are blanks up to the pitch circle. Teeth
-stand out of it about as much as their gaps go into it. So a blank's mass is a gear's within a few
-percent. A gear that stands still is screwed to the frame.
+Teeth stand out of the pitch circle about as much as their gaps go into it. So a blank's mass is a
+gear's within a few percent. A gear that stands still is screwed to the frame.
 """
 
 from __future__ import annotations
@@ -129,10 +128,7 @@ def link_gear(
 
 
 def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:
-    """Return the outline of a gear with teeth, or of the opening of a ring.
-
-    ``hub`` is the radius of the outline between sectors.
-    """
+    """Return the outline of a gear with teeth, or of the opening of a ring."""
     one, step = gear.teeth.one(write), gear.teeth.step
     last = gear.teeth._replace(tip=gear.last_tip).one(write) if gear.last_tip else one
     between = [gear.teeth.between()]
@@ -172,10 +168,7 @@ def _bored_by(at: Point, L: float) -> str:
 
 
 def _refuse(name: str, wall: float, what: str, shaft: str) -> None:
-    """Raise GenevaError where a hole, or a hub, leaves nothing of a gear.
-
-    ``shaft`` is the key that sets its bore.
-    """
+    """Raise GenevaError where a hole, or a hub, leaves nothing of a gear."""
     if wall > 0.0:
         return
     if what == "bolts":

@@ -1,8 +1,7 @@
 """Bores for shafts: round, round with a keyway, with one flat ("D"), or hexagonal.
 
-A bore's nominal radius is that of its shaft: of the circle, or of the circle inside a hexagon. The
-bore is cut wider by the fit. It has a direction about its axis: that of the keyway, of the flat, or
-of one side of the hexagon.
+A nominal radius is that of the shaft: of the circle, or of that inside a hexagon. The bore is cut
+wider by the fit. It has the direction of the keyway, of the flat, or of one side of the hexagon.
 """
 
 from __future__ import annotations

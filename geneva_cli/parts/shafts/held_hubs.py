@@ -1,8 +1,7 @@
 """Hubs with what holds them on their shafts: a slit with a clamp screw, or radial set screws.
 
-A clamp screw pulls the jaws of a slit hub together, and friction holds the shaft. The hub stays
-within its circle. Screw and head are in a notch whose face is as far from the slit as the thread is
-wide. The other jaw has the thread.
+A clamp's screw and head are in a notch within the hub's circle, whose face is as far from the slit
+as the thread is wide. The other jaw has the thread. Friction holds the shaft.
 """
 
 from __future__ import annotations
@@ -120,11 +119,7 @@ def clamp_of(size: Size, part: str, bore: float, hub: float) -> Clamp | None:
 
 
 def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
-    """Return the hub of a part with slit, notch and screw holes, if the spec clamps it.
-
-    The slit is in a direction, radians. Raises GenevaError, naming the key, for a hub that does not
-    hold the screw, and for a shaft that is held in another way.
-    """
+    """Return the hub of a part with slit, notch and screw holes, if the spec clamps it."""
     key = f"{part}_clamp_mm"
     values = vars(size)
     if values[key] is None:
@@ -193,13 +188,7 @@ def hub_note(size: Size, part: str) -> str:
 
 
 def _with_set_screw(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
-    """Return the hub of a part with the hole of its set screw, if the spec has one.
-
-    The hole is for the thread to be cut, amid the hub's length, and reaches the bore at its flat or
-    side in ``direction``, or a quarter of a turn from its keyway. The thread is at least one
-    diameter long, and the hub two diameters, so that half a diameter is left on each side. Raises
-    GenevaError, naming the key, for a set screw that the hub does not hold.
-    """
+    """Return the hub of a part with the hole of its set screw, if the spec has one."""
     key = f"{part}_screw_mm"
     thread: float | None = vars(size)[key]
     if thread is None:

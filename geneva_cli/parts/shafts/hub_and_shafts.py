@@ -1,10 +1,8 @@
 """The crank's hub, and the shafts of wheel and crank with their ends along the axis.
 
-The crank's hub stands on the locking disc, or on the arm if there is no disc. It is drawn if the
-spec has one of its sizes; otherwise only its space is kept free. Shafts have the shape of the bores
-that they are in, less ``shaft_fit_mm``. They end in the frame's lower face, and above with the part
-that they carry; ``turned_shafts`` has those with steps. A wheel with ``wheel_hub_mm = 0`` has its
-shaft only above it, unless that carries a gear below.
+The hub is drawn if the spec has one of its sizes. Shafts end in the frame's lower face, and above
+with the part that they carry. A wheel with ``wheel_hub_mm = 0`` has its shaft only above it, unless
+that carries a gear below.
 """
 
 from __future__ import annotations
@@ -101,10 +99,7 @@ def _on_wheel(parts: Outlines) -> tuple[float, float]:
 
 
 def _on_crank(parts: Outlines) -> tuple[float, float]:
-    """Return the lower and upper end of what the crank's shaft carries, along the axis.
-
-    The upper end is in the arm, or in a bored locking disc or its hub.
-    """
+    """Return the lower and upper end of what the crank's shaft carries, along the axis."""
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     on_arm = 0.0 - size.allowances.pin_gap_mm  # no -0.0
     high = on_arm

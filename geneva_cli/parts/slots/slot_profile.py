@@ -78,10 +78,7 @@ def _snapped(engagement: Engagement, input_deg: Array) -> Array:
 
 
 def _side(engagement: Engagement, input_deg: Array, at: PinHeading | Pitch) -> Array:
-    """Return 1, or -1 where the pin leaves on the path on which it came.
-
-    Its travel is reversed after mid-motion; the flanks keep the sides that they had at entry.
-    """
+    """Return 1, or -1 where the pin leaves on the path on which it came."""
     if engagement.slot.axis(engagement.entry_deg) is None:
         return np.where(retraces(engagement) & (input_deg > 0.0), -1.0, 1.0)
     first = pin_heading(engagement, engagement.entry_deg)
@@ -141,10 +138,7 @@ def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Arr
 
 
 def _flank_cusps(mechanism: Mechanism) -> list[float]:
-    """Return where a flank stops and turns back, because the roller is as large as the curvature.
-
-    For a slot with two equal branches only those of the first are returned.
-    """
+    """Return where a flank turns back, because the roller is as large as the curvature."""
     engagement, size = mechanism.engagements[0].through, mechanism.spec.size
     offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
     offset /= mechanism.center_distance_mm

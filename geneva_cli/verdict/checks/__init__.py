@@ -96,7 +96,7 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
     yield from rows
     if not turned:
         return
-    from geneva_cli.parts.turn.machine_parts import WorkLimit
+    from geneva_cli.parts.turn.pairs import WorkLimit
 
     try:
         turn = machine.turn

@@ -8,7 +8,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.stacks import plate_wall
 from geneva_cli.parts.arm import CrankArm, walls
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.links.link_planes import planes
+from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.verdict.checks.check import Check, at_least, compared
 

@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, compared, refused
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from geneva_cli.parts.parts import Parts
-from geneva_cli.parts.turn.machine_parts import WorkLimit
-from geneva_cli.parts.turn.travel import UNKNOWN
+from geneva_cli.parts.turn.bounds import UNKNOWN
+from geneva_cli.parts.turn.pairs import WorkLimit
 from geneva_cli.parts.turn.turn_certificate import Certificate, certificate, tolerance_mm
 from geneva_cli.verdict.checks.check import Check, compared
 

@@ -18,7 +18,7 @@ from geneva_cli import Design, External, GearSector, Load, RollerMaterial, Size,
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc, Circle
 from geneva_cli.loads.impacts.arrival import arrival, greatest_drag
-from geneva_cli.parts.links.link_planes import planes
+from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.study.animation.animated_turn import MachineTurn

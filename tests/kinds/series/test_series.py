@@ -40,8 +40,8 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.pivots import Joint
-from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.parts import parts_of
