@@ -62,11 +62,6 @@ class RackSizes(NamedTuple):
         return self.edge
 
     @property
-    def outer(self) -> float:
-        """0: no part of the rack lies beyond its edge."""
-        return 0.0
-
-    @property
     def horn(self) -> float:
         """Thickness of the horn between slot and recess at its thinnest place.
 

@@ -46,12 +46,11 @@ from geneva_cli.spec.tables import Size
 
 
 class BallLengths(NamedTuple):
-    """Arc lengths on the sphere, mm; ``rim`` and ``outer`` are distances from the wheel's axis."""
+    """Arc lengths on the sphere, mm; ``rim`` is a distance from the wheel's axis."""
 
     roller: float
     half_width: float
     rim: float
-    outer: float  # the sphere's radius, where the rim lies beyond its equator, else 0
     arm: float
     horn: float
     wall_min: float
@@ -83,7 +82,6 @@ class SphereParts(Parts):
             roller=L * ball.roller,
             half_width=L * ball.half_width,
             rim=L * math.sin(ball.rim),
-            outer=L if ball.rim > 0.5 * math.pi else 0.0,
             arm=L * math.sin(ball.arm),
             horn=L * (ball.arm - ball.half_width - ball.recess),
             wall_min=wall_min(self.mechanism.spec.size, L),
