@@ -142,10 +142,7 @@ def _runs_along(line: Line, lines: Array, apart: float) -> bool:
 
 
 def _grazes(piece: Segment, lines: Array) -> bool:
-    """Return True if a straight line lies within 1.5 mm of chords, (n, 4), in nearly its direction.
-
-    An eye does not keep such lines apart at arm's length.
-    """
+    """Return True if a straight line lies within 1.5 mm of chords, nearly in their direction."""
     if not isinstance(piece, Line):
         return False
     long, along, across = _beside(piece, lines)
@@ -177,10 +174,8 @@ def _lines(measure: Measure) -> Array:
 
 
 def _main(measure: Measure) -> Array:
-    """Return the chords of dimension line or leader, and the axes of arrows, without their tips.
-
-    Dimensions in a row meet with their tips, and a leader touches what it points at.
-    """
+    """Return the chords of dimension line or leader, and the axes of arrows, without their tips."""
+    # dimensions in a row meet with their tips, and a leader touches what it points at
     tip = 0.5  # mm at an end that may lie on another line
     rows = [_chords([piece]) for piece in measure.main_lines]
     for arrow in measure.arrows:

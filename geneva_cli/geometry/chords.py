@@ -98,10 +98,7 @@ def _respread(places: Array, root: Array) -> Array:
 
 
 def _density(curves: Curves, grid: Array) -> tuple[Array, Array, float]:
-    """Grid, integral of the node density over it as a fraction of its total, and the total.
-
-    The total over the square root of a tolerance is the number of chords.
-    """
+    """Grid, integral of the node density over it as a fraction of its total, and the total."""
     error, hides = _measured(curves, grid, MIDDLE)
     for _ in range(8):  # each time to a thousandth: to the last digits of the parameter
         if not hides.any():  # only where the curve runs away within a small part of an interval

@@ -108,10 +108,7 @@ def _shapes(plate: Plate) -> Iterator[tuple[Shape, bool]]:
 
 
 def _blocked(contour: Contour, outside: bool, radius: float) -> tuple[Point, float] | None:
-    """Place that a cutter cannot reach, and the radius of a hollow arc there, or 0.
-
-    None if the cutter can follow the whole contour, as the offset by its radius does.
-    """
+    """Place that a cutter cannot reach, and the radius of a hollow arc there, or 0."""
     hollow = [p for p in _pieces(contour) if isinstance(p, Arc) and p.bulge < 0.0]
     tightest = min(hollow, key=lambda arc: arc.radius, default=None)
     if tightest and tightest.radius < radius - 0.5 * SAME_CUT_MM:
@@ -205,10 +202,7 @@ def _bone(own: list[Line | Arc], i: int, turn: float, radius: float) -> _Bone:
 
 
 def _with_bones(layer: Layer, own: list[Line | Arc], bones: list[_Bone]) -> Contour:
-    """A contour with dog bones in place of its corners.
-
-    Raises TooWide if a wall is too short for the bones at its ends.
-    """
+    """A contour with dog bones in place of its corners."""
     at_end = {bone.piece: bone for bone in bones}
     segments: list[Segment] = []
     for i, piece in enumerate(own):
@@ -228,11 +222,7 @@ def _with_bones(layer: Layer, own: list[Line | Arc], bones: list[_Bone]) -> Cont
 
 
 def _again(wall: Line | Arc, centre: Point, corner: Point) -> Point:
-    """Second point at which a circle through the corner meets a wall.
-
-    For a straight wall it is the corner's mirror image in the perpendicular from the circle's
-    centre. For a round wall it is the mirror image in the line of both centres.
-    """
+    """Second point at which a circle through the corner meets a wall: the corner's mirror image."""
     (cx, cy), (px, py) = centre, corner
     if isinstance(wall, Line):
         ux, uy = wall.start[1] - wall.end[1], wall.end[0] - wall.start[0]

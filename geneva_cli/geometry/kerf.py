@@ -138,10 +138,7 @@ def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segmen
 
 
 def _require_away(contour: Contour, path: Contour, distance: float) -> None:
-    """Raise if the path comes nearer to the part than the beam's radius.
-
-    It does so wherever it crosses itself or turns inside out.
-    """
+    """Raise if the path comes nearer to the part than the beam's radius."""
     around = math.fsum(map(segment_length, path.segments))
     # four samples in the offset's length, but at most 50,000 for the path
     longest = max(distance / 4, around / 50_000)

@@ -265,10 +265,7 @@ def convex_hull(caps: Sequence[Cap]) -> Region:
 
 
 def _tangents(i: int, caps: Sequence[Cap]) -> list[tuple[int, SphereArc]]:
-    """Arcs of great circles from a cap to others, with all caps on their left.
-
-    Of several on one great circle, it is the one to the farthest cap.
-    """
+    """Arcs of great circles from a cap to others, with all caps on their left."""
     found: list[tuple[int, SphereArc]] = []
     for j in range(len(caps)):
         pole = _pole(caps[i], caps[j]) if j != i else None

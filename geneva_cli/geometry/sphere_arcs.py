@@ -86,11 +86,7 @@ class SphereArcs:
         return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
 
     def _nearest(self, points: Array) -> tuple[Array, Array, Array, Array]:
-        """How points (n, 3) are seen from the axes of the arcs: four arrays (n, k).
-
-        They are the angles off the arc's circle, past the arc's end (below 0 on the arc), and short
-        of its start, and the square of the half chord to the nearest point of the arc.
-        """
+        """Angles off arcs' circles, past their ends, short of their starts; half chords' squares."""
         along, sideways = points @ self.x.T, points @ self.y.T
         across = np.hypot(along, sideways)
         off = np.arctan2(across, points @ self.axis.T) - self.angle

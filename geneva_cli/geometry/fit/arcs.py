@@ -65,11 +65,8 @@ def _biarcs(path: CurvePath, places: Array) -> tuple[Arcs, Array]:
 
 
 def _errors(arcs: Arcs, points: Array, tangents: Array) -> Array:
-    """Greatest distance from samples of the curve (n, samples + 1) to each arc, mm.
-
-    If the curve runs against the arc, it is the curve's length. Otherwise the nearest points of the
-    samples run along the arc from end to end, and no place on it is farther from the curve.
-    """
+    """Greatest distance from samples of the curve (n, samples + 1) to each arc, mm."""
+    # if the nearest points of the samples run along the arc, no place on it is farther away
     chord = arcs.end - arcs.start
     size = np.abs(chord)
     curvature = (2.0 * np.sin(arcs.half) / size)[:, None]

@@ -53,11 +53,7 @@ def _cubics(path: CurvePath, places: Array) -> tuple[tuple[Array, Array, Array, 
 
 
 def _handles(wanted: FitTargets) -> Array:
-    """Handles of the nearest cubics, (n, 2), in lengths of the piece.
-
-    Least squares in two unknowns per piece (Levenberg and Marquardt), from those of the cubics that
-    are nearest to the samples at even parameters.
-    """
+    """Handles of the nearest cubics, (n, 2), in lengths of the piece."""
     # At a cusp, and elsewhere, the place w is nearly proportional to the cubic's own parameter.
     v = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
     u = 1.0 - v
@@ -107,10 +103,7 @@ def _bezier(wanted: FitTargets, handles: Array, v: Array) -> tuple[Array, Array,
 
 
 def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | float) -> Array:
-    """Real factors of two columns that come nearest to the target, in each row.
-
-    The damping restrains the second one.
-    """
+    """Real factors of two columns that come nearest to the target, in each row."""
     a, d = (np.abs(first) ** 2).sum(axis=1), (np.abs(second) ** 2).sum(axis=1)
     b = (first * second.conj()).real.sum(axis=1)
     a, d = a + 1e-30, d * (1.0 + damping) + 1e-30

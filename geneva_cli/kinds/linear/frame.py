@@ -108,10 +108,7 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
 
 
 def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
-    """Yield the crank's shaft, up to the arm's upper face, and that of a driver gear.
-
-    Without an arm the crank is one piece with its shaft.
-    """
+    """Yield the crank's shaft, up to the arm's upper face, and that of a driver gear."""
     size, geared = mechanism.spec.size, mechanism.spec.gears is not None
     radius, axis = rack_bore(mechanism), mechanism.crank_shaft.at
     if radius:
@@ -197,10 +194,7 @@ def _rows(sizes: RackSizes) -> tuple[float, float]:
 
 
 def _row(sizes: RackSizes, x: float) -> Iterator[Circle]:
-    """Yield three screws' holes along the guide, half a bar's width from its ends.
-
-    They have no width where no screw is so thin.
-    """
+    """Yield three screws' holes along the guide, half a bar's width from its ends."""
     far = sizes.guide.half - 0.5 * sizes.guide.bar
     for y in (-far, 0.0, far):
         yield Circle("BORE", (x, y), _bolt(sizes))

@@ -123,10 +123,7 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
 
 
 def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:
-    """Return the holes of so many bolts in each locking sector, evenly spaced and of one size.
-
-    Raises GenevaError where there are no sectors to fix.
-    """
+    """Return the holes of so many bolts in each locking sector, evenly spaced and of one size."""
     L, own = ball.radius_mm, size.lock_bolt_circle_mm
     rings = [(math.pi - s.boundary[2].angle, s.boundary[0].angle) for s in sectors]
     rims = [sector.boundary[0] for sector in sectors]

@@ -58,10 +58,7 @@ def crank_bore(name: str, parts: SphereParts) -> Check | None:
 
 
 def _in_hub(part: str, parts: SphereParts) -> float | None:
-    """Return the wall of a hub around its bore and keyway, mm; None without hub or bore.
-
-    Raises GenevaError, naming the key, for a hub that its keyway cuts through.
-    """
+    """Return the wall of a hub around its bore and keyway, mm; None without hub or bore."""
     bore, hub = parts.hub_radii(part)
     if not 0.0 < bore < hub:
         return None
@@ -126,10 +123,9 @@ def solids_built(name: str, parts: SphereParts) -> Check | None:
 
 
 class _Sweep(NamedTuple):
-    """The region that a part sweeps in a whole turn: between two angles and two spheres.
+    """The region that a part sweeps in a whole turn: between two angles and two spheres."""
 
-    A round part begins at the sphere that touches its flat end, which limits it on larger spheres.
-    """
+    # A round part begins at the sphere that touches its flat end, which limits it on larger ones.
 
     name: str
     back: bool  # on the far side of the centre
@@ -148,11 +144,7 @@ class _Sweep(NamedTuple):
 
 
 def _shaft_gap(parts: SphereParts) -> ShaftGap | None:
-    """Return the least gap of hubs and shafts to parts about the other axis, mm along a sphere.
-
-    Both may have points at equal distances from the centre. On a sphere of such a radius the parts
-    are caps and rings, and the gap is an arc between them. None where no two share a distance.
-    """
+    """Return the least gap of hubs and shafts to parts about the other axis, mm along a sphere."""
     ball = parts.ball
     shafts = [(step, m.frame is not None) for m in parts.shafts for step in steps_of(m.part)]
     on_wheel, on_crank = (

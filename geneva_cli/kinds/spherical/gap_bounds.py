@@ -102,11 +102,7 @@ class SpherePairs:
         return math.sin(self.ball.arm) * on.crank
 
     def _along(self, circle: Circle, centre: Array, half: Array, gap: Array) -> Array:
-        """Return the gap of a roller whose centre moves along a circle, mm.
-
-        In the middle of an interval it is at ``centre`` and has the gap ``gap``. On either side it
-        moves by the azimuth ``half``.
-        """
+        """Return the gap of a roller whose centre moves along a circle, mm."""
         off, middle = circle.seen(centre)
         aside = np.abs(off - circle.angle)
         from_wheel = self.ball.roller + gap / self.ball.radius_mm

@@ -137,10 +137,8 @@ class BallGaps:
         return self.around.signed(about(points, -back))
 
     def _out(self, of_crank: Array, turn: Array) -> Array:
-        """Return one or n directions of the crank's frame in the wheel's, at crank angles, (n, 3).
-
-        The crank turns clockwise about its axis where the wheel turns counterclockwise.
-        """
+        """Return one or n directions of the crank's frame in the wheel's, at n crank angles."""
+        # the crank turns clockwise about its axis where the wheel turns counterclockwise
         return about(np.broadcast_to(of_crank, (len(turn), 3)), -turn) @ self.crank_frame
 
     def _out_each(self, of_crank: Array, turn: Array) -> Array:

@@ -187,10 +187,7 @@ class SphereParts(Parts):
         return tuple(members)
 
     def _axles(self, lowest: float) -> Iterator[tuple[Shaft, Rotation | None]]:
-        """Yield the shafts and the frames of their axes.
-
-        Heights count inwards from the outer sphere; ``lowest`` is that of their outer ends.
-        """
+        """Yield the shafts and the frames of their axes."""
         ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
         (inside, outside), (under, over) = ball.span_mm, ball.arm_span_mm
         if ball.bore_mm:
