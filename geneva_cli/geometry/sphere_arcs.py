@@ -86,7 +86,7 @@ class SphereArcs:
         return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
 
     def _nearest(self, points: Array) -> tuple[Array, Array, Array, Array]:
-        """Angles off arcs' circles, past their ends, short of their starts; half chords' squares."""
+        """Angles off circles, past the arcs' ends, short of their starts; half chords squared."""
         along, sideways = points @ self.x.T, points @ self.y.T
         across = np.hypot(along, sideways)
         off = np.arctan2(across, points @ self.axis.T) - self.angle
