@@ -93,21 +93,6 @@ def test_a_rack_beyond_the_axis_meets_the_roller_before_it_enters():
         assert smallest_gap(s) == pytest.approx(-overlap.max(), abs=1e-9)
 
 
-def in_recess(s, q: float, d: float) -> bool:
-    """Whether a point of the ring's end, q from the axis, lies in the recess, d after entry."""
-    y = R * (1.0 - math.cos(d))
-    return q * q - 2.0 * q * y * math.sin(d) + y * y <= s.recess**2 * (1.0 + 1e-12)
-
-
-def test_the_end_of_the_ring_stays_in_its_recess():
-    """From its inner to its outer radius, at every angle up to mid-motion."""
-    for lock in (27.0, 35.0, 43.0):
-        s = sizes_of(lock_radius_mm=lock, relief_clearance_mm=0.2)
-        for d in np.linspace(0.0, 0.5 * math.pi, 91):
-            assert all(in_recess(s, q, d) for q in np.linspace(s.floor, s.lock, 21))
-    assert not in_recess(s, s.floor - 0.3, 0.5 * math.pi)
-
-
 @pytest.mark.usefixtures("no_advice")
 def test_checks():
     rows = {one.name: one for one in design(slot_clearance_mm=0.1).checks}
