@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.mass import MassProperties
     from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.loads.load_summary import LoadSummary
+    from geneva_cli.loads.load_peaks import LoadSummary
     from geneva_cli.motion.peaks import Peaks
     from geneva_cli.motion.timing import Timing
     from geneva_cli.parts.parts import Parts
@@ -433,14 +433,14 @@ class Design:
 
     def _loads(self, for_people: bool) -> Table:
         from geneva_cli.loads.load_tables import loads_table, missing
-        from geneva_cli.loads.sizing import sizing_with_wheel
+        from geneva_cli.loads.sizing import sizing as sized
         from geneva_cli.verdict.strength import OF_LIFE
 
         _ = self.loads  # all quantities at once, some of which the life needs
         # without a load every quantity needs one, and that is reported already
         needed = self.strength.missing(OF_LIFE) if self.cycle.is_loaded else []
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
-        sizing, sized_by = sizing_with_wheel(self.cycle, own)
+        sizing, sized_by = sized(self.cycle, own)
         notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
         impact = self.strength.reversal
         return loads_table(self.cycle, sizing, self.life, impact, notes, for_people)

@@ -9,12 +9,11 @@ from geneva_cli.errors import Notice
 from geneva_cli.loads import highest_speed
 from geneva_cli.loads.carried import weight_kg
 from geneva_cli.loads.contact import contact
-from geneva_cli.loads.cycle import Cycle, cycle_of
+from geneva_cli.loads.cycle import Cycle, Stretch, cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, STRESS
-from geneva_cli.loads.forces import wheel_grip
 from geneva_cli.loads.impacts.arrival import arrival
-from geneva_cli.loads.load_summary import LoadSummary
-from geneva_cli.loads.stretches import Stretch
+from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking
@@ -55,7 +54,7 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
 def _held(cycle: Cycle, engagement: Engagement, stretch: Stretch) -> bool:
     """True if friction alone holds the wheel in a stretch, so that it drives nothing."""
     at = contact(engagement, 0.5 * (stretch.start + stretch.end), 1, reactions=False)
-    return wheel_grip(cycle.case, at, stretch.drives, stretch.slides).scalars()[0] <= 0.0
+    return Instant(cycle.case, at, stretch.drives, stretch.slides).grip.scalars()[0] <= 0.0
 
 
 def _back_driven(

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from load_states import state
+from load_states import greatest, state
 from sampling import some
 from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel
@@ -14,7 +14,7 @@ from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import highest_speed, load_functions
 from geneva_cli.loads.contact import contact
-from geneva_cli.loads.cycle import Cycle, greatest
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.many import many

@@ -105,7 +105,7 @@ class Designs:
 
         Raises GenevaError for a single design of that kind.
         """
-        from geneva_cli.loads.stretches import refuse_rounding, too_fast
+        from geneva_cli.loads.load_functions import refuse_rounding, too_fast
 
         resisted = self.resisted
         if not resisted.any():

@@ -6,8 +6,7 @@ import numpy as np
 
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.highest_speed import greatest_pressure, kinetic_power_W
-from geneva_cli.loads.load_peaks import load_peaks, load_summaries
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries, reported_peaks
 from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.numerics.arrays import Array, Number, parameter
@@ -18,16 +17,12 @@ OF_MOTION = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a lo
 
 def greatest(of: Designs) -> Columns:
     """The greatest sizes of loads and their input angles; infinite if no design has the load."""
-    known, requested = sources(of.machine), of.requested("loads")
+    requested = of.requested("loads")
     names = [name for name in REPORTED_PEAKS if {f"{name}.max", f"{name}.at_deg"} & requested]
-    factors = {name: known[own] for name in names if (own := REPORTED_PEAKS[name]) in known}
-    sought = [*dict.fromkeys(source for source, _ in factors.values())]
-    extremes = load_peaks(of.machine, sought) if sought else {}
+    peaks = reported_peaks(of.machine, names)
     out: dict[str, Number | None] = {}
     for name in names:
-        source, factor = factors.get(name, ("", 1.0))
-        most, at_deg = extremes.get(source, (np.inf, np.inf))
-        most = most * np.ravel(factor)
+        most, at_deg = peaks.get(name, (np.inf, np.inf))
         out |= {f"{name}.max": most * of.loaded, f"{name}.at_deg": at_deg * of.loaded}
     if "kinetic_power_W" in requested:
         power = worst_peaks(of.machine, ["power"])["power"].max
