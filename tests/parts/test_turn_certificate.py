@@ -20,7 +20,7 @@ from words import load
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hull import farthest, from_segments
+from geneva_cli.geometry.distance import farthest, from_segments
 from geneva_cli.geometry.shapes import Line, about, closed
 from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
 from geneva_cli.motion.machine_spec import Spec

@@ -14,7 +14,7 @@ KINDS = (
             "assembly": "kinds.spherical.drawings:assembly",
             "sheet": "kinds.spherical.sheet:sheet",
         },
-        tables={"wheel": "kinds.spherical.meridians:meridians_table"},
+        tables={"wheel": "kinds.spherical.dimensions:meridians_table"},
         dimensions="kinds.spherical.dimensions:dimensions",
         stressed="kinds.spherical.sizes:stressed",
         wheel_body="kinds.spherical.parts:shell_body",
