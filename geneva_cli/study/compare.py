@@ -77,10 +77,7 @@ def differing(table: Table) -> Table:
 
 
 def _ratios(cells: Sequence[Cell]) -> list[Cell]:
-    """The first cell, and the others divided by it.
-
-    Words stay as they are; a ratio to a missing value or to 0 is None.
-    """
+    """The first cell, and the others divided by it."""
     first, *others = cells
     return [first, *(over(c, first) for c in others)]
 

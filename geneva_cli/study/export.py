@@ -156,10 +156,7 @@ def _writer(design: Design, name: str) -> Callable[[str], None]:
 
 
 def _spec_files(design: Design, taken: set[str]) -> Iterator[ExportFile]:
-    """Yield the spec with all settings, and the points that it names, in the same folder.
-
-    ``taken`` are the names of the other files.
-    """
+    """Yield the spec with all settings, and the points that it names, in the same folder."""
     spec, taken = design.spec, {*taken, "spec.toml", LIST}
     points: dict[str, Points] = {}
     spec = spec.replace(drive=_named_here(spec.drive, points, taken))

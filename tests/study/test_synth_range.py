@@ -83,7 +83,7 @@ def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
 )
 def test_bounds_on_times_that_nothing_keeps_are_refused_at_once(target, bound, said, monkeypatch):
     """As the options are that say the same, and before any machine is looked for."""
-    monkeypatch.setattr("geneva_cli.study.synth.group_search.families", None)
+    monkeypatch.setattr("geneva_cli.study.synth.group_search.kinds", None)
     with pytest.raises(GenevaError) as error:
         search(read_target(**target, subject_to=[bound]))
     assert said in str(error.value)

@@ -60,10 +60,7 @@ def _crank_deg(mechanism: Mechanism, i: int) -> Fraction:
 
 
 def _ends_proved(rate: Formula, motion: WheelMotion) -> bool:
-    """True if the wheel is at rest within ``EDGE_DEG`` of the motion's ends: its rate changes sign.
-
-    In between it turns forwards.
-    """
+    """True if the wheel's rate changes its sign within ``EDGE_DEG`` of the motion's ends."""
     try:
         for end_deg, outwards in ((motion.entry_deg, -EDGE_DEG), (motion.exit_deg, EDGE_DEG)):
             at = Ball.exact(end_deg)

@@ -55,10 +55,7 @@ class Greatest(NamedTuple):
 
 
 class _Enclosure(NamedTuple):
-    """Balls that hold the function in the middle of an interval, and on all of it.
-
-    On all of it they hold its first two derivatives too.
-    """
+    """Balls that hold the function in the middle of an interval, and on all of it."""
 
     middle: Ball
     value: Ball
@@ -203,10 +200,7 @@ class _Search:
         return BoundedSpan(a, b, high)
 
     def _take_top(self, piece: _Piece, a: float, b: float, on: _Enclosure) -> bool:
-        """Take the one place where the slope is 0; False if Newton does not close on it.
-
-        The signs of the slopes beside it prove that it is there, and that it is a top.
-        """
+        """Take the one place where the slope is 0; False if Newton does not close on it."""
         x, y = piece.reach(a, b)
         # 60 Newton steps, each of which squares the width
         for _ in range(60):

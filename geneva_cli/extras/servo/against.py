@@ -150,11 +150,7 @@ def _values(design: Design, name: str) -> dict[str, Cell]:
 
 
 def _servo_rms_Nm(design: Design) -> float:
-    """The root mean square of a servo's motor torque over a cycle.
-
-    The reducer's losses count whether the motor drives the load or brakes it. Torques are lines
-    between the law's breaks and the places where the load begins to drive.
-    """
+    """The root mean square of a servo's motor torque over a cycle."""
     motor, first, law = design.spec.motor, design.timings[0], LAWS["servo"]
     unit = math.radians(first.index_deg or 0.0) / first.motion_s**2
     inertia, resisting = inertia_kgm2(design.spec), resisting_torque_Nm(design.spec)

@@ -89,10 +89,7 @@ def cam_points(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoi
 def _period_points(
     mechanism: Mechanism, tolerance_deg: float, before: Array | None
 ) -> tuple[Array, float, Array]:
-    """Points (4, k) of a period without its end, their error, and the state (3,) at its end.
-
-    ``before`` is the state at the end of the period before it, if there is one.
-    """
+    """Points (4, k) of a period without its end, their error, and the state (3,) at its end."""
     points: list[Array] = []
     error_deg = 0.0
     for stretch in stretches(mechanism):
@@ -158,10 +155,7 @@ def step_deg(mechanism: Mechanism) -> float:
 def _halved(
     stretch: Stretch, interpolation: Interpolation, tolerance_deg: float, least_deg: float
 ) -> tuple[Array, tuple[Array, Array], Array]:
-    """Nodes of a stretch, the states (3, k) after and before each piece's ends, and its errors.
-
-    Pieces are halved until each is within the tolerance, or no longer than ``least_deg``.
-    """
+    """Nodes of a stretch, the states (3, k) after and before each piece's ends, and its errors."""
     nodes = np.array([stretch.begin_deg, stretch.end_deg])
     while True:
         after = stretch.states(nodes[:-1], 1)

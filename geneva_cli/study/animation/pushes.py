@@ -68,10 +68,7 @@ def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array
 
 
 def _moved_push(push: Push, place: AxisPlace, axis: float) -> Push:
-    """The force at the first wheel or crank as that at another one, which works later.
-
-    ``axis`` is the place on the line of centres, mm, about which they stand.
-    """
+    """The force at the first wheel or crank as that at another one, which works later."""
     c, s = math.cos(place.turn), math.sin(place.turn)
 
     def turned(x: tuple[float, ...], y: tuple[float, ...], about: float) -> list[list[float]]:

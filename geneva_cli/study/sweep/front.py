@@ -41,12 +41,8 @@ def best(costs: Array) -> list[int]:
 
 
 def _not_dominated(rows: Array) -> Mask:
-    """Mask of the rows that no other dominates; the rows differ, in lexicographic order.
-
-    In this order nothing later dominates anything earlier. So the later half is held against what
-    is kept of the earlier one, and the rest of it is searched alone (H. T. Kung, F. Luccio and F.
-    P. Preparata, 1975).
-    """
+    """Mask of the rows that no other dominates; the rows differ, in lexicographic order."""
+    # nothing later dominates anything earlier (H. T. Kung, F. Luccio and F. P. Preparata, 1975)
     count = len(rows)
     if count <= 256:  # fewer rows take no longer all at once
         alone: Mask = _pairs(rows, rows).sum(axis=1) == 1  # with itself
@@ -60,11 +56,7 @@ def _not_dominated(rows: Array) -> Mask:
 
 
 def _covered(rows: Array, by: Array) -> Mask:
-    """Mask of the rows for which a row of ``by`` is as good or better in all costs.
-
-    Both are divided at the median of the first cost until few are left: a row beyond it is held
-    against the rows up to it by the other costs alone.
-    """
+    """Mask of the rows for which a row of ``by`` is as good or better in all costs."""
     if not by.shape[1]:
         return np.full(len(rows), len(by) > 0)
     if by.shape[1] <= 2:

@@ -90,10 +90,7 @@ class Sweep(NamedTuple):
         return all(bound.kept(cells[bound.name]) for bound in self.bounds if bound.name in cells)
 
     def _machines(self, designs: Sequence[Sequence[Value]]) -> list[Mechanism | GenevaError]:
-        """The machine of each row, or why it cannot be built.
-
-        Machines whose parts are made take the loads of their checks from batches of them.
-        """
+        """The machine of each row, or why it cannot be built."""
         machines = [self._machine_or_error(values) for values in designs]
         if any(group.makes_parts for group in self.pick.groups):
             keys = [a.key for a in self.plan.axes]
@@ -190,10 +187,7 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
 
 
 def _refuse_hopeless(run: Sweep) -> None:
-    """Raise GenevaError if neither the middle design nor any of a sample can be built.
-
-    The middle design comes first: most ranges have one that can be built.
-    """
+    """Raise GenevaError if neither the middle design nor any of a sample can be built."""
     plan, most = run.plan, 1000  # designs of the sample
     reasons = []
     for values in itertools.chain([plan.middle()], plan.sample(most)):

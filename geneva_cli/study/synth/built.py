@@ -63,12 +63,7 @@ def _names(failing: Sequence[Check]) -> str:
 
 
 def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Spec]:
-    """The machine with other sizes: smaller rollers, the nearest first, then larger ones.
-
-    Larger ones are tried only if the sole failure is the wheel's play at the ends of a slot with
-    different entry and exit paths. The smaller their distance compared with the roller, the less
-    play.
-    """
+    """The machine with other sizes: smaller rollers, the nearest first, then larger ones."""
     overhung = "crank_bore_mm" not in fixed and trouble & SHAFT
     if overhung:
         spec = spec.with_("size.crank_bore_mm", 0.0)
@@ -89,10 +84,7 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
 
 
 def _other_failing(spec: Spec, known: Sequence[Check]) -> list[Check]:
-    """Some of the checks that fail with other sizes, after those ``known`` to fail before.
-
-    The sizes change nothing in the motion but the undercut, which a smaller roller reduces.
-    """
+    """Some of the checks that fail with other sizes, after those ``known`` to fail before."""
     machine = build(spec)
     named = dict(LIMITS)
     if UNDERCUT in {one.name for one in known}:

@@ -160,11 +160,7 @@ def _wheels(carousel: str, frame: Spec | None) -> tuple[int, ...]:
 def _gearings(
     chosen: tuple[str, ...], racks: bool, wheels: tuple[int, ...], frame: Spec | None
 ) -> tuple[str, ...]:
-    """The gearings to try: racks alone, or wheels.
-
-    On a carrier they are external or internal, and with a frame that has a stop those that may have
-    one.
-    """
+    """The gearings to try: racks alone, or wheels."""
     if racks:
         if chosen or wheels:
             other = f"--{chosen[0]}" if chosen else "--carousel"

@@ -157,10 +157,7 @@ def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
 
 
 def _ranks(columns: list[SynthesisColumn]) -> dict[str, float]:
-    """The rank of each column in importance.
-
-    The number of rollers comes before the wheel if rows differ in nothing else that names them.
-    """
+    """The rank of each column in importance."""
     rank: dict[str, float] = {source: i for i, source in enumerate(HEADS)}
     named = [c.cells for c in columns if c.source in ("z", "gearing", "machine")]
     names = [*zip(*named, strict=True)]

@@ -87,10 +87,7 @@ def _ranked(target: Target, machines: list[MachineRow]) -> list[MachineRow]:
 
 
 def _within_limits(target: Target, narrowed: Target, which: Sequence[bool]) -> list[MachineRow]:
-    """The rows of those kinds whose machines keep the frame's limits too.
-
-    ``narrowed`` is the requirement with its bounds on times as ranges.
-    """
+    """The rows of those kinds whose machines keep the frame's limits too."""
     strict = narrowed._replace(bounds=(*narrowed.bounds, *frame_limits(target)))
     by_kind = all_kinds(strict, target.names, which=which)
     kept = [row for kind in by_kind for row in kind.rows if not row.breaks_limit]
@@ -101,10 +98,7 @@ def _within_limits(target: Target, narrowed: Target, which: Sequence[bool]) -> l
 
 
 def _rank(target: Target, row: MachineRow) -> tuple[object, ...]:
-    """The sort key of a row: the goal's quantity, then peaks.
-
-    Numbers that differ only by rounding are equal.
-    """
+    """The sort key of a row: the goal's quantity, then peaks."""
     candidate = row.candidate
     first: tuple[object, ...] = ()
     if target.sort:
@@ -127,10 +121,7 @@ def _in_12_digits(x: float) -> float:
 
 
 def _worthwhile(target: Target, machines: list[MachineRow]) -> list[MachineRow]:
-    """The rows without machines of two numbers that are hardly better than one of one number.
-
-    If the nearest machine to the plain crank is required, all of them are left out that have one.
-    """
+    """The rows without machines of two numbers that are hardly better than one of one number."""
     one = [row for row in machines if not row.candidate.of_two_numbers]
 
     def beaten(row: MachineRow) -> bool:
@@ -220,10 +211,7 @@ def _kind(row: MachineRow) -> tuple[object, ...]:
 
 
 def first_of_each(rows: Sequence[MachineRow], linkages: bool = False) -> list[MachineRow]:
-    """The first row of every kind, or the first that may be built if that one cannot.
-
-    With ``linkages`` every linkage counts as a kind, as several rows stand for those searched.
-    """
+    """The first row of every kind, or the first that may be built if that one cannot."""
     kept: list[MachineRow] = []
     can_be: dict[Any, bool] = {}  # by kind, whether one of the kept rows may be built
     for i, row in enumerate(rows):

@@ -72,10 +72,7 @@ class Turn:
         return failing_of(standing_checks(self._own.built))
 
     def _still_failing(self, known: Iterable[Check]) -> list[Check]:
-        """The first check of ``known`` at rest that fails, or else those of the turn.
-
-        The latter are tried at the places where they failed.
-        """
+        """The first check of ``known`` at rest that fails, or else those of the turn."""
         parts = self._parts
         if isinstance(parts, Check) or not self._machine.spec.has_parts:
             return []

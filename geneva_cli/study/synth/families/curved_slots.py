@@ -90,11 +90,7 @@ def _lines(target: Target, wheel: Gearing, law: str) -> tuple[_LawMachines, _Law
 
 
 class _LawMachines(NamedTuple):
-    """Machines of one wheel and law: ``make`` takes the number of rollers and the motion.
-
-    ``reached`` limits a range of motions to those that exist. ``least`` is the motion with which
-    the law's peak keeps a limit of acceleration; ``possible`` is the nearest motion that exists.
-    """
+    """Machines of one wheel and law: ``make`` takes the number of rollers and the motion."""
 
     target: Target
     natural: float
@@ -162,11 +158,7 @@ def _until_parallel(wheel: Gearing, motion: AllowedSpan) -> AllowedSpan:
 def more_rollers(
     target: Target, lines: Sequence[tuple[float, Callable[[int], Sequence[Spec]]]]
 ) -> list[list[Spec]]:
-    """More rollers than the plain wheel takes, for each line as long as parts can be built.
-
-    A line is the plain crank's motion angle, degrees, and a maker of machines with m rollers. The
-    first of these is taken if any may be built.
-    """
+    """More rollers than the plain wheel takes, for each line as long as parts can be built."""
     specs_of_line: list[list[Spec]] = [[] for _ in lines]
     if target.rollers is not None:
         return specs_of_line
