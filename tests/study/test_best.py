@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from geneva_cli import GenevaError, load
 from geneva_cli.parts.parts import Parts
-from geneva_cli.study.sweep import best_search
+from geneva_cli.study.sweep import best as best_search
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.outcome import Outcome
 from geneva_cli.study.sweep.request import request

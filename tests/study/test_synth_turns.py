@@ -14,12 +14,11 @@ from geneva_cli.motion.wheels.external import External
 from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import gap_about
-from geneva_cli.study.synth.built import built
+from geneva_cli.study.synth.built import Turn, built
 from geneva_cli.study.synth.fast_parts import USUAL, exact, parts, with_roller
 from geneva_cli.study.synth.parts_data import distances_at_rest, parts_data
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
-from geneva_cli.study.synth.turns import Turn
 from geneva_cli.verdict.checks import checks
 
 

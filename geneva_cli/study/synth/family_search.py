@@ -22,6 +22,7 @@ from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
 from geneva_cli.study.synth.optimiser import BROKEN, SETTLED, Places, Zoom, sampled, tops, zoom
 from geneva_cli.study.target import Target
+from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 GRID = 24  # intervals of the span of one number, sampled first
 QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
@@ -111,7 +112,7 @@ class FamilyCosts:
 
     def __init__(self, families: Sequence[Family], target: Target) -> None:
         self.families, self.bounds, self.peak = families, target.known_bounds, target.peak
-        sort = target.known_sort
+        sort = target.sort if target.sort and in_batch([target.sort.name]) else None
         self.nearest = target.any_motion and not sort
         self.goal = sort or Objective(1.0, self.peak)
         self.names = [self.goal.name, *(b.name for b in self.bounds)]
