@@ -92,31 +92,6 @@ def test_the_greatest_and_the_words(tmp_path):
     assert (design.spec.wheel.z, design.spec.wheel.NAME) == (4, "external")
 
 
-def test_a_front_within_bounds():
-    asked = request(
-        SPEC,
-        ["drive.A=-0.4..0.8:0.1", "wheel.z=5,6"],
-        pareto="min:acceleration.max,max:dwell_s",
-        subject_to=["motion_deg <= 150"],
-        jobs=1,
-    )
-    names = asked.sweep.names
-    cost = [names.index("acceleration.max"), names.index("timing.dwell_s")]
-    motion = names.index("timing.motion_deg")
-    every = [row for block in asked.blocks() for row in block]
-    kept = [r for r in every if r[motion] <= 150.0]
-
-    def beaten(r):
-        a, d = (r[i] for i in cost)
-        return any(
-            o[cost[0]] <= a and o[cost[1]] >= d and (o[cost[0]], o[cost[1]]) != (a, d) for o in kept
-        )
-
-    found = [row for block in asked.chosen(asked.blocks()) for row in block]
-    assert found == [r for r in kept if not beaten(r)]
-    assert len(found) > 3
-
-
 def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_path):
     """A motion of 200 deg and a velocity of 0.8, which is at most 0.575 there."""
     bounds = ["motion_deg >= 200", "velocity.max >= 0.8"]

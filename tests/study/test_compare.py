@@ -3,7 +3,6 @@
 import os
 
 import pytest
-from sampling import some
 
 from geneva_cli import GenevaError, load
 from geneva_cli.study.compare import compare, differing
@@ -11,7 +10,6 @@ from geneva_cli.study.compare import compare, differing
 pytestmark = pytest.mark.usefixtures("made_once")
 HERE = os.path.dirname(__file__)
 DESIGNS = os.path.join(HERE, os.pardir, os.pardir, "designs")
-NAMES = sorted(f for f in os.listdir(DESIGNS) if f.endswith(".toml"))
 
 
 def path(name):
@@ -70,14 +68,6 @@ def test_keys_in_which_specs_differ(tmp_path):
     assert "drive.before.A" not in by_quantity(compare([near], vary=["drive.before.A=0.3,0.5"]))
 
 
-def test_every_machine_has_the_same_rows():
-    """Several designs at once; what a machine does not have is None."""
-    names = some(NAMES[::3], NAMES[::9])
-    table = compare([path(n) for n in names])
-    assert len(table.names) == len(names) + 2
-    assert by_quantity(table).keys() >= {"timing.dwell_s", "acceleration.max", "sizes.ratio"}
-
-
 def test_differing_rows_are_marked_and_alone_on_request():
     whole = compare([path("side-crank-z6.toml")], vary=["drive.A=0,0.6"])
     marked = [q for q, row in by_quantity(whole).items() if row["differs"]]
@@ -106,12 +96,6 @@ def test_picked_quantities_by_whole_and_short_names():
     some = ["dwell_s", "acceleration.max", "passes", "branches_apart_mm"]
     table = compare([path("limits.toml")], picks=some)
     assert list(by_quantity(table)) == ["timing.dwell_s", "acceleration.max", "checks.passes"]
-
-
-def test_two_keys_vary_as_a_grid():
-    table = compare([path("side-crank-z6.toml")], vary=["drive.A=0,0.6", "wheel.z=6,8"])
-    assert table.names[1:3] == ("drive.A=0 wheel.z=6", "drive.A=0 wheel.z=8")
-    assert len(table.names) == 6
 
 
 @pytest.mark.parametrize(

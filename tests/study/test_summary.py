@@ -11,7 +11,6 @@ from geneva_cli.design import Design, load
 from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
 from geneva_cli.output.terminal import terminal_tables as terminal
 from geneva_cli.output.terminal.layout import Window
-from geneva_cli.output.terminal.summary import chunks
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.study.summary.report_summary import of_report
 from geneva_cli.study.summary.vibration_summary import of_tolerance, of_vibration
@@ -35,10 +34,6 @@ def design(name: str, *given: str) -> Design:
 def line(summary: Summary, label: str) -> SummaryLine:
     (found,) = (one for one in summary.lines if one.label == label)
     return found
-
-
-def shown(summary: Summary, width: int, unicode: bool = True) -> str:
-    return "".join(chunks([summary], Window(width, unicode=unicode)))
 
 
 @pytest.mark.parametrize(
@@ -66,17 +61,6 @@ def test_a_turret_gets_one_motor() -> None:
     assert len(sizes) == 6
     peak = 0.603613 * 1400.0 * math.tau / 60.0
     assert line(powers, f"{peak:.4g} W").text.startswith("greatest at the motor")
-
-
-def test_where_the_wheel_drives_the_motor_it_is_said() -> None:
-    first, *_ = of_loads(design("limits")).summaries
-    assert "drives the motor with up to 0.8559 N m" in line(first, "input").text
-    assert first.state == WARNS
-
-
-def test_without_a_load_no_motor_is_named() -> None:
-    (only,) = of_loads(design("turret", "load.inertia_kgm2=0", "load.torque_Nm=0")).summaries
-    assert "set inertia_kgm2 or torque_Nm in [load]" in line(only, "loads").text
 
 
 def test_what_has_no_bound_gets_no_motor(tmp_path: Path) -> None:
@@ -126,20 +110,3 @@ def test_tolerance_names_what_contributes_most() -> None:
     assert answer.page is not None
     assert "not_known" in answer.page.names
     assert answer.data is record
-
-
-@pytest.mark.sampled(8)
-@pytest.mark.parametrize("width", [60, 80, 100])
-@pytest.mark.parametrize("name", ["turret", "press-345", "tuned-dial", "tolerances"])
-def test_no_line_is_wider_than_the_window(name: str, width: int) -> None:
-    """And no word of it is lost."""
-    one = design(name)
-    for answer in (of_report(one), of_loads(one)):
-        for summary in answer.summaries:
-            text = shown(summary, width)
-            assert max(map(len, text.splitlines())) <= width
-            for each in summary.lines:
-                words = {word.replace("\u00a0", " ") for word in each.text.split()}
-                assert words <= set(text.replace("\u00a0", " ").split()) | {
-                    word for word in words if " " in word
-                }

@@ -4,17 +4,14 @@ import numpy as np
 import pytest
 
 import geneva_cli
-from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
-from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.full_turn import gap_about
-from geneva_cli.study.synth.built import Turn, built
+from geneva_cli.study.synth.built import built
 from geneva_cli.study.synth.fast_parts import USUAL, exact, parts, with_roller
 from geneva_cli.study.synth.parts_data import distances_at_rest, parts_data
 from geneva_cli.study.synth.reading import read_target
@@ -30,20 +27,6 @@ def four_bar():
     return spec
 
 
-def test_a_gap_that_fails_is_found_where_it_failed_before(four_bar):
-    """With the next roller, at the place where a larger one touched: the whole turn agrees."""
-    L = build(four_bar).center_distance_mm
-    large, next_, fits = (with_roller(four_bar, exact(x * L)) for x in (0.05, 0.04, 0.025))
-    seen = Turn(build(large)).failing
-    assert [one.name for one in seen] == ["gap_mm"]
-    assert [one.name for one in Turn(build(large)).first_failing] == ["gap_mm"]
-    parts = parts_of(build(next_))
-    assert gap_about(parts, seen[0].at_deg) < -parts.contact
-    assert Turn(build(next_)).some_failing(seen) == seen
-    assert [c.name for c in checks(build(next_)) if c.passes is False] == ["gap_mm"]
-    assert Turn(build(fits)).some_failing(seen) == []
-
-
 @pytest.mark.parametrize("share", [0.05, 0.03, 0.02])
 def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     """Against the drawn wheel, at the same places of the roller."""
@@ -57,21 +40,6 @@ def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     back = parts_data(four_bar).back
     seen = distances_at_rest(*back, sizes.rim, sizes.half_width).min() - sizes.roller
     assert seen == pytest.approx(drawn, abs=1e-9 * L)
-
-
-@pytest.mark.parametrize(
-    "wheel, alpha0_deg, end",
-    [(Internal(8), -35.0, ("", 4.0)), (External(8), -65.0, ("lock_radius_mm", 5.0))],
-    ids=["a little", "by far"],
-)
-def test_a_wheel_that_is_free_by_far_is_given_up(wheel, alpha0_deg, end):
-    """One that is free by a little, between lock and slot, is mended by a smaller roller.
-
-    The other has no lock with rollers of 5, 4 and 3 mm, and with one of 2.5 mm it is 18 times as
-    free as lets that find its slot.
-    """
-    found = built(Spec(wheel, Cam(), motion=Motion(ModifiedSine(), alpha0_deg=alpha0_deg)))
-    assert (found.trouble, found.spec.roller_radius_mm(100.0)) == end
 
 
 MENDED = [  # what is found to fail with the usual roller, and the roller that mends it, mm
