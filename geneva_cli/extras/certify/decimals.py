@@ -38,25 +38,20 @@ def exact_rates(mechanism: Mechanism) -> list[Formula] | None:
     rates: list[Formula] = []
     for i, engagement in enumerate(mechanism.engagements):
         step = _decimal(wheel.steps[i]) / 360 if wheel.steps else Fraction(1, wheel.z)
-        advance = drive.exact_advance(_sin_cos(_crank_deg(mechanism, i) / 360), _exact)
+        # the crank's angle at which its roller crosses the line of centres, in turns
+        places = drive.roller_angles_deg
+        at = _decimal(places[i]) / 360 if places else Fraction(i, drive.rollers)
+        advance = drive.exact_advance(_sin_cos(at), _exact)
         followed = wheel.exact_rate(_sin_cos(step), L, _exact)
         assert advance is not None  # it is not None at angle 0
-        rates.append(_rate(advance, followed))
+        rates.append(_followed(advance, followed))
         if not _ends_proved(rates[-1], engagement.motion):
             return None
     return rates
 
 
-def _rate(advance: Displacement, followed: FollowedRate) -> Formula:
+def _followed(advance: Displacement, followed: FollowedRate) -> Formula:
     return lambda input_deg, order: followed(*advance(radians(input_deg), order + 1))
-
-
-def _crank_deg(mechanism: Mechanism, i: int) -> Fraction:
-    """Angle of the crank at which its roller number i crosses the line of centres, degrees."""
-    drive = mechanism.spec.drive
-    if drive.roller_angles_deg:
-        return _decimal(drive.roller_angles_deg[i])
-    return Fraction(360 * i, drive.rollers)
 
 
 def _ends_proved(rate: Formula, motion: WheelMotion) -> bool:

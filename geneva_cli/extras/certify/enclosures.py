@@ -99,13 +99,12 @@ def greatest(curve: Curve, seams: Iterable[float], limit: int, sharp: bool = Tru
     Between two seams, in degrees, the curve is one analytic formula. The first and the last are
     exact if ``sharp``; else they are within ``EDGE_DEG`` of the curve's ends.
     """
-    return _Search(curve, limit).run(_pieces(sorted(seams), sharp))
-
-
-def _pieces(seams: Sequence[float], sharp: bool) -> list[_Piece]:
-    """Pieces between seams; seams as near as their own errors are one."""
-    ends = pairwise(distinct(seams, 4.0 * EDGE_DEG))
-    return [_Piece(a, b, sharp and a == seams[0], sharp and b == seams[-1]) for a, b in ends]
+    ends = sorted(seams)
+    pieces = [
+        _Piece(a, b, sharp and a == ends[0], sharp and b == ends[-1])
+        for a, b in pairwise(distinct(ends, 4.0 * EDGE_DEG))  # as near as their errors: one
+    ]
+    return _Search(curve, limit).run(pieces)
 
 
 class _Search:
