@@ -67,13 +67,13 @@ class SCurve(Law):
         rise = 0.5 * (1.0 - self.cruise)
         ramp = self.ramp * rise
         most = 2.0 / (1.0 + self.cruise) / (rise - ramp)
-        phases = [_Phase(0.0, 0.0, 0.0, 0.0, most / ramp)] if ramp else []
-        if ramp < rise - ramp:
-            phases.append(
-                phases[-1].after(ramp, 0.0) if phases else _Phase(0.0, 0.0, 0.0, most, 0.0)
-            )
         if ramp:
+            phases = [_Phase(0.0, 0.0, 0.0, 0.0, most / ramp)]
+            if ramp < rise - ramp:
+                phases.append(phases[-1].after(ramp, 0.0))
             phases.append(phases[-1].after(rise - ramp, -most / ramp))
+        else:
+            phases = [_Phase(0.0, 0.0, 0.0, most, 0.0)]
         if self.cruise:
             phases.append(phases[-1].after(rise, 0.0)._replace(a=0.0))
         return phases
