@@ -25,7 +25,6 @@ from geneva_cli.output.document.blocks import (
     value_text,
 )
 from geneva_cli.study.document import document
-from geneva_cli.table import record_table
 
 pytestmark = pytest.mark.usefixtures("made_once")
 # Loads and a motor; a sphere; tolerances; a linkage; a groove; unlike engagements.
@@ -190,16 +189,6 @@ def test_a_failing_design_says_so_first_and_exits_as_check_does(jams: str) -> No
 def test_a_users_words_stay_words(jams: str, format: str) -> None:
     text = CliRunner().invoke(app, ["report", jams, "--format", format]).stdout
     assert "<b>" not in text and "Größe ψ &lt;b&gt;" in text
-
-
-def test_a_section_that_is_new_is_shown() -> None:
-    design = Design.of(of("spherical-z6")[0].spec)
-    table = design.report.table
-    own = dict(zip(table.names, next(table.rows()), strict=True))
-    wider = record_table({**own, "bell.mass_kg": 0.25}, table.title, table.prose)
-    design.__dict__["report"] = design.report._replace(table=wider)
-    found = document(design).blocks
-    assert Facts("Bell", (Fact("Mass", 0.25, "kg"),)) in found
 
 
 def test_inputs_say_what_is_a_default() -> None:

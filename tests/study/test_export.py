@@ -49,14 +49,12 @@ def test_the_files_of_a_laser(spec, tmp_path):
         }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("design", "trade", "keys", "warned"),
     [
-        ("behind-gears", "print", ["process=print"], True),
         ("gear-sector", "laser", [], True),
         ("gear-sector", "laser", ["gear_module_mm=3"], False),
-        ("turret", "laser", [], False),
     ],
 )
 def test_gears_without_teeth_are_a_warning(design, trade, keys, warned, tmp_path):
@@ -112,15 +110,6 @@ def test_what_a_person_adds_or_changes_meanwhile_stays(spec, tmp_path, monkeypat
     monkeypatch.undo()
     assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
     assert bytes_of(folder) == before | {"notes.txt": b"work"}
-
-
-def test_an_input_in_the_folder_stays(spec, tmp_path):
-    folder = tmp_path / "out"
-    assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
-    before = bytes_of(folder)
-    result = run(folder / "spec.toml", "--for", "laser", "--force", "-o", folder)
-    assert result.exit_code == 2 and "this file is an input" in result.stderr
-    assert bytes_of(folder) == before
 
 
 def test_all_or_nothing(spec, tmp_path, monkeypatch):

@@ -80,14 +80,6 @@ def test_jumps_have_both_values():
     assert jumps == [(-60.0, 0.0, size), (60.0, -size, 0.0), (300.0, 0.0, size)]
 
 
-def test_a_break_within_a_motion_is_a_jump():
-    """Friction turns round where the sliding does, at mid-motion of a straight slot."""
-    loaded = Load(inertia_kgm2=0.0, torque_Nm=15, friction=0.2)
-    curve = curve_of(Design(External(6), load=loaded), "pin_force_N")
-    middle = [(a, b) for x, a, b in curve.jumps() if abs(x) < 30.0 and abs(a - b) > 1.0]
-    assert len(middle) >= 1
-
-
 def test_a_load_without_a_bound_leaves_the_panel():
     """A slot that lies across the pin's way at mid-motion, and a torque that is not 0 there."""
     design = Design(External(6), motion=Motion(Cycloidal(), ratio=0.42), load=LOADED)

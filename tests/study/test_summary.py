@@ -6,25 +6,14 @@ from pathlib import Path
 import pytest
 import repo
 
-from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
+from geneva_cli.answer import PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.design import Design, load
 from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
-from geneva_cli.output.terminal import terminal_tables as terminal
-from geneva_cli.output.terminal.layout import Window
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.study.summary.report_summary import of_report
 from geneva_cli.study.summary.vibration_summary import of_tolerance, of_vibration
 
 pytestmark = pytest.mark.usefixtures("made_once")
-
-
-def test_a_terminal_says_what_extremes_and_means_are_over() -> None:
-    """The least stress of the motions is above the mean, which counts the dwells too."""
-    turret = design("turret")
-    stress = turret.loads["contact_stress_MPa"]
-    assert stress.min > stress.mean
-    text = "".join(terminal.chunks(turret.loads_page, Window(80)))
-    assert "max and min over the motions; mean and rms over the whole period" in text
 
 
 def design(name: str, *given: str) -> Design:
@@ -81,13 +70,6 @@ def test_a_report_has_six_figures_and_a_motor(name: str) -> None:
     assert plain[-1].label == "motor"
     assert summary.state == (WARNS if one.warnings else PASSES)
     assert len([each for each in summary.lines if each.label == "warning"]) == len(one.warnings)
-
-
-def test_a_failing_report_begins_with_what_fails() -> None:
-    (summary,) = of_report(design("turret", "limits.velocity_max=0.5")).summaries
-    assert summary.state == FAILS
-    assert summary.lines[0].label == "peak velocity"
-    assert "geneva explain velocity_max" in summary.lines[0].note
 
 
 def test_vibration_names_the_speeds_to_avoid() -> None:

@@ -135,22 +135,6 @@ def test_parquet_holds_the_same(tmp_path):
     assert os.listdir(tmp_path) == ["rows.parquet"]
 
 
-def test_a_varied_key_that_is_picked_too_has_one_column(tmp_path):
-    """Of two of a name a parquet could not be read; the column of errors is one of texts there,
-    even where nothing went wrong."""
-    from pyarrow import parquet
-
-    file = tmp_path / "rows.parquet"
-    some = ("sweep", SPEC, "--vary", "wheel.z=5,6", "--pick", "drive.rollers,wheel.z,dwell_deg")
-    assert geneva(*some, "-o", str(file)).exit_code == 0
-    table = parquet.read_table(file)
-    assert table.column_names == ["wheel.z", "drive.rollers", "timing.dwell_deg", "error"]
-    assert str(table.schema.field("error").type) == "string"
-    assert geneva(*some[:4], "--pick", "z").stdout == "wheel.z,error\n5,\n6,\n"
-    front = geneva(*some[:4], "--pareto", "max:z,max:dwell_deg").stdout.splitlines()
-    assert [line.partition(",")[0] for line in front] == ["wheel.z", "5", "6"]
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

@@ -137,22 +137,6 @@ def test_rollers_up_to_the_strict_bound(z, most):
         candidates(z=str(z), cycle="1", external=True, rollers=most + 1)
 
 
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(
-    ("z", "motion", "A"),
-    [
-        (6, "180", 1.0 / math.sqrt(3.0)),
-        (6, "120", None),
-        (6, "150.11729", 0.3),
-        (8, "202.32884", 0.6),
-    ],
-)
-def test_A_from_the_motion_angle(z, motion, A):
-    """Formula (1) of the side-crank paper, with the angles of its table."""
-    found = [w.A for w in candidates(motion_deg=motion, z=str(z), external=True) if w.A is not None]
-    assert found == ([] if A is None else [pytest.approx(A, abs=5e-7)])
-
-
 def test_the_side_crank_paper_s_half_turn():
     (candidate,) = [
         w for w in candidates(motion_deg="180", z="6", external=True) if w.A is not None
@@ -353,20 +337,6 @@ def test_what_cannot_be_written(words, wants):
 
 
 # What is listed
-
-
-def test_rollers_beyond_those_of_straight_slots():
-    """Four rollers, 27 degrees each, on z = 4: they leave a dwell, and the parts are built."""
-    found = [w for w in candidates(tau="0.3", z="4", external=True) if w.law and w.drive == "crank"]
-    assert [w.rollers for w in found[:4]] == [1, 2, 3, 4]
-    assert found[3].motion_deg == pytest.approx(27.0, rel=1e-14)
-    assert found[3].parts == "maybe"
-    # the next one up is not built, so the list is complete up to where it ends
-    most = found[-1].rollers
-    more = candidates(tau="0.3", z="4", external=True, rollers=most + 1)
-    (beyond,) = [w for w in more if w.law and w.drive == "crank"]
-    assert beyond.parts.startswith("no: ")
-    assert [w.rollers for w in found] == list(range(1, most + 1))
 
 
 @pytest.mark.sampled(6)

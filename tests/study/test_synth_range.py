@@ -71,24 +71,6 @@ def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
         rows(dwell_deg="400", z="6")
 
 
-@pytest.mark.parametrize(
-    ("target", "bound", "said"),
-    [
-        ({"cycle": "2"}, "dwell_s >= 3", "--subject-to dwell_s 3.. with --cycle 2: that leaves no"),
-        ({"z": "6"}, "tau >= 1.2", "--subject-to tau 1.2..: that leaves no dwell"),
-        ({"z": "6"}, "k <= 0", "--subject-to k ..0: that leaves no time to move"),
-        ({"motion_deg": "100"}, "motion_deg >= 120", "nothing is at least 120 and at most 100"),
-        ({"motion_deg": "70", "rollers": 3}, "dwell_deg >= 51", "no machine does both"),
-    ],
-)
-def test_bounds_on_times_that_nothing_keeps_are_refused_at_once(target, bound, said, monkeypatch):
-    """As the options are that say the same, and before any machine is looked for."""
-    monkeypatch.setattr("geneva_cli.study.synth.group_search.kinds", None)
-    with pytest.raises(GenevaError) as error:
-        search(read_target(**target, subject_to=[bound]))
-    assert said in str(error.value)
-
-
 FLAT = {"internal": True, "external": True}
 WISHES = [
     {"dwell_s": "0.8..", "cycle": "1.5", "z": "8", "motion_deg": "..180"},
@@ -261,21 +243,6 @@ def dense(spec, key, values, names):
     """Quantities of a dense sweep, (n,) each."""
     found = many(spec, {key: np.asarray(values)})
     return columns(found.machine, names, len(found.which))
-
-
-@pytest.mark.long
-def test_slots_are_as_far_aside_as_a_bound_wants():
-    """With e = cos b sin d the entry is sin b cos d / cos(b - d): a half where d = 30° - d."""
-    target = {"motion_deg": "120", "z": "6", "external": True, "rollers": 1}
-    found = rows(**target, subject_to=["acceleration.entry <= 0.5"])
-    (row,) = [r for r in found if r.spec.wheel.offset_mm]
-    aside = 100.0 * math.cos(math.pi / 6.0) * math.sin(math.radians(15.0))
-    assert row.spec.wheel.offset_mm == pytest.approx(aside, rel=1e-3)
-    assert row.candidate.acceleration_entry <= 0.5 * (1 + 1e-12)
-    # the other way aside the exit is the gentler end
-    found = rows(**target, subject_to=["acceleration.exit <= 0.5"])
-    (row,) = [r for r in found if r.spec.wheel.offset_mm]
-    assert row.spec.wheel.offset_mm == pytest.approx(-aside, rel=1e-3)
 
 
 @pytest.mark.long

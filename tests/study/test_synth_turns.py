@@ -5,14 +5,12 @@ import pytest
 
 import geneva_cli
 from geneva_cli.drives.crank import Crank
-from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.study.synth.built import built
-from geneva_cli.study.synth.fast_parts import USUAL, exact, parts, with_roller
+from geneva_cli.study.synth.fast_parts import USUAL, exact, with_roller
 from geneva_cli.study.synth.parts_data import distances_at_rest, parts_data
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
@@ -60,29 +58,3 @@ def test_the_first_roller_that_passes_every_check_is_taken(drive, wheel, name, r
     first = next(s for s in sized if all(c.passes is not False for c in checks(build(s))))
     assert built(spec) == (first, "")
     assert first.size.roller_radius_mm == radius
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(("z", "alpha0"), [(5, 0.0), (8, 0.0), (8, -20.0)])
-def test_an_undercut_near_its_limit_is_told_as_its_check_tells_it(z, alpha0):
-    """Where a look at few places is within two hundredths of the limit, at all of them."""
-    motion = Motion(ModifiedSine(), alpha0_deg=alpha0, ratio="matched")
-
-    def machine(r):
-        return build(with_roller(Spec(External(z), motion=motion), r))
-
-    def check(r):
-        (found,) = [c for c in checks(machine(r), parts=False) if c.name == "undercut_mm"]
-        return found
-
-    low, high = 0.5, 15.0
-    for _ in range(16):
-        middle = 0.5 * (low + high)
-        low, high = (
-            (low, middle) if check(middle).value > 0.99 * check(low).limit else (middle, high)
-        )
-    near = 0
-    for r in np.linspace(0.998 * low, 1.002 * low, 9).tolist():
-        near += 0.98 < check(r).value / check(r).limit <= 1.0
-        assert (parts(machine(r)).why == "undercut") == (check(r).passes is False)
-    assert near
