@@ -33,6 +33,7 @@ SPARE = 1.001  # times the least roller, for what lies between the samples
 
 # Reasons why parts cannot be built.
 ISLAND, UNDERCUT, LOCK, SIZES, WALLS = "island", "undercut", "lock", "sizes", "walls"
+HORN = "horn"  # shown as that of the lock
 
 # Entries of the table for parts that pass a full turn, and for parts that were not turned.
 YES = "yes"
@@ -115,18 +116,26 @@ def _suiting(where: Assembly, at: PartsData, m: int) -> tuple[float | None, str]
         return WALLS if thin else obstacle(percent)
 
     if own is not None:
-        return None, obstacle(0.0) or (ISLAND if own < at.least else "")
+        return None, _shown(obstacle(0.0)) or (ISLAND if own < at.least else "")
     radii = radii_from(at.least / L)
-    percent, _ = largest(radii, quick)
-    why = "" if percent else obstacle(radii[0])
-    # the horns of a small roller are thin; those of a larger one may be thick enough
-    if why == LOCK:
-        percent = next((r for r in reversed(radii) if not quick(r)), None)
-        why = "" if percent else LOCK
+    percent, why = None if quick(radii[-1]) else radii[-1], ""
+    if percent is None:
+        why = obstacle(radii[0])
+        if why == HORN:  # that of a larger roller may be thick enough: it is no thicker than it
+            wall = (1.0 - 1e-9) * wall_min(mechanism.spec.size, L)
+            thick = (r for r in reversed(radii) if 0.01 * r * L >= wall)
+            percent = next((r for r in thick if not quick(r)), None)
+        elif why in ("", SIZES):
+            percent, _ = largest(radii, quick)
+        why = "" if percent else why
     if percent is None and at.least > 0.01 * USUAL[-1] * L:
         percent, _ = largest(radii_from(0.0), quick)  # there is no obstacle except the island
         why = ISLAND
-    return radius_mm(percent, L), why
+    return radius_mm(percent, L), _shown(why)
+
+
+def _shown(why: str) -> str:
+    return LOCK if why == HORN else why
 
 
 def radius_mm(percent: float | None, L: float) -> float | None:
@@ -180,7 +189,7 @@ def _obstacle(where: Assembly, at: PartsData, r: float) -> str:
     if _thin(mechanism.spec, at, where.L, r):
         return WALLS
     if lengths.lock and lengths.horn < lengths.wall_min:
-        return LOCK
+        return HORN
     w, L = lengths.half_width, where.L
     if at.back:
         gap = distances_at_rest(*at.back, lengths.rim, w).min() - lengths.roller

@@ -166,11 +166,8 @@ def _more_rollers(target: Target, lines: Sequence[_LawLine]) -> list[list[Spec]]
     growing = {i: m for i, m in enumerate(begin) if m}
     while growing:
         specs = {i: some for i, m in growing.items() if (some := lines[i].some(m))}
-        compute_parts_data(first for first, *_ in specs.values())
-        stuck = {i for i, (first, *_) in specs.items() if not has_no_obstacle(first)}
-        compute_parts_data(spec for i in stuck for spec in specs[i][1:])
-        stuck = {i for i in stuck if not any(map(has_no_obstacle, specs[i][1:]))}
-        growing = {i: growing[i] + 1 for i in specs if i not in stuck}
+        compute_parts_data(spec for some in specs.values() for spec in some)
+        growing = {i: growing[i] + 1 for i in specs if any(map(has_no_obstacle, specs[i]))}
         for i in growing:
             specs_of_line[i].append(specs[i][0])
     return specs_of_line
