@@ -84,7 +84,7 @@ def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> t
     acceleration, at_deg = (
         (entry, 0.5 * motion) if sign < 0.0 else classic.acceleration_peak(l, gap)
     )
-    velocity, index = classic.velocity_peak(l, gap), 360.0 / z
+    velocity, index = l / gap, 360.0 / z
     power = classic.power_peak(l, gap)[0]
     return (
         z,

@@ -12,7 +12,7 @@ from decimal import ROUND_CEILING, Context
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.extras.servo.electronic_cam import CamPoints, cam_pairs, cam_pieces, cam_points
-from geneva_cli.motion.knots import periods
+from geneva_cli.motion.motion_table import periods
 from geneva_cli.output.formats import CONTROLLERS
 from geneva_cli.table import Table
 

@@ -14,8 +14,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.knots import Stretch, stretches
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.motion_table import Stretch, stretches
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Table
 
