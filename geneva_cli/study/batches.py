@@ -104,7 +104,6 @@ def batch_rows(
 
 
 def _alike(members: Iterable[int], shape: Callable[[int], object]) -> Iterator[list[int]]:
-    """Groups of the members whose shapes are equal."""
     groups: dict[object, list[int]] = {}
     for i in members:
         groups.setdefault(shape(i), []).append(i)
@@ -112,7 +111,6 @@ def _alike(members: Iterable[int], shape: Callable[[int], object]) -> Iterator[l
 
 
 def _built(spec: Spec, varied: Mapping[str, Array], members: Sequence[int]) -> Iterator[Batch]:
-    """The machine of those members that can be built, if there are any."""
     batch = many(spec, varied)
     if batch.machine is not None:
         yield [members[i] for i in batch.which.tolist()], batch.machine

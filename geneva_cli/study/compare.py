@@ -64,7 +64,6 @@ def compare(
 
 
 def _shape(spec: Spec) -> dict[str, Cell]:
-    """The keys of wheel, drives and motion by table.key, but those that are lists."""
     shape: dict[str, Cell] = {}
     for table, keys in keys_in(spec).items():
         for own in values_of(spec, table) if table not in PLAIN else ():

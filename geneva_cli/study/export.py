@@ -109,7 +109,6 @@ def shop_warnings(design: Design) -> list[str]:
 
 
 def _write(design: Design, name: str, path: str) -> None:
-    """Write a file of the whole machine."""
     stem, _, format = name.partition(".")
     if stem == "report":
         from geneva_cli.study.document import document

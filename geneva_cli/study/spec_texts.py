@@ -60,7 +60,6 @@ def designs_of(texts: Mapping[str, Text], reverse: bool) -> dict[str, Design]:
 
 
 def _varied(text: Text, vary: Sequence[str]) -> dict[str, Text]:
-    """One spec with each combination of the values."""
     axes = [axis(v) for v in vary]
     refuse_twice(axes, text.set_keys)
     out: dict[str, Text] = {}

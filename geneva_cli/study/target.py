@@ -229,7 +229,6 @@ class Target(NamedTuple):
         return [*several, *behind]
 
     def _contradiction(self, m: float) -> str:
-        """The contradiction in the requirements for m motions in a turn; empty if there is none."""
         for name, (low, high) in self.spans.items():
             if low > high:
                 return f"{self._option(name)}: nothing is at least {low:.7g} and at most {high:.7g}"
@@ -250,7 +249,6 @@ class Target(NamedTuple):
         return ""
 
     def _option(self, name: str) -> str:
-        """The option that sets a range."""
         return f"--subject-to {name}" if name in self.bounded else f"--{name.replace('_', '-')}"
 
 

@@ -192,7 +192,6 @@ def _curve(formula: Formula) -> Callable[[Ball, int], Sequence[Ball]]:
 
 
 def _combined(mechanism: Mechanism, quantity: str, peaks: Sequence[Greatest]) -> Certificate:
-    """One certificate of all engagements, with the machine's input angles."""
     each = [*zip(mechanism.engagements, peaks, strict=True)]
     low = max(peak.low for peak in peaks)
     least = low * (1.0 - TIE)

@@ -76,6 +76,5 @@ def _exact(x: float) -> float:
 
 
 def _sin_cos(turn: Fraction) -> tuple[float, float]:
-    """Sine and cosine of pi times a fraction."""
     angle = cast("float", Ball.fraction(turn) * Ball.library.pi)
     return Ball.library.sin(angle), Ball.library.cos(angle)

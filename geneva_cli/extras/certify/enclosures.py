@@ -69,7 +69,6 @@ class _Enclosure(NamedTuple):
 
     @property
     def is_concave(self) -> bool:
-        """True if the size is concave."""
         return self.value.sign * self.bend.sign < 0
 
 
@@ -119,7 +118,6 @@ class _Search:
         self.unsettled: list[BoundedSpan] = []
 
     def run(self, pieces: Sequence[_Piece]) -> Greatest:
-        """The answer over some pieces."""
         for piece in pieces:
             for x in (piece.start, piece.end):
                 self._take(*piece.at(x))
@@ -147,7 +145,6 @@ class _Search:
         heapq.heappush(self.waiting, (-high, a, b, piece))
 
     def _examine(self, piece: _Piece, interval: BoundedSpan) -> None:
-        """Settle an interval, or halve it."""
         a, b, high = interval
         enclosure = self._on(*piece.reach(a, b))
         if enclosure:
@@ -246,7 +243,6 @@ class _Search:
 
 
 def _sum(coefficients: Sequence[Ball], t: Ball) -> Ball:
-    """Value of a polynomial."""
     total = coefficients[-1]
     for c in reversed(coefficients[:-1]):
         total = total * t + c

@@ -121,7 +121,6 @@ def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
 
 
 def _values(design: Design, name: str) -> dict[str, Cell]:
-    """The values of the design itself or of an alternative, by the names of ROWS."""
     machine = alternative(design, name) if name in NAMES else design.mechanism
     values = dict(zip(ROWS, pick([*ROWS.values()]).of(machine), strict=True))
     if name != "servo":

@@ -200,5 +200,4 @@ def _quintic(width: Array, after: Array, before: Array) -> Array:
 
 
 def _linear(width: Array, after: Array, before: Array) -> Array:
-    """The powers (2, k) of the straight lines between the ends."""
     return np.stack([after[0], (before[0] - after[0]) / width])

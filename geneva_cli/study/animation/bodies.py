@@ -66,7 +66,6 @@ def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
 
 
 def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
-    """Both gears, with their teeth or by their pitch curves."""
     machine = turn.mechanism
     gears, (x, sense) = machine.spec.gears, machine.gear_shaft
     assert gears
@@ -85,7 +84,6 @@ def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
 
 
 def _pitch_curves(machine: Mechanism, sign: float) -> list[tuple[Shape, ...]]:
-    """The pitch curves of the driven gear and the driver."""
     table = gears_table(machine, 0.001, 241).to_dict()
     curves = []
     for gear in ("driven", "driver"):  # the table turns as an external wheel does

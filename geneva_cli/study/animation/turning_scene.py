@@ -101,7 +101,6 @@ def _bars(turn: MachineTurn, outlines: Outlines | None, teeth: DrawnTeeth) -> tu
 
 
 def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
-    """A remark on simplifications in the picture."""
     if not design.mechanism.axes:
         return " Seen along the wheel's shaft."
     out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
@@ -146,7 +145,6 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
 
 
 def _wheels_in_turn(design: Design, turn: MachineTurn) -> Iterator[Phase]:
-    """The motions of several wheels at one finger."""
     (one,), places = turn.passages, design.mechanism.wheel_places
     for place in places:
         start, end = place.behind_deg, place.behind_deg + one.engagement.motion_deg

@@ -253,7 +253,6 @@ def remarks(design: Design, left: RemainingValues) -> Iterator[Block]:
 
 
 def _own_sources(spec: Spec) -> list[str]:
-    """The sources of the machine's kinds and its law."""
     before = [spec.drive_before.NAME] if spec.drive_before else []
     laws = [spec.motion.law.NAME] if spec.motion else []
     names = [spec.wheel.NAME, spec.drive.NAME, *before, *laws]

@@ -74,7 +74,6 @@ def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
 
 
 def _notes(request: SweepRequest, values: Mapping[str, float], machine: Mechanism) -> Iterable[str]:
-    """Comments on the bounds and the further quantities of the best design."""
     for c in request.constraints:
         yield f"# {c}: {values[c.name]:.9g}{c.standing(values[c.name])}"
     for name, value in zip(request.of_best.names, request.of_best.of(machine), strict=True):
@@ -86,7 +85,6 @@ def _notes(request: SweepRequest, values: Mapping[str, float], machine: Mechanis
 
 
 def _none(search: _SweepSearch, nearness: Nearness, tried: int, near: Row) -> str:
-    """The error message for a sweep in which no design keeps the bounds, but ``near`` nearly."""
     why = nearness.phrases() or [f"no design has a value of {search.name}"]
     values = [(c.name, near[i]) for i, c in search.bounds]
     if len(values) > 1 and all(is_number(value) for _, value in values):
@@ -110,7 +108,6 @@ class _SweepSearch:
         self.is_cut_short = False  # True once the optimiser has reached that number
 
     def keys(self, row: Row) -> list[Value]:
-        """The values of the varied keys of a row."""
         return [v for v in row[: len(self.sweep.plan.axes)] if v is not None]
 
     def cost(self, row: Row) -> float:
@@ -119,7 +116,6 @@ class _SweepSearch:
         return self.sign * float(value) if is_number(value) else np.inf
 
     def keeps(self, row: Row) -> bool:
-        """Return True if a design has the objective and keeps all bounds."""
         return np.isfinite(self.cost(row)) and all(c.kept(row[i]) for i, c in self.bounds)
 
     def margins(self, row: Row) -> list[float]:
@@ -214,7 +210,6 @@ class _SweepSearch:
         return min(inside or kept, key=self.cost)
 
     def left_out(self) -> list[str]:
-        """A comment that says which part of the search was left out, if any."""
         if not self.is_cut_short:
             return []
         alone = "" if self.sweep.is_batched else ", as each is computed alone"
@@ -253,7 +248,6 @@ class _BestPlaces:
             self.rows = dict(self._foremost(4 * PLACES_MAX))
 
     def best(self) -> list[Row]:
-        """The best designs, the best first."""
         return [row for _, row in self._foremost(PLACES_MAX)]
 
     def _foremost(self, most: int) -> list[tuple[_Place, Row]]:

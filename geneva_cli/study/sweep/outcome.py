@@ -116,7 +116,6 @@ class Digest:
             yield self._table(best, f"The {len(best)} rows with the {self.goal}")
 
     def _table(self, rows: Sequence[Numbered], title: str) -> Table:
-        """A table of some rows, without empty columns."""
         names = ("row", *self.names)
         kept = [i for i in range(len(names)) if any(row[i] is not None for row in rows)]
         shown = [tuple(row[i] for i in kept) for row in rows]

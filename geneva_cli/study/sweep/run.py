@@ -86,7 +86,6 @@ class Sweep(NamedTuple):
         return [out[i] for i in range(len(designs))]
 
     def _keeps(self, cells: Mapping[str, Cell]) -> bool:
-        """Return True unless one of some quantities breaks a bound."""
         return all(bound.kept(cells[bound.name]) for bound in self.bounds if bound.name in cells)
 
     @property

@@ -83,7 +83,6 @@ def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
 
 
 def _whole(parts: Iterable[str]) -> bool:
-    """Return True if all these are whole numbers."""
     return all(re.fullmatch(r"[+-]?\d{1,99}", part) for part in parts)
 
 

@@ -185,7 +185,6 @@ class Turn:
 
 
 def _fails_again(parts: Parts, one: Check) -> bool:
-    """Return True if a check that failed with other sizes fails with these at the same place."""
     if one.at_deg is None:
         return False
     try:

@@ -79,7 +79,6 @@ def best(
 
 
 def _best_places(free: FamilyCosts, freedom: int, how_near: bool) -> Places:
-    """The best place of each family that has a machine."""
     every = np.arange(len(free.families))
     plain, inside = free.plain
     nearest = sampled(free, every[inside], plain[inside])

@@ -173,13 +173,11 @@ def largest(radii: Sequence[float], obstacle: Callable[[float], str]) -> tuple[f
 
 
 def _thin(spec: Spec, at: PartsData, L: float, r: float) -> bool:
-    """Return True if the wheel is too thin between adjacent slots for a roller."""
     w = r + spec.size.allowances.slot_clearance_mm
     return at.between - 2.0 * w < wall_min(spec.size, L)
 
 
 def _obstacle(where: Assembly, at: PartsData, r: float) -> str:
-    """The obstacle to a roller; empty if there is none."""
     mechanism = where.mechanism
     mechanism = mechanism._replace(spec=with_roller(mechanism.spec, r))
     try:

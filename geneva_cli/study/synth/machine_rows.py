@@ -166,7 +166,6 @@ def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Machi
 
 
 def _moves_as_required(target: Target, row: MachineRow) -> bool:
-    """Return True if the built machine moves as required; a linkage may move otherwise."""
     drive = row.spec.drive
     limit, motion = target.acceleration_max, target.motion_for(drive.rollers / drive.turns)
     if motion is not None and not allows(motion, row.candidate.motion_deg):

@@ -96,7 +96,6 @@ def with_one_roller(spec: Spec) -> Spec:
 
 
 def _computed(specs: Sequence[Spec], machine: Mechanism) -> list[PartsData]:
-    """The data of n specs that form one batch machine."""
     engagement, *others = machine.engagements
     assert not others, "synth finds only machines whose rollers move alike"
     L = np.atleast_2d(array(machine.center_distance_mm))
@@ -159,7 +158,6 @@ def _arm(machine: Mechanism) -> Array:
 
 
 def _between(x: Array, y: Array, z: int) -> float:
-    """The least distance between the pitch curves of adjacent slots, mm."""
     b = math.tau / z
     u, v = math.cos(b) * x - math.sin(b) * y, math.sin(b) * x + math.cos(b) * y
     dx, dy = x[:, None] - u, y[:, None] - v

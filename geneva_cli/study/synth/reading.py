@@ -133,7 +133,6 @@ def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
 
 
 def _wheels(carousel: str, frame: Spec | None) -> tuple[int, ...]:
-    """The numbers of wheels on a carrier; none for cranks on the ground."""
     own = frame.drive.wheels_on_carrier if frame else 0
     if not carousel:
         return (own,) if own else ()

@@ -104,7 +104,6 @@ def for_people(table: Table) -> Table:
 def _columns(
     rows: list[dict[str, Any]], names: tuple[str, ...], several: bool
 ) -> Iterator[SynthesisColumn]:
-    """All columns in their order."""
     # the machine's description has the keys
     known = {*HEADS, "drive", "law", "alpha0_deg", *OWN_KEYS}
     for source in ORDER:
@@ -141,7 +140,6 @@ def _machine(row: dict[str, Any], several: bool) -> str:
 
 
 def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
-    """As many columns as fit, the least important ones left out."""
     rank = _ranks(columns)
     # letters with a frame's gap between two columns; headings are broken at underscores
     wide = [
@@ -154,7 +152,6 @@ def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
 
 
 def _ranks(columns: list[SynthesisColumn]) -> dict[str, float]:
-    """The rank of each column in importance."""
     rank: dict[str, float] = {source: i for i, source in enumerate(HEADS)}
     named = [c.cells for c in columns if c.source in ("z", "gearing", "machine")]
     names = [*zip(*named, strict=True)]

@@ -83,7 +83,6 @@ def search(target: Target) -> Ranking:
 
 
 def _ranked(target: Target, rows: list[MachineRow]) -> list[MachineRow]:
-    """The rows that keep the bounds, in order."""
     rows = _worthwhile(target, _bounded(target, rows) if target.names else rows)
     rows.sort(key=partial(_rank, target))
     return first_of_each(rows, linkages=in_batch(target.quantities))
@@ -191,7 +190,6 @@ def _frame_limits(target: Target) -> tuple[Constraint, ...]:
 
 
 def _kind(row: MachineRow) -> tuple[object, ...]:
-    """A key that is equal for all machines of one wheel, drive, law and number of rollers."""
     one = row.candidate
     return one.gearing, one.z, one.drive, one.law, one.fixed, one.rollers
 
@@ -218,7 +216,6 @@ def with_replacements(rows: Sequence[MachineRow], kept: Sequence[MachineRow]) ->
 
 
 def _bounded(target: Target, rows: Sequence[MachineRow]) -> list[MachineRow]:
-    """The rows that keep the bounds, with the quantities that the requirement names."""
     names = target.names
     alone = [row.spec for row in rows if not row.extra]
     rest = mapped(partial(_values, Pick(names)), alone, min(cores(), len(alone)), "machines")

@@ -90,7 +90,6 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
 
 
 def _others(ranking: Ranking, failing: dict[int, MachineRow]) -> dict[int, MachineRow]:
-    """For rows that fail, by their numbers, the best machines of their families that pass."""
     work = partial(_other, ranking._replace(rows=[]))
     done = mapped(work, failing.values(), min(len(failing), cores()), "machines")
     done = tracked(done, "alternatives", len(failing))
@@ -115,7 +114,6 @@ def _other(ranking: Ranking, row: MachineRow) -> MachineRow | None:
 
 
 def _with_result(row: MachineRow, result: Built) -> MachineRow:
-    """A row with the result of turning its parts."""
     entry = f"no: {result.trouble}" if result.trouble else YES
     return row._replace(spec=result.spec, candidate=row.candidate._replace(parts=entry))
 

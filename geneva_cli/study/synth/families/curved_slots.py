@@ -72,7 +72,6 @@ class _LawLine(NamedTuple):
     natural: float  # the plain crank's motion angle
 
     def spec(self, m: int, motion_deg: float) -> Spec:
-        """The machine of m rollers with a motion."""
         alpha0 = _alpha0(self.target, self.natural, motion_deg)
         if self.grooved:
             kind, motion = Cam, Motion(self.law, alpha0_deg=alpha0)
@@ -148,7 +147,6 @@ def _keys(target: Target, natural: float, m: int, at: Array) -> dict[str, Array]
 
 
 def _alpha0(target: Target, natural: float, motion: float) -> float:
-    """The shortest alpha_0 that makes a motion."""
     alpha0 = natural - motion
     spare = 2e-15 * natural  # the rounding of a difference of two angles
     # A motion that is shorter, by however little, would break a limit that it just keeps.

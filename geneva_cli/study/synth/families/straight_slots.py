@@ -55,12 +55,12 @@ class _InFront(NamedTuple):
     motion: Callable[[float, float], float]
     low: float = -MOST
     high: float = MOST
+    distance: str = ""  # the key of its own centre distance: as far apart as wheel and crank
 
     def spec(self, target: Target, wheel: Gearing) -> Spec:
-        """A machine with the drive, with one roller."""
         drive, distance = self.drive, center_distance_mm(target)
-        if distance and isinstance(drive, EllipticalGears):  # as far apart as wheel and crank
-            drive = drive.replace(gear_distance_mm=distance)
+        if self.distance and distance:
+            drive = drive.replace(**{self.distance: distance})
         return machine(target, wheel, lambda n: drive.replace(n_rpm=n), 1, natural_deg(wheel))
 
     def size(self, parameter: Array) -> Array:
@@ -76,6 +76,7 @@ GEARS = tuple(
         closed.eccentricity,
         closed.gears_motion,
         *span,
+        "gear_distance_mm",
     )
     for phase, span in (("slow", (0.0, MOST)), ("quick", (-MOST, 0.0)))
 )
