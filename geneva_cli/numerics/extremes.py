@@ -279,17 +279,17 @@ class _Extremes:
         loose = np.flatnonzero(varied & ~(left <= 1e-11 * size))
         out = []
         for sense in (1.0, -1.0):
-            side = 0 if self.sized or sense > 0.0 else 1
+            to = 0 if self.sized or sense > 0.0 else 1
             g, d = sense * value, sense * slope
             cell, of = np.nonzero((d[:-1] > 0.0) & (d[1:] <= 0.0) & varied)
             before, after = d[cell, of], d[cell + 1, of]
             t = GRID[cell] + (GRID[cell + 1] - GRID[cell]) * before / (before - after)
             top = 2.0 * sense * chebyshev.at(terms[:, of], t)
-            out.append(_turns(side, of, t, sense, top - np.minimum(g[cell, of], g[cell + 1, of])))
+            out.append(_turns(to, of, t, sense, top - np.minimum(g[cell, of], g[cell + 1, of])))
             for end, there in ((-1.0, every), (1.0, np.flatnonzero(varied))):
                 at_end = sense * samples[0 if end < 0.0 else -1]
-                out.append(_turns(side, there, end, 0.0, at_end[there]))
-                out.append(_turns(side, loose, end, sense, at_end[loose] + 1e-3 * size[loose]))
+                out.append(_turns(to, there, end, 0.0, at_end[there]))
+                out.append(_turns(to, loose, end, sense, at_end[loose] + 1e-3 * size[loose]))
         turns = joined(out)
         reach = turns.top + UNFINISHED * left[turns.curve]
         least = self._bar(turns.side, number[turns.curve], rows.design[turns.curve])
