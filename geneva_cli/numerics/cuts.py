@@ -1,9 +1,8 @@
 """Division of many designs' spans into pieces on which no sign changes.
 
-A row is a part of a design's span. It is sampled at Chebyshev points with all signs held as in its
-middle, so that every function is smooth on the whole row. The row is cut where a function whose
-sign matters is zero. Beyond the cut the functions are evaluated with the other sign. A row is
-halved if a series does not show where its zeros are.
+A row, a part of a span, is sampled with all signs held as in its middle, so that every function is
+smooth on it. It is cut at the zeros of the functions whose signs matter, and halved if a series
+does not show where they are.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
 """Greatest and least values of functions of many designs, and the places where signs change.
 
-Functions are smooth only while certain signs do not change. For example, a load jumps where the
-roller's sliding reverses, and has a kink where the torque does. Each design's spans are sampled at
-Chebyshev points and cut where signs change (``cuts``). The series between cuts show where a
-function may exceed the known values; there the function itself is evaluated, by Newton steps.
+Functions are smooth only while certain signs do not change: a load jumps where the roller's sliding
+reverses. Series between the cuts (``cuts``) show where a function may exceed the known values;
+there the function itself is evaluated, by Newton steps.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Tables of a spec: frozen records whose fields are their keys, checked when they are created.
 
-A field is annotated with its type, its rule and its meaning. The reader, the writer, the template
-and Python users all use that line:
+A field is annotated with its type, its rule and its meaning:
 
     A: Annotated[float, Range(-1.0, 1.0, "()"), "base offset / crank length"]
 
