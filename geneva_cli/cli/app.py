@@ -1,7 +1,7 @@
 """The command line: commands that load when chosen, and the one place where errors become text.
 
 The group knows each command by name and one line of help, so that --help, completion and
-suggestions import no command. Annotations are objects here and in the commands, as Typer reads them.
+suggestions import no command. Annotations are objects here and in the commands, for Typer.
 """
 
 import importlib
