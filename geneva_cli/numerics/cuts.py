@@ -26,21 +26,13 @@ NEWTON_STEPS = 6  # of Newton's method, from the zero of a series
 class Functions(Protocol):
     """The functions of designs: first those whose signs matter, then the wanted ones.
 
-    Each of the first is smooth while those before it keep their signs. The wanted ones are smooth
-    while all do.
+    Each of the first is smooth while those before it keep their signs, the wanted ones while all
+    do. ``poled`` are the numbers of those that behave as 1/x at the place 0.
     """
 
-    @property
-    def signs(self) -> int:
-        """Number of the functions whose signs matter."""
-
-    @property
-    def wanted(self) -> int:
-        """Number of the wanted functions."""
-
-    @property
-    def poled(self) -> Sequence[int]:
-        """Numbers of the functions whose signs matter and that behave as 1/x at the place 0."""
+    signs: int  # number of the functions whose signs matter
+    wanted: int  # number of the wanted ones
+    poled: Sequence[int]
 
     def __call__(
         self,
@@ -52,10 +44,9 @@ class Functions(Protocol):
     ) -> tuple[Mask, list[Array]]:
         """Masks of positive signs, (signs, m, k), and Taylor coefficients (functions, m, k).
 
-        They are those of some designs at places (m, k), by the place. ``held`` are known
-        signs, 1.0 or -1.0; where it is NaN they are computed. ``requested`` are the numbers of the
-        wanted functions to evaluate, all by default. A function without a bound is infinite, and
-        its slope 0.
+        They are those of some designs at places (m, k), by the place. ``held`` are known signs, 1.0
+        or -1.0, NaN where they are computed. ``requested`` are the numbers of the wanted functions
+        to evaluate, all by default. A function without a bound is infinite, and its slope 0.
         """
 
 

@@ -59,11 +59,11 @@ class Smooth:
     """Functions of designs without kinks and jumps, from their derivatives.
 
     ``derivatives(x, which, order, requested)`` returns value and derivatives of each requested
-    function; their number may be higher than the order. The first ``signs`` functions are those
-    whose signs matter. ``unit`` is that of the places over the derivatives'.
+    function, ``order`` of them or more. The signs of the first ``signs`` functions matter. ``unit``
+    is that of the places over the derivatives'.
     """
 
-    poled = ()
+    poled: Sequence[int] = ()
 
     def __init__(
         self,
