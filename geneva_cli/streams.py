@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 import os
 import sys
-from typing import Any, NoReturn, TextIO
+from typing import Any, NoReturn
 
 from geneva_cli.errors import cut
 
@@ -21,13 +21,13 @@ def open_streams() -> None:
     sys.stdin = sys.stdin or open(0, closefd=False)
     sys.stderr = _Messages(
         io.BufferedWriter(_ErrorOutput(2, "w", closefd=False)),
-        encoding=_encoding(sys.stderr),
+        encoding=sys.stderr.encoding if sys.stderr else "utf-8",
         errors="backslashreplace",
         line_buffering=True,
     )
     sys.stdout = io.TextIOWrapper(
         io.BufferedWriter(_Output(1, "w", closefd=False)),
-        encoding=_encoding(sys.stdout),
+        encoding=sys.stdout.encoding if sys.stdout else "utf-8",
         errors="backslashreplace",  # for a title in a script that the terminal lacks
         line_buffering=os.isatty(1),
     )
@@ -44,10 +44,6 @@ def _fill_closed() -> None:
             os.fstat(number)
         except OSError:
             os.open(os.devnull, os.O_RDWR)
-
-
-def _encoding(stream: TextIO | None) -> str:
-    return stream.encoding if stream else "utf-8"
 
 
 def leave(status: int) -> NoReturn:

@@ -48,12 +48,13 @@ class Columns(NamedTuple):
 
         Raises GenevaError if the column has no number at all.
         """
-        numbers = [_number(text) for text in self.texts(name)]
+        texts = self.texts(name)
+        numbers = [_number(text) for text in texts]
         if not any(value is not None for value in numbers):
-            first = next((f'as "{cut(text)}"' for text in self.texts(name) if text), "it is empty")
+            first = next((f'as "{cut(text)}"' for text in texts if text), "it is empty")
+            shown = cut(self.path, 300)
             raise GenevaError(
-                f"{option} {cut(name)}: no numbers in this column of {cut(self.path, 300)} "
-                f"({first})"
+                f"{option} {cut(name)}: no numbers in this column of {shown} ({first})"
             )
         return numbers
 

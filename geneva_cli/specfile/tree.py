@@ -62,19 +62,11 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         raise GenevaError(f"title must be text, not {shown(title)}", ("title",))
     for table, value in tree.items():
         if table not in TABLES:
-            if not isinstance(value, dict) and (tables := _tables(_meanings(table))):
-                raise GenevaError(
-                    f"{table} belongs to {tables}; write it below that line", (table,)
-                )
-            hint = nearest(table, (*TABLES, "title"))
-            what = f"[{cut(table)}]" if isinstance(value, dict) else cut(table)
-            raise GenevaError(
-                f"unknown {'table' if isinstance(value, dict) else 'key'} {what}{hint}; "
-                f"known: title, {few(table, [f'[{t}]' for t in TABLES])}",
-                (table,),
-            )
+            raise _unknown_table(table, value)
         if table in LISTS:
-            _refuse_no_list(table, value)
+            if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
+                several = f"a list of tables: write [[{table}]] above the keys of each"
+                raise GenevaError(f"{table} must be {several}", (table,))
         elif not isinstance(value, dict):
             raise GenevaError(f"{table} must be a table: write [{table}] above its keys", (table,))
     if "wheel" not in tree:
@@ -96,11 +88,13 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
     )
 
 
-def _refuse_no_list(table: str, value: Any) -> None:
-    if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
-        raise GenevaError(
-            f"{table} must be a list of tables: write [[{table}]] above the keys of each", (table,)
-        )
+def _unknown_table(table: str, value: object) -> GenevaError:
+    kind, named = ("table", f"[{cut(table)}]") if isinstance(value, dict) else ("key", cut(table))
+    if kind == "key" and (tables := _tables(_meanings(table))):
+        return GenevaError(f"{table} belongs to {tables}; write it below that line", (table,))
+    known = few(table, [f"[{t}]" for t in TABLES])
+    hint = nearest(table, (*TABLES, "title"))
+    return GenevaError(f"unknown {kind} {named}{hint}; known: title, {known}", (table,))
 
 
 def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
