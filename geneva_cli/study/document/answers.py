@@ -7,7 +7,7 @@ from typing import Any
 
 from geneva_cli.design import Design
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.output.document.blocks import Block, Grid, Heading, Row, TextList
 from geneva_cli.output.finite import only
