@@ -96,10 +96,7 @@ def search_four_bars(goal: Goal) -> list[Places]:
 
 
 def _spread(count: int, start: int = 0) -> Array:
-    """Points spread evenly in the unit cube: Roberts' sequence, multiples of the powers of g.
-
-    g is the root of g^6 = g + 1.
-    """
+    """Points spread evenly in the unit cube: Roberts' sequence, multiples of the powers of g."""
     g = 1.1347241384015194
     powers = g ** -np.arange(1.0, 6.0)
     numbers = np.arange(1 + start * count, 1 + (start + 1) * count)

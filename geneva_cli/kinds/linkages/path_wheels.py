@@ -113,10 +113,7 @@ def _bernstein(third: Array, value: Array, slope: Array) -> tuple[Array, Array, 
 def _open(
     moments: Sequence[Array], shorts: Sequence[Array], inside: Mask, low: Array, far: Array
 ) -> Mask:
-    """True for intervals in which a Bernstein coefficient has the wrong sign.
-
-    ``low`` and ``far`` are the rounding of moments and squared distances.
-    """
+    """True for intervals in which a Bernstein coefficient has the wrong sign."""
     open_ = np.where(inside, np.minimum(*shorts[1:3]), -np.maximum(*shorts[1:3])) < -far
     open_ |= inside & (np.minimum(*moments[1:3]) < -low)
     return open_
@@ -130,10 +127,7 @@ def _leaves(
     inside: Mask,
     rounding: Sequence[Array],
 ) -> Mask:
-    """True for each wheel whose roller leaves its slot in an open interval, since entry.
-
-    ``rounding`` is that of the wheels' moments and squared distances.
-    """
+    """True for each wheel whose roller leaves its slot in an open interval, since entry."""
     fails = np.zeros(len(wheels.which), dtype=bool)
     for _ in range(4):  # each round cuts an open interval into eight
         if not len(wheel):

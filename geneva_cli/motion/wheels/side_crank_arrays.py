@@ -129,10 +129,7 @@ def acceleration_at_end(w: SideCrankWheels) -> tuple[Array, Array]:
 
 
 def _front(w: SideCrankWheels, s: Array, c: Array) -> tuple[Array, Array]:
-    """C and rho, where the crank's sine and cosine are s and c.
-
-    The input's tangent is rho s / (C c - A s²): the coulisse's end seen from the input's axis.
-    """
+    """C and rho, where the crank's sine and cosine are s and c."""
     C, Ac = np.sqrt(c * c + w.minus * (s * s)), w.A * c
     long = C + abs(Ac)
     return C, np.where(Ac < 0.0, w.minus / long, long)
