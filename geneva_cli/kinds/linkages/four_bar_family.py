@@ -136,7 +136,7 @@ def _spec(target: Target, found: _Found, number: int) -> Spec | None:
     scale = (target.frame or BARE).given_distance_mm / float(machine.distance[0])
     for _ in range(4):  # until the motion has its digits
         w = complex(coupler_drive(links, entry, wide, b, sense).w[0, 0]) * scale
-        crank, ground, coupler, rocker = (float(x[0, 0]) * scale for x in links)
+        crank, ground, coupler, rocker = (float(np.ravel(x)[0]) * scale for x in links.numbers[:4])
         try:
             keys = FourBar(
                 crank_mm=crank,
