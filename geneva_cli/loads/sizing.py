@@ -15,15 +15,17 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2, support_torque_Nm, working_torque_Nm
 from geneva_cli.loads.cycle_quantities import TORQUE
-from geneva_cli.loads.fluctuation import fluctuations
+from geneva_cli.loads.forces import QuantityValue
 from geneva_cli.loads.indexer_formula import ShaftLoad, indexer_formula
+from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.load_functions import LoadFunctions, LoadQuantity
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
@@ -31,7 +33,9 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import cam_factors
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.arrays import Array, Number, choose_record, parameter
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, choose_record, parameter
+from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
 if TYPE_CHECKING:
     from geneva_cli.loads.cycle import Cycle
@@ -247,3 +251,71 @@ def _rotor(mechanism: Mechanism) -> dict[str, Number]:
     # a body off the wheel's axis stores and returns energy, which these do not count
     known = (np.asarray(spec.motor.inertia_kgm2) > 0.0) & (not mechanism.unbalanced)
     return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
+
+
+class Unevenness(NamedTuple):
+    """The input's torque less its mean, which is (m, 1)."""
+
+    mean: Array
+
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
+        """The quantity, and the margin that bounds it."""
+        return QuantityValue(i.input_torque_Nm - self.mean, i.friction_margin)
+
+
+class Swings(NamedTuple):
+    """Fluctuation of m designs, (m,) each."""
+
+    energy_J: Array  # greatest minus least of the cumulated work less its mean line
+    returned: Array  # integral over the period of the torque's square where the wheel drives
+
+
+def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
+    """The fluctuation of designs, from the means (m,) of their input torque.
+
+    The work has its extremes where the torque equals its mean. Motions are divided there too, and
+    integrated between to the last digits. The mean of an unbounded torque must be infinite.
+
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.motion.mechanism import build
+    >>> machine = build(Spec(External(4), load=Load(inertia_kgm2=2.0)))
+    >>> fluctuations(machine, np.zeros(1)).energy_J.round(6)  # I (w psi1max)²/2
+    array([230.09708])
+    """
+    bounded = np.isfinite(mean)
+    mean = np.where(bounded, mean, 0.0)[:, None]
+    case, end = load_case(mechanism), None
+    each, returned = [0.0 * mean], np.zeros(len(mean))
+    for engagement in mechanism.engagements:
+        if end is not None:
+            each.append(-mean * (engagement.mid_deg + engagement.entry_deg - end) * DEGREE)
+        own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
+        load = LoadFunctions(engagement, case, tuple(own), own, ("feeds", "wanted"))
+        works, back = _works(load, bounded)
+        each.append(works)
+        returned += back
+        end = engagement.mid_deg + engagement.exit_deg
+    sums = np.cumsum(np.hstack(each), axis=1)
+    energy = sums.max(axis=1) - sums.min(axis=1)
+    return Swings(np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf))
+
+
+def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
+    """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
+    design, _, (a, b), positive = load.stretches()
+    signs, n = np.where(positive, 1.0, -1.0), len(bounded)
+
+    def rows(x: Array, which: Whole) -> Array:
+        (here, *_), (uneven,) = load.at(x, design[which], 0, signs[:, which, None])
+        back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
+        return np.stack(np.broadcast_arrays(uneven(here).value.c[0], back * back))
+
+    needed = np.stack((bounded, bounded))
+    with np.errstate(all="ignore"):
+        each = span_integrals(Integrands(rows, a, b, True), design, needed, apart=True) * DEGREE
+    number = np.arange(len(design)) - np.searchsorted(design, design)
+    works = np.zeros((n, int(number.max()) + 1))
+    works[design, number] = each[0]
+    returned = np.zeros(n)
+    np.add.at(returned, design, each[1])
+    return works, returned

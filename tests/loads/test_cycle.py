@@ -81,7 +81,7 @@ def test_the_work_closes(path):
     paid, moved, rubbed, taken = cycle.integrals(
         lambda i: i.input_torque_Nm,
         lambda i: i.wheel_torque_Nm * i.omega_rad_s / w,
-        lambda i: i.friction_W / w,
+        lambda i: i.rubbed_Nm,
         lambda i: i.alpha_rad_s2 * i.omega_rad_s / w,
     )
     step = sum(2.0 * engagement.half_step for engagement in mechanism.engagements)

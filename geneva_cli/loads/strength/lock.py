@@ -76,7 +76,7 @@ def held_torque_Nm(mechanism: Mechanism) -> float:
     held = load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
     if not mechanism.unbalanced:
         return held
-    from geneva_cli.loads.unbalance import held_unbalance_Nm
+    from geneva_cli.loads.load_case import held_unbalance_Nm
 
     return held + parameter(held_unbalance_Nm(mechanism))
 
