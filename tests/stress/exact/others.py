@@ -12,7 +12,7 @@ from exact.compared import NAMES
 from exact.machines import read
 from exact.table import LIMIT, strictly, ulps, unit
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.wheels import classic_arrays
+from geneva_cli.motion.wheels import classic
 from geneva_cli.parts.slots.slot_profile import nodes, slot
 
 
@@ -35,7 +35,7 @@ def arrays(table, sample):
             x = np.array([*[-v for v in x[::-1]], 0.0, *x])
             at = partial(closed, g, mp.mpf(l))
             exact = [taylor(at, to_radians(v), 5) for v in x]
-            got = strictly(partial(classic_arrays.derivatives, float(g), l, rest), x, (0, 1, 2, 3))
+            got = strictly(partial(classic.derivatives, float(g), l, rest), x, (0, 1, 2, 3))
             place = [f"l=1-1e-{k} at {v:.17g}" for v in x]
             for n, name in enumerate(NAMES):
                 values = [e[n] for e in exact]
