@@ -14,8 +14,8 @@ body, rubs along the wall:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Generic, Self
+from collections.abc import Callable, Mapping
+from typing import Generic, Self, TypeAlias
 
 import numpy as np
 
@@ -356,3 +356,8 @@ def bounded_loads(
     """
     with np.errstate(all="ignore"):
         return bounded(Instant(case, at).signed(drives))
+
+
+# A quantity, and the margin that bounds it: a function that holds no numbers, or a tuple whose
+# numbers may be arrays (m, 1).
+LoadQuantity: TypeAlias = Callable[[Instant[Jet]], QuantityValue[Jet]]

@@ -34,8 +34,9 @@ from geneva_cli.loads.cycle_quantities import (
     sources,
 )
 from geneva_cli.loads.forces import LoadCase
+from geneva_cli.loads.instant import LoadQuantity
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import NO_MORE, LoadFunctions, LoadQuantity, on_breaks
+from geneva_cli.loads.load_functions import NO_MORE, LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater

@@ -23,9 +23,9 @@ from geneva_cli.loads.carried import inertia_kgm2, support_torque_Nm, working_to
 from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.forces import QuantityValue
 from geneva_cli.loads.indexer_formula import ShaftLoad, indexer_formula
-from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadFunctions, LoadQuantity
+from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
