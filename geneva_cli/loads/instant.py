@@ -14,8 +14,8 @@ body, rubs along the wall:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Generic, Self, TypeAlias
+from collections.abc import Mapping
+from typing import Generic, Protocol, Self
 
 import numpy as np
 
@@ -358,6 +358,8 @@ def bounded_loads(
         return bounded(Instant(case, at).signed(drives))
 
 
-# A quantity, and the margin that bounds it: a function that holds no numbers, or a tuple whose
-# numbers may be arrays (m, 1).
-LoadQuantity: TypeAlias = Callable[[Instant[Jet]], QuantityValue[Jet]]
+class LoadQuantity(Protocol):
+    """A function that holds no numbers, or a tuple whose numbers may be arrays (m, 1)."""
+
+    def __call__(self, i: Instant[Jet], /) -> QuantityValue[Jet]:
+        """A quantity, and the margin that bounds it."""
