@@ -9,8 +9,12 @@ import numpy as np
 
 from geneva_cli.loads.contact import contact as touching
 from geneva_cli.loads.impacts.change_of_sides import changes, drag_over, impacts_of
-from geneva_cli.loads.impacts.mouth import mouth_contacts
-from geneva_cli.loads.impacts.shock import FirstContacts, RestingAxis, first_contacts
+from geneva_cli.loads.impacts.shock import (
+    FirstContacts,
+    RestingAxis,
+    first_contacts,
+    mouth_contacts,
+)
 from geneva_cli.loads.impacts.shock_force import forces_N, impulse_Nms
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.strength.pin import PinSize
