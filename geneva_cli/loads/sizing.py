@@ -41,38 +41,25 @@ if TYPE_CHECKING:
     from geneva_cli.loads.cycle import Cycle
 
 CARRIED = ("inertia_kgm2", "motor_rpm")
-CAM_FACTORS = ("acceleration_rad_s2", "Am", "Vm", "Qm")
-KNOWN_UNLOADED = (*CARRIED, *CAM_FACTORS)  # known without a load
-INDEXER_FORMULA = (
-    *("inertia_torque_Nm", "friction_torque_Nm", "total_torque_Nm", "design_torque_Nm"),
-    *("input_torque_Nm", "power_W"),
-)
+KNOWN_UNLOADED = (*CARRIED, "acceleration_rad_s2", "Am", "Vm", "Qm")  # known without a load
 CYCLE_SUMS = (
-    "energy_fluctuation_J",
-    "flywheel_kgm2",
-    "flywheel_to_add_kgm2",
-    "motor_torque_rms_Nm",
+    *("energy_fluctuation_J", "flywheel_kgm2"),
+    *("flywheel_to_add_kgm2", "motor_torque_rms_Nm"),
 )
 EXTREMES = ("motor_torque_max_Nm", "input_torque_ratio")
 ROTOR = ("inertia_ratio", "coasting_speed_share")
-# all but the wheel's own inertia, which follows from its outline
-SIZING_NAMES = (*CARRIED, *CAM_FACTORS, *INDEXER_FORMULA, *CYCLE_SUMS, *EXTREMES, *ROTOR)
-WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizing``
+WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizings``
 # In the order shown: the inertia at the wheel's shaft, and the wheel's own; the cam-indexer
 # formula, for the engagement with the greatest torque at the input; the exact cycle.
 SHOWN_SIZING = (
-    *(
-        "inertia_kgm2",
-        WHEEL_INERTIA,
-        "acceleration_rad_s2",
-        "inertia_torque_Nm",
-        "friction_torque_Nm",
-    ),
+    *("inertia_kgm2", WHEEL_INERTIA, "acceleration_rad_s2"),
+    *("inertia_torque_Nm", "friction_torque_Nm"),
     *("total_torque_Nm", "design_torque_Nm", "input_torque_Nm", "power_W", "Am", "Vm", "Qm"),
     *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
     *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2", "coasting_speed_share"),
     "input_torque_ratio",
 )
+SIZING_NAMES = tuple(name for name in SHOWN_SIZING if name != WHEEL_INERTIA)
 
 
 @lru_cache(maxsize=16)
@@ -132,7 +119,7 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
         "inertia_kgm2": _some(inertia_kgm2(spec)),
         "motor_rpm": spec.drive.n_rpm * spec.motor.ratio,
     }
-    if names & {*CAM_FACTORS, *INDEXER_FORMULA, "input_torque_ratio"}:
+    if names - {*CARRIED, *CYCLE_SUMS, *ROTOR, "motor_torque_max_Nm"}:
         values |= _by_formula(whole)
     if names & {*CYCLE_SUMS, *EXTREMES}:
         means = ("mean", "rms") if names & set(CYCLE_SUMS) else ()
@@ -215,10 +202,10 @@ def _exact(
     # A mean whose square is less than 1e-26 of the mean square is rounding, as for an inertia
     # alone.
     mean = np.where(torque.mean**2 > 1e-26 * square, torque.mean, 0.0 * square)
-    swings = fluctuations(mechanism, mean)
-    energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
+    swing_J, back = fluctuations(mechanism, mean)
+    energy = np.where(bounded, swing_J, np.nan)[:, None]
     # the part of the mean square where the wheel drives the input
-    returned = (swings.returned / np.ravel(mechanism.period_deg * DEGREE))[:, None]
+    returned = (back / np.ravel(mechanism.period_deg * DEGREE))[:, None]
     spent = np.maximum(square[:, None] - returned, 0.0)
     out["energy_fluctuation_J"] = energy
     out["motor_torque_rms_Nm"] = np.sqrt(spent / eta**2 + returned * eta**2) / motor.ratio
@@ -263,15 +250,11 @@ class Unevenness(NamedTuple):
         return QuantityValue(i.input_torque_Nm - self.mean, i.friction_margin)
 
 
-class Swings(NamedTuple):
-    """Fluctuation of m designs, (m,) each."""
+def fluctuations(mechanism: Mechanism, mean: Array) -> tuple[Array, Array]:
+    """The fluctuation of designs, from the means (m,) of their input torque: (m,) each.
 
-    energy_J: Array  # greatest minus least of the cumulated work less its mean line
-    returned: Array  # integral over the period of the torque's square where the wheel drives
-
-
-def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
-    """The fluctuation of designs, from the means (m,) of their input torque.
+    It is the greatest minus the least of the cumulated work less its mean line, J, and the integral
+    over the period of the torque's square where the wheel drives.
 
     The work has its extremes where the torque equals its mean. Motions are divided there too, and
     integrated between to the last digits. The mean of an unbounded torque must be infinite.
@@ -279,7 +262,7 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
     >>> from geneva_cli import External, Load
     >>> from geneva_cli.motion.mechanism import build
     >>> machine = build(Spec(External(4), load=Load(inertia_kgm2=2.0)))
-    >>> fluctuations(machine, np.zeros(1)).energy_J.round(6)  # I (w psi1max)²/2
+    >>> fluctuations(machine, np.zeros(1))[0].round(6)  # I (w psi1max)²/2
     array([230.09708])
     """
     bounded = np.isfinite(mean)
@@ -297,7 +280,7 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
         end = engagement.mid_deg + engagement.exit_deg
     sums = np.cumsum(np.hstack(each), axis=1)
     energy = sums.max(axis=1) - sums.min(axis=1)
-    return Swings(np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf))
+    return np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf)
 
 
 def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
