@@ -21,7 +21,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.links.link_positions import is_bridged, links_at, same, turn_deg
+from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
 from geneva_cli.parts.links.link_shafts import carried, crank_stop, link_shafts, outside_links
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes

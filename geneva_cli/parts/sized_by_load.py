@@ -40,8 +40,7 @@ from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.assembly import Assembly, links_at
 from geneva_cli.parts.sizes import (
     FirstSizes,
     Sizes,

@@ -17,9 +17,8 @@ from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
 from geneva_cli.loads.strength.key_strength import NO_KEY, KeyDimensions
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.links.link_positions import gear_plane, is_bridged, links_at
-from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import (
     Sizes,

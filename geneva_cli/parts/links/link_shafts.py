@@ -25,14 +25,13 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.links.link_positions import gear_plane, links_at, same, turn_deg
+from geneva_cli.parts.assembly import gear_plane, links_at, same, turn_deg
 from geneva_cli.parts.links.link_sizes import LinkSizes, places
 from geneva_cli.parts.links.links import Links, joined, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
-from geneva_cli.parts.shafts.hub_and_shafts import wheel_shaft_ends, wheel_shaft_radius
+from geneva_cli.parts.shafts.hub_and_shafts import bore_at, wheel_shaft_ends, wheel_shaft_radius
 from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, seat_of, shaft_ends
-from geneva_cli.parts.shafts.shaft_bores import bore_at
 
 if TYPE_CHECKING:
     from geneva_cli.parts.links.links import LinkAxis

@@ -18,7 +18,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
-from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore
 from geneva_cli.parts.sizes import HUB, drawn_thicknesses, pin_hole, pin_radius, plane_span

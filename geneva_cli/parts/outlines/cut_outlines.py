@@ -14,9 +14,15 @@ from geneva_cli.kept import KEPT
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.crank_outline import arc_leaves_hub, crank_contours
+from geneva_cli.parts.outlines.crank_outline import (
+    arc_leaves_hub,
+    crank_contours,
+    has_arcs,
+    is_whole,
+    lock_of,
+    without_lock,
+)
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.reliefs import has_arcs, is_whole, lock_of, without_lock
 from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.gaps import Gaps

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.shafts.held_hubs import clamp_of
 from geneva_cli.verdict.checks.check import Check, compared, gap
 

@@ -13,8 +13,7 @@ from geneva_cli.geometry.shapes import Arc, Circle, Line, Point, Segment, backwa
 from geneva_cli.geometry.stacks import apart, beyond
 from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.outlines.crank_outline import rollers_gap
-from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.outlines.crank_outline import is_whole, rollers_gap
 from geneva_cli.parts.outlines.wheel_circles import wheel_circles, wheel_hub
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.sizes import Sizes
