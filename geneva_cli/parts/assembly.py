@@ -150,18 +150,16 @@ class Assembly(NamedTuple):
         turns = np.floor((input_deg - self.start_deg) / self.turn_deg)
         within = input_deg - turns * self.turn_deg
         out = 2.0 * sum(engagement.half_step for engagement, _ in self.motions) * turns
+        begins = np.array([one.entry for one in self.motions])
+        # rounding may put an angle before the turn
+        number = np.maximum(np.searchsorted(begins, within, side="right") - 1, 0)
         turned = 0.0
         for i, (engagement, mid) in enumerate(self.motions):
-            begins = mid + engagement.entry_deg
-            after = self.motions[i + 1] if i + 1 < len(self.motions) else None
-            ends = after[1] + after[0].entry_deg if after else np.inf
-            here = (within >= begins) & (within < ends)
-            if i == 0:  # rounding may put an angle before the turn
-                here |= within < begins
-            at = np.maximum(within[here] - mid, engagement.entry_deg)
-            at = np.minimum(at, engagement.exit_deg)
+            here = number == i
+            at = np.clip(within[here] - mid, engagement.entry_deg, engagement.exit_deg)
+            turned += engagement.half_step if i else 0.0
             out[here] += turned + engagement.motion(at, 0).c[0]
-            turned += engagement.half_step + (after[0].half_step if after else 0.0)
+            turned += engagement.half_step
         return out
 
     @property
@@ -212,20 +210,15 @@ def assembled(mechanism: Mechanism) -> Assembly:
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
         plain = spec.replace(drive_before=None, size=no_gears)
     turned = mechanism if plain == spec else build(plain)
-    return _turned(turned, mechanism, input_of(mechanism))
+    return assembled_by_input(turned)._replace(full=mechanism, to_input=input_of(mechanism))
 
 
 def assembled_by_input(mechanism: Mechanism) -> Assembly:
     """Return the assembly of a machine by the angle of its own input shaft."""
-    return _turned(mechanism, mechanism, _same)
-
-
-def _turned(mechanism: Mechanism, full: Mechanism, to_input: Callable[[float], float]) -> Assembly:
     turn = 360.0 * mechanism.spec.turns
-    periods = round(turn / mechanism.period_deg)
     motions = tuple(
         Passage(engagement, engagement.mid_deg + k * mechanism.period_deg)
-        for k in range(periods)
+        for k in range(round(turn / mechanism.period_deg))
         for engagement in mechanism.engagements
     )
     rollers = tuple(
@@ -233,29 +226,37 @@ def _turned(mechanism: Mechanism, full: Mechanism, to_input: Callable[[float], f
         for engagement, behind in motions
         for passage, ahead in engagement.passages
     )
-    L, wheel = mechanism.center_distance_mm, mechanism.spec.wheel
-    around, moves = _around(mechanism), wheel.plane_motion(L)
+    L, wheel, engagements = (
+        mechanism.center_distance_mm,
+        mechanism.spec.wheel,
+        mechanism.engagements,
+    )
+    # around the wheel counterclockwise; later slots follow clockwise
+    z, several = wheel.z, len(engagements) if wheel.steps else 1
+    kinds = [engagements[k % several] for k in range(z)]
+    slots, rests, at = [], [], 0.0
+    for k, engagement in enumerate(kinds):
+        slots.append((engagement, at % math.tau))
+        rests.append((at - engagement.half_step) % math.tau)
+        at -= engagement.half_step + kinds[(k + 1) % z].half_step
     return Assembly(
-        mechanism, L, wheel.SIGN, turn, turn, motions, rollers, *around, full, to_input, moves
+        mechanism,
+        L,
+        wheel.SIGN,
+        turn,
+        turn,
+        motions,
+        rollers,
+        tuple(sorted(slots, key=lambda slot: slot[1])),
+        tuple(sorted(rests)),
+        mechanism,
+        _same,
+        wheel.plane_motion(L),
     )
 
 
 def _same(input_deg: float) -> float:
     return input_deg
-
-
-def _around(mechanism: Mechanism) -> tuple[tuple[tuple[Engagement, float], ...], tuple[float, ...]]:
-    """Return slots and rests around the wheel, counterclockwise; later slots follow clockwise."""
-    engagements, z = mechanism.engagements, mechanism.spec.wheel.z
-    steps = mechanism.spec.wheel.steps
-    kinds_ = [engagements[k % len(engagements)] if steps else engagements[0] for k in range(z)]
-    slots, rests, at = [], [], 0.0
-    for k, engagement in enumerate(kinds_):
-        slots.append((engagement, at % math.tau))
-        rests.append((at - engagement.half_step) % math.tau)
-        at -= engagement.half_step + kinds_[(k + 1) % z].half_step
-    order = sorted(range(z), key=lambda k: slots[k][1])
-    return tuple(slots[k] for k in order), tuple(sorted(rests))
 
 
 def turn_deg(mechanism: Mechanism) -> Array:
