@@ -253,7 +253,15 @@ def toothed_curve(teeth: PairTeeth, driver: bool, curve: Curve, sense: float) ->
         return points, sense * tangents
 
     rack, tip = (teeth.driver, teeth.tips[1]) if driver else (teeth.driven, teeth.tips[0])
-    _refuse(curvatures(pitch, teeth.length.whole, 4096), rack, tip)
+    # on a convex bend the rack undercuts the flank below it, on a hollow one that above it
+    hollow, convex = curvatures(pitch, teeth.length.whole, 4096)
+    most = max(convex * rack.straight, -hollow * tip) / math.sin(rack.angle) ** 2
+    if most > 1.0:
+        raise GenevaError(
+            f"gear_module_mm = {rack.module:g}: teeth would be undercut where the pitch curve "
+            f"bends most; at most {rack.module / most:.4g} fits",
+            ("size", "gear_module_mm"),
+        )
     middles = rack.pitch * (np.arange(float(teeth.z)) + (0.0 if driver else 0.5))
     if thinnest_tip(pitch, rack, middles, tip) < rack.least_tip:
         raise GenevaError(
@@ -262,14 +270,3 @@ def toothed_curve(teeth: PairTeeth, driver: bool, curve: Curve, sense: float) ->
             ("size", "gear_module_mm"),
         )
     return ToothedCurve(pitch, rack, middles, tip)
-
-
-def _refuse(bends: tuple[float, float], rack: Rack, tip: float) -> None:
-    """Raise GenevaError where a pitch curve, of some curvatures, is too narrow for its teeth."""
-    most = max(bends[1] * rack.straight, -bends[0] * tip) / math.sin(rack.angle) ** 2
-    if most > 1.0:
-        raise GenevaError(
-            f"gear_module_mm = {rack.module:g}: teeth would be undercut where the pitch curve "
-            f"bends most; at most {rack.module / most:.4g} fits",
-            ("size", "gear_module_mm"),
-        )

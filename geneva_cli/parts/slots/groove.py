@@ -84,7 +84,7 @@ def greatest_pressure(groove: Groove) -> tuple[float, float]:
     Its tangent is |R'/R|, for both signs of R'. It is greatest where R R'' = R'².
     """
     entry, exit_, step = groove.motion.entry_deg, groove.motion.exit_deg, 360.0 / GRID
-    grid = entry + step * np.arange(GRID)
+    grid = entry + 360.0 * np.arange(GRID) / GRID
     R, slope, _ = distances(groove, grid)
     steep = np.abs(slope) / R
     tops = (steep >= np.roll(steep, 1)) & (steep >= np.roll(steep, -1))
@@ -138,9 +138,9 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
         straight = np.abs(turning) < 1e-12 * speed * speed
         radius = np.where(straight, np.inf, L * speed**3 / turning)
     nx, ny = -y1 / speed * offset, x1 / speed * offset
-    lines = [(L * x0 + side * nx, L * y0 + side * ny) for side in (0.0, 1.0, -1.0)]
+    points = [(L * x0 + side * nx, L * y0 + side * ny) for side in (0.0, 1.0, -1.0)]
     pressure = np.degrees(np.arctan2(np.abs(slope), R))
-    columns = [engagement.inputs_deg(x), R, *(axis for line in lines for axis in line)]
+    columns = [engagement.inputs_deg(x), R, *(axis for line in points for axis in line)]
     return Table(NAMES, [*columns, pressure, radius])
 
 
