@@ -99,7 +99,7 @@ class FlatParts(EdgedParts):
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        from geneva_cli.geometry.hull import farthest
+        from geneva_cli.geometry.distance import farthest
         from geneva_cli.parts.turn.bounds import FlatPairs
 
         gaps, axis = cast("Gaps", self.outlines.gaps), np.zeros((1, 2))

@@ -10,8 +10,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, ClassVar, Self, TypeAlias
 
-from geneva_cli.geometry.edges import Edge
-from geneva_cli.geometry.plates import Member, Plate, edged, plates
+from geneva_cli.geometry.plates import Edge, Member, Plate, edged, plates
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import named, parts_class, thing

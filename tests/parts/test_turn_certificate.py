@@ -20,7 +20,7 @@ from words import load
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hull import farthest, from_segments
+from geneva_cli.geometry.distance import farthest, from_segments
 from geneva_cli.geometry.shapes import Line, about, closed
 from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
@@ -33,7 +33,7 @@ from geneva_cli.parts.turn import turn_certificate as halving
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.turn_certificate import certificate
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.checks.proved import least_gap as least_gap_check
+from geneva_cli.verdict.checks.play_checks import least_gap as least_gap_check
 
 MACHINES = some(300, 8)
 FLAT = [path.name for path in sorted(repo.DESIGNS.glob("*.toml")) if load(path).spec.wheel.FLAT]

@@ -19,8 +19,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import chords
-from geneva_cli.geometry.gear_teeth import Rack, Writer
-from geneva_cli.geometry.rolling_teeth import curvatures, teeth_along, thinnest_tip
+from geneva_cli.geometry.gear_teeth import Rack, Writer, curvatures, teeth_along, thinnest_tip
 from geneva_cli.geometry.shapes import Segment
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Gears

@@ -13,8 +13,7 @@ from typing import TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.hull import farthest, from_segments, short_pieces
+from geneva_cli.geometry.distance import Polyarc, farthest, from_segments, short_pieces
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement

@@ -221,14 +221,22 @@ def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> b
 
 
 def _places_within(place: Array, period: float, middle: Array, half: float) -> tuple[Whole, Whole]:
-    """Return the middles (n,) and places (k,), by index, that are within ``half`` of each other."""
-    if not math.isfinite(period):
-        owner, which = np.nonzero(np.abs(place - middle[:, None]) <= half)
-        return owner, which
-    ahead, away = (np.array((np.cos(x), np.sin(x))) for x in (middle, place))
-    # 1e-12 is more than the rounding of a cosine
-    owner, which = np.nonzero(ahead.T @ away >= math.cos(min(half, math.pi)) - 1e-12)
-    return owner, which
+    """Return the middles (n,) and places (k,), by index, that are within ``half`` of each other.
+
+    The middles ascend. With a finite ``period``, a whole turn, places are directions.
+    """
+    turns = math.isfinite(period)
+    if turns:
+        place, middle, half = place % period, middle % period, min(half, 0.5 * period)
+    order, known = np.argsort(place), np.sort(place)
+    if turns:  # places a turn before and after, for spans across 0
+        known = np.concatenate((known - period, known, known + period))
+    start = np.searchsorted(known, middle - half - 1e-12)  # radians: rounding
+    count = np.searchsorted(known, middle + half + 1e-12, "right") - start
+    count = np.minimum(count, len(place))
+    owner = np.repeat(np.arange(len(middle)), count)
+    first = np.repeat(start - np.cumsum(count) + count, count)
+    return owner, order[(first + np.arange(len(owner))) % len(place)]
 
 
 def _candidates(

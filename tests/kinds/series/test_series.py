@@ -32,8 +32,7 @@ from geneva_cli import (
 from geneva_cli.drives.retimed import retimed
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds
-from geneva_cli.loads.load_peaks import load_summaries
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.both_ways import backwards
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many, worst_peaks
