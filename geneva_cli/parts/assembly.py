@@ -8,7 +8,7 @@ machine is turned by its crank, like a plain one.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -272,8 +272,22 @@ def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
     which its rollers slide. The drive cannot describe that crank: in the dwell the rollers follow
     the groove as it is cut.
     """
-    own = _own_links(mechanism, input_deg)
-    return (*own, *_before(mechanism, input_deg, own))
+    own, spec = _own_links(mechanism, input_deg), mechanism.spec
+    if spec.drive_before is None:
+        return own
+    # the links of the drive before are on the shaft that it turns, below all others
+    shaft, sign, names = mechanism.own_shaft, spec.wheel.SIGN, {link.name for link in own}
+    mirror, shift = -sign * shaft.sense, shaft.x_mm - mechanism.center_distance_mm
+    below = _deepest(mechanism, own)
+    before = (
+        link._replace(
+            name=f"first {link.name}" if link.name in names else link.name,
+            joints=tuple((x + shift, y * mirror) for x, y in link.joints),
+            plane=link.plane - 1 + below,
+        )
+        for link in spec.drive_before.links(mechanism.plan, sign, input_deg)
+    )
+    return (*own, *before)
 
 
 def _own_links(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
@@ -291,22 +305,6 @@ def _own_links(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
         x, y = L * roller_in_groove(groove, own_deg - 360.0 * k / m).T
         joints.append((x, y))
     return (*own, Link("crank", tuple(joints), (Joint.SHAFT, *[Joint.CARRIED] * m), 1))
-
-
-def _before(mechanism: Mechanism, input_deg: Array, own: tuple[Link, ...]) -> Iterator[Link]:
-    """Yield the links of the drive before, on the shaft that it turns, below all others."""
-    spec, shaft = mechanism.spec, mechanism.own_shaft
-    if spec.drive_before is None:
-        return
-    sign, names = spec.wheel.SIGN, {link.name for link in own}
-    mirror, shift = -sign * shaft.sense, shaft.x_mm - mechanism.center_distance_mm
-    below = _deepest(mechanism, own)
-    for link in spec.drive_before.links(mechanism.plan, sign, input_deg):
-        yield link._replace(
-            name=f"first {link.name}" if link.name in names else link.name,
-            joints=tuple((x + shift, y * mirror) for x, y in link.joints),
-            plane=link.plane - 1 + below,
-        )
 
 
 def _deepest(mechanism: Mechanism, own: Iterable[Link]) -> int:
