@@ -80,11 +80,6 @@ def has_arcs(assembly: Assembly, lock: float) -> bool:
     return floor >= (1.0 / 18.0) * assembly.L if paired else floor > 0.0
 
 
-def without_lock(assembly: Assembly) -> bool:
-    """Return True if two motions follow without a dwell, so that no disc is left between them."""
-    return any(after - one.end <= SAME_ANGLE for one, after in followed(reliefs(assembly)))
-
-
 def followed(around: list[Relief]) -> list[tuple[Relief, float]]:
     """Return each relief, and where the next one starts; between the two the disc locks."""
     starts = [one.start for one in around[1:]] + [around[0].start + math.tau]
@@ -196,12 +191,17 @@ def crank_contours(
     return [closed("CRANK", segments)]
 
 
-def arc_leaves_hub(assembly: Assembly, sizes: Sizes) -> bool:
-    """Return True if an arc leaves the spec's bore of the crank a wall, and its hub.
+def takes_arcs(assembly: Assembly, sizes: Sizes) -> bool:
+    """Return True if arcs may relieve the disc, if they clear the wheel.
 
-    It also does where a sector would be no deeper. Default bores and hubs are within an arc.
+    Some of the disc is left at the crank's axis and between any two motions. An arc leaves the
+    spec's bore of the crank a wall, and its hub, or a sector would be no deeper; default bores and
+    hubs are within an arc.
     """
     size = assembly.full.spec.size
+    dwells = all(after - one.end > SAME_ANGLE for one, after in followed(reliefs(assembly)))
+    if not (is_whole(assembly, sizes) and dwells and has_arcs(assembly, sizes.lock)):
+        return False
     bore = 0.5 * (size.crank_bore_mm or 0.0)
     _, hub = crank_reach_and_hub(size, bore, sizes.wall_min)
     wall = size.allowances.around_shaft_mm + sizes.wall_min
