@@ -16,8 +16,8 @@ from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.machine_sizes import drawn_pin_radius
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.shafts.held_hubs import hub_note
 from geneva_cli.spec.written import degrees, length
 

@@ -14,7 +14,7 @@ from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.links.link_positions import same
+from geneva_cli.parts.assembly import same
 from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.shafts.bores import radius_of

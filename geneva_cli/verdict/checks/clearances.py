@@ -11,7 +11,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.arm import CrankArm, walls
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.link_shafts import planes
-from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.shafts.held_hubs import clamp_of

@@ -21,9 +21,8 @@ from geneva_cli.loads.carried import farthest_mm
 from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.outlines.crank_outline import rollers_gap
+from geneva_cli.parts.outlines.crank_outline import is_whole, rollers_gap
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.outlines.wheel_circles import wheel_circles, wheel_hub
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.sizes import Sizes
