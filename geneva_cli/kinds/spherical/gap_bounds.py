@@ -44,11 +44,8 @@ class SpherePairs:
         R, gap = self.ball.radius_mm, self.gaps.locking(on.at_middle)
         # no point of a sphere moves farther than it turns
         least = gap - R * (on.wheel + self._sectors_travel(on))
-
-        def in_recess(which: Whole) -> Array:
-            return self._in_recess(window, on.at(which))
-
-        least = raised(least, least < self.target, in_recess)
+        doubtful = least < self.target
+        least = raised(least, doubtful, lambda which: self._in_recess(window, on.at(which)))
         return Bounds(gap, np.minimum(least, R * self.apart))
 
     def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
