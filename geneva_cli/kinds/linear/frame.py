@@ -3,10 +3,6 @@
 A bar is bolted under the rack's back, and reaches a little beyond it. It slides between a rail, on
 which the rack lies, and a wall. A cover on the wall keeps the rack from lifting. All of them lie
 beyond the sweep of the crank's arm, and are screwed to the frame.
-
-The rack covers its guide in each of its steps. At the start of the first one it ends R - w past the
-crank's axis, w being half a slot. On the other side it does so at the end of the last one. So the
-guide is 2 (R - w) long.
 """
 
 from __future__ import annotations

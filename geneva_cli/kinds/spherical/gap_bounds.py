@@ -1,9 +1,8 @@
 """Proved lower bounds of the gaps on a sphere, on intervals of the input angle.
 
-As on a plane (``parts.turn.bounds``), a gap is at least the gap in the middle of an interval, less
-how far the parts move from there. A point at an angle r from an axis moves at most sin r times the
-angle by which its part turns about it. The crank turns evenly, so that a roller's path is exact: an
-arc about the crank's axis while the wheel rests, and a piece of the meridian in its own slot.
+As on a plane (``parts.turn.bounds``). A point at an angle r from an axis moves at most sin r times
+the angle by which its part turns about it. A roller's path is exact: an arc about the crank's axis
+while the wheel rests, and a piece of the meridian in its own slot.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Default sizes of a spherical machine under a load: thickness, pin, bores, hubs and arm.
 
-They follow one another as on a plane (``load_sizes``). What a shaft bears is exact here, because
-the greatest force and its greatest distance from the bearing are at different angles.
+They follow one another as on a plane (``load_sizes``).
 """
 
 from __future__ import annotations
