@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.geometry.sphere import POLE, Region
-from geneva_cli.geometry.sphere_arcs import Circle, FromCircle, SphereArcs, farthest, short_arcs
+from geneva_cli.geometry.sphere_arcs import Circle, SphereArcs, farthest, from_circle, short_arcs
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.regions import QUARTER
 from geneva_cli.kinds.spherical.stops import about, polar
@@ -105,7 +105,7 @@ class SpherePairs:
         # An arc that is shorter than its middle's distance from the edge does not cross it.
         short = math.sin(circle.angle) * half + aside < from_wheel
         least = np.full(len(gap), -math.inf)
-        away = FromCircle(self.gaps.wheel, circle)(middle[short], half[short])
+        away = from_circle(self.gaps.wheel, circle, middle[short], half[short])
         least[short] = self.ball.radius_mm * (away - aside[short] - self.ball.roller)
         return least
 
