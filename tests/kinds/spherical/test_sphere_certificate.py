@@ -25,7 +25,7 @@ from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.turn_certificate import certificate, tolerance_mm
 
-MACHINES = some(300, 8)
+MACHINES = some(300, 5)
 DESIGNS = sorted(path.name for path in repo.DESIGNS.glob("spherical-*.toml"))
 
 
