@@ -14,7 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
 from geneva_cli.output import letters, show_figure
 from geneva_cli.output.plot import plot_svg, plot_text
-from geneva_cli.output.plot.ticks import labels, ticks
+from geneva_cli.output.plot.plot_layout import labels, ticks
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 SVG = "{http://www.w3.org/2000/svg}"

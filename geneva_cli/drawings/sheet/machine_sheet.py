@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TypeAlias
 
-from geneva_cli.drawings.machine_drawing import machine
-from geneva_cli.drawings.sheet import link_views, points, sized
+from geneva_cli.drawings.part_drawings import machine
+from geneva_cli.drawings.sheet import points, sized
 from geneva_cli.drawings.sheet.content import (
     SheetContent,
     Views,
@@ -18,8 +18,14 @@ from geneva_cli.drawings.sheet.content import (
     sheet_of,
     shown_on_sheet,
 )
-from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_assembly, draw_disc, draw_roller
-from geneva_cli.drawings.sheet.link_views import draw_link
+from geneva_cli.drawings.sheet.crank_views import (
+    draw_arm,
+    draw_assembly,
+    draw_disc,
+    draw_link,
+    draw_roller,
+    round_parts,
+)
 from geneva_cli.drawings.sheet.paper import scale_name, table
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove, draw_shaft
 from geneva_cli.drawings.sheet.view import Block, View
@@ -45,7 +51,7 @@ def sheet(parts: FlatParts) -> Sheet:
     fixed = [
         *points.tables(parts.outlines, tolerance),
         *points.gear_tables(mechanism, tolerance),
-        *link_views.round_parts((*parts.links.joined, *parts.spacers), mechanism),
+        *round_parts((*parts.links.joined, *parts.spacers), mechanism),
         *layout(mechanism),
     ]
     views = Views(partial(_views, shown, parts), partial(_together, shown, parts), (0.0, L))
@@ -96,7 +102,11 @@ def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
         yield view
     (frame,) = flat_plates([parts.frame])
     view = begin(frame.name)
-    draw_frame(view, frame, screws=sized.threads(parts.frame_threads))
+    draw_frame(
+        view,
+        frame,
+        screws={h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads},
+    )
     yield view
 
 

@@ -100,7 +100,7 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     corner = walls.segments[0].start
     count *= len(ends)
     if len(ends) == 1:
-        width = sized.slot_width(view.fits, parts.assembly.mechanism, parts.sizes.half_width)
+        width = sized.made(view.fits, parts.assembly.mechanism, "slot", parts.sizes.half_width)
         far = walls.segments[-1].end
         view.linear(corner, far, across, times(count, width), "slot's width")
     else:  # one wall each
@@ -140,9 +140,8 @@ def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
     own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME_ON_SHEET]
     deviation = assembly.mechanism.spec.tolerance.center_distance_mm
     centre = _recess_centre(parts)
-    turn = math.atan2(centre[1], centre[0])
-    view.linear((0.0, 0.0), centre, turn, sized.plain(L, off=deviation), near=True)
-    recess = sized.recess(view.fits, assembly.mechanism, sizes.recess)
+    view.radial(centre, sized.plain(L, off=deviation))
+    recess = sized.made(view.fits, assembly.mechanism, "recess", sizes.recess)
     view.of_arcs(own, times(len(own), recess), whole=True)
     for radius, some in _by_radius([arc for arc in about if arc not in own]).items():
         view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
@@ -174,9 +173,7 @@ def _steps(view: View, parts: Outlines, reach: float) -> None:
         for angle in _directions(parts, engagement, direction)
     )
     off = f" ±{deviation:g}°" if deviation else ""
-    steps = zip(angles, [*angles[1:], angles[0] + math.tau], strict=True)
-    for text, pairs in grouped((degrees(b - a) + off, (a, b)) for a, b in steps):
-        view.angular(pairs, reach, reach, text)
+    view.steps(angles, reach, off)
     rests = assembly.rests if parts.sizes.recess else ()
     halves = ((min((rest - angle) % math.tau for angle in angles), rest) for rest in rests)
     for text, pairs in grouped((degrees(half), (rest - half, rest)) for half, rest in halves):

@@ -72,7 +72,7 @@ def _views(
         yield view
     for plate in frames:
         view = begin(plate.name)
-        screws = sized.threads(parts.frame_threads)
+        screws = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads}
         draw_frame(view, plate, parts.axis, "the crank's axis", screws)
         yield view
 
@@ -91,7 +91,7 @@ def _draw_rack(view: View, parts: RackParts) -> None:
     up, corner, count = 0.5 * math.pi, (box.x0, box.y0), len(places)
     edge, recess = (sizes.edge, first), (sizes.arm, first - sizes.arm)
     view.linear((end, first), edge, 0.0, times(count, length(sizes.edge - end)), near=True)
-    width = sized.slot_width(view.fits, mechanism, sizes.half_width)
+    width = sized.made(view.fits, mechanism, "slot", sizes.half_width)
     walls = [(sizes.edge, places[-1] + side * sizes.half_width) for side in (-1.0, 1.0)]
     view.linear(walls[0], walls[1], up, times(count, width))
     view.linear(edge, (sizes.edge, second), up, times(count - 1, sized.plain(2.0 * sizes.arm)))
@@ -117,7 +117,7 @@ def _draw_arcs(view: View, parts: RackParts, rack: Plate) -> None:
     view.of_arcs(rounds, times(len(rounds), sized.plain(sizes.half_width, "R ")))
     recesses = [arc for arc in arcs if arc not in rounds]
     if recesses:
-        text = times(len(recesses), sized.recess(view.fits, mechanism, sizes.recess))
+        text = times(len(recesses), sized.made(view.fits, mechanism, "recess", sizes.recess))
         view.of_arcs(recesses, text, whole=True)
     screwed = holes_of([rack]).bolts
     if screwed:
@@ -137,7 +137,7 @@ def _draw_sector(view: View, parts: RackParts) -> None:
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.floor)
     outer, inner = (piece for piece in sector.outline.segments if isinstance(piece, Arc))
-    view.of_arcs([outer], sized.lock(view.fits, mechanism, sizes.lock), whole=True)
+    view.of_arcs([outer], sized.made(view.fits, mechanism, "lock", sizes.lock), whole=True)
     view.of_arcs([inner], sized.plain(sizes.floor, "R "))
     bolted(view, screwed)
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from geneva_cli.errors import clean
 from geneva_cli.figure import Curve, Panel
 from geneva_cli.output.inks import INKS
-from geneva_cli.output.plot.ticks import labels, ticks
+from geneva_cli.output.plot.plot_layout import labels, ticks
 from geneva_cli.output.svg.drawing_svg import element
 
 if TYPE_CHECKING:

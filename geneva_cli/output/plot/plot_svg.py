@@ -22,8 +22,8 @@ from geneva_cli.output.plot.plot_layout import (
     Pen,
     Point,
     blocks,
+    named,
 )
-from geneva_cli.output.plot.ticks import named
 from geneva_cli.table import in_decimals
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
-from geneva_cli.output.plot.ticks import labels, mark_text, ticks
+from geneva_cli.output.plot.plot_layout import labels, mark_text, ticks
 from geneva_cli.output.terminal.layout import width_of, wrapped
 
 MARKS = "*o+x#@%&=~^$"  # letters of several curves in a panel, and of one curve in ASCII
