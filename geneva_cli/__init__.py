@@ -59,33 +59,15 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
 
 __version__ = "1.0.0rc1"
 
-# The modules of other names; drives, wheels and laws are in their registries.
-_FROM = {
-    "design": ("Design", "load"),
-    "errors": ("GenevaError",),
-    "motion.machine_spec": ("Motion", "Spec"),
-    "spec.tables": (
-        "Limits",
-        "Load",
-        "Mass",
-        "Motor",
-        "Product",
-        "RollerMaterial",
-        "Shaft",
-        "Size",
-        "Support",
-        "TitleBlock",
-        "Tolerance",
-        "WheelMaterial",
-    ),
-}
-
 
 def _rooms() -> dict[str, str]:
     """The module of each public name."""
     from geneva_cli.motion.registry import DRIVES, GEARINGS, LAWS
+    from geneva_cli.spec.tables import PLAIN
 
-    rooms = {name: module for module, names in _FROM.items() for name in names}
+    rooms = {"Design": "design", "load": "design", "GenevaError": "errors"}
+    rooms |= dict.fromkeys(("Motion", "Spec"), "motion.machine_spec")
+    rooms |= {table.__name__: "spec.tables" for table in PLAIN.values()}
     for path in (*GEARINGS.values(), *DRIVES.values(), *LAWS.values()):
         module, _, name = path.partition(":")
         rooms[name] = module

@@ -18,7 +18,6 @@ from contextlib import AbstractContextManager, nullcontext
 from functools import wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
-from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.drive import Drive
@@ -50,7 +49,7 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.mass import MassProperties
     from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.loads.load_summary import LoadSummary
+    from geneva_cli.loads.load_peaks import LoadSummary
     from geneva_cli.motion.peaks import Peaks
     from geneva_cli.motion.timing import Timing
     from geneva_cli.parts.parts import Parts
@@ -81,6 +80,12 @@ def load(path: str, settings: Iterable[str] = (), reverse: bool = False) -> Desi
     text = read(path, settings)
     design = Design.of(text.spec(), text)
     return design.backwards if reverse else design
+
+
+def _form(curves: str) -> str:
+    if curves not in CURVES:
+        raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
+    return CURVES[curves]
 
 
 class answer(cached_property[T]):
@@ -153,25 +158,9 @@ class Design:
         title: str = "",
         drive_before: Drive | None = None,
     ) -> None:
-        self.spec = Spec(
-            wheel=wheel,
-            drive=drive or Crank(),
-            motion=motion,
-            size=size or Size(),
-            load=load or Load(),
-            mass=tuple(mass),
-            support=support or Support(),
-            motor=motor or Motor(),
-            shaft=shaft or Shaft(),
-            material_wheel=material_wheel or WheelMaterial(),
-            material_roller=material_roller or RollerMaterial(),
-            tolerance=tolerance or Tolerance(),
-            product=product or Product(),
-            limits=limits or Limits(),
-            drawing=drawing or TitleBlock(),
-            title=title,
-            drive_before=drive_before,
-        )
+        inputs = {name: value for name, value in locals().items() if value is not None}
+        del inputs["self"]
+        self.spec = Spec(**inputs)
         self._text: Text | None = None
 
     @classmethod
@@ -337,8 +326,8 @@ class Design:
         'acceleration.max in [1.34963727590190, 1.34963727590191], at two mirrored places, proved'
         """
         limit = {} if intervals is None else {"limit": intervals}
-        proof: Certificate
-        proof = load_extra("certify", "certificate")(self.mechanism, quantity, **limit)
+        prove = load_extra("certify", "certificate")
+        proof: Certificate = prove(self.mechanism, quantity, **limit)
         return proof
 
     @question
@@ -353,8 +342,8 @@ class Design:
         >>> design.certified_peaks(for_people=True).to_dict()["certificate"][2]
         'jerk.max in [5.99999999999999, 6.00000000000001], unique, proved'
         """
-        table: Table
-        table = load_extra("certify", "peaks")(self.peaks_table, self.mechanism, for_people)
+        prove = load_extra("certify", "peaks")
+        table: Table = prove(self.peaks_table, self.mechanism, for_people)
         return table
 
     @question
@@ -383,8 +372,7 @@ class Design:
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
         """
-        from geneva_cli.motion.knots import knots_deg, periods
-        from geneva_cli.motion.motion_table import motion_table, turns_table
+        from geneva_cli.motion.motion_table import knots_deg, motion_table, periods, turns_table
 
         if turns is None:
             return motion_table(self.mechanism, samples)
@@ -445,14 +433,14 @@ class Design:
 
     def _loads(self, for_people: bool) -> Table:
         from geneva_cli.loads.load_tables import loads_table, missing
-        from geneva_cli.loads.sizing import sizing_with_wheel
+        from geneva_cli.loads.sizing import sizing as sized
         from geneva_cli.verdict.strength import OF_LIFE
 
         _ = self.loads  # all quantities at once, some of which the life needs
         # without a load every quantity needs one, and that is reported already
         needed = self.strength.missing(OF_LIFE) if self.cycle.is_loaded else []
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
-        sizing, sized_by = sizing_with_wheel(self.cycle, own)
+        sizing, sized_by = sized(self.cycle, own)
         notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
         impact = self.strength.reversal
         return loads_table(self.cycle, sizing, self.life, impact, notes, for_people)
@@ -628,9 +616,7 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import part_drawing, parts_having
 
-        if curves not in CURVES:
-            raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        picture = part_drawing(self.parts, part, tolerance_mm, CURVES[curves])
+        picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
         if dog_bones_mm is not None:
             from geneva_cli.drawings.milling import with_dog_bones
 
@@ -686,18 +672,13 @@ class Design:
         from geneva_cli.drawings.catalogue import part_sheet
         from geneva_cli.spec.written import writing_in
 
-        if curves not in CURVES:
-            raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
+        form = _form(curves)
         with writing_in(units):
-            return part_sheet(self.parts, part, tolerance_mm, CURVES[curves])
+            return part_sheet(self.parts, part, tolerance_mm, form)
 
     @question
     def save(
-        self,
-        path: str,
-        part: str = "",
-        tolerance_mm: float | None = None,
-        force: bool = False,
+        self, path: str, part: str = "", tolerance_mm: float | None = None, force: bool = False
     ) -> None:
         """Write a part to a file, as ``geneva profile`` does; the extension gives the format.
 
@@ -753,7 +734,9 @@ class Design:
         >>> first.name, first.value, first.must_be, first.limit, first.passes
         ('dwell_deg', 240.0, 'at least', 0.0, True)
         """
-        return self._proved(None)
+        from geneva_cli.verdict.checks import proofs
+
+        return [*self._judged, *proofs(self.parts)]
 
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
@@ -765,16 +748,11 @@ class Design:
         'collision-free, proved to 0.2 µm (608 intervals)'
         """
         from geneva_cli.spec.rules import Range, require_mm
+        from geneva_cli.verdict.checks import proofs
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--proof", to_mm, allowed, "the roller's radius")
-        return self._proved(to_mm)
-
-    def _proved(self, proof_mm: float | None) -> list[Check]:
-        from geneva_cli.verdict.checks import proofs
-
-        turned = self.spec.is_turned
-        return [*self._judged, *(proofs(self.parts, proof_mm) if turned else ())]
+        return [*self._judged, *proofs(self.parts, to_mm)]
 
     @answer
     def _judged(self) -> list[Check]:
@@ -825,7 +803,7 @@ class Design:
         >>> indexed.tolerance().to_dict()["dwell_position.worst_arcsec"]
         72.0
         """
-        from geneva_cli.verdict.tolerance.tolerance_tables import tolerance_table
+        from geneva_cli.verdict.tolerance.study import tolerance_table
 
         return tolerance_table(self.mechanism, self.parts, samples, seed, radius_mm)
 
@@ -839,7 +817,7 @@ class Design:
         >>> len(found["dwell_position_deg"]), float(sum(found["dwell_position_share"]))
         (60, 1.0)
         """
-        from geneva_cli.verdict.tolerance.tolerance_tables import histogram_table
+        from geneva_cli.verdict.tolerance.study import histogram_table
 
         return histogram_table(self.mechanism, self.parts, samples, seed)
 

@@ -132,17 +132,15 @@ def few(word: Any, known: Iterable[str]) -> str:
     >>> few("cirle", ["arc", "line", "circle", "spline", "point", "ellipse", "text"])
     'circle, line, spline, arc, text and 2 more'
     """
-    words = list(known)
-    most = 5  # words in a message: nobody reads more
-    if len(words) > most:
-        from difflib import SequenceMatcher
+    words, most = list(known), 5  # words in a message: nobody reads more
+    if len(words) <= most:
+        return ", ".join(words)
+    from difflib import SequenceMatcher
 
-        matcher = SequenceMatcher(b=cut(word).casefold())
-
-        def unlike(one: str) -> float:
-            matcher.set_seq1(one.casefold())
-            return -matcher.ratio()
-
-        more = len(words) - most
-        return f"{', '.join(sorted(words, key=unlike)[:most])} and {more} more"
-    return ", ".join(words)
+    matcher = SequenceMatcher(b=cut(word).casefold())
+    unlike = []
+    for one in words:
+        matcher.set_seq1(one.casefold())
+        unlike.append((-matcher.ratio(), len(unlike), one))
+    nearest_ones = ", ".join(one for *_, one in sorted(unlike)[:most])
+    return f"{nearest_ones} and {len(words) - most} more"

@@ -71,34 +71,24 @@ class Table(NamedTuple):
 
     def __repr__(self) -> str:
         """The title and the first rows, numbers to six digits; for a record the first values."""
-        lines, rest = self._first_values() if self.record else self._first_rows()
-        return "\n".join([*([self.title] if self.title else []), *lines, *rest])
-
-    def _first_values(self) -> tuple[list[str], list[str]]:
-        """Lines of a record's first values, and a note on the others."""
-        row = zip(self.names, next(self.rows()), strict=True)
-        known = [(name, _briefly(value)) for name, value in row if value not in (None, "", ())]
-        shown = known[:SHOWN_ROWS]
-        width = max((len(name) for name, _ in shown), default=0)
-        more = len(known) - len(shown)
-        lines = [f"{name.ljust(width)}  {value}" for name, value in shown]
-        return lines, [f"... {more} more values"] if more else []
-
-    def _first_rows(self) -> tuple[list[str], list[str]]:
-        """Lines of the first rows, as many columns as fit, and a note on the others."""
-        rows = [tuple(map(_briefly, row)) for row in islice(self.rows(), SHOWN_ROWS)]
-        columns = list(zip(self.names, *rows, strict=True))
-        widths = [max(map(len, column)) + 2 for column in columns]
-        ends = accumulate(widths)
-        fit = max(1, sum(end <= 102 for end in ends))  # of 100 characters, without two spaces
-        padded = [
-            [cell.rjust(width) for cell in column]
-            for column, width in zip(columns[:fit], widths, strict=False)
-        ]
-        lines = ["".join(cells)[2:] for cells in zip(*padded, strict=True)]
-        left = {"rows": len(self) - len(rows), "columns": len(columns) - fit}
+        if self.record:
+            row = zip(self.names, next(self.rows()), strict=True)
+            known = [(name, _briefly(value)) for name, value in row if value not in (None, "", ())]
+            width = max((len(name) for name, _ in known[:SHOWN_ROWS]), default=0)
+            lines = [f"{name.ljust(width)}  {value}" for name, value in known[:SHOWN_ROWS]]
+            left = {"values": len(known) - len(lines)}
+        else:
+            rows = [tuple(map(_briefly, row)) for row in islice(self.rows(), SHOWN_ROWS)]
+            columns = list(zip(self.names, *rows, strict=True))
+            widths = [max(map(len, column)) + 2 for column in columns]
+            # of 100 characters, without two spaces
+            fit = max(1, sum(end <= 102 for end in accumulate(widths)))
+            cells = zip(*columns[:fit], strict=True)
+            lines = ["".join(map(str.rjust, row, widths))[2:] for row in cells]
+            left = {"rows": len(self) - len(rows), "columns": len(columns) - fit}
         more = " and ".join(f"{count} more {what}" for what, count in left.items() if count)
-        return lines, [f"... {more}"] if more else []
+        title, rest = [self.title] if self.title else [], [f"... {more}"] if more else []
+        return "\n".join([*title, *lines, *rest])
 
     def to_pandas(self) -> Any:
         """A pandas DataFrame of the rows; a record is one row, with nested names joined by dots.
@@ -140,16 +130,14 @@ class Table(NamedTuple):
 
         A table that is computed while it is written is changed then, piece by piece.
         """
-        first = self.columns[0] if self.columns else None
-        if not isinstance(first, Column):
-            return self.replaced(columns=change(self.columns))
-        source = first.pieces
+        own = self.columns
+        if not (own and isinstance(own[0], Column)):
+            return self.replaced(columns=change(own))
 
         def make(start: int, stop: int) -> Sequence[Any]:
-            return change(source.make(start, stop))
+            return change([column[start:stop] for column in own])
 
-        columns = pieces(source.length, len(self.columns), make)
-        return self.replaced(columns=columns)
+        return self.replaced(columns=pieces(len(self), len(own), make))
 
     def to_dict(self) -> dict[str, Any]:
         """Columns by name, numbers as arrays; a record's values by name, tables in it as rows.
@@ -232,38 +220,18 @@ def _whole(column: Any) -> Any:
     return np.concatenate([column[start : start + PIECE] for start in starts])
 
 
-class _ColumnPieces:
-    """Rows of a table too long for memory; the last computed piece is kept."""
-
-    def __init__(self, length: int, make: Callable[[int, int], Sequence[Any]]) -> None:
-        self.length, self.make = length, make
-        # its start and its columns, replaced together: another thread may request another piece
-        self.last: tuple[int, Sequence[Any]] = (-1, ())
-
-    def at(self, start: int) -> Sequence[Any]:
-        """The columns of the piece that begins at ``start``, read-only as they are kept."""
-        known, columns = self.last
-        if start != known:
-            columns = self.make(start, min(start + PIECE, self.length))
-            for column in columns:
-                if not isinstance(column, (list, tuple)):
-                    column.flags.writeable = False
-            self.last = start, columns
-        return columns
-
-
 class Column:
-    """One column of such a table, with a length and slices within a piece."""
+    """A column of a table too long for memory, with a length and slices within a piece."""
 
-    def __init__(self, pieces: _ColumnPieces, number: int) -> None:
-        self.pieces, self.number = pieces, number
+    def __init__(self, length: int, number: int, at: Callable[[int], Sequence[Any]]) -> None:
+        self.length, self.number, self.at = length, number, at
 
     def __len__(self) -> int:
-        return self.pieces.length
+        return self.length
 
     def __getitem__(self, rows: slice) -> Any:
         start = rows.start - rows.start % PIECE
-        return self.pieces.at(start)[self.number][rows.start - start : rows.stop - start]
+        return self.at(start)[self.number][rows.start - start : rows.stop - start]
 
 
 def pieces(length: int, count: int, make: Callable[[int, int], Sequence[Any]]) -> list[Column]:
@@ -271,8 +239,21 @@ def pieces(length: int, count: int, make: Callable[[int, int], Sequence[Any]]) -
 
     The table takes the memory of one piece, however many rows are written.
     """
-    rows = _ColumnPieces(length, make)
-    return [Column(rows, number) for number in range(count)]
+    # the start and the columns of the last piece, replaced together: another thread may ask
+    last: tuple[int, Sequence[Any]] = (-1, ())
+
+    def at(start: int) -> Sequence[Any]:
+        nonlocal last
+        known, columns = last
+        if start != known:
+            columns = make(start, min(start + PIECE, length))
+            for column in columns:
+                if not isinstance(column, (list, tuple)):
+                    column.flags.writeable = False  # it is kept
+            last = start, columns
+        return columns
+
+    return [Column(length, number, at) for number in range(count)]
 
 
 def computed_table(

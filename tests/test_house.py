@@ -56,7 +56,6 @@ MEMBERS = {
 SHARED = {
     "cli.commands": set(),
     "verdict.checks": {"check", "all_checks"},
-    "verdict.report": set(),
 }
 STREAMS = {"streams", "__main__", "specfile", "output", "manual", "cli"}
 # What commands know besides designs and studies: laws alone, extras, templates, units and names of
@@ -179,7 +178,7 @@ ASKS = {
 # Keys and tables of a kind that stand in the core.
 NAMED = {
     "specfile.template": {"stop"},  # to be an example of the kind
-    "study.document.answers": {"carousel", "stop"},  # tables of the report
+    "study.document.sections": {"carousel", "stop"},  # tables of the report
     "study.synth.reading": {"linear", "stop"},  # --linear; the key of a wheel
     "study.target": {"stop"},  # the key of a wheel
     "verdict.headline": {"stop"},  # a label

@@ -94,8 +94,7 @@ def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
     if param.required and not typed and not ctx.resilient_parsing:
         return refuse(ctx, typed)
     value = () if typed is None and (param.multiple or param.nargs == -1) else typed
-    numbers = {float: "a number", int: "a whole number"}
-    for number, meaning in numbers.items():
+    for number, meaning in {float: "a number", int: "a whole number"}.items():
         if isinstance(typed, str) and kind in (number, number | None):
             try:
                 value = number(typed)
@@ -121,7 +120,7 @@ class Command(PlainValues, TyperCommand):
             return rest
         order: list[Any] = [*self.make_parser(ctx).parse_args(typed)[2]]
         for option in dict.fromkeys(order):
-            if option.param_type_name != "option" or option.is_flag:
+            if not _is_option(option) or option.is_flag:
                 continue
             value = ctx.params.get(option.name)
             if "" in value if option.multiple and value else value == "":
@@ -144,20 +143,17 @@ class Command(PlainValues, TyperCommand):
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
         """The words after the command's name in its help."""
-        arguments = [p for p in self.params if p.param_type_name == "argument"]
-        return ["[OPTIONS]", *(_placeholder(argument) for argument in arguments)]
+        return ["[OPTIONS]", *(_placeholder(p) for p in self.params if not _is_option(p))]
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write arguments, then options under their headings, with shared options last."""
         groups: dict[str, list[tuple[str, str]]] = {"Arguments": []}
         shared: list[tuple[str, str]] = []
         for param in self.get_params(ctx):
-            record = param.get_help_record(ctx)
-            is_argument = param.param_type_name == "argument"
-            heading = "Arguments" if is_argument else vars(param).get("rich_help_panel")
-            if record and is_argument:
-                record = _placeholder(param), record[1]
-            if record:
+            record, heading = param.get_help_record(ctx), vars(param).get("rich_help_panel")
+            if record and not _is_option(param):
+                groups["Arguments"].append((_placeholder(param), record[1]))
+            elif record:
                 (groups.setdefault(heading, []) if heading else shared).append(record)
         for heading, records in (groups | {"Options": shared}).items():
             if records:
@@ -170,6 +166,10 @@ class Command(PlainValues, TyperCommand):
             with formatter.section("Examples"):
                 for line in self.examples:
                     formatter.write(f"  {_continued(line, formatter.width)}\n")
+
+
+def _is_option(param: Any) -> bool:
+    return bool(param.param_type_name == "option")
 
 
 def _placeholder(argument: Any) -> str:
@@ -199,11 +199,12 @@ class LazyGroup(PlainValues, TyperGroup):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the options before the command; a wrong one becomes a line and an exit code."""
-        if not args:  # the help is shown
-            return super().parse_args(ctx, args)
+        shows_help = not args
         try:
             return super().parse_args(ctx, args)
         except USAGE as error:
+            if shows_help:
+                raise
             _fail(_usage("geneva", error))
 
     def list_commands(self, ctx: Any) -> list[str]:
@@ -280,8 +281,7 @@ def _table_options(
 
 def _unit_option(
     shown_units: Annotated[
-        str,
-        typer.Option("--units", metavar="UNIT", help="Numbers in mm, or in inch and lb."),
+        str, typer.Option("--units", metavar="UNIT", help="Numbers in mm, or in inch and lb.")
     ] = "mm",
 ) -> None:
     """The option of commands whose numbers have units."""

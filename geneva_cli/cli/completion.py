@@ -16,8 +16,8 @@ def offer(words: Offer | Iterable[str]) -> Offer:
     if callable(words):
         return words
 
-    def complete(typed: str) -> list[str]:
-        return [word for word in words if word.startswith(typed)]
+    def complete(typed: str) -> list[str]:  # Typer reads the annotation
+        return _begun(typed, words)
 
     return complete
 
@@ -33,13 +33,8 @@ def listed(words: Offer | Iterable[str]) -> Offer:
     return complete
 
 
-def _words(names: Callable[[], Iterable[str]]) -> Offer:
-    """Offer words, which are found when the shell asks."""
-
-    def complete(typed: str) -> Sequence[str | tuple[str, str]]:
-        return offer(names())(typed)
-
-    return complete
+def _begun(typed: str, words: Iterable[str]) -> list[str]:
+    return [word for word in words if word.startswith(typed)]
 
 
 def keys(typed: str) -> list[tuple[str, str]]:
@@ -48,70 +43,62 @@ def keys(typed: str) -> list[tuple[str, str]]:
 
     key, sign, begun = typed.partition("=")
     if sign:
-        return [(f"{key}={word}", "") for word in words_of(key) if word.startswith(begun)]
+        return [(f"{key}={word}", "") for word in _begun(begun, words_of(key))]
     return [(f"{name}=", about) for name, about in full_names().items() if name.startswith(typed)]
 
 
-@_words
-def tables_and_keys() -> Iterable[str]:
+def tables_and_keys(typed: str) -> list[str]:
     """The arguments of ``geneva keys``."""
     from geneva_cli.specfile.keys import full_names
 
     names = full_names()
-    return [*dict.fromkeys(name.rpartition(".")[0] for name in names), *names]
+    return _begun(typed, [*dict.fromkeys(name.rpartition(".")[0] for name in names), *names])
 
 
-@_words
-def laws() -> Iterable[str]:
+def laws(typed: str) -> list[str]:
     """The motion laws."""
     from geneva_cli.specfile.keys import words_of
 
-    return words_of("motion.law")
+    return _begun(typed, words_of("motion.law"))
 
 
-@_words
-def kinds() -> Iterable[str]:
+def kinds(typed: str) -> list[str]:
     """The kinds that ``geneva new`` writes."""
     from geneva_cli.specfile.template import KINDS
 
-    return KINDS
+    return _begun(typed, KINDS)
 
 
-@_words
-def designs() -> Iterable[str]:
+def designs(typed: str) -> list[str]:
     """The designs in the package."""
     from geneva_cli.specfile.designs import titles
 
-    return titles()
+    return _begun(typed, titles())
 
 
-@_words
-def topics() -> Iterable[str]:
+def topics(typed: str) -> list[str]:
     """The pages of the manual."""
     from geneva_cli.manual import TOPICS
 
-    return TOPICS
+    return _begun(typed, TOPICS)
 
 
-@_words
-def explained() -> Iterable[str]:
+def explained(typed: str) -> list[str]:
     """The words that ``geneva explain`` explains."""
     from geneva_cli.specfile.meanings import names
 
-    return names()
+    return _begun(typed, names())
 
 
-@_words
-def fields() -> Iterable[str]:
+def fields(typed: str) -> list[str]:
     """The quantities of a design."""
     from geneva_cli.verdict.quantities.quantity_names import group_of
 
-    return group_of()
+    return _begun(typed, group_of())
 
 
-@_words
-def quantities() -> Iterable[str]:
+def quantities(typed: str) -> list[str]:
     """The quantities that ``geneva plot`` draws."""
     from geneva_cli.study.figures import QUANTITIES
 
-    return QUANTITIES
+    return _begun(typed, QUANTITIES)

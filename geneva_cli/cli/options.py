@@ -26,9 +26,9 @@ def option(
     metavar: str,
     help: str,
     heading: str | None = None,
+    complete: completion.Offer | Iterable[str] | None = None,
     *,
     name: str = "",
-    complete: completion.Offer | Iterable[str] | None = None,
     default: str | bool = True,
 ) -> Any:
     """An option with a value, below a heading of the help.
@@ -72,13 +72,9 @@ Reverse: TypeAlias = Annotated[bool, flag("--reverse", "Turn the input the other
 AlsoReverse: TypeAlias = Annotated[
     bool, flag("--reverse", "Also each design turning the other way.")
 ]
-Output: TypeAlias = Annotated[
-    str,
-    output_option("FILE", "Write to this file; - prints."),
-]
+Output: TypeAlias = Annotated[str, output_option("FILE", "Write to this file; - prints.")]
 Format: TypeAlias = Annotated[
-    str,
-    option("FORMAT", one_of(FORMATS), name="--format", complete=FORMATS),
+    str, option("FORMAT", one_of(FORMATS), name="--format", complete=FORMATS)
 ]
 
 
@@ -88,16 +84,12 @@ def warn(design: Design) -> None:
 
 
 def say(path: str, warnings: Iterable[str]) -> None:
-    """Print warnings about a spec on standard error, one a line."""
+    """Print warnings about a spec on standard error, one a line, with names for `explain`."""
     from geneva_cli.output import shown_text
 
-    for warning in warnings:
-        print(clean(f"{path}: warning: {shown_text(with_name(warning))}"), file=sys.stderr)
-
-
-def with_name(warning: str) -> str:
-    """A warning with its name for ``geneva explain``."""
-    return f"{warning} [{warning.name}]" if isinstance(warning, Notice) else warning
+    for text in warnings:
+        named = f"{text} [{text.name}]" if isinstance(text, Notice) else text
+        print(clean(f"{path}: warning: {shown_text(named)}"), file=sys.stderr)
 
 
 def require_written(design: Design, verdict: tuple[str, list[str]], force: bool) -> None:

@@ -28,11 +28,11 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import arm_plate, crank_arm
-from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled, uncovered
 from geneva_cli.parts.slots.roller_paths import roller_reaches
 
@@ -168,7 +168,7 @@ def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
         ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
         return Contour("PITCH", (Line(*ends),), closed=False)
     from geneva_cli.geometry import fit
-    from geneva_cli.parts.outlines.walls.path_walls import parallel
+    from geneva_cli.parts.outlines.path_walls import parallel
 
     pieces: list[Segment] = []
     for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):

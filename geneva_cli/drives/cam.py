@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, ClassVar
 from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import ConstantRate, Engagement, Vector, cross
+from geneva_cli.motion.engagement import ConstantRate, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_motion import LawMotion, refuse_alpha0
 from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
-from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.jet import Number
 from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
@@ -64,32 +64,27 @@ class Cam(PinPath, kw_only=True):
         _refuse_unreachable(turned, wheel.SIGN)
         body = ConstantRate(-wheel.SIGN)  # the roller slides along the crank and turns with it
         slot = SolvedPathSlot(path)
-        engagement = Engagement(0.0, path, slot, turned, body, Slide(), groove=path)
+        engagement = Engagement(0.0, path, slot, turned, body, _slide, groove=path)
         ratio = parameter(path.crossing)
         return self.planned(engagement, ratio, L, wheel.SIGN < 0.0)
 
 
-class Slide:
-    """Equilibrium of the roller's slide: forces from the groove's wall and across the crank's arm.
+def _slide(input_deg: Number, path: Vector, loads: Sequence[Load]) -> list[tuple[Vector, Vector]]:
+    """Forces of each load on the crank's shaft, across its arm, and on the groove's wall.
 
     The crank also holds a couple.
     """
-
-    def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
-    ) -> list[tuple[Vector, Vector]]:
-        """Forces of each load on the crank's shaft, and on the groove."""
-        x, y = path
-        wall = y.derivative() * -1.0, x.derivative()
-        arm = x.lower - 1.0, y.lower
-        across = arm[1] * -1.0, arm[0]
-        turning = cross(wall, across)
-        out = []
-        for force, _ in loads:
-            push, hold = cross(wall, force) / turning, cross(force, across) / turning
-            crank = across[0] * push, across[1] * push
-            out.append((crank, (wall[0] * hold, wall[1] * hold)))
-        return out
+    x, y = path
+    wall = y.derivative() * -1.0, x.derivative()
+    arm = x.lower - 1.0, y.lower
+    across = arm[1] * -1.0, arm[0]
+    turning = cross(wall, across)
+    out = []
+    for force, _ in loads:
+        push, hold = cross(wall, force) / turning, cross(force, across) / turning
+        crank = across[0] * push, across[1] * push
+        out.append((crank, (wall[0] * hold, wall[1] * hold)))
+    return out
 
 
 def _refuse_unreachable(motion: LawMotion, sign: float) -> None:

@@ -18,7 +18,7 @@ from geneva_cli.drives.pushed import Mesh, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.drive import Gears, Plan
-from geneva_cli.motion.engagement import CarrierVelocity, ClosedPeaks, Path
+from geneva_cli.motion.engagement import ClosedPeaks, Path
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.arrays import library
@@ -115,10 +115,6 @@ class NoncircularGears(Transmission, kw_only=True):
             return whitworth.about(self.A, crank_deg)
         assert self.ratio is not None  # ``__post_init__`` requires one of the two
         return _through(_turned(self.ratio.pairs), self.ratio.pairs, crank_deg)
-
-    def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
-        """Crank's rate from the side-crank with this ratio; None for a ratio file."""
-        return None if self.A is None else whitworth.turning(self.A, crank_deg, sense)
 
     def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
         """Peaks of the side-crank with this ratio; None for a ratio file."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
-from geneva_cli.motion.engagement import Path, Vector, cross
+from geneva_cli.motion.engagement import Load, Path, Vector, cross
 from geneva_cli.numerics.arrays import Batchable, library
 from geneva_cli.numerics.jet import Jet, Number, turning
 
@@ -18,7 +18,7 @@ class PushedCrank(Batchable, ABC):
         """Point of the push from the crank's axis, over L, and a vector in its direction."""
 
     def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+        self, input_deg: Number, path: Vector, loads: Sequence[Load]
     ) -> list[tuple[Vector, Vector]]:
         """Reactions of the crank's shaft, and of the body that pushes the crank, to each load."""
         x, y = (jet.lower for jet in path)

@@ -24,12 +24,7 @@ def several_rollers(spec: Spec) -> Iterator[Conflict]:
     """More than one roller, with a drive that carries one."""
     text = 'kind = "{spec.drive.NAME}" carries one roller only'
     yield Conflict(spec.drive.rollers > 1, ("drive", "rollers"), text)
-    yield Conflict(_placed(spec), ("drive", "kind"), text)
-
-
-def _placed(spec: Spec) -> int:
-    """Number of rollers that ``steps_deg`` or ``roller_angles_deg`` place; 0 without either."""
-    return len(spec.wheel.steps or spec.drive.roller_angles_deg or ())
+    yield Conflict(spec.wheel.steps or spec.drive.roller_angles_deg, ("drive", "kind"), text)
 
 
 def of_pin_path(spec: Spec) -> Iterator[Conflict]:
@@ -66,35 +61,24 @@ def _not_radial(spec: Spec) -> Conflict:
 
 
 def of_transmission(spec: Spec) -> Iterator[Conflict]:
-    """Rules of a roller on a crank: of curved slots, then of several rollers."""
-    yield from of_curved_slots(spec)
-    yield from of_rollers(spec)
-
-
-def of_curved_slots(spec: Spec) -> Iterator[Conflict]:
-    """Rules of the slots that a law gives."""
-    if spec.motion is None:
-        return
+    """Rules of a roller on a crank: of the slots that a law gives, then of several rollers."""
+    drive, wheel, law = spec.drive, spec.wheel, spec.motion is not None
     yield Conflict(
-        spec.wheel.steps,
+        law and wheel.steps,
         ("wheel", "steps_deg"),
         "steps_deg is for straight slots, and a law makes curved slots: remove one of them",
     )
     yield Conflict(
-        spec.wheel.skewed,
+        law and wheel.skewed,
         ("wheel", "offset_mm"),
         "offset_mm is for straight slots, and a law makes curved slots: remove one of them",
     )
     yield Conflict(
-        not spec.wheel.FLAT,
+        law and not wheel.FLAT,
         ("motion", "law"),
         'gearing = "{spec.wheel.NAME}" has straight slots only: remove law',
     )
-
-
-def of_rollers(spec: Spec) -> Iterator[Conflict]:
-    """Rules of several rollers on the crank."""
-    drive, wheel, placed = spec.drive, spec.wheel, _placed(spec)
+    placed = len(wheel.steps or drive.roller_angles_deg or ())
     yield Conflict(
         wheel.steps and len(drive.roller_angles_deg or wheel.steps) != placed,
         ("drive", "roller_angles_deg"),
@@ -106,15 +90,13 @@ def of_rollers(spec: Spec) -> Iterator[Conflict]:
         f"rollers = {{spec.drive.rollers}}, but there are {placed} "
         f"{'steps' if wheel.steps else 'angles'}: remove rollers",
     )
-    if spec.motion is None:
-        return
     yield Conflict(
-        drive.roller_angles_deg,
+        law and drive.roller_angles_deg,
         ("drive", "roller_angles_deg"),
         "roller_angles_deg is for straight slots: remove law or roller_angles_deg",
     )
     yield Conflict(
-        drive.motions > 1,
+        law and drive.motions > 1,
         ("drive", "rollers"),
         "{spec.drive.rollers} rollers on a {spec.drive.NAME} move the wheel differently, so one "
         "curved slot cannot serve them all; use rollers = 1, or straight slots (no law)",
@@ -124,21 +106,23 @@ def of_rollers(spec: Spec) -> Iterator[Conflict]:
 def of_crank(spec: Spec) -> Iterator[Conflict]:
     """Rules of a plain crank, or of several about one wheel."""
     yield from of_transmission(spec)
-    drive, wheel, cranks = spec.drive, spec.wheel, len(spec.drive.cranks)
-    if cranks > 1:
-        yield Conflict(
-            not (wheel.FLAT and spec.output.turns and wheel.SIGN > 0.0),
-            ("drive", "crank_steps"),
-            "crank_steps needs an external wheel, which has cranks around it, not gearing = "
-            '"{spec.wheel.NAME}": remove crank_steps',
-        )
+    drive, wheel, places = spec.drive, spec.wheel, spec.drive.cranks
+    several = len(places) > 1
     yield Conflict(
-        _off_steps(drive.cranks, wheel.z),
+        several and not (wheel.FLAT and spec.output.turns and wheel.SIGN > 0.0),
+        ("drive", "crank_steps"),
+        "crank_steps needs an external wheel, which has cranks around it, not gearing = "
+        '"{spec.wheel.NAME}": remove crank_steps',
+    )
+    whole = [place for place in places if place == int(place)]
+    wrong = whole != [*places] or places[0] != 0.0 or len({*places}) < len(places)
+    yield Conflict(
+        wrong | (max(places) >= wheel.z),
         ("drive", "crank_steps"),
         "crank_steps must begin with 0 and hold different whole numbers below z = {spec.wheel.z}: "
         "one for each crank",
     )
-    if cranks < 2:
+    if not several:
         return
     yield Conflict(
         wheel.steps,
@@ -152,9 +136,10 @@ def of_crank(spec: Spec) -> Iterator[Conflict]:
         "the cranks of crank_steps are equal and work in even turns: remove roller_angles_deg",
     )
     yield Conflict(
-        drive.rollers != cranks,
+        drive.rollers != len(places),
         ("drive", "rollers"),
-        f"crank_steps places {cranks} cranks with one roller each: set rollers = {cranks}",
+        f"crank_steps places {len(places)} cranks with one roller each: set rollers = "
+        f"{len(places)}",
     )
     yield Conflict(
         spec.unbalanced,
@@ -168,10 +153,3 @@ def of_crank(spec: Spec) -> Iterator[Conflict]:
         "[tolerance] has no key for the places of the cranks of crank_steps about the wheel, which "
         "add to each step: remove one of them",
     )
-
-
-def _off_steps(places: tuple[float, ...], z: int) -> object:
-    """True if cranks do not stand on whole steps, each on one of its own, the first one on 0."""
-    whole = all(place == int(place) for place in places)
-    wrong = not whole or places[0] != 0.0 or len({*places}) < len(places)
-    return wrong | (max(places) >= z)

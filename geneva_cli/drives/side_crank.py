@@ -11,7 +11,7 @@ from geneva_cli.drives import whitworth
 from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import CarrierVelocity, ClosedPeaks, Displacement, Path
+from geneva_cli.motion.engagement import ClosedPeaks, Displacement, Path
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
@@ -62,10 +62,6 @@ class SideCrank(Transmission, kw_only=True):
         """Rotation of the coulisse about an angle f, from sine and cosine of f/2."""
         return whitworth.exact_coulisse(exact(self.A), *half)
 
-    def turning(self, crank_deg: float, sense: float) -> CarrierVelocity:
-        """Rate of the crank, which is the coulisse."""
-        return whitworth.turning(self.A, crank_deg, sense)
-
     @property
     def missing_length(self) -> str:
         """The input crank's, where it is not set."""
@@ -112,5 +108,5 @@ class SideCrank(Transmission, kw_only=True):
         return whitworth.SlidingBlock(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
 
     def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
-        """Peak acceleration of plain wheels; None for others."""
+        """Peaks of batches of plain wheels; None for others."""
         return whitworth.closed_peaks(self.A, wheel, place)

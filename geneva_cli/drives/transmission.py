@@ -11,21 +11,21 @@ from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
-    CarrierVelocity,
     ClosedPeaks,
     ConstantRate,
     Displacement,
     Engagement,
     Path,
+    Vector,
 )
 from geneva_cli.motion.path_and_slot import AnchoredPath, ClassicMotion
 from geneva_cli.motion.rollers import places
 from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.motion.wheels.poses import PinPose, middle
+from geneva_cli.motion.wheels.poses import PinPose, PinTravel, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.numerics.jet import Jet, Number, sine_versine
+from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
@@ -37,29 +37,34 @@ class LocalTransmission(NamedTuple):
     """A transmission written about one crank angle, so that nothing cancels near it."""
 
     input_deg: float  # input angle there
-    # A function of the input rotation since then (radians) and the order. It returns sin d and 1 -
-    # cos d of the crank's rotation d since then, with their derivatives by the input angle.
+    # sin d and 1 - cos d of the crank's rotation d since then, by the input's rotation since then
     advance: Displacement
     # True if the crank may turn alike before and after; False for an arbitrary ratio
     even: bool = True
     # input radians since then at which another formula of ``advance`` takes over
     cuts: Sequence[float] = ()
 
+    def anchor(self, pose: PinPose, middle_deg: float) -> Anchor:
+        """A pose at this crank angle as an anchor; mid-motion is at the input ``middle_deg``."""
+        travel = PinTravel(pose, self.advance)
+        return Anchor(self.input_deg - middle_deg, pose.wheel, pose.along, travel, self.cuts)
 
-def same(tau: Number, order: int) -> tuple[Jet, Jet]:
+
+def same(tau: Number, order: int) -> Vector:
     """sin d and 1 - cos d of a crank that turns as the input does."""
     return sine_versine(Jet.variable(tau, order))
 
 
-class PinTravel(NamedTuple):
-    """Displacement of a crank's pin from a pose, by the input angle."""
+class _CrankRate(NamedTuple):
+    """Rate of the crank about its roller's axis: a factor times that of its rotation."""
 
-    pose: PinPose
     advance: Displacement
+    factor: float
 
-    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """Displacement along the pose's ray and across it, ``tau`` input radians later."""
-        return self.pose.displacement(*self.advance(tau, order))
+    def __call__(self, tau: Number, order: int) -> Jet:
+        sine, versine = self.advance(tau, order + 1)
+        rate: Jet = turning(1.0 - versine, sine) * self.factor
+        return rate
 
 
 class Transmission(Drive, kw_only=True):
@@ -106,9 +111,8 @@ class Transmission(Drive, kw_only=True):
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """Plan of straight slots, which give the motion; or of curved slots, from a law."""
-        return self._straight(wheel, L) if motion is None else self._curved(wheel, motion, L)
-
-    def _straight(self, wheel: Gearing, L: float) -> Plan:
+        if motion is not None:
+            return self._curved(wheel, motion, L)
         rollers = places(wheel, self, L)
         self._refuse_reach(wheel, rollers[0].reach_deg)
         engagements = tuple(self._follows(wheel, place, L) for place in rollers)
@@ -127,33 +131,21 @@ class Transmission(Drive, kw_only=True):
     def _follows(self, wheel: Gearing, place: RollerPlace, L: float) -> Engagement:
         """The engagement of a straight slot with one of the rollers."""
         here = self.about(place.crank_deg)
-        first, second, third = (self._anchor(pose, place.crank_deg) for pose in place.poses)
-        path = AnchoredPath((first, second, third))
+        anchors = tuple(
+            self.about(place.crank_deg + pose.crank_deg).anchor(pose, here.input_deg)
+            for pose in place.poses
+        )
+        path = AnchoredPath(anchors)
         slot, motion = wheel.follow(path, place, here.advance)
         if place.closed and self.direct:
             motion = ClassicMotion(path, place.step.b, *place.closed)
         else:
             motion.closed_peaks = self.closed_peaks(wheel, place)
             motion.mirrored = motion.mirrored and here.even
-        body = wheel.body(place, here.advance)
-        body = body or self.turning(place.crank_deg, -wheel.SIGN)
-        mid = here.input_deg
-        reactions = self.reactions(wheel, path, mid, L) if wheel.FLAT else None
-        return Engagement(mid, path, slot, motion, body, reactions, hub=place.hub)
-
-    def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
-        """Rate of the crank from a crank angle on; None if only its pin's path gives it.
-
-        ``sense`` is 1 if it turns with the wheel, else -1.
-        """
-        return ConstantRate(sense) if self.direct else None
-
-    def _anchor(self, pose: PinPose, crank_deg: float) -> Anchor:
-        """A pose as an anchor by the input angle; the roller is ``crank_deg`` behind the first."""
-        here = self.about(crank_deg + pose.crank_deg)
-        from_mid = here.input_deg - self.about(crank_deg).input_deg
-        travel = PinTravel(pose, here.advance)
-        return Anchor(from_mid, pose.wheel, pose.along, travel, here.cuts)
+        rate = -wheel.SIGN * place.cone
+        body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
+        reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
+        return Engagement(here.input_deg, path, slot, motion, body, reactions, hub=place.hub)
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
@@ -171,16 +163,15 @@ class Transmission(Drive, kw_only=True):
         refuse_alpha0(motion.alpha0_deg, natural)
         refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
         ratio = self._ratio(wheel, motion, motion_deg)
+        here = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
-        anchor = self._anchor(pose, 0.0)
-        path = MiddlePath(anchor, self.about(0.0).even)
+        path = MiddlePath(here.anchor(pose, here.input_deg), here.even)
         turned = LawMotion(-0.5 * motion_deg, 0.5 * motion_deg, wheel.step.b, motion.law)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
-        body = self.turning(0.0, -wheel.SIGN)
+        body = ConstantRate(-wheel.SIGN) if self.direct else _CrankRate(here.advance, -wheel.SIGN)
         engagement = Engagement(0.0, path, SolvedSlot(path, turned), turned, body, reactions)
         period = 360.0 * self.turns / self.rollers
-        most = rollers_max(motion_deg)
-        return Plan((engagement,), period, ratio, most, L)
+        return Plan((engagement,), period, ratio, rollers_max(motion_deg), L)
 
     def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
         """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion."""

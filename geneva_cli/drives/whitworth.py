@@ -81,15 +81,6 @@ class Coulisse(NamedTuple):
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the coulisse's rotation d, ``tau`` input radians later."""
-        y, x, rate = self._turned(tau, order - 1)
-        return sine_versine_of(rate, y, x, order)
-
-    def rate(self, tau: Number, order: int) -> Jet:
-        """Rate at which the coulisse turns, radians per input radian."""
-        return self._turned(tau, order)[2]
-
-    def _turned(self, tau: Number, order: int) -> tuple[Number, Number, Jet]:
-        """The coulisse's vector (y, x) in the frame of its direction at f, and its rate."""
         A, s, c, sin_h, cos_h, length, rest, grows = enclosed(tau, self)
         m = library(tau, A, s)
         sin_t, cos_t = m.sin(0.5 * tau), m.cos(0.5 * tau)
@@ -98,21 +89,11 @@ class Coulisse(NamedTuple):
         # df/dphi = (1 + (1 - A²)/W)/2 with W = x² + y² = 1 + A² + 2 A cos phi. As A nears 1 the
         # coulisse turns at half speed, and nothing cancels.
         sine, cosine = x * s + y * c, x * c - y * s - A
-        cosines = cosines_after(sine, cosine, max(order, 0))
+        cosines = cosines_after(sine, cosine, max(order - 1, 0))
         W = choose(grows, length * length - 4.0 * A * c * sin_t * sin_t, x * x + y * y)
         square = Jet((W, *[2.0 * A * t for t in cosines[1:]]))
-        return y, x, 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
-
-
-class CoulisseRate(NamedTuple):
-    """Rate of the coulisse as the roller's crank; it turns with the wheel if ``sense`` is 1."""
-
-    coulisse: Coulisse
-    sense: float
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """Rate in radians per input radian."""
-        return self.coulisse.rate(tau, order) * self.sense
+        rate = 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
+        return sine_versine_of(rate, y, x, order)
 
 
 class SlidingBlock(PushedCrank):
@@ -134,24 +115,6 @@ class SlidingBlock(PushedCrank):
 
 def about(A: float, crank_deg: float) -> LocalTransmission:
     """The side-crank about a coulisse angle f in degrees, for an offset A between -1 and 1."""
-    return LocalTransmission(*_about(A, crank_deg))
-
-
-def exact_coulisse(A: float, sin_half: float, cos_half: float) -> Coulisse:
-    """The coulisse about an angle f, from f/2, in numbers in which differences lose no digits."""
-    m = library(A, sin_half, cos_half)
-    s, c = 2.0 * sin_half * cos_half, (cos_half - sin_half) * (cos_half + sin_half)
-    sin_h = A * s
-    cos_h = m.sqrt((1.0 - sin_h) * (1.0 + sin_h))
-    return Coulisse(A, s, c, sin_h, cos_h, cos_h + A * c, cos_h - A * c, grows=False)
-
-
-def turning(A: float, crank_deg: float, sense: float) -> CoulisseRate:
-    """Rate of the coulisse from its angle f in degrees on."""
-    return CoulisseRate(_about(A, crank_deg)[1], sense)
-
-
-def _about(A: float, crank_deg: float) -> tuple[float, Coulisse]:
     m = library(A, crank_deg)
     s, c = sin_cos_deg(crank_deg)
     # cos h and the coulisse's length are sums of positive terms for A near +-1.
@@ -171,4 +134,13 @@ def _about(A: float, crank_deg: float) -> tuple[float, Coulisse]:
     own = whole + m.degrees(m.atan2(up, length * c - A))
     phi = choose(A < 0.0, own, added)
     grows = (A * c < 0.0) & level
-    return phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows)
+    return LocalTransmission(phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows))
+
+
+def exact_coulisse(A: float, sin_half: float, cos_half: float) -> Coulisse:
+    """The coulisse about an angle f, from f/2, in numbers in which differences lose no digits."""
+    m = library(A, sin_half, cos_half)
+    s, c = 2.0 * sin_half * cos_half, (cos_half - sin_half) * (cos_half + sin_half)
+    sin_h = A * s
+    cos_h = m.sqrt((1.0 - sin_h) * (1.0 + sin_h))
+    return Coulisse(A, s, c, sin_h, cos_h, cos_h + A * c, cos_h - A * c, grows=False)

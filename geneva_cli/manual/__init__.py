@@ -13,9 +13,7 @@ from geneva_cli.errors import GenevaError, cut, nearest
 
 # Pages of each kind (https://diataxis.fr): learning by doing, one task, facts, reasons.
 GROUPS: dict[str, dict[str, str]] = {
-    "tutorial": {
-        "first-turret": "ten minutes: a turret checked, drawn, cut and shown to the boss",
-    },
+    "tutorial": {"first-turret": "ten minutes: a turret checked, drawn, cut and shown to the boss"},
     "howto": {
         "dwell-time": "choose a machine for a dwell time",
         "compare-designs": "compare designs in one table",

@@ -5,8 +5,8 @@ An object of a batch holds arrays (m, 1) along the design axis, at any depth.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cache, partial
+from collections.abc import Callable, Sequence
+from functools import cache
 from typing import TypeAlias, TypeVar, cast
 
 import numpy as np
@@ -23,12 +23,13 @@ def taken(thing: T, which: Which | int) -> T:
 
     With the number of one design, numbers stand in place of arrays.
     """
-    if isinstance(which, slice):
-        return cast("T", _changed(thing, lambda array: array[which], {}))
-    if isinstance(which, int):
-        return cast("T", _changed(thing, lambda array: array[which, 0].item(), {}))
-    numbers = numbers_of(which)
-    return cast("T", _changed(thing, lambda array: array.take(numbers, axis=0), {}))
+
+    def change(array: Array) -> object:
+        if isinstance(which, int):
+            return array[which, 0].item()
+        return array[which] if isinstance(which, slice) else array.take(numbers_of(which), axis=0)
+
+    return cast("T", _changed(thing, change, {}))
 
 
 def selection(thing: T) -> Callable[[Which], T]:
@@ -36,9 +37,8 @@ def selection(thing: T) -> Callable[[Which], T]:
 
     It looks for arrays once: an object without them is the same for all designs.
     """
-    if taken(thing, slice(0)) is thing:
-        return lambda _: thing
-    return partial(taken, thing)
+    varies = taken(thing, slice(0)) is not thing
+    return lambda which: taken(thing, which) if varies else thing
 
 
 def designs_in(thing: object) -> int:
@@ -53,27 +53,21 @@ def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
 
     What several records share is copied once, in ``done``: it stays shared.
     """
+    kind: type = type(thing)
     if isinstance(thing, np.ndarray):
         return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
-    kind: type = type(thing)
-    if not _is_record(kind):
-        return thing
-    if id(thing) in done:
-        return done[id(thing)]
-    copy: object = thing
-    if isinstance(thing, (tuple, list)):
-        parts = [_changed(part, change, done) for part in thing]
-        if any(a is not b for a, b in zip(parts, thing, strict=True)):
-            copy = parts if isinstance(thing, list) else record_of(thing, parts)
-    else:
-        old = vars(thing)
-        new = {}
-        for name, value in old.items():
-            new[name] = _changed(value, change, done)
-        if any(new[name] is not value for name, value in old.items()):
-            fresh: object = object.__new__(kind)
-            vars(fresh).update(new)
-            copy = fresh
+    if not _is_record(kind) or id(thing) in done:
+        return done.get(id(thing), thing)
+    own = None if isinstance(thing, (tuple, list)) else vars(thing).copy()
+    old = [*(cast("Sequence[object]", thing) if own is None else own.values())]
+    new = [_changed(part, change, done) for part in old]
+    copy = thing
+    if any(a is not b for a, b in zip(new, old, strict=True)):
+        if own is not None:
+            copy = object.__new__(kind)
+            vars(copy).update(zip(own, new, strict=True))
+        else:
+            copy = record_of(thing, new) if isinstance(thing, tuple) else new
     done[id(thing)] = copy
     return copy
 

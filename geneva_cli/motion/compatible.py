@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial, reduce
-from itertools import chain
 from operator import or_
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Drive
@@ -34,25 +33,24 @@ class Conflict(NamedTuple):
     text: str
 
 
-Rules: TypeAlias = Callable[[Spec], Iterator[Conflict]]
-
 # The rules of a drive come first, then those of its wheel, then those of what adds to it.
-_KINDS = tuple(
-    sorted(
-        (kind for kind in KINDS if kind.refuses), key=lambda kind: (not kind.drive, not kind.wheel)
-    )
-)
+_KINDS = [
+    *[kind for kind in KINDS if kind.refuses and kind.drive],
+    *[kind for kind in KINDS if kind.refuses and kind.wheel],
+    *[kind for kind in KINDS if kind.refuses and not (kind.drive or kind.wheel)],
+]
 
 
 def refuse_conflicts(spec: Spec) -> None:
     """Raise GenevaError if the spec combines kinds that make no machine together."""
     kinds = [load_named(kind.refuses) for kind in _KINDS if _concerns(kind, spec)]
-    rules: list[Rules] = [_of_drive_before, *kinds, _of_gears]
-    for conflict in chain.from_iterable(rule(spec) for rule in rules):
-        if is_array(conflict.when):
-            refuse(conflict.when, partial(GenevaError, conflict.text))
-        elif conflict.when:
-            raise GenevaError(conflict.text.format(spec=spec), conflict.key)
+    rules: list[Callable[[Spec], Iterator[Conflict]]] = [_of_drive_before, *kinds, _of_gears]
+    for rule in rules:
+        for when, key, text in rule(spec):
+            if is_array(when):
+                refuse(when, partial(GenevaError, text))
+            elif when:
+                raise GenevaError(text.format(spec=spec), key)
 
 
 def _concerns(kind: Kind, spec: Spec) -> bool:

@@ -2,7 +2,8 @@
 
 An engagement is one roller's passage through one slot. Input angles are in degrees from its own
 mid-motion. Wheel angles are in radians from the middle of the step. Lengths are in units of the
-centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0).
+centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0). Derivatives are by
+the input angle in radians.
 """
 
 from __future__ import annotations
@@ -24,23 +25,55 @@ K = TypeVar("K", float, "Array")
 BLOCK = 12288  # angles: their jets stay in the processor's cache
 
 Vector: TypeAlias = tuple[Jet, Jet]
+# A force at the pin's centre and a couple, both on the roller's body; the couple in that unit x L.
+Load: TypeAlias = tuple[Vector, Jet]
 
 
 class Path(Protocol):
     """The roller centre's position in the fixed frame, as the input turns."""
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
-        """Pin (x, y) with its derivatives by the input angle in radians."""
+        """Pin (x, y) with its derivatives."""
 
 
 class Displacement(Protocol):
-    """The displacement of a pin, or of a crank as its sine and versine, since a place."""
+    """A pin's displacement since a moment, along a ray and across it.
+
+    Or a crank's rotation d since then, as sin d and 1 - cos d.
+    """
 
     def __call__(self, tau: Number, order: int) -> Vector:
-        """Displacement along a ray and across it, ``tau`` input radians later."""
+        """Displacement ``tau`` input radians later."""
 
 
-class Groove(Protocol):
+class CarrierRate(Protocol):
+    """Rate of the body that carries the roller, positive with the wheel."""
+
+    def __call__(self, tau: Number, order: int) -> Jet:
+        """Rate in radians per input radian, ``tau`` after mid-motion."""
+
+
+class ClosedPeaks(Protocol):
+    """Peaks in closed form, or by a search that is faster than the general one."""
+
+    def __call__(self, quantity: str) -> Peak[float] | None:
+        """Peak of a quantity, or None if it needs the general search."""
+
+
+class Reactions(Protocol):
+    """Reactions on the body that carries the roller, held by links without mass or friction."""
+
+    def __call__(
+        self, input_deg: Number, path: Vector, loads: Sequence[Load]
+    ) -> list[tuple[Vector, Vector]]:
+        """Reactions of the crank's shaft, and of the body's other guide, to each load.
+
+        ``path`` is the pin's path, one order higher than the loads. The guide is a rocker, slider,
+        groove or fixed gear.
+        """
+
+
+class Groove(Path, Protocol):
     """A fixed groove about the crank's axis, which guides the roller along the crank."""
 
     sign: float  # 1 for an external wheel, -1 for an internal one
@@ -60,26 +93,22 @@ class Groove(Protocol):
         """Roller distance from the crank's axis with two derivatives, at entry and exit."""
 
 
-class CarrierVelocity(Protocol):
-    """Angular velocity of the body that carries the roller, if that is not the crank's arm."""
+class Height(NamedTuple):
+    """A pin's position along a spherical wheel's axis: top - fall (1 - cos a)."""
+
+    top: float
+    fall: float
+    turn: Displacement  # of the crank
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """Rate in radians per input radian, positive with the wheel, ``tau`` after mid-motion."""
+        """Position ``tau`` input radians after mid-motion."""
+        out: Jet = self.top - self.turn(tau, order)[1] * self.fall
+        return out
 
-
-class Reactions(Protocol):
-    """Reactions on the body that carries the roller, held by links without mass or friction."""
-
-    def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
-    ) -> list[tuple[Vector, Vector]]:
-        """Two reactions to each load: on the crank's shaft, and on the body's other guide.
-
-        A load is a force at the pin's centre and a couple, both on the roller's body. ``path`` is
-        the pin's path, one order higher than the loads. The guide is a rocker, slider, groove or
-        fixed gear. Forces are in any unit, couples in that unit times L. Meshing gears push along
-        the common tangent of their pitch circles.
-        """
+    @property
+    def hub(self) -> float:
+        """Position of the centre of the pin's circle."""
+        return self.top - self.fall
 
 
 class SlotAxis(NamedTuple):
@@ -103,19 +132,8 @@ class ConstantRate(NamedTuple):
     rate: float
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """Constant rate as a jet."""
+        """The rate as a jet."""
         return Jet((tau * 0.0 + self.rate, *[0.0] * order))
-
-
-class Level(Protocol):
-    """A pin's position along the wheel's axis, as the input turns."""
-
-    @property
-    def hub(self) -> float:
-        """Position of the centre of the pin's circle."""
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """Position ``tau`` input radians after mid-motion."""
 
 
 class Slot(Batchable, ABC):
@@ -130,7 +148,7 @@ class Slot(Batchable, ABC):
     # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0
     # The pin's position along the wheel's axis on a sphere, where the path is a projection.
-    height: Level | None = None
+    height: Height | None = None
 
     @property
     def walls_flat(self) -> bool:
@@ -172,13 +190,6 @@ class Peak(NamedTuple, Generic[K]):
 
     max: K
     at_deg: K
-
-
-class ClosedPeaks(Protocol):
-    """Peaks in closed form, or by a search that is faster than the general one."""
-
-    def __call__(self, quantity: str) -> Peak[float] | None:
-        """Peak of a quantity, or None if it needs the general search."""
 
 
 class WheelMotion(Batchable, ABC):
@@ -237,7 +248,12 @@ class WheelMotion(Batchable, ABC):
 
         None if there is neither; in a batch NaN for each design that has neither.
         """
-        return None
+        return self.closed_peaks(quantity) if self.closed_peaks else None
+
+    def end_rates(self, input_deg: float) -> tuple[float, float]:
+        """Sizes of acceleration and jerk at entry or exit, from inside the motion."""
+        _, _, acceleration, jerk = self(input_deg).scalars()
+        return abs(acceleration), abs(jerk)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """Wheel angle and its derivatives at many ascending input angles (k,).
@@ -285,7 +301,7 @@ class Engagement(Batchable):
     path: Path
     slot: Slot
     motion: WheelMotion
-    body: CarrierVelocity | None = None
+    body: CarrierRate | None = None
     reactions: Reactions | None = None
     crank_sense: float = 0.0
     groove: Groove | None = None
@@ -433,13 +449,8 @@ class Anchor(NamedTuple):
 
     def place(self, input_deg: Number, order: int) -> Vector:
         """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
-        along, across = self.displacement(radians(input_deg - self.input_deg), order)
+        along, across = self.displacement_at(input_deg, order)
         return along + self.along, across
-
-    def stacked(self, input_deg: Number, order: int) -> Jet:
-        """Coefficients of that position and the ray's direction, one after the other in a jet."""
-        along, across = self.displacement(radians(input_deg - self.input_deg), order)
-        return Jet((*(along + self.along).c, *across.c, self.wheel))
 
 
 def in_wheel(path: Vector, wheel: Jet) -> Vector:

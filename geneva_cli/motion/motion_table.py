@@ -1,4 +1,4 @@
-"""The wheel's position, velocity, acceleration and jerk over a whole period of the machine.
+"""The wheel's position, velocity, acceleration and jerk over whole periods of the machine.
 
 Tables are of one design, since each design has its own rows of motion and dwell. For a batch, call
 the ``motion`` of an engagement.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.angles import distinct
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Table, computed_table
 
@@ -45,8 +47,11 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     end of the last dwell.
     """
     check_samples(samples)
-    names = motion_columns(mechanism)
-    return computed_table(names, samples, lambda i, j: _rows(mechanism, samples, i, j))
+    return computed_table(
+        motion_columns(mechanism),
+        samples,
+        lambda i, j: _columns(mechanism, inputs(mechanism, samples, i, j), 0),
+    )
 
 
 def turns_table(mechanism: Mechanism, samples: int, count: int, knots: Array) -> Table:
@@ -56,37 +61,18 @@ def turns_table(mechanism: Mechanism, samples: int, count: int, knots: Array) ->
     on from period to period.
     """
     check_samples(samples)
-    whole = count * mechanism.period_deg
-    even = np.linspace(0.0, whole, samples)
+    period = mechanism.period_deg
+    even = np.linspace(0.0, count * period, samples)
     nearest = np.searchsorted(knots, even)
     apart = np.minimum(
         abs(even - knots[np.clip(nearest, 0, len(knots) - 1)]), abs(even - knots[nearest - 1])
     )
     # An even row that a knot repeats but for rounding is left out.
-    places = np.sort(np.append(even[apart > 1e-9 * mechanism.period_deg], knots))
+    places = np.sort(np.append(even[apart > 1e-9 * period], knots))
+    cuts = np.searchsorted(places, period * np.arange(1, count))
     start = first_entry_deg(mechanism)
-    total = math.fsum(2.0 * one.half_step for one in mechanism.engagements)
-    columns: list[list[Array]] = []
-    for k in range(count):
-        after, before = k * mechanism.period_deg, (k + 1) * mechanism.period_deg
-        last = k + 1 == count
-        here = places[(places >= after) & ((places < before) | last)]
-        wheel, *rates = derivatives(mechanism, start + (here - after), (0, 1, 2, 3))
-        input_deg = start + here
-        time_s = times_s(mechanism, input_deg)
-        shown = (wheel + k * total) * mechanism.output.per_radian
-        own = [time_s, input_deg, shown, *rates]
-        columns.append([*own, *_from_ground(mechanism, input_deg, shown, rates)])
+    columns = [_columns(mechanism, start + x, k) for k, x in enumerate(np.split(places, cuts))]
     return Table(motion_columns(mechanism), [np.concatenate(c) for c in zip(*columns, strict=True)])
-
-
-class Span(NamedTuple):
-    """A motion and the dwell after it, as slices of ascending input angles."""
-
-    engagement: Engagement
-    moves: slice
-    rests: slice
-    base: float  # the wheel's angle at mid-step, radians from the middle of the first step
 
 
 def inputs(mechanism: Mechanism, samples: int, begin: int, end: int) -> Array:
@@ -103,12 +89,39 @@ def first_entry_deg(mechanism: Mechanism) -> float:
     return mechanism.engagements[0].mid_deg + mechanism.engagements[0].entry_deg
 
 
+def times_s(mechanism: Mechanism, input_deg: Array) -> Array:
+    """Seconds from the first entry."""
+    return (input_deg - first_entry_deg(mechanism)) / (6.0 * mechanism.spec.drive.n_rpm)
+
+
+def _columns(mechanism: Mechanism, input_deg: Array, periods: int) -> list[Array]:
+    """The columns at ascending input angles of a period, which others came before."""
+    before_deg = periods * mechanism.period_deg
+    wheel, *rates = derivatives(mechanism, input_deg - before_deg, (0, 1, 2, 3))
+    turned = periods * math.fsum(2.0 * one.half_step for one in mechanism.engagements)
+    shown = (wheel + turned) * mechanism.output.per_radian
+    columns = [times_s(mechanism, input_deg), input_deg, shown, *rates]
+    if mechanism.frame:
+        sense = mechanism.spec.wheel.SIGN
+        columns.append(mechanism.absolute_deg(input_deg, shown))
+        columns += [1.0 + sense * rates[0], sense * rates[1]]
+    return columns
+
+
+class Span(NamedTuple):
+    """A motion and the dwell after it, as slices of ascending input angles."""
+
+    engagement: Engagement
+    moves: slice
+    rests: slice
+    base: float  # the wheel's angle at mid-step, radians from the middle of the first step
+
+
 def spans(mechanism: Mechanism, input_deg: Array) -> Iterator[Span]:
     """The motions of a period with the dwells after them; entry and exit belong to the motion."""
     engagements = mechanism.engagements
     first = 0
     for i, engagement in enumerate(engagements):
-        # The wheel's angle from the steps before this one, constant within a cycle.
         base = sum(2.0 * s.half_step for s in engagements[:i]) + engagement.half_step
         base -= engagements[0].half_step
         exit_ = engagement.mid_deg + engagement.exit_deg
@@ -127,43 +140,104 @@ def local_deg(span: Span, input_deg: Array) -> Array:
     return np.clip(here, engagement.entry_deg, engagement.exit_deg)
 
 
-def _rows(mechanism: Mechanism, samples: int, begin: int, end: int) -> list[Array]:
-    """The columns' rows ``begin`` to ``end - 1`` of ``samples``."""
-    input_deg = inputs(mechanism, samples, begin, end)
-    wheel, *rates = derivatives(mechanism, input_deg, (0, 1, 2, 3))
-    shown = wheel * mechanism.output.per_radian
-    own = [times_s(mechanism, input_deg), input_deg, shown, *rates]
-    return [*own, *_from_ground(mechanism, input_deg, shown, rates)]
-
-
-def _from_ground(
-    mechanism: Mechanism, input_deg: Array, wheel_deg: Array, rates: Sequence[Array]
-) -> list[Array]:
-    """Absolute angle, velocity and acceleration of a wheel on a carrier; nothing without one."""
-    if not mechanism.frame:
-        return []
-    sense = mechanism.spec.wheel.SIGN
-    angle = mechanism.absolute_deg(input_deg, wheel_deg)
-    return [angle, 1.0 + sense * rates[0], sense * rates[1]]
-
-
 def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -> list[Array]:
     """The wheel's angle, radians, and its derivatives at ascending input angles of a period."""
     out = [np.zeros(len(input_deg)) for _ in orders]
     for span in spans(mechanism, input_deg):
         local = local_deg(span, input_deg)
-        rest = span.engagement.half_step
-        if len(local):
-            rows = span.engagement.motion.derivatives(local, orders)
-            for total, row in zip(out, rows, strict=True):
-                total[span.moves] = row
+        moving = span.engagement.motion.derivatives(local, orders) if len(local) else []
+        for total, row in zip(out, moving, strict=False):
+            total[span.moves] = row
         for order, total in zip(orders, out, strict=True):
             if order == 0:
-                total[span.rests] = rest
+                total[span.rests] = span.engagement.half_step
                 total[span.moves.start : span.rests.stop] += span.base
     return out
 
 
-def times_s(mechanism: Mechanism, input_deg: Array) -> Array:
-    """Seconds from the first entry."""
-    return (input_deg - first_entry_deg(mechanism)) / (6.0 * mechanism.spec.drive.n_rpm)
+class Stretch(NamedTuple):
+    """A part of the period between two places where a derivative may jump.
+
+    ``engagement`` is None in a dwell. Master and slave are degrees from the first entry.
+    """
+
+    engagement: Engagement | None
+    begin_deg: float
+    end_deg: float
+    mid_deg: float  # where the engagement's own angle is 0
+    base_deg: float  # the slave's angle there; in a dwell everywhere
+
+    def states(self, master_deg: Array, side: int) -> Array:
+        """Slave angle, velocity and acceleration (3, k) at ascending angles (k,).
+
+        The acceleration is that just after the angles for ``side`` 1, just before for -1.
+        """
+        nudge = 1e-9 * side * (self.end_deg - self.begin_deg)  # into the stretch
+        wheel, velocity = self._derivatives(master_deg, (0, 1))
+        acceleration, jerk = self._derivatives(master_deg + nudge, (2, 3))
+        per_deg = np.radians(acceleration - np.radians(nudge) * jerk)
+        return np.stack([self.base_deg + np.degrees(wheel), velocity, per_deg])
+
+    def slave_deg(self, master_deg: Array) -> Array:
+        """Slave angle (k,) at ascending angles (k,)."""
+        return self.base_deg + np.degrees(self._derivatives(master_deg, (0,))[0])
+
+    def _derivatives(self, master_deg: Array, orders: Sequence[int]) -> list[Array]:
+        if self.engagement is None:
+            return [np.zeros(len(master_deg)) for _ in orders]
+        first, last = self.engagement.entry_deg, self.engagement.exit_deg
+        local = np.clip(master_deg - self.mid_deg, first, last)
+        return self.engagement.motion.derivatives(local, orders)
+
+
+def stretches(mechanism: Mechanism) -> list[Stretch]:
+    """The stretches of a period, in order: those of each motion, then its dwell."""
+    out: list[Stretch] = []
+    begin, slave = 0.0, 0.0
+    for i, engagement in enumerate(mechanism.engagements):
+        half = math.degrees(engagement.half_step)
+        mid = begin - engagement.entry_deg
+        # seams within the rounding of half a turn are one: no stretch is that short
+        for first, last in pairwise(distinct(engagement.motion.seams_deg, 1e-12)):
+            out.append(Stretch(engagement, mid + first, mid + last, mid, slave + half))
+        slave += 2.0 * half
+        dwell = mechanism.dwell_deg(i)
+        begin = mid + engagement.exit_deg + dwell
+        if dwell > 0.0:
+            out.append(Stretch(None, begin - dwell, begin, begin, slave))
+    # Sums of angles are rounded: each stretch ends where the next one begins, the last at the end.
+    ends = [*(stretch.begin_deg for stretch in out[1:]), mechanism.period_deg]
+    return [stretch._replace(end_deg=end) for stretch, end in zip(out, ends, strict=True)]
+
+
+def knots_deg(mechanism: Mechanism, count: int) -> Array:
+    """Where a derivative may jump in ``count`` periods, and the end: degrees from first entry."""
+    ends = [stretch.begin_deg for stretch in stretches(mechanism)]
+    repeats = mechanism.period_deg * np.arange(count)[:, None]
+    knots: Array = np.append((repeats + np.array(ends)).ravel(), count * mechanism.period_deg)
+    return knots
+
+
+def periods(mechanism: Mechanism, turns: int | None) -> int:
+    """The number of periods in ``turns`` of the input; 1 for None.
+
+    Raises GenevaError if the turns are no whole periods.
+    """
+    if turns is None:
+        return 1
+    if not 1 <= turns <= 1000:  # more make no file that a program reads
+        raise GenevaError(f"--turns {cut(turns)}: must be at least 1, at most 1000")
+    count = 360.0 * turns / mechanism.period_deg
+    if abs(count - round(count)) > 1e-9:
+        whole = round(mechanism.period_deg / 360.0)
+        raise GenevaError(
+            f"--turns {turns}: this machine repeats after {whole} turns of its input; "
+            f"give a multiple of {whole}"
+        )
+    z = mechanism.spec.wheel.z
+    if mechanism.spec.wheel.stopped and turns > z - 2:
+        raise GenevaError(
+            f"--turns {turns}: the stop leaves {z - 2} whole motions, as the first and the last of "
+            f"{z} are blocked half-way; give at most {z - 2}"
+        )
+    return round(count)

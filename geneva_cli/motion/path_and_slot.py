@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from itertools import pairwise
 
-from geneva_cli.motion.engagement import (
-    Anchor,
-    Level,
-    Peak,
-    Slot,
-    SlotAxis,
-    WheelMotion,
-)
+from geneva_cli.motion.engagement import Anchor, Height, Peak, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Batchable, Whole, array, library, parameter, picked
-from geneva_cli.numerics.jet import (
+from geneva_cli.numerics.arrays import (
+    SINGLE,
     Array,
+    Batchable,
+    Whole,
+    array,
+    library,
+    picked,
+    piece_of,
+)
+from geneva_cli.numerics.jet import (
     Jet,
     Number,
     atan2,
@@ -49,7 +49,7 @@ class AnchoredPath(Batchable):
         """Anchor of mid-motion."""
         return self.anchors[len(self.anchors) // 2]
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) on its path at input angles in degrees from mid-motion."""
         along, across = self.middle.place(input_deg, order)
         return turned(along, across, self.ahead)
@@ -57,9 +57,17 @@ class AnchoredPath(Batchable):
     def nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet, Number]:
         """Pin along the nearest anchor's ray and across it; and the ray's direction, radians."""
         if isinstance(self.cuts[0], float) and isinstance(self.cuts[-1], float):
-            places = [partial(anchor.stacked, order=order) for anchor in self.anchors]
-            all_three = piecewise(input_deg, self.cuts, places).c
-            return Jet(all_three[: order + 1]), Jet(all_three[order + 1 : -1]), all_three[-1]
+            if isinstance(input_deg, SINGLE):
+                anchor = self.anchors[piece_of(input_deg, self.cuts)]
+                return (*anchor.place(input_deg, order), anchor.wheel)
+
+            def stacked(anchor: Anchor, x: Number) -> Jet:
+                along, across = anchor.place(x, order)
+                return Jet((*along.c, *across.c, anchor.wheel))
+
+            pieces = [lambda x, one=one: stacked(one, x) for one in self.anchors]
+            every = piecewise(input_deg, self.cuts, pieces).c
+            return Jet(every[: order + 1]), Jet(every[order + 1 : -1]), every[-1]
         # the anchors of a batch differ in numbers only, so that one call serves all of them
         x = array(input_deg)
         first, *others = [x > cut for cut in self.cuts]
@@ -90,15 +98,15 @@ class RadialSlot(Slot):
     def __init__(self, path: AnchoredPath) -> None:
         self.path = path
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin (x, y) in the wheel, on the slot's straight axis."""
-        depth = _length(self.path.middle.place(input_deg, order))
+        depth = _length(*self.path.middle.place(input_deg, order))
         return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
+        """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
         along, across, _ = self.path.nearest(input_deg, order + 1)
-        depth = _length((along, across))
+        depth = _length(along, across)
         return SlotAxis(depth.lower, depth.derivative())
 
 
@@ -109,14 +117,14 @@ class MeridianSlot(Slot):
     development from the wheel's pole, which keeps lengths along a meridian.
     """
 
-    def __init__(self, path: AnchoredPath, height: Level) -> None:
+    def __init__(self, path: AnchoredPath, height: Height) -> None:
         self.path = path
         self.level = self.height = height
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         """Pin's polar angle on the wheel in radians: arc length over the sphere's radius."""
         x, y = self.path(input_deg, order)
-        polar = atan2(sqrt(x * x + y * y), self.level(radians(input_deg), order))
+        polar = atan2(_length(x, y), self.level(radians(input_deg), order))
         return polar, polar * 0.0
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
@@ -140,10 +148,6 @@ class StraightSlotMotion(WheelMotion):
     def entry(self) -> Anchor:
         """Anchor of the entry."""
         return self.path.anchors[0]
-
-    def closed_peak(self, quantity: str) -> Peak[float] | None:
-        """Peak of a quantity from ``closed_peaks``, or None if it has none."""
-        return self.closed_peaks(quantity) if self.closed_peaks else None
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
@@ -171,12 +175,7 @@ class ClassicMotion(StraightSlotMotion):
     """
 
     def __init__(
-        self,
-        path: AnchoredPath,
-        half_step: float,
-        sign: float,
-        l: float,
-        rest: float,
+        self, path: AnchoredPath, half_step: float, sign: float, l: float, rest: float
     ) -> None:
         super().__init__(path, half_step)
         self.sign, self.l, self.rest = sign, l, rest
@@ -186,10 +185,9 @@ class ClassicMotion(StraightSlotMotion):
         outside = self.sign > 0.0
         gap = self.rest if outside else 1.0 + self.l
         if quantity == "velocity":
-            return Peak(classic.velocity_peak(self.l, gap), 0.0)
+            return Peak(self.l / gap, 0.0)
         if quantity == "acceleration" and not outside:  # the jump at entry
-            jump = parameter(self(self.entry_deg, 2).derivatives()[2])
-            return Peak(abs(jump), self.entry_deg)
+            return Peak(self.end_rates(self.entry_deg)[0], self.entry_deg)
         if quantity == "acceleration":
             size, at_deg = classic.acceleration_peak(self.l, gap)
         elif quantity == "jerk":
@@ -198,46 +196,29 @@ class ClassicMotion(StraightSlotMotion):
             size, at_deg = classic.power_peak(self.l, gap)
         return Peak(size, 0.0 - at_deg)
 
-    def _requested(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
-        """Wheel angle and its derivatives in closed form.
+    def end_rates(self, input_deg: float) -> tuple[float, float]:
+        """Sizes of acceleration and jerk at either end: tan b and 3 tan² b."""
+        jump = self.l / self.entry.along  # which is cos b
+        return jump, 3.0 * jump * jump
 
-        Near the ends, angle and velocity are computed from the end to keep their relative accuracy.
-        """
+    def _requested(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
+        """Wheel angle and its derivatives in closed form; angle and velocity near the ends not."""
         if not isinstance(self.l, float):
             return super()._requested(input_deg, orders)
-        from geneva_cli.motion.wheels import classic_arrays
-
-        out = classic_arrays.derivatives(self.sign, self.l, self.rest, input_deg, orders)
-        first = int(input_deg.searchsorted(self.entry_deg + END_DEG))
-        last = int(input_deg.searchsorted(self.exit_deg - END_DEG))
-        for part, side in ((slice(0, first), -1.0), (slice(last, None), 1.0)):
-            for k, o in zip(orders, out, strict=True):
-                if k < 2 and len(o[part]):
-                    o[part] = self._near_end(input_deg[part], side, k)
+        out = classic.derivatives(self.sign, self.l, self.rest, input_deg, orders)
+        near = (input_deg < self.entry_deg + END_DEG) | (input_deg > self.exit_deg - END_DEG)
+        low = [order for order in orders if order < 2]
+        if low and near.any():
+            for order, values in zip(low, super()._requested(input_deg[near], low), strict=True):
+                out[orders.index(order)][near] = values
         return out
 
-    def _near_end(self, input_deg: Array, side: float, order: int) -> Array:
-        """Angle or velocity near exit (side 1) or entry (-1), computed from that end."""
-        import numpy as np
 
-        tau = radians(self.exit_deg - side * input_deg)
-        along = self.path.anchors[0].along - self.sign * self.l * np.sin(tau)
-        across = 2.0 * self.l * np.sin(0.5 * tau) ** 2
-        if order == 0:
-            angle: Array = side * (self.half_step - np.arctan2(across, along))
-            return angle
-        half = radians(self.exit_deg) - 0.5 * tau
-        speed = 2.0 * self.l * np.sin(0.5 * tau) * np.sin(half)
-        velocity: Array = speed / (along * along + across * across)
-        return velocity
-
-
-def _length(vector: tuple[Jet, Jet]) -> Jet:
-    x, y = vector
+def _length(x: Jet, y: Jet) -> Jet:
     return sqrt(x * x + y * y)
 
 
-def turned(x: Jet, y: Jet, angle: float) -> tuple[Jet, Jet]:
+def turned(x: Jet, y: Jet, angle: float) -> Vector:
     """Turn a vector by a fixed angle in radians."""
     if isinstance(angle, float) and angle == 0.0:
         return x, y

@@ -42,16 +42,14 @@ def peaks_of(motion: WheelMotion, names: Sequence[str]) -> list[Peak[float]]:
 
     Each has the signed input angle of its first occurrence, degrees from mid-motion.
     """
-    peaks = {name: motion.closed_peak(name) for name in names}
-    open_ = [name for name, known in peaks.items() if known is None]
-    if open_:
+    found = {name: motion.closed_peak(name) for name in names}
+    if None in found.values():
         from geneva_cli.motion.peak_search import motion_peaks
 
-        peaks |= {
-            name: Peak(size.item(), at_deg.item())
-            for name, (size, at_deg) in motion_peaks(motion, open_).items()
-        }
-    return [peak for peak in peaks.values() if peak is not None]
+        open_ = [name for name, known in found.items() if known is None]
+        for name, (size, at_deg) in motion_peaks(motion, open_).items():
+            found[name] = Peak(size.item(), at_deg.item())
+    return [one for one in found.values() if one is not None]
 
 
 def peak(motion: WheelMotion, quantity: str) -> Peak[float]:
@@ -61,9 +59,9 @@ def peak(motion: WheelMotion, quantity: str) -> Peak[float]:
 
 def ends(engagement: Engagement) -> EndSizes:
     """Sizes at both ends, from inside the motion."""
-    first = engagement.motion(engagement.entry_deg).scalars()
-    last = engagement.motion(engagement.exit_deg).scalars()
-    return EndSizes(abs(first[2]), abs(last[2]), abs(first[3]), abs(last[3]))
+    first = engagement.motion.end_rates(engagement.entry_deg)
+    last = engagement.motion.end_rates(engagement.exit_deg)
+    return EndSizes(first[0], last[0], first[1], last[1])
 
 
 def peaks(engagement: Engagement) -> Peaks:
@@ -71,54 +69,57 @@ def peaks(engagement: Engagement) -> Peaks:
     return Peaks._make((*peaks_of(engagement.motion, QUANTITIES), ends(engagement)))
 
 
+def placed_peaks(mechanism: Mechanism, engagement: Engagement) -> Peaks:
+    """Peaks of an engagement at the machine's input angles."""
+    own = peaks(engagement)
+    mid = engagement.mid_deg
+    placed = [Peak(one.max, mechanism.shown_deg(mid + one.at_deg)) for one in own[:-1]]
+    return Peaks(*placed, own.ends)
+
+
 def worst(mechanism: Mechanism) -> Peaks:
     """Greatest peaks over all engagements; angles are the machine's input angles."""
-    each = [placed_peaks(mechanism, s) for s in mechanism.engagements]
+    return _greatest([placed_peaks(mechanism, one) for one in mechanism.engagements])
+
+
+def _greatest(each: Sequence[Peaks]) -> Peaks:
     greatest = [Peak(*greatest_at(same)) for same in zip(*[e[:-1] for e in each], strict=True)]
-    return Peaks._make(
-        (*greatest, EndSizes._make(map(max, zip(*[e.ends for e in each], strict=True))))
-    )
+    return Peaks(*greatest, EndSizes(*map(max, zip(*[e.ends for e in each], strict=True))))
 
 
 def worst_of(mechanism: Mechanism, quantity: str) -> Peak[float]:
     """Greatest peak of one quantity over all engagements, at the machine's input angle."""
-    each = [_placed(mechanism, s, peak(s.motion, quantity)) for s in mechanism.engagements]
+    each = []
+    for one in mechanism.engagements:
+        most, at_deg = peak(one.motion, quantity)
+        each.append((most, mechanism.shown_deg(one.mid_deg + at_deg)))
     return Peak(*greatest_at(each))
-
-
-def placed_peaks(mechanism: Mechanism, engagement: Engagement) -> Peaks:
-    """Peaks of an engagement at the machine's input angles."""
-    own = peaks(engagement)
-    return Peaks._make((*(_placed(mechanism, engagement, p) for p in own[:-1]), own.ends))
-
-
-def _placed(mechanism: Mechanism, engagement: Engagement, p: Peak[float]) -> Peak[float]:
-    return Peak(p.max, mechanism.shown_deg(engagement.mid_deg + p.at_deg))
 
 
 def peaks_table(mechanism: Mechanism) -> Table:
     """The greatest peaks, and a table of each engagement's peaks if there are several."""
+    kinds = mechanism.engagements
+    each = [placed_peaks(mechanism, one) for one in kinds]
     rows = [
-        _record(placed_peaks(mechanism, engagement))
-        | {"motion_deg": engagement.motion_deg, "dwell_deg": mechanism.dwell_deg(i)}
-        for i, engagement in enumerate(mechanism.engagements)
+        _record(own, one.motion_deg, mechanism.dwell_deg(i))
+        for i, (own, one) in enumerate(zip(each, kinds, strict=True))
     ]
-    differ = len(rows) > 1
     values: dict[str, object] = {"spec": mechanism.spec.path, "title": mechanism.spec.title}
-    values |= _record(worst(mechanism)) if differ else rows[0]
-    values |= {key: rows[0][key] for key in ("motion_deg", "dwell_deg")}
-    each = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
-    return record_table(values | {"stations": each if differ else None})
+    stations = None
+    if len(rows) > 1:
+        values |= _record(_greatest(each), kinds[0].motion_deg, mechanism.dwell_deg(0))
+        stations = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
+    else:
+        values |= rows[0]
+    return record_table(values | {"stations": stations})
 
 
-def _record(peaks: Peaks) -> dict[str, float]:
-    sizes = peaks.ends._asdict()
+def _record(peaks: Peaks, motion_deg: float, dwell_deg: float) -> dict[str, float]:
     out: dict[str, float] = {}
-    for name, peak in zip(QUANTITIES, peaks[:-1], strict=True):
-        out |= {f"{name}.max": peak.max, f"{name}.at_deg": peak.at_deg}
-        out |= {
-            f"{name}.{end}": sizes[f"{name}_{end}"]
-            for end in ("entry", "exit")
-            if f"{name}_{end}" in sizes
-        }
-    return out
+    sizes = peaks.ends._asdict()
+    for name, one in zip(QUANTITIES, peaks[:-1], strict=True):
+        out[f"{name}.max"], out[f"{name}.at_deg"] = one.max, one.at_deg
+        for end in ("entry", "exit"):
+            if f"{name}_{end}" in sizes:
+                out[f"{name}.{end}"] = sizes[f"{name}_{end}"]
+    return out | {"motion_deg": motion_deg, "dwell_deg": dwell_deg}

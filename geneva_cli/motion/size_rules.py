@@ -8,55 +8,27 @@ well made.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from functools import partial
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import choose, smaller
-from geneva_cli.spec.tables import Size
+
+# keys below twice the centre distance, and below twice the crank's arm
+_IN_WHEEL = (
+    *("wheel_bore_mm", "wheel_hub_mm", "arm_hub_mm", "arm_eye_mm", "dial_bolt_mm"),
+    *("gear_bolt_mm", "link_pin_mm", "link_bore_mm", "link_width_mm"),
+)
+_IN_CRANK = (
+    *("crank_bore_mm", "crank_hub_mm", "arm_bore_mm", "lock_bolt_mm", "lock_bolt_circle_mm"),
+)
+
+
+def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:
+    return GenevaError(f"{key} = {value:g}: it must be below {below:.6g}, {what}", ("size", key))
 
 
 def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     """Raise GenevaError, naming the key, for a size that makes no machine with this R/L."""
-    size = spec.size
-    for key, value, below, what in _bounds(spec, L, ratio):
-        refuse(value >= below, partial(_too_large, key, value, below, what))
-    edges = 2.0 * size.edge_mm
-    if size.face_width_mm is not None and size.wheel_thickness_mm is not None:
-        refuse(size.face_width_mm + edges > size.wheel_thickness_mm, partial(_thin, size))
-    for part in ("wheel", "crank"):
-        bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
-        if bore is not None and hub is not None:
-            refuse((hub > 0.0) & (hub < bore), partial(_hub_in_bore, part, hub, bore))
-
-
-def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:
-    return GenevaError(
-        f"{key} = {value:g}: it must be below {below:.6g}, {what}",
-        ("size", key),
-    )
-
-
-def _thin(size: Size) -> GenevaError:
-    return GenevaError(
-        f"wheel_thickness_mm = {size.wheel_thickness_mm:g}: the contact line cannot be longer than "
-        f"the wheel is thick; use at least face_width_mm = {size.face_width_mm:g}"
-        + (f" and two edges of {size.edge_mm:g}" if size.edge_mm > 0.0 else ""),
-        ("size", "wheel_thickness_mm"),
-    )
-
-
-def _hub_in_bore(part: str, hub: float, bore: float) -> GenevaError:
-    return GenevaError(
-        f"{part}_hub_mm = {hub:g}: a hub must be larger than its bore: at least "
-        f"{part}_bore_mm = {bore:g}, or 0 for none",
-        ("size", f"{part}_hub_mm"),
-    )
-
-
-def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, float, str]]:
-    """Each size that is set: its key, its value, an upper limit, and the meaning of the limit."""
     size, r, distance = spec.size, spec.roller_radius_mm(L), f"the {spec.wheel.DISTANCE}"
     farthest = "the roller's greatest distance from the wheel's axis"
     if not spec.output.turns:  # a rack has no axis: where its roller is farthest from the deepest
@@ -70,52 +42,68 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, fl
     elif spec.wheel.FLAT and spec.wheel.SIGN > 0.0:
         narrow = smaller(short, L - long)
         what = "the smaller of the crank radius R and the rest of the centre distance, L - R"
-    bounds = (
+    allowed = size.allowances._asdict()  # from the process, where a key is left out
+    for below, meaning, keys in (
         (narrow, what, ("roller_radius_mm", "slot_clearance_mm")),
         (short, "the crank's arm", ("lock_radius_mm", "lock_clearance_mm")),
         (L, distance, ("slot_bottom_clearance_mm", "relief_clearance_mm")),
         (L + long, farthest, ("wheel_radius_mm",)),
-        (
-            2.0 * L,
-            f"twice {distance}",
-            (
-                *("wheel_bore_mm", "wheel_hub_mm", "arm_hub_mm", "arm_eye_mm", "dial_bolt_mm"),
-                *("gear_bolt_mm", "link_pin_mm", "link_bore_mm", "link_width_mm"),
-            ),
-        ),
-        (
-            2.0 * short,
-            "twice the crank's arm",
-            (
-                *("crank_bore_mm", "crank_hub_mm", "arm_bore_mm"),
-                *("lock_bolt_mm", "lock_bolt_circle_mm"),
-            ),
-        ),
+        (2.0 * L, f"twice {distance}", _IN_WHEEL),
+        (2.0 * short, "twice the crank's arm", _IN_CRANK),
         (2.0 * r, "the roller's diameter", ("pin_mm", "press_fit_mm", "shaft_fit_mm")),
         (4.0 * L, f"four times {distance}", ("dial_bolt_circle_mm", "gear_bolt_circle_mm")),
-    )
-    allowed = size.allowances._asdict()  # from the process, where a key is left out
-    for below, meaning, keys in bounds:
+    ):
         for key in keys:
             own = getattr(size, key)
             value = allowed.get(key, own)
             if value is not None:
                 by = "" if own is not None else f'; the value comes from process = "{size.process}"'
-                yield key, value, below, meaning + by
+                refuse(
+                    value >= below,
+                    lambda key=key, x=value, y=below, z=meaning + by: _too_large(key, x, y, z),
+                )
+    if size.face_width_mm is not None and size.wheel_thickness_mm is not None:
+        edge = size.edge_mm
+        refuse(
+            size.face_width_mm + 2.0 * edge > size.wheel_thickness_mm,
+            lambda: GenevaError(
+                f"wheel_thickness_mm = {size.wheel_thickness_mm:g}: the contact line cannot be "
+                f"longer than the wheel is thick; use at least face_width_mm = "
+                f"{size.face_width_mm:g}" + (f" and two edges of {edge:g}" if edge > 0.0 else ""),
+                ("size", "wheel_thickness_mm"),
+            ),
+        )
+    for part in ("wheel", "crank"):
+        bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
+        if bore is not None and hub is not None:
+            refuse(
+                (hub > 0.0) & (hub < bore),
+                lambda part=part, hub=hub, bore=bore: GenevaError(
+                    f"{part}_hub_mm = {hub:g}: a hub must be larger than its bore: at least "
+                    f"{part}_bore_mm = {bore:g}, or 0 for none",
+                    ("size", f"{part}_hub_mm"),
+                ),
+            )
 
 
 def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
     """Raise GenevaError, naming the key, for a tolerance that is too large or has no dimension."""
-    values, lock = spec.tolerance.as_dict(), spec.size.lock_radius_mm
+    values, lock = vars(spec.tolerance), spec.size.lock_radius_mm
     unlocked = (not spec.drive.LOCKS) | (lock == 0.0)
-    for key in ("lock_radius_mm", "recess_radius_mm"):
-        refuse(unlocked & (values[key] != 0.0), partial(_no_lock, key, values[key]))
     steps = spec.wheel.steps
     arm = L * (math.sin(math.radians(0.5 * min(steps))) if steps else ratio)
     step = min(steps) if steps else 360.0 / spec.wheel.z
     roller = 2.0 * spec.roller_radius_mm(L)
     slot = roller + 2.0 * spec.size.allowances.slot_clearance_mm
     disc = arm if lock is None else choose(lock == 0.0, arm, lock)
+    for key in ("lock_radius_mm", "recess_radius_mm"):
+        refuse(
+            unlocked & (values[key] != 0.0),
+            lambda key=key: GenevaError(
+                f"{key} = {values[key]:g}: this machine has no locking disc; remove it",
+                ("tolerance", key),
+            ),
+        )
     for key, below, what in (
         ("center_distance_mm", L, "the centre distance"),
         ("crank_radius_mm", arm, "the crank's radius"),
@@ -125,18 +113,11 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
         ("lock_radius_mm", disc, "the locking disc's radius, or the crank's"),
         ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
     ):
-        refuse(values[key] >= below, partial(_as_large, key, values[key], below, what))
-
-
-def _no_lock(key: str, value: float) -> GenevaError:
-    return GenevaError(
-        f"{key} = {value:g}: this machine has no locking disc; remove it", ("tolerance", key)
-    )
-
-
-def _as_large(key: str, value: float, below: float, what: str) -> GenevaError:
-    return GenevaError(
-        f"{key} = ±{value:g} is as large as the dimension itself: it must be below "
-        f"{below:.6g}, {what}",
-        ("tolerance", key),
-    )
+        refuse(
+            values[key] >= below,
+            lambda key=key, below=below, what=what: GenevaError(
+                f"{key} = ±{values[key]:g} is as large as the dimension itself: it must be below "
+                f"{below:.6g}, {what}",
+                ("tolerance", key),
+            ),
+        )

@@ -27,7 +27,10 @@ NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
 
 
 class SolvedPath(Batchable):
-    """The roller's path in the fixed frame; ``sign`` is +1 outside, -1 inside."""
+    """A fixed groove about the crank's axis, which guides the roller along the crank.
+
+    Called with input angles it returns the roller's path. ``sign`` is +1 outside, -1 inside.
+    """
 
     def __init__(self, motion: LawMotion, sign: float) -> None:
         self.motion, self.sign = motion, sign

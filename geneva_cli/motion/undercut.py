@@ -8,7 +8,6 @@ roller's radius. The flank then runs backwards, and the roller cuts away the wal
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -16,49 +15,53 @@ import numpy as np
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import Pitch, opposites, pitch, retraces
-from geneva_cli.numerics.arrays import Array, Mask, Number, array, choose_record, parameter
+from geneva_cli.numerics.arrays import Array, Mask, Number
 from geneva_cli.numerics.tolerances import TIE
 
 HALF_SAMPLES = 1024  # of a half motion; the depth's error is then far below a micrometre per metre
 
 
 class Undercut(NamedTuple):
-    """The undercut outer wall: its flank, place, curvature and depth.
+    """The undercut outer wall of a design: its flank, place, curvature and depth."""
 
-    (m,) each for m designs; NaN where none is undercut.
-    """
-
-    left: float  # 1 for the left flank, 0 for the right one
+    wall: str  # the flank, "left" or "right"
     from_deg: float
     to_deg: float
     at_deg: float
     radius_mm: float  # the pitch curve's least radius of curvature there
     depth_mm: float  # the wall's greatest shortfall from the roller
-    to_cusp: float  # 1 if it reaches a cusp at mid-motion, too sharp for any roller; else 0
-
-    @property
-    def wall(self) -> str:
-        """The flank of a single design."""
-        return "left" if self.left else "right"
+    to_cusp: bool  # True if it reaches a cusp at mid-motion, too sharp for any roller
 
 
 def undercut(mechanism: Mechanism, samples: int = HALF_SAMPLES) -> Undercut | None:
     """The deepest undercut of an outer wall, at entry or exit; None if there is none."""
-    batch = undercuts(mechanism, samples)
-    one = batch and Undercut(*(array(row).item() for row in batch))
-    return None if one is None or math.isnan(one.depth_mm) else one
-
-
-def undercuts(mechanism: Mechanism, samples: int = HALF_SAMPLES) -> Undercut | None:
-    """The deepest undercuts of m designs; None for straight slots, which have none."""
-    walls = outer_walls(mechanism, samples)
-    if walls is None:
-        return None
+    walls = outer_walls(mechanism, samples) or ()
     roller = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
     with np.errstate(all="ignore"):
-        one, other = (_undercut(wall, roller, mechanism.center_distance_mm) for wall in walls)
-    deeper = (other.depth_mm > one.depth_mm * (1.0 + TIE)) | np.isnan(one.depth_mm)
-    return choose_record(deeper, other, one)
+        each = [_undercut(wall, roller, mechanism.center_distance_mm) for wall in walls]
+    found = [one for one in each if one]
+    if len(found) == 2 and found[1].depth_mm > found[0].depth_mm * (1.0 + TIE):
+        return found[1]
+    return found[0] if found else None
+
+
+def _undercut(wall: OuterWall, roller_mm: float, L: float) -> Undercut | None:
+    """The undercut of a design's wall by a roller with its clearance."""
+    (degrees,), (bend,) = wall.degrees, wall.bend
+    over = bend * (roller_mm / L) > 1.0
+    if not over.any():
+        return None
+    to_cusp, sharp = bool(wall.retraces[0, -1] and over[-1]), int(np.argmax(bend))
+    reached = [*degrees[over].tolist(), *([0.0] if to_cusp else [])]
+    return Undercut(
+        "left" if wall.left[0, sharp] else "right",
+        min(reached),
+        max(reached),
+        0.0 if to_cusp else float(degrees[sharp]),
+        0.0 if to_cusp else float(L / bend[sharp]),
+        float(depths_mm(wall, roller_mm, L)[0]),
+        to_cusp,
+    )
 
 
 class OuterWall(NamedTuple):
@@ -153,23 +156,3 @@ def _gap(wall: OuterWall, r: Array) -> Array:
         near = ~(square > (1.0 + 1e-14) * square.min(axis=1, keepdims=True))
         np.minimum.at(gap, d[np.nonzero(near)[0]], np.hypot(x[near], y[near]))
     return gap
-
-
-def _undercut(wall: OuterWall, roller_mm: Number, L: Number) -> Undercut:
-    """The undercut of a wall by a roller with its clearance; both numbers may be (m, 1)."""
-    r, bend, degrees = np.asarray(roller_mm / L), wall.bend, wall.degrees
-    over = bend * r > 1.0
-    every, sharp = np.arange(len(bend)), np.argmax(bend, axis=1)
-    to_cusp = wall.retraces[:, -1] & over[:, -1]
-    reach = [np.where(over, degrees, np.nan), np.where(to_cusp[:, None], 0.0, np.nan)]
-    reached = np.hstack(reach)
-    rows = (
-        wall.left[every, sharp],
-        np.fmin.reduce(reached, axis=1),
-        np.fmax.reduce(reached, axis=1),
-        np.where(to_cusp, 0.0, degrees[every, sharp]),
-        np.where(to_cusp, 0.0, np.ravel(L / bend[every, sharp][:, None])),
-        depths_mm(wall, roller_mm, L),
-        to_cusp,
-    )
-    return Undercut(*(parameter(np.where(over.any(axis=1), row, np.nan)) for row in rows))

@@ -58,30 +58,11 @@ def of_each(f: Callable[..., tuple[float, ...]], *numbers: float) -> list[float]
     """
     import numpy as np
 
-    # a NumPy number is treated as a Python number
-    plain = [x if np.ndim(x) else np.asarray(x).item() for x in numbers]
-    shaped = np.broadcast_arrays(*plain)
-    varied = [i for i, x in enumerate(plain) if np.ndim(x)]
-    flat = [shaped[i].ravel() for i in varied]
-    if len(flat) > 1:
-        sets, index = np.unique(np.stack(flat, 1), axis=0, return_inverse=True)
-        rows = [tuple(row) for row in sets.tolist()]
-        if any(x.dtype.kind == "i" for x in flat) and sets.dtype.kind == "f":
-            kinds = [int if x.dtype.kind == "i" else float for x in flat]
-            rows = [tuple(k(v) for k, v in zip(kinds, row, strict=True)) for row in rows]
-    else:
-        values, index = np.unique(flat[0] if flat else np.ravel(plain[0]), return_inverse=True)
-        rows = [(value,) for value in values.tolist()]
-    results = []
-    for row in rows:
-        arguments = list(plain)
-        for i, value in zip(varied or [0], row, strict=True):
-            arguments[i] = value
-        results.append(f(*arguments))
-    return [
-        parameter(np.array(column)[index.ravel()].reshape(shaped[0].shape))
-        for column in zip(*results, strict=True)
-    ]
+    arrays = np.broadcast_arrays(*numbers)
+    sets = list(zip(*(x.ravel().tolist() for x in arrays), strict=True))
+    known = {one: f(*one) for one in dict.fromkeys(sets)}
+    columns = zip(*(known[one] for one in sets), strict=True)
+    return [parameter(np.reshape(column, arrays[0].shape)) for column in columns]
 
 
 def _sin_cos_degrees(degrees: Array) -> tuple[Array, Array]:

@@ -1,10 +1,9 @@
 """Chebyshev series of functions that are sampled at the Chebyshev points of [-1, 1].
 
-Once its terms have fallen to rounding, the series of a smooth function equals it to the last
-digits. The size of the last terms estimates the error. Each function is a row of values at
-``POINTS``.
+Samples are arrays (..., points, m), a column for each function. Once its terms have fallen to
+rounding, the series of a smooth function equals it to the last digits.
 
-    >>> values = np.exp(POINTS)[None]
+    >>> values = np.exp(POINTS)[:, None]
     >>> bool(abs(at(series(values), np.array([0.3]))[0] - np.exp(0.3)) < 1e-14)
     True
     >>> float(remainder(values)[0]) < 1e-14
@@ -19,46 +18,26 @@ import numpy as np
 
 from geneva_cli.numerics.arrays import Array
 
-SERIES_DEGREE = 16  # of the series: for most loads, its terms have ended between two cuts
-MIDDLE = SERIES_DEGREE // 2  # number of the middle point
-
-_order = np.arange(SERIES_DEGREE + 1)
+DEGREE = 16  # of the series: for most loads, its terms have ended between two cuts
+MIDDLE = DEGREE // 2  # number of the middle point
 
 
 def _even_spread(cells: int) -> Array:
     """Places -cos(pi k / cells), symmetric to the last bit."""
-    half = np.cos(np.pi * np.arange(cells // 2) / cells)
-    return np.concatenate((-half, [0.0], half[::-1]))
+    return np.asarray(np.sin(0.5 * np.pi * np.arange(-cells, cells + 1, 2) / cells))
 
 
-def _to_series() -> Array:
-    """The matrix from values at the points, a row, to the terms of the series."""
-    # the discrete cosine transform of the second kind of points: ends count half
-    weight = np.where((_order == 0) | (_order == SERIES_DEGREE), 0.5, 1.0)
-    cosines = np.cos(np.pi * np.outer(SERIES_DEGREE - _order, _order) / SERIES_DEGREE)
-    return np.asarray(2.0 / SERIES_DEGREE * weight[:, None] * cosines * weight)
+def product(matrix: Array, values: Array) -> Array:
+    """A matrix (n, k) times values (..., k, m), summed in order.
 
-
-def _to_slopes() -> Array:
-    """The matrix from the terms of a series, a row, to those of its derivative."""
-    rows, columns = np.meshgrid(_order, _order, indexing="ij")
-    odd = (rows > columns) & ((rows - columns) % 2 == 1)
-    return np.where(odd, 2.0 * rows, 0.0) * np.where(columns == 0, 0.5, 1.0)
-
-
-def _product(values: Array, matrix: Array) -> Array:
-    """Return values (..., k) times a matrix (k, n), summed in order.
-
-    BLAS sums in an order that depends on the number of rows and on the processor. Then a single
+    BLAS sums in an order that depends on the number of columns and on the processor. Then a single
     design would differ from the same design in a batch.
     """
-    # transposed by hand: np.moveaxis takes as long as a product of few rows
-    rows = np.ascontiguousarray(values.transpose(-1, *range(values.ndim - 1)))
-    out = np.multiply.outer(matrix[0], rows[0])
-    term = np.empty(out.shape)  # one for all: allocation takes longer than the products
-    for row, value in zip(matrix[1:], rows[1:], strict=True):
-        out += np.multiply.outer(row, value, out=term)
-    return out.transpose(*range(1, out.ndim), 0)
+    out: Array = matrix[:, 0, None] * values[..., None, 0, :]
+    term = np.empty_like(out)
+    for k in range(1, matrix.shape[1]):
+        out += np.multiply(matrix[:, k, None], values[..., None, k, :], out=term)
+    return out
 
 
 def at(terms: Array, t: Array) -> Array:
@@ -69,35 +48,37 @@ def at(terms: Array, t: Array) -> Array:
     return np.asarray(terms[0] + t * after - later)
 
 
-POINTS = _even_spread(SERIES_DEGREE)  # where functions are sampled
-GRID = _even_spread(2 * SERIES_DEGREE)  # where signs are compared: two cells for each point
-_SERIES = _to_series()
-_SLOPES = _to_slopes()
-_TERMS = at(np.eye(SERIES_DEGREE + 1)[..., None], GRID)
-_ON_GRID = _product(_SERIES, _TERMS)
-_SLOPES_ON_GRID = _product(_product(_SERIES, _SLOPES), _TERMS)
+POINTS = _even_spread(DEGREE)  # where functions are sampled
+GRID = _even_spread(2 * DEGREE)  # where signs are compared: two cells for each point
+
+_k = np.arange(DEGREE + 1)
+_ends = np.where(_k % DEGREE == 0, 0.5, 1.0)  # the first and the last count half
+# from samples to terms: the discrete cosine transform of the second kind of points
+_SERIES = 2.0 / DEGREE * _ends[:, None] * np.cos(np.pi * np.outer(_k, DEGREE - _k) / DEGREE) * _ends
+_rise = _k - _k[:, None]
+# from the terms of a series to those of its derivative
+_SLOPES = np.where((_rise > 0) & (_rise % 2 == 1), 2.0 * _k, 0.0)
+_SLOPES[0] *= 0.5
+_TERMS = at(np.eye(DEGREE + 1)[..., None], GRID).T
+_ON_GRID = product(_TERMS, _SERIES)
+_SLOPES_ON_GRID = product(_TERMS, product(_SLOPES, _SERIES))
 
 
 def series(values: Array) -> Array:
-    """The terms of the series of values (m, points): (terms, m)."""
-    return _product(values, _SERIES).T
-
-
-def end_slopes(values: Array) -> Array:
-    """The slopes of the series of values (m, points) at both ends: (m, 2)."""
-    return _product(values, _SLOPES_ON_GRID[:, [0, -1]])
+    """The terms of the series of samples."""
+    return product(_SERIES, values)
 
 
 def remainder(values: Array) -> Array:
-    """The greatest of the last terms, an estimate of the series' error."""
+    """The greatest of the last terms, an estimate of the series' error: (..., m)."""
     # The last three terms together: every other term of an even or odd function is 0.
-    greatest: Array = np.abs(_product(values, _SERIES[:, -3:])).max(axis=-1)
+    greatest: Array = np.abs(product(_SERIES[-3:], values)).max(axis=-2)
     return greatest
 
 
 def on_grid(values: Array) -> tuple[Array, Array]:
     """Values and slopes of the series at ``GRID``."""
-    return _product(values, _ON_GRID), _product(values, _SLOPES_ON_GRID)
+    return product(_ON_GRID, values), product(_SLOPES_ON_GRID, values)
 
 
 def root(terms: Array, low: Array, high: Array, start: Array, slope: Array) -> Array:

@@ -14,17 +14,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from geneva_cli.numerics import chebyshev
-from geneva_cli.numerics.arrays import (
-    Array,
-    Mask,
-    Which,
-    Whole,
-    blocks,
-    columns_taken,
-    joined,
-    record_taken,
-    rows_taken,
-)
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 
 BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
@@ -110,13 +100,8 @@ class Pieces(NamedTuple):
     rows: Rows
     sign: Array  # (signs, m)
     part: Array  # both ends as positions in the sampled row, from -1 to 1: (2, m)
-    x: Array  # the places of the row's samples: (m, points)
-    value: Array  # at these places, with these signs: (wanted, m, points)
-
-    @property
-    def whole(self) -> Mask:
-        """Masks of the pieces that are whole rows."""
-        return is_whole(self.part)
+    x: Array  # the places of the row's samples: (points, m)
+    value: Array  # at these places, with these signs: (wanted, points, m)
 
 
 def is_whole(part: Array) -> Mask:
@@ -133,40 +118,37 @@ class Cutter:
         self.size = np.zeros((f.signs, len(w)))
         self.width = np.zeros(len(w))  # of all spans, in spread places
         self.noisy = np.full(len(w), False)  # designs whose rows no halving resolves
+        self.todo: list[Rows] = []
 
-    def rows(self, spans: Sequence[tuple[Array, Array]], start: int) -> Rows:
-        """The rows of spans (n, 1) of designs from number ``start`` on, those that are not empty.
+    def pieces(
+        self, spans: Sequence[tuple[Array, Array]], start: int
+    ) -> Iterator[tuple[int, list[Pieces]]]:
+        """Yield the pieces of spans (n, 1) of designs from number ``start`` on, level by level.
 
-        A span that ends before it begins is empty.
+        A span that ends before it begins is empty. Rows in ``self.todo`` are sampled at the next
+        level, until none is left. A kink or a pole leaves some rows at each level, noise twice as
+        many as before.
         """
-        out = []
-        for number, (a, b) in enumerate(spans):
-            own = np.flatnonzero((b > a)[:, 0])
-            design, x = own + start, np.stack((a[own, 0], b[own, 0]))
-            u = spread(x, self.w[design])
-            self.width[design] += u[1] - u[0]
-            out.append(Rows(design, np.full(len(own), number), u, x))
-        return joined(out)
-
-    def halves(self, rows: Rows) -> Rows:
-        """Both halves of rows."""
-        ends = np.array([[-1.0], [0.0], [1.0]]).repeat(len(rows.design), axis=1)
-        return joined([rows.part(ends[:2], self.w), rows.part(ends[1:], self.w)])
-
-    def levels(self, rows: Rows) -> Iterator[list[Rows]]:
-        """Yield the rows in blocks to be sampled, then those in ``self.todo``, until none is left.
-
-        A kink or a pole leaves some rows at each level, noise twice as many as before.
-        """
+        rows = joined([self._rows(i, a, b, start) for i, (a, b) in enumerate(spans)])
         first = np.bincount(rows.design, minlength=len(self.noisy))
         for depth in range(60):  # halvings: all rows are too narrow for more by then
             if not len(rows.design):
                 break
             count = np.bincount(rows.design, minlength=len(self.noisy))
             self.noisy |= (count > MOST_ROWS + 2 * first) | (depth == 59)
-            self.todo: list[Rows] = []
-            yield [rows.take(block) for block in blocks(len(rows.design), BLOCK)]
-            rows = joined([rows.take(slice(0)), *self.todo])
+            self.todo = [rows.take(slice(0))]
+            yield (
+                depth,
+                [self._sampled(rows.take(some)) for some in blocks(len(rows.design), BLOCK)],
+            )
+            rows = joined(self.todo)
+
+    def _rows(self, number: int, a: Array, b: Array, start: int) -> Rows:
+        own = np.flatnonzero((b > a)[:, 0])
+        design, x = own + start, np.stack((a[own, 0], b[own, 0]))
+        u = spread(x, self.w[design])
+        self.width[design] += u[1] - u[0]
+        return Rows(design, np.full(len(own), number), u, x)
 
     def is_settled(self, rows: Rows) -> Mask:
         """Masks of the rows that are too narrow for halving, or noise."""
@@ -174,50 +156,51 @@ class Cutter:
         narrow = rows.u[1] - rows.u[0] <= 1e-11 * self.width[rows.design]
         return np.asarray(narrow | self.noisy[rows.design])
 
-    def sampled(self, rows: Rows) -> Pieces:
+    def again(self, rows: Rows, part: Array, which: Mask) -> None:
+        """Sample some rows again: both halves of a whole row, or a part as a row of its own."""
+        halved = rows.take(which & is_whole(part))
+        ends = np.array([[-1.0], [0.0], [1.0]]).repeat(len(halved.design), axis=1)
+        halves = [halved.part(ends[:2], self.w), halved.part(ends[1:], self.w)]
+        self.todo += [*halves, rows.take(which & ~is_whole(part))]
+
+    def _sampled(self, rows: Rows) -> Pieces:
         """Pieces of rows, cut where a sign changes; parts with unknown zeros are sampled again."""
-        f, which = self.f, rows.which
-        # designs lie side by side in memory: each operation runs along all of them
-        u = np.asfortranarray(rows.at(POINTS[:, None]).T)
-        x = gathered(u, self.w[rows.design, None])
-        x = np.clip(x, rows.x[0][:, None], rows.x[1][:, None])
-        x[:, 0], x[:, -1] = rows.x
-        sign = np.ones((f.signs, len(u)))
-        if f.signs:
-            middle = f(x[:, MIDDLE, None], which, 0, None, ())[0][..., 0]
+        x = gathered(rows.at(POINTS[:, None]), self.w[rows.design]).clip(*rows.x)
+        x[0], x[-1] = rows.x
+        own = np.arange(x.shape[1])
+        part = np.array([[-1.0], [1.0]]).repeat(len(own), axis=1)
+        sign = np.ones((self.f.signs, len(own)))
+        if self.f.signs:
+            middle = self.f(x.T[:, MIDDLE, None], rows.which, 0, None, ())[0][..., 0]
             sign = np.where(middle, 1.0, -1.0)
-        value = f(x, which, 0, sign[..., None], self.requested)[1][0]
-        part = np.array([[-1.0], [1.0]]).repeat(len(u), axis=1)
-        own = np.arange(len(u))
-        for kind in range(f.signs):
-            here = rows.take(own)
+        value = self._values(x, rows.which, sign)
+        for kind in range(self.f.signs):
             # a pole is multiplied by the distance from it
-            q = value[kind]
-            if kind in f.poled:
-                q = q * np.abs(rows_taken(x, own))
+            poled = kind in self.f.poled
+            q = value[kind] * np.abs(x.take(own, axis=1)) if poled else value[kind]
+            here = rows.take(own)
             unsure, cut, t = self._zeros(kind, here, sign, part, q)
             unsure &= ~self.is_settled(here)
             if unsure.any():
-                self.again(here.part(part, self.w), is_whole(part), unsure)
-            if len(cut):
+                self.again(here.part(part, self.w), part, unsure)
+            if len(cut) or unsure.any():
                 number, part = _between(cut, t, part)
-                own, unsure, q = own[number], unsure[number], rows_taken(q, number)
-                sign, value = columns_taken(sign, number), rows_taken(value, number)
-            kept = ~unsure & (part[1] > part[0])
-            if not kept.all():
-                own, q, value = own[kept], rows_taken(q, kept), rows_taken(value, kept)
-                sign, part = columns_taken(sign, kept), columns_taken(part, kept)
+                kept = np.flatnonzero(~unsure[number] & (part[1] > part[0]))
+                number, part = number[kept], part.take(kept, axis=1)
+                own = own[number]
+                q, sign, value = (v.take(number, axis=-1) for v in (q, sign, value))
             flip = _other_sign(q, part, sign[kind])
             if len(flip):
                 sign[kind, flip] *= -1.0
-                there, held = rows_taken(x, own[flip]), sign[:, flip, None]
-                value[:, flip] = f(there, rows.design[own[flip]], 0, held, self.requested)[1][0]
+                design = rows.design[own[flip]]
+                there = x.take(own[flip], axis=1)
+                value[..., flip] = self._values(there, design, sign.take(flip, axis=1))
         cut_rows = rows.take(own).part(part, self.w)
-        return Pieces(cut_rows, sign, part, rows_taken(x, own), value[f.signs :])
+        return Pieces(cut_rows, sign, part, x.take(own, axis=1), value[self.f.signs :])
 
-    def again(self, rows: Rows, whole: Mask, which: Mask) -> None:
-        """Sample some rows again: both halves of a whole row, or a part as a row of its own."""
-        self.todo += [self.halves(rows.take(which & whole)), rows.take(which & ~whole)]
+    def _values(self, x: Array, which: Which, sign: Array) -> Array:
+        """Every function at places (points, m) with known signs: (functions, points, m)."""
+        return self.f(x.T, which, 0, sign[..., None], self.requested)[1][0].swapaxes(1, 2)
 
     def _zeros(
         self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
@@ -226,41 +209,39 @@ class Cutter:
 
         Zeros are the numbers of their parts, and positions from -1 to 1 in the rows.
         """
-        unsure, none = np.zeros(len(value), dtype=bool), (np.zeros(0, dtype=int), np.zeros(0))
-        size, left = np.abs(value).max(axis=1), chebyshev.remainder(value)
+        unsure, none = np.full(len(rows.design), False), (np.zeros(0, dtype=int), np.zeros(0))
+        size, left = np.abs(value).max(axis=0), chebyshev.remainder(value)
         np.fmax.at(self.size[kind], rows.design, np.where(np.isfinite(size), size, 0.0))
-        q = value * sign[kind, :, None]
+        q = value * sign[kind]
         # where a point is below a twentieth of the size, the function may be 0 next to it
-        some = np.flatnonzero(~(q.min(axis=1) >= 0.05 * size + LATER_TERMS * left))
+        some = np.flatnonzero(~(q.min(axis=0) >= 0.05 * size + LATER_TERMS * left))
         if not len(some):
             return unsure, *none
-        q, size, left = rows_taken(q, some), size[some], left[some]
+        q, size, left = q.take(some, axis=1), size[some], left[some]
         g, d = chebyshev.on_grid(q)
         # below 1e-12 of its size on a row, or some roundings of that in its design's whole motion,
         # a function has no sign
         rounding = 4e-15 * self.size[kind, rows.design[some]]
-        noise = np.repeat(np.maximum(1e-12 * size, rounding)[None], len(GRID), axis=0).T
-        for end in (0, -1):
-            noise[:, end] = np.maximum(noise[:, end], AT_END * np.abs(d[:, end]))
+        noise = np.broadcast_to(np.maximum(1e-12 * size, rounding), g.shape).copy()
+        noise[[0, -1]] = np.maximum(noise[[0, -1]], AT_END * np.abs(d[[0, -1]]))
         below = g < -noise
-        change = below[:, 1:] != below[:, :-1]
-        near = np.abs(g[:, 1:-1]) < LATER_TERMS * left[:, None]
-        grid = GRID[1:-1, None]
-        near &= ((grid >= part[0, some]) & (grid <= part[1, some])).T
+        change = below[1:] != below[:-1]
+        low, high = part.take(some, axis=1)
+        near = np.abs(g[1:-1]) < LATER_TERMS * left
+        near &= (GRID[1:-1, None] >= low) & (GRID[1:-1, None] <= high)
         # The series may err by 3e-3 of a size for a single zero, and by 1e-9 if several points
         # are within the error of 0.
-        open_ = (left > 3e-3 * size) & change.any(axis=1)
-        open_ |= (left > np.maximum(1e-9 * size, rounding)) & (near.sum(axis=1) > 1)
-        open_ |= _crosses_twice(g, d, below, noise, LATER_TERMS * left[:, None])
+        open_ = (left > 3e-3 * size) & change.any(axis=0)
+        open_ |= (left > np.maximum(1e-9 * size, rounding)) & (near.sum(axis=0) > 1)
+        open_ |= _crosses_twice(g, d, below, noise, LATER_TERMS * left)
         unsure[some] = open_
-        own, cell = np.nonzero(change & ~open_[:, None])
+        own, cell = np.nonzero((change & ~open_).T)
         if not len(own):
             return unsure, *none
-        a, b = g[own, cell], g[own, cell + 1]
-        low, high = GRID[cell], GRID[cell + 1]
+        a, b, low, high = g[cell, own], g[cell + 1, own], GRID[cell], GRID[cell + 1]
         chord = (b - a) / (high - low)
-        t = chebyshev.root(chebyshev.series(rows_taken(q, own)), low, high, low - a / chord, chord)
-        which = some[own]
+        terms = chebyshev.series(q.take(own, axis=1))
+        t, which = chebyshev.root(terms, low, high, low - a / chord, chord), some[own]
         kept = (t > part[0, which] + AT_END) & (t < part[1, which] - AT_END)
         which, t = which[kept], t[kept]
         t = self._refined(kind, rows.take(which), sign[:, which], t)
@@ -290,7 +271,7 @@ class Cutter:
 def _other_sign(q: Array, part: Array, sign: Array) -> Whole:
     """Numbers of the parts in whose middle a function does not have the sign of its row."""
     some = np.flatnonzero(~is_whole(part))
-    middle = chebyshev.at(chebyshev.series(rows_taken(q, some)), 0.5 * part.sum(axis=0)[some])
+    middle = chebyshev.at(chebyshev.series(q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some])
     return some[np.where(middle > 0.0, 1.0, -1.0) != sign[some]]
 
 
@@ -299,13 +280,13 @@ def _crosses_twice(g: Array, d: Array, below: Mask, noise: Array, left: Array) -
 
     ``left`` is the error of their series.
     """
-    before, after = d[:, :-1], d[:, 1:]
+    before, after = d[:-1], d[1:]
     turn = before / (before - after)
-    bottom = g[:, :-1] + 0.5 * before * turn * np.diff(GRID)
-    dips = (before * after < 0.0) & (below[:, 1:] == below[:, :-1])
-    bottom += np.where(below[:, 1:], left, -left)
-    dips &= (bottom < -noise[:, 1:]) != below[:, 1:]
-    return np.asarray(dips.any(axis=1))
+    bottom = g[:-1] + 0.5 * before * turn * np.diff(GRID)[:, None]
+    dips = (before * after < 0.0) & (below[1:] == below[:-1])
+    bottom += np.where(below[1:], left, -left)
+    dips &= (bottom < -noise[1:]) != below[1:]
+    return np.asarray(dips.any(axis=0))
 
 
 def _between(cut: Whole, t: Array, part: Array) -> tuple[Whole, Array]:

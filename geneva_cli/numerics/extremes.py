@@ -15,18 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.numerics import chebyshev
-from geneva_cli.numerics.arrays import (
-    Array,
-    Mask,
-    Which,
-    Whole,
-    blocks,
-    joined,
-    record_taken,
-    rows_joined,
-    rows_taken,
-)
-from geneva_cli.numerics.chebyshev import MIDDLE, POINTS
+from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
+from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.cuts import (
     BLOCK,
     LATER_TERMS,
@@ -35,6 +25,7 @@ from geneva_cli.numerics.cuts import (
     Pieces,
     Rows,
     gathered,
+    is_whole,
 )
 from geneva_cli.numerics.tolerances import TIE
 
@@ -124,7 +115,12 @@ def search(
             design = np.flatnonzero(~np.isnan(value))
             extremes.add(np.full(len(design), number), design, x[design], value[design])
         for part in blocks(len(spans[0][0]), GROUP // max(f.wanted, 2)):
-            extremes.sample([(a[part], b[part]) for a, b in spans], part.start)
+            own = [(a[part], b[part]) for a, b in spans]
+            for depth, level in extremes.cutter.pieces(own, part.start):
+                for pieces in level:
+                    extremes.add_samples(pieces, depth)
+                for pieces in level:
+                    extremes.judge(pieces)
             extremes.refine()
         shape = -1, len(spans[0][0])
         places = extremes.places().reshape(shape)
@@ -136,9 +132,8 @@ def cuts(f: Functions, spans: Sequence[tuple[Array, Array]], w: Array | None = N
     with np.errstate(all="ignore"):
         cutter, out = Cutter(f, _widths(spans, w), ()), _no_pieces(f)
         for part in blocks(len(spans[0][0]), BLOCK):
-            rows = cutter.rows([(a[part], b[part]) for a, b in spans], part.start)
-            for level in cutter.levels(rows):
-                out += [(p.rows, p.sign) for p in map(cutter.sampled, level)]
+            for _, level in cutter.pieces([(a[part], b[part]) for a, b in spans], part.start):
+                out += [(pieces.rows, pieces.sign) for pieces in level]
         return _stretches(*joined(out))
 
 
@@ -151,31 +146,15 @@ def _widths(spans: Sequence[tuple[Array, Array]], w: Array | None) -> Array:
 class _Candidates(NamedTuple):
     """Places near which a function may have one of its greatest values on a piece."""
 
-    number: Whole  # of the function: (m,)
+    side: Whole  # of the result: (m,)
+    number: Whole  # of the function
     design: Whole
     sign: Array  # held there: (signs, m)
     ends: Array  # of the piece: (2, m)
     x: Array  # from which to search
     near: Array  # the longest step from there
-    uphill: Array  # 1 for a maximum, -1 for a minimum, 0 for a constant
-    reach: Array  # a bound of the sided value
-
-    def take(self, which: Which) -> _Candidates:
-        """Some of the candidates, by a mask or their numbers."""
-        return record_taken(self, which)
-
-
-class _Curves(NamedTuple):
-    """Functions on one piece each, at the Chebyshev points of the piece."""
-
-    number: Whole  # of the function: (m,)
-    piece: Whole  # its number
-    value: Array  # (m, points)
-    left: Array  # the error of the series
-
-    def take(self, which: Mask) -> _Curves:
-        number, piece, value, left = self
-        return _Curves(number[which], piece[which], rows_taken(value, which), left[which])
+    uphill: Array  # 1 for a maximum, -1 for a minimum, 0 for the value there
+    reach: Array  # a bound of the value, with its sign by the side
 
 
 class _Extremes:
@@ -183,179 +162,164 @@ class _Extremes:
 
     def __init__(self, f: Functions, w: Array, sized: bool) -> None:
         self.f, self.sized, self.cutter = f, sized, Cutter(f, w, None)
-        self.senses = (1.0,) if sized else (1.0, -1.0)
-        self.most = np.full((len(self.senses), f.wanted, len(w)), -np.inf)
+        self.most = np.full((1 if sized else 2, f.wanted, len(w)), -np.inf)
         self.size = np.zeros((f.wanted, len(w)))  # typical ones, of samples far from poles
         self.at_sample = np.full(self.most.shape, np.nan)  # the place of a greatest sample
-        self.known: list[tuple[int, Whole, Whole, Array, Array]] = []
-        self.candidates: list[list[_Candidates]] = [[] for _ in self.senses]
+        self.known: list[tuple[Whole, Whole, Whole, Array, Array]] = []
+        self.candidates: list[_Candidates] = []
         self.pieces = _no_pieces(f)
 
-    def _sided(self, sense: float, value: Array) -> Array:
-        """Sizes, or values times the sense: 1 for the greatest values, -1 for the least."""
-        return np.abs(value) if self.sized else sense * value
+    def _sided(self, value: Array) -> Array:
+        """The sizes, or the values and their negatives."""
+        return np.abs(value)[None] if self.sized else np.stack((value, -value))
 
     def add(self, number: Whole, design: Whole, x: Array, value: Array) -> None:
         """Add values (m,) of functions, by their numbers, at ends and extremes."""
-        for side, sense in enumerate(self.senses):
-            own = self._sided(sense, value)
-            _raise(self.most[side], number, design, own)
-            self.known.append((side, number, design, x, own))
+        for side, own in enumerate(self._sided(value)):
+            sides = np.full(len(number), side)
+            _raise(self.most, (sides, number, design), own)
+            self.known.append((sides, number, design, x, own))
 
-    def _bar(self, side: int, number: Whole, design: Whole) -> Array:
+    def _bar(self, side: int | Whole | slice, number: Whole, design: Whole) -> Array:
         """The least values that count as equal to the greatest ones."""
         return bar(self.most[side, number, design], self.size[number, design])
-
-    def _may_be(self, number: Whole, design: Whole, low: Array, high: Array) -> Mask:
-        """Masks of functions between ``low`` and ``high`` that may have one of the greatest values.
-
-        Nothing exceeds an unbounded value.
-        """
-        out = np.full(np.shape(low), False)
-        for side, sense in enumerate(self.senses):
-            reach = np.maximum(high, -low) if self.sized else high if sense > 0.0 else -low
-            least = self._bar(side, number, design)
-            out |= ~(reach < least) & (least < np.inf)
-        return out
 
     def places(self) -> Array:
         """The first places of the greatest values."""
         first = np.full(self.most.shape, np.inf)
-        for side, number, design, x, value in self.known:
-            near = value >= self._bar(side, number, design)
-            np.fmin.at(first[side], (number[near], design[near]), x[near])
+        for *index, x, value in self.known:
+            near = value >= self._bar(*index)
+            np.fmin.at(first, tuple(i[near] for i in index), x[near])
         return np.where(np.isinf(first), self.at_sample, first)
 
-    def sample(self, spans: Sequence[tuple[Array, Array]], start: int) -> None:
-        """Sample spans of designs until every function's series has ended where that matters."""
-        rows = self.cutter.rows(spans, start)
-        for depth, level in enumerate(self.cutter.levels(rows)):
-            every = [self.cutter.sampled(block) for block in level]
-            for pieces in every:
-                self._add_samples(pieces, depth)
-            for pieces in every:
-                self._judge(pieces)
-
-    def _add_samples(self, pieces: Pieces, depth: int) -> None:
+    def add_samples(self, pieces: Pieces, depth: int) -> None:
         """Add samples of pieces; only those within each piece count."""
-        (a, b), x, every = pieces.rows.x, pieces.x, np.arange(len(pieces.x))
-        design, number = pieces.rows.design, np.arange(self.f.wanted)[:, None]
-        outside = (x < a[:, None]) | (x > b[:, None])
-        for side, sense in enumerate(self.senses):
-            own = self._sided(sense, pieces.value)
-            endless = (own == np.inf).all(axis=2)
-            own = np.where(outside, -np.inf, own) if outside.any() else own
-            best = own.argmax(axis=2)
-            top, place = own[number, every, best], x[every, best]
-            top, place = np.where(endless, np.inf, top), np.where(endless, a, place)
-            _raise(self.most[side], number, design, top)
-            of, row = np.nonzero(top == self.most[side][:, design])
-            self.at_sample[side, of, design[row]] = place[of, row]
-            of, row = np.nonzero(top == np.inf)
-            self.known.append((side, of, design[row], place[of, row], top[of, row]))
+        (a, b), x, design = pieces.rows.x, pieces.x, pieces.rows.design
+        sided = self._sided(pieces.value)
+        outside = (x < a) | (x > b)
+        # from its begin on, where a margin changes its sign
+        endless = ((sided == np.inf) | outside).all(axis=2) & (sided == np.inf).any(axis=2)
+        sided = np.where(outside, -np.inf, sided)
+        best = sided.argmax(axis=2)
+        top = np.take_along_axis(sided, best[:, :, None], axis=2)[:, :, 0]
+        top = np.where(endless, np.inf, top)
+        place = np.where(endless, a, x[best, np.arange(len(design))])
+        sides, numbers, _ = np.ogrid[: len(top), : self.f.wanted, :1]
+        _raise(self.most, (sides, numbers, design), top)
+        side, number, of = np.nonzero(top == self.most[..., design])
+        self.at_sample[side, number, design[of]] = place[side, number, of]
+        side, number, of = np.nonzero(top == np.inf)
+        rows = place[side, number, of], top[side, number, of]
+        self.known.append((side, number, design[of], *rows))
         if depth < 4:  # rows that were halved more often lie near a pole
-            inner = np.abs(pieces.value[..., MIDDLE // 2 : MIDDLE + 5 : MIDDLE // 2]).max(axis=2)
-            _raise(self.size, number, design, np.where(np.isfinite(inner), inner, 0.0))
+            inner = np.abs(pieces.value[:, MIDDLE // 2 : MIDDLE + 5 : MIDDLE // 2]).max(axis=1)
+            _raise(self.size, (numbers[0], design), np.where(np.isfinite(inner), inner, 0.0))
 
-    def _judge(self, pieces: Pieces) -> None:
+    def judge(self, pieces: Pieces) -> None:
         """Keep candidates of pieces with precise series, and sample the others again.
 
         Where a force is nearly 0, its square is only the rounding of the greatest force, and no
         halving ends its series.
         """
-        curves, design = self._curves(pieces), pieces.rows.design
-        size = np.abs(curves.value).max(axis=1, initial=0.0)
-        noise = TIE * TIE * self.size[curves.number, design[curves.piece]]
-        ended = (curves.left < np.inf) & (curves.left <= np.maximum(PRECISE * size, noise))
-        miss = np.full(len(design), False)
-        miss[curves.piece[~ended]] = True
-        miss &= ~self.cutter.is_settled(pieces.rows)
-        self._add_candidates(curves.take(~miss[curves.piece]), pieces)
-        self.pieces.append((pieces.rows.take(~miss), pieces.sign[:, ~miss]))
-        if miss.any():
-            self.cutter.again(pieces.rows, pieces.whole, miss)
-
-    def _curves(self, pieces: Pieces) -> _Curves:
-        """The functions that may have one of the greatest values on each piece."""
-        value, design = pieces.value, pieces.rows.design
+        value, (a, b), design = pieces.value, pieces.rows.x, pieces.rows.design
         left = chebyshev.remainder(value)
-        low, high = value.min(axis=2), value.max(axis=2)
-        open_ = ~(left <= PRECISE * np.maximum(np.abs(low), np.abs(high))) | (left == np.inf)
+        low, high = value.min(axis=1), value.max(axis=1)
+        size = np.maximum(np.abs(low), np.abs(high))
+        open_ = ~(left <= PRECISE * size) | (left == np.inf)
         # by how much an extreme between samples exceeds them, over their range
         more = np.where(open_, 1.0, 0.15) * (high - low) + UNFINISHED * left
-        may = self._may_be(np.arange(len(value))[:, None], design, low - more, high + more)
+        bars = self._bar(slice(None), np.arange(len(value))[:, None], design)
+        low_reach, high_reach = _reach_at_poles(value, open_, low - more, high + more)
+        may = (~(np.stack((high_reach, -low_reach)) < bars) & (bars < np.inf)).any(axis=0)
         # a row of lower samples may have the peak whose flank another row's sample was on
-        (a, b), best = pieces.rows.x, self.at_sample[..., design]
-        may |= open_ & ((best >= a) & (best <= b)).any(axis=0)
+        best, bounded = self.at_sample[..., design], self.most[..., design] < np.inf
+        may |= open_ & ((best >= a) & (best <= b) & bounded).any(axis=0)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
-        number, piece = np.nonzero(may)
-        each = [
-            one if some.all() else rows_taken(one, some)
-            for one, some in zip(value, may, strict=True)
-        ]
-        curves = rows_joined([np.empty((0, len(POINTS))), *each])
-        cut = np.flatnonzero(~pieces.whole[piece])
-        if len(cut):  # at the points of the piece itself
-            a, b = pieces.part[:, piece[cut], None]
-            t = 0.5 * (a + b) + 0.5 * (b - a) * POINTS
-            curves[cut] = chebyshev.at(chebyshev.series(rows_taken(curves, cut))[..., None], t)
-        return _Curves(number, piece, curves, left[number, piece])
+        open_ &= ~(left <= TIE * TIE * self.size[:, design])
+        miss = (may & open_).any(axis=0) & ~self.cutter.is_settled(pieces.rows)
+        if miss.any():
+            self.cutter.again(pieces.rows, pieces.part, miss)
+        self.pieces.append((pieces.rows.take(~miss), pieces.sign[:, ~miss]))
+        number, piece = np.nonzero(may & ~miss)
+        if len(number):
+            self._add_candidates(number, piece, left[number, piece], pieces)
 
-    def _add_candidates(self, curves: _Curves, pieces: Pieces) -> None:
-        """Keep the places near which a function may have one of the greatest values."""
-        number, piece, value, left = curves
-        for side, sense in enumerate(self.senses):
-            sized = self._sided(sense, value)
-            least = self._bar(side, number, pieces.rows.design[piece])
-            of, point, flat, reach = _tops(sized, least - UNFINISHED * left)
-            samples = rows_taken(value, of)
-            uphill = np.sign(samples[np.arange(len(of)), point]) if self.sized else sense
-            uphill = np.where(flat, 0.0, uphill)
-            t = _turn(samples * uphill[:, None], point)
-            # a flat end has a value of its own, from which rounding leads a search away
-            end = np.where(point == 0, -1.0, np.where(point == len(POINTS) - 1, 1.0, t))
-            extra = np.flatnonzero(end != t)
-            every = np.append(np.arange(len(of)), extra)
-            t, uphill = np.append(t, end[extra]), np.append(uphill, 0.0 * extra)
-            of, point, reach = of[every], point[every], reach[every]
-            own, top, error = pieces.rows.take(piece[of]), sized[of, point], left[of]
-            x = np.clip(gathered(own.at(t), self.cutter.w[own.design]), *own.x)
-            near = 0.5 * (own.x[1] - own.x[0]) * _REACH[point]
-            columns = own.design, pieces.sign[:, piece[of]], own.x, x, near, uphill
-            found = _Candidates(number[of], *columns, reach + UNFINISHED * error)
-            # the sample at the end of a row is the value there, and a precise series its slope
-            exact = pieces.whole[piece[of]] & (end[every] == t) & (np.abs(t) == 1.0)
-            exact &= error <= 1e-11 * top
-            self.known.append((side, *(c[exact] for c in (number[of], own.design, x, top))))
-            self.candidates[side].append(found.take(~exact))
+    def _add_candidates(self, number: Whole, piece: Whole, left: Array, pieces: Pieces) -> None:
+        """Keep the places where functions turn on pieces, and their ends, if they may be greatest.
+
+        ``left`` is the error of their series, at whose ends a slope may have the wrong sign.
+        """
+        rows, part = pieces.rows.take(piece), pieces.part.take(piece, axis=1)
+        samples = np.ascontiguousarray(pieces.value[number, :, piece].T)
+        whole = is_whole(part)
+        cut = np.flatnonzero(~whole)
+        if len(cut):  # at the points of the piece itself
+            a, b = part[:, cut]
+            t = 0.5 * (a + b) + 0.5 * (b - a) * POINTS[:, None]
+            samples[:, cut] = chebyshev.at(chebyshev.series(samples.take(cut, axis=1)), t)
+        value, slope = chebyshev.on_grid(samples)
+        terms, every = chebyshev.series(samples), np.arange(len(number))
+        size = np.abs(samples).max(axis=0)
+        # of a constant the start alone: a range of rounding says nothing about places
+        varied = np.ptp(samples, axis=0) > 1e-13 * size
+        loose = np.flatnonzero(varied & ~(left <= 1e-11 * size))
+        out = []
+        for sense in (1.0, -1.0):
+            side = 0 if self.sized or sense > 0.0 else 1
+            g, d = sense * value, sense * slope
+            cell, of = np.nonzero((d[:-1] > 0.0) & (d[1:] <= 0.0) & varied)
+            before, after = d[cell, of], d[cell + 1, of]
+            t = GRID[cell] + (GRID[cell + 1] - GRID[cell]) * before / (before - after)
+            top = 2.0 * sense * chebyshev.at(terms[:, of], t)
+            top -= np.minimum(g[cell, of], g[cell + 1, of])
+            out.append((side, of, t, sense, top))
+            for end, there in ((-1.0, every), (1.0, np.flatnonzero(varied))):
+                top = sense * samples[0 if end < 0.0 else -1]
+                out.append((side, there, end, 0.0, top[there]))
+                out.append((side, loose, end, sense, top[loose] + 1e-3 * size[loose]))
+        columns = zip(*(np.broadcast_arrays(*row) for row in out), strict=True)
+        side, of, t, uphill, top = (np.concatenate(column) for column in columns)
+        reach = top + UNFINISHED * left[of]
+        least = self._bar(side, number[of], rows.design[of])
+        kept = np.flatnonzero(~(reach < least) & (least < np.inf))
+        side, of, t, uphill, top, reach = (c[kept] for c in (side, of, t, uphill, top, reach))
+        own, w = rows.take(of), self.cutter.w[rows.design[of]]
+        before, x, after = (gathered(own.at(t + by), w).clip(*own.x) for by in (-0.1, 0.0, 0.1))
+        x = np.where(t == -1.0, own.x[0], np.where(t == 1.0, own.x[1], x))
+        # the sample at the end of a whole row is the value there
+        exact = (uphill == 0.0) & whole[of]
+        row = side, number[of], own.design
+        self.known.append(tuple(c[exact] for c in (*row, x, top)))
+        sign = pieces.sign.take(piece[of], axis=1)
+        found = _Candidates(*row, sign, own.x, x, after - before, uphill, reach)
+        self.candidates.append(record_taken(found, ~exact))
 
     def refine(self) -> None:
         """Evaluate the functions themselves near the candidates."""
-        each = [joined(own) for own in self.candidates if own]
-        self.candidates = [[] for _ in self.senses]
-        if not each:
+        if not self.candidates:
             return
-        bars = [self._bar(side, own.number, own.design) for side, own in enumerate(each)]
-        may = [
-            ~(own.reach < least) & (least < np.inf) for own, least in zip(each, bars, strict=True)
-        ]
-        some = joined([own.take(which) for own, which in zip(each, may, strict=True)])
+        every = joined(self.candidates)
+        self.candidates = []
+        least = self._bar(every.side, every.number, every.design)
+        some = record_taken(every, ~(every.reach < least) & (least < np.inf))
         x, value, live = some.x.copy(), np.empty(len(some.x)), np.arange(len(some.x))
         for _ in range(20):  # most take two
             if not len(live):
                 break
-            v, slope, bend = self._jets(x[live], some.take(live))
+            v, slope, bend = self._jets(x[live], record_taken(some, live))
             step = np.nan_to_num(some.uphill[live] * slope / np.abs(bend))
             step = np.clip(step, -some.near[live], some.near[live])
             step = np.clip(x[live] + step, *some.ends[:, live]) - x[live]
             short = np.abs(step) <= 1e-3 * some.near[live]
             value[live] = v + np.where(short, 0.5 * slope * step, 0.0)
             x[live] += step
-            # after a step of 1e-6 of the search range, a maximum's place is exact
-            live = live[np.abs(step) > 1e-6 * some.near[live]]
-        # on the way to a flat end a step only halves the distance
-        for end in some.ends[:, live]:
-            x[live] = np.where(np.abs(x[live] - end) <= 0.02 * some.near[live], end, x[live])
+            # after a step of 1e-8 of the search range, a maximum's place is exact
+            live = live[np.abs(step) > 1e-8 * some.near[live]]
+        # on the way to a flat end a step only halves the distance; and 1e-16 is rounding
+        reached = 1e-16 * some.near
+        reached[live] = 0.02 * some.near[live]
+        for end in some.ends:
+            x = np.where(np.abs(x - end) <= reached, end, x)
         self.add(some.number, some.design, x, value)
 
     def _jets(self, x: Array, of: _Candidates) -> Array:
@@ -373,72 +337,23 @@ class _Extremes:
         return out
 
 
-def _tops(value: Array, bars: Array) -> tuple[Whole, Whole, Mask, Array]:
-    """Local maxima of samples (m, points) next to which a function may reach its bar.
-
-    Returns the numbers of rows and points, masks of those on constant functions, and bounds of the
-    values there. A constant has one at the start, as a range of rounding says nothing about places.
-    """
-    low, high = value.min(axis=1), value.max(axis=1)
-    flat = high - low <= 1e-13 * np.maximum(np.abs(low), np.abs(high))
-    may = ~flat[:, None] & ~(value < (bars - (high - low))[:, None])
-    may[:, 1:] &= value[:, 1:] > value[:, :-1]
-    may[:, :-1] &= value[:, :-1] >= value[:, 1:]
-    may[:, 0] |= flat
-    row, point = np.nonzero(may)
-    here, (before, after) = value[row, point], _neighbours(value, row, point, 1)
-    # a parabola through three samples exceeds them by an eighth of this at most
-    reach = here + (2.0 * here - before - after)
-    kept = flat[row] | ~(reach < bars[row])
-    row = row[kept]
-    return row, point[kept], flat[row], reach[kept]
+def _reach_at_poles(value: Array, open_: Mask, low: Array, high: Array) -> tuple[Array, Array]:
+    """Bounds of functions on rows; towards a pole, whose series has no end, the reciprocals'."""
+    number, row = np.nonzero(open_)
+    inverse = np.ascontiguousarray(1.0 / value[number, :, row].T)
+    left, least, most = chebyshev.remainder(inverse), inverse.min(axis=0), inverse.max(axis=0)
+    ended = left <= PRECISE * np.maximum(np.abs(least), np.abs(most))
+    more = 0.15 * (most - least) + UNFINISHED * left
+    for bound, own, end in ((low, least >= 0.0, most + more), (high, most <= 0.0, least - more)):
+        here = ended & own
+        bound[number[here], row[here]] = 1.0 / end[here]
+    return low, high
 
 
-def _neighbours(value: Array, row: Whole, point: Whole, apart: int) -> tuple[Array, Array]:
-    """Samples in some rows before and after a point; beyond an end those on its other side.
-
-    By the angle whose cosine is -t the points are even, and a function is its own mirror image.
-    """
-    last = len(POINTS) - 1
-    places = np.abs(point - apart), last - np.abs(last - point - apart)
-    before, after = (value[row, place] for place in places)
-    return before, after
-
-
-def _turn(value: Array, point: Whole) -> Array:
-    """Maxima of samples (m, points) next to the points of given numbers, as positions.
-
-    They are those of a polynomial through five samples. Where a function falls from an end, its
-    maximum is that end.
-    """
-    every = np.arange(len(point))
-    here = value[every, point]
-    (b, a), (d, c) = (_neighbours(value, every, point, apart) for apart in (1, 2))
-    first, second = (
-        (8.0 * (a - b) - (c - d)) / 12.0,
-        (16.0 * (a + b) - (c + d) - 30.0 * here) / 12.0,
-    )
-    third, fourth = 0.5 * (c - d) - (a - b), c + d - 4.0 * (a + b) + 6.0 * here
-    bend = a + b - 2.0 * here
-    shift = np.where(bend < 0.0, 0.5 * (b - a) / bend, 0.0)  # of the parabola through three
-    for _ in range(2):  # Newton steps on the polynomial's slope
-        slope = first + shift * (second + shift * (0.5 * third + shift * fourth / 6.0))
-        bend = second + shift * (third + 0.5 * shift * fourth)
-        shift += np.where(bend < 0.0, np.clip(-slope / bend, -0.25, 0.25), 0.0)
-    last = len(POINTS) - 1
-    ends = np.flatnonzero((point == 0) | (point == last))
-    inward = np.where(point[ends] == 0, 1.0, -1.0)
-    slopes = chebyshev.end_slopes(value[ends])
-    rises = inward * np.where(inward > 0.0, slopes[:, 0], slopes[:, 1]) > 0.0
-    turn = np.sqrt(-6.0 * second[ends] / fourth[ends])
-    shift[ends] = np.where(rises, inward * np.where(turn < 1.0, turn, 0.5), 0.0)
-    return np.where(shift == 0.0, POINTS[point], -np.cos(np.pi / last * (point + shift)))
-
-
-def _raise(most: Array, number: Whole, design: Whole, value: Array) -> None:
-    """Set greatest values (functions, n) to values that are greater."""
-    index = number * most.shape[1] + design  # flat indices: NumPy is ten times as fast with them
-    np.fmax.at(most.reshape(-1), index.reshape(-1), value.reshape(-1))
+def _raise(most: Array, index: tuple[Whole, ...], value: Array) -> None:
+    """Set greatest values to values that are greater."""
+    flat = np.ravel_multi_index(index, most.shape)  # NumPy is ten times as fast with flat indices
+    np.fmax.at(most.reshape(-1), flat.reshape(-1), value.reshape(-1))
 
 
 def bar(most: Array, size: Array) -> Array:
@@ -484,8 +399,3 @@ def _no_pieces(f: Functions) -> list[tuple[Rows, Array]]:
     """An empty list of pieces, to be joined with others."""
     none, ends = np.zeros(0, dtype=int), np.zeros((2, 0))
     return [(Rows(none, none, ends, ends), np.zeros((f.signs, 0)))]
-
-
-# the cells on both sides of each point; near the ends of a piece, where they crowd, a series is no
-# more precise: the range is at least a tenth of half a piece
-_REACH = np.maximum(np.convolve(np.diff(POINTS), np.ones(2)), 0.1)

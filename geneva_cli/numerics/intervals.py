@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import reduce
 from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, TypeAlias, cast
 
 import numpy as np
@@ -71,30 +72,26 @@ class Interval(Enclosed):
     @property
     def size(self) -> Array:
         """The greatest sizes of its numbers; infinite where a bound is unknown."""
-        size = np.maximum(-self.low, self.high)
-        return np.where(np.isnan(size), math.inf, size)
+        return np.nan_to_num(np.maximum(-self.low, self.high), nan=math.inf, posinf=math.inf)
 
     def piece(self, cuts: Sequence[float]) -> int:
         """Number of the piece between ``cuts`` that holds the middle.
 
         Raises Undecided if one reaches over a cut by more than ``REACH``.
         """
-        return int(_answer(np.where(self._over(cuts), math.nan, self._pieces(cuts))))
+        return int(_answer(self._piece_or_nan(cuts)))
 
     def pieces(self, cuts: Sequence[float]) -> Whole:
         """Number of the piece that holds the middle of each; raises Undecided as ``piece``."""
-        over = self._over(cuts)
-        if np.any(over):
-            raise Undecided("intervals over an end of a piece", np.where(over, math.nan, 0.0))
-        return self._pieces(cuts)
+        numbers = self._piece_or_nan(cuts)
+        if np.isnan(numbers).any():
+            raise Undecided("intervals over an end of a piece", 0.0 * numbers)
+        return numbers.astype(int)
 
-    def _pieces(self, cuts: Sequence[float]) -> Whole:
-        return np.asarray(np.searchsorted(cuts, 0.5 * (self.low + self.high)))
-
-    def _over(self, cuts: Sequence[float]) -> Mask:
-        """True for those that reach over a cut by more than ``REACH``."""
+    def _piece_or_nan(self, cuts: Sequence[float]) -> Array:
         inside = [np.minimum(cut - self.low, self.high - cut) > self.REACH for cut in cuts]
-        return np.asarray(np.any(inside, axis=0))
+        number = np.searchsorted(cuts, 0.5 * (self.low + self.high))
+        return np.where(np.any(inside, axis=0), math.nan, number)
 
     def rising(self, f: Callable[[Number], Number]) -> Number:
         """Intervals of the values of a function that rises: from the lower ends to the upper."""
@@ -192,7 +189,6 @@ def _answer(answers: Array) -> float:
 
 
 def _decided(yes: Truth, no: Truth) -> bool:
-    """The answer to a comparison."""
     return bool(_answer(np.where(yes, 1.0, np.where(no, 0.0, math.nan))))
 
 
@@ -221,11 +217,7 @@ def _unknown(where: Truth, x: Interval) -> Interval:
 
 def _between(*ends: Bound) -> Interval:
     """Intervals of all numbers between the least and the greatest of some."""
-    first, *others = ends
-    low = high = first
-    for end in others:
-        low, high = np.minimum(low, end), np.maximum(high, end)
-    return _outwards(low, high)
+    return _outwards(reduce(np.minimum, ends), reduce(np.maximum, ends))
 
 
 def _each(f: Callable[..., float], *x: Bound) -> Array:
@@ -244,12 +236,7 @@ def _each(f: Callable[..., float], *x: Bound) -> Array:
 
 def _rising(f: Callable[[float], float]) -> Callable[[object, Interval | float], Interval]:
     """A function that rises everywhere in its domain."""
-
-    def of(_: object, x: Interval | float) -> Interval:
-        low, high = (_each(f, end) for end in _ends(x))
-        return _outwards(low, high, LIBRARY_UNITS)
-
-    return of
+    return lambda _, x: _outwards(*(_each(f, end) for end in _ends(x)), LIBRARY_UNITS)
 
 
 class _Intervals:

@@ -12,24 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import factorial
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TypeVar, cast
 
-from geneva_cli.numerics.arrays import (
-    SINGLE,
-    Enclosed,
-    Mask,
-    Whole,
-    enclosed,
-    library,
-    piece_of,
-    size,
-)
+from geneva_cli.numerics.arrays import SINGLE, Enclosed, enclosed, library, piece_of, size
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 
 class Jet:
@@ -75,7 +62,7 @@ class Jet:
 
     def __add__(self, other: Jet | Number) -> Jet:
         if isinstance(other, Jet):
-            return Jet([_sum(a, b) for a, b in zip(self.c, other.c, strict=True)])
+            return Jet([a + b for a, b in zip(self.c, other.c, strict=True)])
         return Jet((self.c[0] + other, *self.c[1:]))
 
     __radd__ = __add__
@@ -99,8 +86,6 @@ class Jet:
             return Jet(_scaled(a, b[0]))
         if _is_constant(a):
             return Jet(_scaled(b, a[0]))
-        if a is b:
-            return Jet([_square(a, k, 0) for k in range(len(a))])
         return Jet([_convolve(a, b, k, 0) for k in range(len(a))])
 
     __rmul__ = __mul__
@@ -139,21 +124,11 @@ def _are_zero(c: Sequence[Number]) -> bool:
     return True
 
 
-def _sum(a: Number, b: Number) -> Number:
-    """a + b; if one of them is the number 0, the other unchanged."""
-    if isinstance(a, float) and not a:
-        return b
-    return a if isinstance(b, float) and not b else a + b
-
-
 def _scaled(c: Sequence[Number], factor: Number) -> list[Number]:
     """Coefficients times a factor; those that are the number 0 stay so."""
     if isinstance(factor, float) and not factor:
         return [c[0] * factor, *[0.0] * (len(c) - 1)]
-    return [
-        c[0] * factor,
-        *[0.0 if isinstance(a, float) and not a else a * factor for a in c[1:]],
-    ]
+    return [c[0] * factor, *[0.0 if isinstance(a, float) and not a else a * factor for a in c[1:]]]
 
 
 def _convolve(
@@ -164,18 +139,6 @@ def _convolve(
     for i in range(first + 1, k + 1 if last is None else last):
         total = total + a[i] * b[k - i]
     return total
-
-
-def _square(a: Sequence[Number], k: int, first: int) -> Number:
-    """The sum of a[i] a[k - i] from i = first to k - first."""
-    half = (k + 1) // 2
-    if first == half:
-        return a[half] * a[half]
-    total = a[first] * a[k - first]
-    for i in range(first + 1, half):
-        total = total + a[i] * a[k - i]
-    total = total + total
-    return total if k % 2 else total + a[half] * a[half]
 
 
 def sin_cos(x: Jet) -> tuple[Jet, Jet]:
@@ -266,7 +229,7 @@ def sqrt(x: Jet) -> Jet:
     q = [library(x.c[0]).sqrt(x.c[0])]
     twice = 2 * q[0]
     for k in range(1, len(x.c)):
-        q.append((x.c[k] - _square(q, k, 1) if k > 1 else x.c[k]) / twice)
+        q.append((x.c[k] - _convolve(q, q, k, 1, k) if k > 1 else x.c[k]) / twice)
     return Jet(q)
 
 
@@ -308,29 +271,16 @@ def _moment(x: Sequence[Number], y: Sequence[Number], k: int) -> Number:
 def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Number], Jet]]) -> Jet:
     """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
 
-    For one design each piece is evaluated at its own part of an array of angles. In a batch, whose
-    cuts may differ, a piece that applies anywhere is evaluated at all angles. So it is faster to
-    request angles that lie in one piece.
+    A piece that applies anywhere is evaluated at all angles. So it is faster to request angles that
+    lie in one piece.
     """
     if isinstance(x, SINGLE) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return pieces[piece_of(x, cast("Sequence[float]", cuts))](x)
     import numpy as np
 
     angles = np.asarray(x)
-    plain = [cut for cut in cuts if isinstance(cut, float)]
-    if angles.ndim < 2 and len(plain) == len(cuts):
-        return _by_parts(angles, np.searchsorted(plain, angles), pieces)
     none = np.zeros(angles.shape, np.int8)
     index = sum(((angles > cut).astype(np.int8) for cut in cuts), none)
-    return _by_choice(x, index, pieces)
-
-
-def _by_choice(
-    x: Number, index: NDArray[np.int8], pieces: Sequence[Callable[[Number], Jet]]
-) -> Jet:
-    """Evaluate each piece that applies anywhere at all angles, and choose its own part."""
-    import numpy as np
-
     first, last = int(index.min(initial=len(pieces) - 1)), int(index.max(initial=0))
     if first >= last:
         return pieces[last](x)
@@ -343,25 +293,4 @@ def _by_choice(
                 if piece not in jets:
                     jets[piece] = piece(x).c
                 out = [np.where(here, b, a) for a, b in zip(out, jets[piece], strict=True)]
-    return Jet(out)
-
-
-def _by_parts(x: Array, index: Whole, pieces: Sequence[Callable[[Array], Jet]]) -> Jet:
-    """Evaluate each piece at its own part of angles (k,), for one design or a batch."""
-    import numpy as np
-
-    if not x.size:
-        return pieces[0](x)
-    # np.unique would import numpy.ma, a sixth of a short run
-    parts: dict[Callable[[Array], Jet], Mask] = {}
-    for i in np.bincount(index.ravel()).nonzero()[0].tolist():
-        here, piece = index == i, pieces[i]
-        parts[piece] = parts[piece] | here if piece in parts else here
-    alone = len(parts) == 1  # the same array object, for which values may be cached
-    jets = [(where, piece(x if alone else x[where]).c) for piece, where in parts.items()]
-    designs = np.broadcast_shapes(*{np.shape(c)[:-1] for _, jet in jets for c in jet})
-    out = [np.empty((*designs, *x.shape)) for _ in jets[0][1]]
-    for where, jet in jets:
-        for total, part in zip(out, jet, strict=True):
-            total[..., where] = part
     return Jet(out)

@@ -83,10 +83,8 @@ class Csv(NamedTuple):
         """Fault of the i-th pair, compared with the one before it; empty if it is valid."""
         x, y = pairs[i]
         if not (math.isfinite(x) and abs(y) <= self.y_max):
-            return (
-                f"{self.x} and {self.y} must be finite, {self.y} from -{self.y_max:g} to "
-                f"{self.y_max:g}"
-            )
+            most = f"from -{self.y_max:g} to {self.y_max:g}"
+            return f"{self.x} and {self.y} must be finite, {self.y} {most}"
         if i and x < pairs[i - 1][0] + self.step_min:
             return (
                 f"{self.x} = {x:.12g} must exceed the one before it by at least {self.step_min:g}: "

@@ -15,6 +15,7 @@ import dataclasses
 import inspect
 import math
 from collections.abc import Iterable, Sequence
+from functools import cache
 from types import NoneType, UnionType
 from typing import (
     Annotated,
@@ -77,21 +78,14 @@ class _Signature:
     """Signature of a table's class, for ``help`` and editors; it is computed when they ask."""
 
     def __get__(self, table: object, kind: type[SpecTable]) -> inspect.Signature:
-        empty = inspect.Parameter.empty
-        by_keyword = inspect.Parameter.KEYWORD_ONLY
-        either = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        def parameter(one: dataclasses.Field[object]) -> inspect.Parameter:
+            place = inspect.Parameter.KEYWORD_ONLY
+            place = place if one.kw_only else inspect.Parameter.POSITIONAL_OR_KEYWORD
+            default = inspect.Parameter.empty if one.default is REQUIRED else one.default
+            return inspect.Parameter(one.name, place, default=default, annotation=one.type)
+
         every = sorted(_parameters(kind), key=lambda one: bool(one.kw_only))
-        return inspect.Signature(
-            [
-                inspect.Parameter(
-                    one.name,
-                    by_keyword if one.kw_only else either,
-                    default=empty if one.default is REQUIRED else one.default,
-                    annotation=one.type,
-                )
-                for one in every
-            ]
-        )
+        return inspect.Signature([parameter(one) for one in every])
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
@@ -113,7 +107,14 @@ class SpecTable:
         if named:
             refuse_keywords(kind.__name__, named, _names(kind))
         if values:
-            named = _by_name(kind, values, named)
+            names = [one.name for one in _parameters(kind) if not one.kw_only]
+            if len(values) > len(names):
+                most = f"at most {len(names)} arguments" if names else "no argument"
+                raise TypeError(f"{kind.__name__} takes {most} without a name, not {len(values)}")
+            by_place = dict(zip(names, values, strict=False))
+            for name in by_place.keys() & named:
+                raise TypeError(f"{kind.__name__} has two values of {name}")
+            named |= by_place
         for one in _parameters(kind):
             value = named.get(one.name, one.default)
             if value is REQUIRED:
@@ -203,20 +204,6 @@ class SpecTable:
         return new
 
 
-def _by_name(
-    kind: type[SpecTable], values: Sequence[object], named: dict[str, object]
-) -> dict[str, object]:
-    """Arguments by name. Raises TypeError for too many values, or one that is also named."""
-    names = [one.name for one in _parameters(kind) if not one.kw_only]
-    if len(values) > len(names):
-        most = f"at most {len(names)} arguments" if names else "no argument"
-        raise TypeError(f"{kind.__name__} takes {most} without a name, not {len(values)}")
-    by_place = dict(zip(names, values, strict=False))
-    for name in by_place.keys() & named:
-        raise TypeError(f"{kind.__name__} has two values of {name}")
-    return by_place | named
-
-
 def refuse_keywords(what: str, names: Iterable[str], known: Sequence[str]) -> None:
     """Raise GenevaError for a keyword that ``what`` does not take, with the nearest one."""
     for name in names:
@@ -242,29 +229,19 @@ def shortly(record: object) -> str:
     return f"{type(record).__name__}({', '.join(arguments)})"
 
 
-_parameters_of: dict[type, tuple[dataclasses.Field[object], ...]] = {}
-_names_of: dict[type, list[str]] = {}
-_fields_of: dict[type, tuple[Field, ...]] = {}
-
-
+@cache
 def _parameters(kind: type) -> tuple[dataclasses.Field[object], ...]:
-    """Fields of a dataclass, in their order."""
-    if kind not in _parameters_of:
-        _parameters_of[kind] = dataclasses.fields(kind)
-    return _parameters_of[kind]
+    return dataclasses.fields(kind)
 
 
+@cache
 def _names(kind: type) -> list[str]:
-    """Names of a dataclass's fields."""
-    if kind not in _names_of:
-        _names_of[kind] = [one.name for one in _parameters(kind)]
-    return _names_of[kind]
+    return [one.name for one in _parameters(kind)]
 
 
+@cache
 def fields(table: type[SpecTable]) -> tuple[Field, ...]:
     """Keys of a table, in their order."""
-    if table in _fields_of:
-        return _fields_of[table]
     known: dict[str, Field] = {}
     for base in table.__bases__:
         if issubclass(base, SpecTable) and base is not SpecTable:
@@ -279,46 +256,43 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
             types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
             key = rule.key if isinstance(rule, Csv) else one.name.rstrip("_")
             known[one.name] = Field(key, one.name, types, rule, one.default, meaning)
-    _fields_of[table] = tuple([known[name] for name in _names(table) if name in known])
-    return _fields_of[table]
+    return tuple([known[name] for name in _names(table) if name in known])
 
 
 def checked(table: str, field: Field, value: Any) -> Any:
     """A value of the field's type and in its range, as the table holds it."""
-    kind = type(value)
-    if (kind is float or kind is int) and kind in field.types and value in field.rule:
+    kind, types = type(value), field.types
+    if (kind is float or kind is int) and kind in types and value in field.rule:
         return value  # the usual case
     place = (*table.split("."), field.key)
     value = plain(value)
-    if type(value) in (NoneType, bool) and type(value) in field.types:
+    if type(value) in (NoneType, bool) and type(value) in types:
         return value
     if isinstance(field.rule, Csv):
         return _points(place, field, value)
-    whole = int in field.types
-    numeric = whole or float in field.types
+    whole = int in types
+    numeric = whole or float in types
     if isinstance(value, (int, float)) and not isinstance(value, bool) and numeric:
         return _number(place, field, value, whole)
     if numeric and is_array(value):
         return _numbers(place, field, value, whole)
-    if is_array(value) and LIST in field.types:
+    if is_array(value) and LIST in types:
         value = value.tolist()
-    if isinstance(value, (list, tuple)) and LIST in field.types:
+    if isinstance(value, (list, tuple)) and LIST in types:
         return _list(table, field, value)
-    if isinstance(value, str) and {str, float} & set(field.types):
-        if str in field.types:
-            return _word(place, field, value, numeric)
+    if isinstance(value, str) and str in types:
+        return _word(place, field, value, numeric)
+    if isinstance(value, str) and float in types:
         return checked(table, field, _with_unit(place, field, value))
-    expected = " or ".join(_NAMES[t] for t in field.types if t in _NAMES)
+    expected = " or ".join(_NAMES[t] for t in types if t in _NAMES)
     raise GenevaError(f"{field.key} must be {expected}, not {shown(value)}", place)
 
 
 def _list(table: str, field: Field, values: Sequence[Any]) -> tuple[float, ...]:
-    """The numbers of a list, each checked."""
-    if not values or len(values) > LIST_MAX:
+    if not 0 < len(values) <= LIST_MAX:
         place = (*table.split("."), field.key)
         raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)
-    one = field._replace(types=(float,))
-    return tuple(checked(table, one, value) for value in values)
+    return tuple(checked(table, field._replace(types=(float,)), value) for value in values)
 
 
 def _with_unit(place: tuple[str, ...], field: Field, text: str) -> float:
@@ -333,22 +307,17 @@ def _with_unit(place: tuple[str, ...], field: Field, text: str) -> float:
 
 def _number(place: tuple[str, ...], field: Field, value: float, whole: bool) -> float:
     if whole and not isinstance(value, int):
-        raise GenevaError(
-            f"{field.key} = {value!r} must be a whole number{_whole(value)} ({field.meaning})",
-            place,
-        )
-    if value not in field.rule:
+        fault = f"{value!r} must be a whole number{_whole(value)}"
+    elif value not in field.rule:
         # no reader of the rule would think of such numbers
         least = f"; sizes below {TINY:g} are not computed" if 0.0 < abs(value) < TINY else ""
-        raise GenevaError(
-            f"{field.key} = {shown(value)} must be {field.rule}{least} ({field.meaning})", place
-        )
-    try:
-        return value if whole else float(value)
-    except OverflowError:
-        raise GenevaError(
-            f"{field.key} = {shown(value)} is too large a number ({field.meaning})", place
-        ) from None
+        fault = f"{shown(value)} must be {field.rule}{least}"
+    else:
+        try:
+            return value if whole else float(value)
+        except OverflowError:
+            fault = f"{shown(value)} is too large a number"
+    raise GenevaError(f"{field.key} = {fault} ({field.meaning})", place)
 
 
 def _numbers(place: tuple[str, ...], field: Field, values: Any, whole: bool) -> Any:
@@ -391,18 +360,15 @@ def _word(place: tuple[str, ...], field: Field, value: str, numeric: bool) -> st
 
 def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
     """Pairs in ascending order within the rule's bounds; a Python user may pass a list of them."""
-    points = value if isinstance(value, Points) else Points(_pairs(place, field, value))
-    field.rule.check(points.pairs, points.file, place)
-    return points
-
-
-def _pairs(place: tuple[str, ...], field: Field, value: Any) -> tuple[tuple[float, float], ...]:
-    try:
-        return tuple((float(x), float(y)) for x, y in value)
-    except (TypeError, ValueError):
-        raise GenevaError(
-            f"{field.key}: points must be pairs of numbers {field.rule.x},{field.rule.y}", place
-        ) from None
+    if not isinstance(value, Points):
+        try:
+            value = Points(tuple((float(x), float(y)) for x, y in value))
+        except (TypeError, ValueError):
+            raise GenevaError(
+                f"{field.key}: points must be pairs of numbers {field.rule.x},{field.rule.y}", place
+            ) from None
+    field.rule.check(value.pairs, value.file, place)
+    return value
 
 
 def unknown(key: str, table: str, known: Sequence[str], hint: str = "") -> GenevaError:
@@ -432,14 +398,13 @@ def require(table: type[SpecTable], keys: Sequence[str], why: str = "") -> None:
 
 def shown(value: Any) -> str:
     """A wrong value, short enough for a message."""
-    if isinstance(value, dict):
-        return "a table"
-    if isinstance(value, (list, tuple)):
-        return "a list"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
         return f'"{cut(value)}"'
+    for kind, word in ((dict, "a table"), ((list, tuple), "a list")):
+        if isinstance(value, kind):
+            return word
     return f"{value:.12g}" if isinstance(value, float) else cut(value)
 
 

@@ -154,9 +154,7 @@ PROCESSES = {
     # It keeps the fits of a sheet. All sizes stay nominal, for which there are reamers and bars.
     # A roller g6 in its slot H7 has 6 to 35 um at 10 to 18 mm, and so have teeth: the middle.
     "mill": Allowances(
-        pin_gap_mm=0.2,
-        source="the fits of ISO 286 on the drawing sheet",
-        gear_backlash_mm=0.02,
+        pin_gap_mm=0.2, source="the fits of ISO 286 on the drawing sheet", gear_backlash_mm=0.02
     ),
     # A hole is printed slightly too narrow, and holds its pin without a press fit. A printed shaft
     # and its bore may both be off by 0.2 mm.

@@ -1,6 +1,5 @@
 """Every key of a spec: its unit, type, range, default, and the kinds that have it."""
 
-from collections.abc import Iterator
 from itertools import chain
 from typing import NamedTuple
 
@@ -9,7 +8,7 @@ from geneva_cli.names import unit_of
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import LIST, REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
-from geneva_cli.specfile.writer import KindTable, kind_tables, quoted
+from geneva_cli.specfile.writer import kind_tables, quoted
 
 TYPES = {int: "whole number", float: "number", str: "word", bool: "true or false", LIST: "list"}
 
@@ -40,8 +39,18 @@ class Key(NamedTuple):
 
 def all_keys() -> list[Key]:
     """All keys, by table, in the order of a file."""
-    title = Key("", "title", None, "word", None, None, False, None, "free text")
-    return [title, *chain(*map(_of_kinds, kind_tables())), *_plain()]
+    keys = [Key("", "title", None, "word", None, None, False, None, "free text")]
+    for of in kind_tables():
+        keys.append(_key(of.table, of.word))
+        having: dict[Field, list[str]] = {}
+        for name, own in of.keys.items():
+            for field in own:
+                having.setdefault(field, []).append(name)
+        for field, names in having.items():  # a key that not all have names its kinds
+            some = None if len(names) == len(of.names) else f"{of.word.key} = {', '.join(names)}"
+            keys.append(_key(of.table, field, some))
+        keys += [_key(of.table, field, f"with a {of.word.key}") for field in of.shared]
+    return keys + [_key(name, field) for name, table in PLAIN.items() for field in fields(table)]
 
 
 def about(word: str) -> list[Key]:
@@ -88,11 +97,11 @@ def words_of(name: str) -> tuple[str, ...]:
     """
     table, _, key = name.rpartition(".")
     own = list(fields(PLAIN[table]) if table in PLAIN else ())
-    for one in kind_tables():
-        if name == f"{one.table}.{one.word.key}":
-            return tuple(one.keys)
-        if table == one.table:
-            own += chain(one.shared, *one.keys.values())
+    for of in kind_tables():
+        if name == f"{of.table}.{of.word.key}":
+            return tuple(of.names)
+        if table == of.table:
+            own += chain(of.shared, *of.keys.values())
     return tuple(dict.fromkeys(word for field in own if field.key == key for word in field.words))
 
 
@@ -104,26 +113,6 @@ def is_whole(name: str) -> bool:
     """
     types = {k.type for k in all_keys() if k.name == name}
     return types == {TYPES[int]}
-
-
-def _plain() -> Iterator[Key]:
-    for name, table in PLAIN.items():
-        for field in fields(table):
-            yield _key(name, field)
-
-
-def _of_kinds(of: KindTable) -> Iterator[Key]:
-    """The word that names a kind, and the keys of all; one that not all have names its kinds."""
-    yield _key(of.table, of.word)
-    having: dict[Field, list[str]] = {}
-    for name, own in of.keys.items():
-        for field in own:
-            having.setdefault(field, []).append(name)
-    for field, names in having.items():
-        some = None if len(names) == len(of.keys) else f"{of.word.key} = {', '.join(names)}"
-        yield _key(of.table, field, some)
-    for field in of.shared:
-        yield _key(of.table, field, f"with a {of.word.key}")
 
 
 def _key(table: str, field: Field, of: str | None = None) -> Key:

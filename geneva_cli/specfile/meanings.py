@@ -11,6 +11,7 @@ from geneva_cli.motion import registry
 from geneva_cli.names import spoken, unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 
+TEXTS = ("why", "formula", "source", "to_do", "bad", "good")  # of an entry, as it has them
 CHECKS, INPUTS = "checks.", "inputs."  # beginnings of a report's names of checks and of keys
 
 
@@ -33,34 +34,27 @@ class Meaning(NamedTuple):
 def meanings(word: str) -> list[Meaning]:
     """All meanings of a word, full (``timing.dwell_s``) or shortened (``dwell_s``).
 
-    Raises GenevaError, with the nearest name, for an unknown word.
+    It may be the words in which `check` and other summaries print a name. Raises GenevaError, with
+    the nearest name, for an unknown word.
 
     >>> [(m.group, m.unit) for m in meanings("loads.pin_force_N.rms")]
     [('quantity', 'N')]
-    >>> [m.group for m in meanings("jerk_max")]
-    ['check', 'quantity', 'key']
+    >>> [m.group for m in meanings("jerk_max")], [m.name for m in meanings("pin stress")]
+    (['check', 'quantity', 'key'], ['pin_stress_MPa'])
     """
-    known_meanings = _lookup(word) or _lookup(_spoken_name(word))
+    known_meanings = _lookup(word)
     if not known_meanings:
-        known = [*names(), *(CHECKS + n for e in entries() if e.group == "check" for n in e.names)]
+        plain, known = word.casefold(), names()
+        printed = (name for name in known if spoken(name)[0].casefold() == plain)
+        known_meanings = _lookup(next(printed, plain.replace(" ", "-")))
+    if not known_meanings:
+        known += [CHECKS + n for e in entries() if e.group == "check" for n in e.names]
         among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
-        hint = nearest(word, among)
         raise GenevaError(
             f'"{cut(word)}" is not a check, quantity, kind, law, warning, part, choice or '
-            f"key{hint}; `geneva explain` lists them"
+            f"key{nearest(word, among)}; `geneva explain` lists them"
         )
     return known_meanings
-
-
-def _spoken_name(words: str) -> str:
-    """The name that `check` and other summaries print as these words; else the words hyphened.
-
-    >>> _spoken_name("pin stress"), _spoken_name("drives the motor")
-    ('pin_stress_MPa', 'drives-the-motor')
-    """
-    plain = words.casefold()
-    named = (name for name in names() if spoken(name)[0].casefold() == plain)
-    return next(named, plain.replace(" ", "-"))
 
 
 def listed() -> list[tuple[str, str, str]]:
@@ -128,26 +122,22 @@ def _lookup(word: str) -> list[Meaning]:
 
 def _of_entry(entry: Entry, name: str) -> Meaning:
     """Meaning of an entry; for a kind or law, its class's own summary comes first."""
-    texts = (about(entry, name), entry.meaning)
+    texts = (_about(entry, name), entry.meaning)
     return Meaning(
         entry.group,
         name,
         " ".join(text for text in texts if text),
-        entry.why or None,
-        entry.unit or next((u for n in (name, *entry.names) if (u := unit_of(n))), None),
-        entry.formula or None,
-        entry.source or None,
-        entry.to_do or None,
-        entry.bad or None,
-        entry.good or None,
-        ", ".join(f"geneva help {topic}" for topic in entry.topics),
+        unit=entry.unit or next((u for n in (name, *entry.names) if (u := unit_of(n))), None),
+        manual=", ".join(f"geneva help {topic}" for topic in entry.topics),
+        **{field: getattr(entry, field) or None for field in TEXTS},
     )
 
 
-def about(entry: Entry, name: str) -> str:
+def _about(entry: Entry, name: str) -> str:
     """Summary line of a class of machine or law; empty for other entries."""
     if entry.group == "law":
-        return _sentenced(registry.law(name).ABOUT)
+        text = registry.law(name).ABOUT
+        return f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"
     kinds = ((registry.GEARINGS, registry.gearing), (registry.DRIVES, registry.drive))
     for known, cls in kinds if entry.group == "kind" else ():
         if name in known:
@@ -181,7 +171,3 @@ def _of_key(key: Key) -> Meaning:
         unit=key.unit,
         manual="geneva help keys",
     )
-
-
-def _sentenced(text: str) -> str:
-    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"

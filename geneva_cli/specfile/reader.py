@@ -18,7 +18,7 @@ import tomli
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.specfile.settings import Setting, applied, option_of, settings
+from geneva_cli.specfile.settings import Setting, applied, setting
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.table import in_digits
 
@@ -55,12 +55,12 @@ def _holds(lines: list[str], end: int, path: tuple[str | int, ...]) -> bool:
             if end + more >= len(lines):
                 return False
             more = 2 * more + 1  # a value of many lines
-    for part in path:
-        if isinstance(part, int):
-            node = node[part] if isinstance(node, list) and part < len(node) else None
-        else:
-            node = node.get(part) if isinstance(node, dict) else None
-    return node is not None
+    try:
+        for part in path:
+            node = node[part]
+    except (LookupError, TypeError):
+        return False
+    return True
 
 
 class Text(NamedTuple):
@@ -78,7 +78,13 @@ class Text(NamedTuple):
         except GenevaError as error:
             if not error.key:
                 raise
-            where = option_of(self.set_keys, error.key)
+            # the option that set the key of an error, or a key in its table
+            options = (
+                one.option
+                for one in reversed(self.set_keys)
+                if one.path[: len(error.key)] == error.key
+            )
+            where = next(options, "")
             if not where:
                 line = line_of(self.text, error.key)
                 where = f"{self.name}:{line}" if line else self.name
@@ -100,7 +106,13 @@ class Text(NamedTuple):
 
     def with_units(self, spec: Spec) -> list[str]:
         """Values that were written with a unit, each with the number that was read."""
-        return texts_with_units(applied(_parsed(self.text), self.set_keys), spec)
+        from geneva_cli.spec.units import unit_key
+
+        return [
+            f"{table}.{key} = {_shown(number)}, from {_typed(value)}"
+            for table, key, value in _texts(applied(_parsed(self.text), self.set_keys))
+            if unit_key(key) and (number := spec.table(table).get(key)) is not None
+        ]
 
 
 # A sweep reads one text many times with other settings; nothing changes a parsed tree.
@@ -144,7 +156,7 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
     Raises GenevaError, with the message ready to print, if it cannot be read.
     """
     name = shown_name(path)
-    return Text(name, _read(path, name), settings(set_keys))
+    return Text(name, _read(path, name), tuple(setting(text) for text in set_keys))
 
 
 def shown_name(path: str) -> str:
@@ -177,31 +189,15 @@ def _read(path: str, name: str) -> str:
         raise GenevaError(f"{name}:{line}: not UTF-8 text; save the file as UTF-8") from None
 
 
-def texts_with_units(tree: dict[str, Any], spec: Spec) -> list[str]:
-    """Each value of a file's tables that has a unit, and its number in the unit of its key.
-
-    >>> tree = {"wheel": {"z": 6}, "size": {"center_distance_mm": "8 in"}}
-    >>> texts_with_units(tree, Spec(External(6), size=Size(center_distance_mm="8 in")))
-    ['size.center_distance_mm = 203.2, from "8 in"']
-    """
-    from geneva_cli.spec.units import unit_key
-
-    return [
-        f"{table}.{key} = {_shown(number)}, from {_typed(value)}"
-        for table, key, value in _values(tree)
-        if unit_key(key) and (number := spec.table(table).get(key)) is not None
-    ]
-
-
-def _values(tree: dict[str, Any], table: str = "") -> Iterator[tuple[str, str, Any]]:
+def _texts(tree: dict[str, Any], table: str = "") -> Iterator[tuple[str, str, Any]]:
     """Table, key and value of each value that is a text or has texts in its list."""
     for key, value in tree.items():
         name = f"{table}.{key}" if table else key
         if isinstance(value, dict):
-            yield from _values(value, name)
+            yield from _texts(value, name)
         elif isinstance(value, list) and value and isinstance(value[0], dict):
             for i, one in enumerate(value):
-                yield from _values(one, f"{name}.{i}")
+                yield from _texts(one, f"{name}.{i}")
         elif any(isinstance(one, str) for one in (value if isinstance(value, list) else [value])):
             yield table, key, value
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import tomli
@@ -16,11 +16,6 @@ class Setting(NamedTuple):
     option: str
     path: tuple[str | int, ...]
     value: Any
-
-
-def settings(texts: Iterable[str]) -> tuple[Setting, ...]:
-    """Settings of ``KEY=VALUE`` texts. Raises GenevaError for an invalid text."""
-    return tuple(setting(text) for text in texts)
 
 
 def setting(text: str, option: str = "--set") -> Setting:
@@ -61,25 +56,20 @@ def whole_key(key: str, typed: str) -> str:
 
 
 def read_value(text: str, option: str) -> Any:
-    """Return the value as TOML reads it; anything else is a word.
+    """Return the value as TOML reads it, or a number such as .5; anything else is a word.
 
     Raises GenevaError, which begins with ``option``, if other keys follow the value.
     """
     try:
         tree = tomli.loads(f"x = {text.strip()}")
     except (tomli.TOMLDecodeError, RecursionError, ValueError):
-        return _number(text.strip())
+        try:
+            return float(text)
+        except ValueError:
+            return text.strip()
     if len(tree) > 1:
         raise GenevaError(f"{option}: it sets more than one key; use one option for each")
     return tree["x"]
-
-
-def _number(text: str) -> float | str:
-    """A number in a form that TOML does not accept, such as .5, or a word."""
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def applied(tree: dict[str, Any], set_keys: Sequence[Setting]) -> dict[str, Any]:
@@ -107,9 +97,3 @@ def _with(node: Any, path: tuple[str | int, ...], one: Setting) -> Any:
         return several
     table = dict(node) if isinstance(node, dict) else {}
     return table | {head: _with(table.get(head), tuple(rest), one)}
-
-
-def option_of(set_keys: Sequence[Setting], key: tuple[str | int, ...]) -> str:
-    """Option that set the key of an error, or a key in its table; empty if none did."""
-    options = (one.option for one in reversed(set_keys) if one.path[: len(key)] == key)
-    return next(options, "")

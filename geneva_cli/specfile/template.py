@@ -42,8 +42,7 @@ EXAMPLES = {
         {"wheel": {"z": 6, "offset_mm": 8}},
     ),
     "unequal-steps": Example(
-        "steps of two sizes, a roller for each",
-        {"wheel": {"z": 6, "steps_deg": [72, 48]}},
+        "steps of two sizes, a roller for each", {"wheel": {"z": 6, "steps_deg": [72, 48]}}
     ),
     "stop": Example(
         "a Geneva stop: the crank is blocked after four turns",

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Any
 
 from geneva_cli.errors import GenevaError, clean, cut, few, nearest
 from geneva_cli.motion import registry
-from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
 from geneva_cli.motion.motion import Motion
 from geneva_cli.names import unit_end
@@ -27,26 +26,13 @@ from geneva_cli.spec.schema import (
 )
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.spec.units import with_unit
+from geneva_cli.specfile.writer import DRIVES, LAWS, WHEELS, KindTable, drives_before, kind_tables
 
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
 
 
 # Other names of a size: here the pin's radius is that of the roller on it.
 ALSO_CALLED = {"pin_radius_mm": "roller_radius_mm", "crank_pin_radius_mm": "roller_radius_mm"}
-
-
-class _Kinds(NamedTuple):
-    """A table whose keys depend on a word in it."""
-
-    table: str
-    word: str
-    names: Collection[str]
-    find: Callable[[str], type[Any]]
-    default: str = ""
-
-    def all(self) -> Iterator[tuple[str, type[SpecTable]]]:
-        """Yield every kind, with the words that choose it."""
-        return ((f'{self.word} = "{name}"', self.find(name)) for name in self.names)
 
 
 class _Files:
@@ -97,14 +83,12 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
             f"{name}: no [wheel] table; the shortest spec is [wheel] and, on the next line, z = 6"
         )
     files = _Files(name)
-    gearings = _Kinds("wheel", "gearing", registry.GEARINGS, registry.gearing, "external")
-    drives = _Kinds("drive", "kind", registry.DRIVES, registry.drive, "crank")
     drive = dict(tree.get("drive", {}))
     before = drive.pop("before", None)
     return Spec(
-        wheel=_kind(tree["wheel"], gearings, files),
-        drive=_kind(drive, drives, files),
-        drive_before=None if before is None else _before(before, drives, files),
+        wheel=_kind(tree["wheel"], WHEELS, files),
+        drive=_kind(drive, DRIVES, files),
+        drive_before=None if before is None else _before(before, files),
         motion=_motion(tree["motion"], files) if "motion" in tree else None,
         **_plain(tree, files),
         title=clean(free_text("title", title, ("title",))),
@@ -157,71 +141,60 @@ def _refuse_part(table: str, values: dict[str, Any]) -> None:
             )
 
 
-def _kind(values: dict[str, Any], kinds: _Kinds, files: _Files) -> Any:
+def _kind(values: dict[str, Any], kinds: KindTable, files: _Files) -> Any:
     """The object of a table whose keys depend on a word in it, such as ``kind``."""
-    values, word = dict(values), kinds.word
-    name = values.pop(word, kinds.default)
-    cls = kinds.find(name)
-    of = f'{word} = "{name}"'
-    _refuse_foreign(values, cls, kinds, of)
+    values = dict(values)
+    name = values.pop(kinds.word.key, kinds.word.default)
+    cls, of = kinds.find(name), f'{kinds.word.key} = "{name}"'
+    _refuse_foreign(values, fields(cls), kinds, of)
     return cls(**_values(cls, values, files, f" for {of}"))
 
 
-def _before(values: Any, drives: _Kinds, files: _Files) -> Any:
+def _before(values: Any, files: _Files) -> Any:
     """The drive before another one; an error names its table."""
-    from geneva_cli.specfile.writer import own_fields
-
-    place = tuple(BEFORE.split("."))
+    place, kinds = tuple(BEFORE.split(".")), drives_before()
     if not isinstance(values, dict):
         raise GenevaError(f"before must be a table: write [{BEFORE}] above its keys", place)
     if "kind" not in values:
         raise GenevaError(f"[{BEFORE}] needs kind: the drive that turns the shaft", place)
-    shared = {field.key for field in fields(Drive)} & set(values)
+    shared = {field.key for field in kinds.without} & set(values)
     if shared:
         raise GenevaError(
             f"{min(shared)} belongs to the machine: set it in [drive]", (*place, min(shared))
         )
-    if values["kind"] in [*registry.DRIVES]:  # a list, as the value may be anything
-        own = ("kind", *(field.key for field in own_fields(registry.drive(values["kind"]))))
+    if values["kind"] in [*kinds.names]:  # a list, as the value may be anything
+        own = ("kind", *(f.key for f in kinds.keys_of(kinds.find(values["kind"]))))
         for key in [k for k in values if k not in own]:
             # a key of another kind is refused below, with its kind
-            if not any(field.key == key for _, kind in drives.all() for field in fields(kind)):
+            if not any(field.key == key for keys in DRIVES.keys.values() for field in keys):
                 raise unknown(key, BEFORE, own)
     try:
-        return _kind(values, drives, files)
+        return _kind(values, DRIVES, files)
     except GenevaError as error:
         raise GenevaError(f"[{BEFORE}]: {error}", (*place, *error.key[1:])) from None
 
 
 def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
     """The motion and its law, or None without a law, if the straight slots give the motion."""
-    laws = _Kinds("motion", "law", registry.LAWS, registry.law)
     values = dict(values)
     name = values.pop("law", None)
     if name is None:
-        if values:
-            _refuse_lawless(values, laws)
+        known = {f.key: f for keys in (*LAWS.keys.values(), LAWS.shared) for f in keys}
+        for key, value in values.items():
+            if key not in known:
+                raise _unknown(key, value, "motion", known)
+            if value != known[key].default:
+                raise GenevaError(
+                    f'{key} needs a law, such as law = "cycloidal": straight slots fix the motion',
+                    ("motion", key),
+                )
         return None
-    cls = laws.find(name)
+    cls, of = registry.law(name), f'law = "{name}"'
     own = {field.key for field in fields(cls)}
     params = {key: values.pop(key) for key in own & set(values)}
-    _refuse_foreign(values, Motion, laws, f'law = "{name}"')
-    law = cls(**_values(cls, params, files, f' for law = "{name}"'))
+    _refuse_foreign(values, LAWS.shared, LAWS, of)
+    law = cls(**_values(cls, params, files, f" for {of}"))
     return Motion(law, **_values(Motion, values, files, also=fields(cls)))
-
-
-def _refuse_lawless(values: dict[str, Any], laws: _Kinds) -> None:
-    """Raise GenevaError for keys of [motion] without a law, unless they have their defaults."""
-    known = {f.key: f for _, law in laws.all() for f in fields(law)}
-    known |= {f.key: f for f in fields(Motion)}
-    for key, value in values.items():
-        if key in known and value != known[key].default:
-            raise GenevaError(
-                f'{key} needs a law, such as law = "cycloidal": straight slots fix the motion',
-                ("motion", key),
-            )
-        if key not in known:
-            raise _unknown(key, value, "motion", known)
 
 
 def _unknown(key: str, value: object, table: str, known: Mapping[str, Field]) -> GenevaError:
@@ -238,10 +211,8 @@ def _unknown(key: str, value: object, table: str, known: Mapping[str, Field]) ->
         return GenevaError(
             f"unknown key {key} in [{table}]; it belongs to {tables}{meaning}{twin}", where
         )
-    from geneva_cli.specfile.writer import kind_tables  # only for messages
-
     of_table = [of for of in kind_tables() if of.table == table]
-    kinds = [f'{of.word.key} = "{key}"' for of in of_table if key in of.keys]
+    kinds = [f'{of.word.key} = "{key}"' for of in of_table if key in of.names]
     other = ALSO_CALLED.get(key)
     meant = kinds[0] if kinds else f'"{other}"' if other in known else ""
     hint = f" (did you mean {meant}?)" if meant else twin
@@ -283,28 +254,32 @@ def _hint(typed: str, value: object, known: Iterable[Field]) -> str:
     return f' (did you mean "{first.key}", {first.meaning.partition(";")[0]}?)'
 
 
-def _refuse_foreign(values: dict[str, Any], cls: type[SpecTable], kinds: _Kinds, of: str) -> None:
+def _refuse_foreign(
+    values: dict[str, Any], own: Sequence[Field], kinds: KindTable, of: str
+) -> None:
     """Remove other kinds' keys that are at their defaults; raise GenevaError for the others.
 
     Capitals make no difference to whose key it is.
     """
-    own = {field.key for field in fields(cls)}
-    for key in [key for key in values if key not in own]:
-        theirs = [(other, field) for other, kind in kinds.all() for field in fields(kind)]
-        exact = [pair for pair in theirs if pair[1].key == key]
-        near = [pair for pair in theirs if pair[1].key.casefold() == key.casefold()]
+    known = {field.key for field in own}
+    for key in [key for key in values if key not in known]:
+        theirs = [(name, field) for name, keys in kinds.keys.items() for field in keys]
+        exact = next((pair for pair in theirs if pair[1].key == key), None)
+        near = next((p for p in theirs if p[1].key.casefold() == key.casefold()), None)
+        fault = ""
         if exact:
-            other, field = exact[0]
+            name, field = exact
             if field.default is REQUIRED or values[key] != field.default:
-                raise GenevaError(f"{key} belongs to {other}, but this is {of}", (kinds.table, key))
-            del values[key]
-        elif near and key.casefold() not in {known.casefold() for known in own}:
-            other, field = near[0]
-            raise GenevaError(
-                f"unknown key {cut(key)} in [{kinds.table}]{nearest(key, [field.key])}; "
-                f"{field.key} belongs to {other}, but this is {of}",
-                (kinds.table, key),
-            )
+                fault = key
+            else:
+                del values[key]
+        elif near and key.casefold() not in {one.casefold() for one in known}:
+            name, field = near
+            hint = nearest(key, [field.key])
+            fault = f"unknown key {cut(key)} in [{kinds.table}]{hint}; {field.key}"
+        if fault:
+            other = f'{kinds.word.key} = "{name}"'
+            raise GenevaError(f"{fault} belongs to {other}, but this is {of}", (kinds.table, key))
 
 
 def _values(

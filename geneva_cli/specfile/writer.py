@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import Any, NamedTuple
 
 from geneva_cli.motion import registry
@@ -14,37 +14,58 @@ from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 
-# words that name a kind, each in its table
-GEARING = Field(
-    "gearing", "", (str,), OneOf(registry.GEARINGS), "external", "type of wheel and crank"
-)
-KIND = Field("kind", "", (str,), None, "crank", "type of drive")
-BEFORE_KIND = KIND._replace(default=None, meaning="drive that turns the input shaft of [drive]")
-LAW = Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)")
-
 
 class KindTable(NamedTuple):
-    """A table whose keys depend on a word in it: the word's key, and the keys of each kind."""
+    """A table whose keys depend on a word in it, such as ``kind``."""
 
     table: str
     word: Field
-    keys: Mapping[str, Sequence[Field]]
+    names: Collection[str]  # that the word may be
+    find: Callable[[str], type[SpecTable]]  # imports the class of a kind
     shared: Sequence[Field] = ()  # keys of all kinds, which the word alone allows
+    without: Sequence[Field] = ()  # keys of kinds that this table lacks
+
+    @property
+    def keys(self) -> dict[str, list[Field]]:
+        """The keys of each kind; it imports all kinds."""
+        return {name: self.keys_of(self.find(name)) for name in self.names}
+
+    def keys_of(self, kind: type[SpecTable]) -> list[Field]:
+        """Keys of one kind in this table."""
+        return [field for field in fields(kind) if field not in self.without]
+
+
+WHEELS = KindTable(
+    "wheel",
+    Field("gearing", "", (str,), OneOf(registry.GEARINGS), "external", "type of wheel and crank"),
+    registry.GEARINGS,
+    registry.gearing,
+)
+DRIVES = KindTable(
+    "drive",
+    Field("kind", "", (str,), None, "crank", "type of drive"),
+    registry.DRIVES,
+    registry.drive,
+)
+LAWS = KindTable(
+    "motion",
+    Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)"),
+    registry.LAWS,
+    registry.law,
+    fields(Motion),
+)
+
+
+def drives_before(names: Collection[str] = registry.DRIVES) -> KindTable:
+    """[drive.before] for some kinds of drives, whose shared keys stand in [drive]."""
+    word = DRIVES.word._replace(default=None, meaning="drive that turns the input shaft of [drive]")
+    return DRIVES._replace(table=BEFORE, word=word, names=names, without=fields(Drive))
 
 
 def kind_tables() -> list[KindTable]:
-    """Every table whose keys depend on a word, in the order of a file; it imports all kinds."""
-    gearings = {name: fields(registry.gearing(name)) for name in registry.GEARINGS}
-    drives = {name: registry.drive(name) for name in registry.DRIVES}
-    every = {name: fields(drive) for name, drive in drives.items()}
-    before = {name: own_fields(drive) for name, drive in drives.items() if drive.IN_FRONT}
-    laws = {name: fields(registry.law(name)) for name in registry.LAWS}
-    return [
-        KindTable("wheel", GEARING, gearings),
-        KindTable("drive", KIND, every),
-        KindTable(BEFORE, BEFORE_KIND, before),
-        KindTable("motion", LAW, laws, fields(Motion)),
-    ]
+    """Every table whose keys depend on a word, in the order of a file; it imports all drives."""
+    before = [name for name in registry.DRIVES if registry.drive(name).IN_FRONT]
+    return [WHEELS, DRIVES, drives_before(before), LAWS]
 
 
 def keys_of(
@@ -55,19 +76,14 @@ def keys_of(
 ) -> dict[str, list[Field]]:
     """Every key of a spec of these kinds, by table, in the order of a file."""
     slots, *wheel = fields(gearing)
+    front = drives_before()
     return {
-        "wheel": [slots, GEARING, *wheel],
-        "drive": [KIND, *fields(drive)],
-        **({BEFORE: [BEFORE_KIND, *own_fields(before)]} if before else {}),
-        "motion": [LAW, *law_keys, *fields(Motion)],
+        "wheel": [slots, WHEELS.word, *wheel],
+        "drive": [DRIVES.word, *fields(drive)],
+        **({BEFORE: [front.word, *front.keys_of(before)]} if before else {}),
+        "motion": [LAWS.word, *law_keys, *fields(Motion)],
         **{name: [*fields(table)] for name, table in PLAIN.items()},
     }
-
-
-def own_fields(drive: type[Drive]) -> list[Field]:
-    """Keys of a kind of drive that others do not have, as in [drive.before]."""
-    shared = fields(Drive)
-    return [field for field in fields(drive) if field not in shared]
 
 
 def keys_in(spec: Spec) -> dict[str, list[Field]]:

@@ -60,15 +60,11 @@ def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
 
     A spec that cannot be built is in none of them.
     """
-    wide: list[dict[str, float]] = []
     keys: dict[Any, list[BatchKey]] = {}
-    shapes = []
-    for spec in specs:
-        shape, own = split(spec, keys)
-        wide.append(own)
-        shapes.append(shape)
-    for members in _alike(range(len(specs)), shapes.__getitem__):
-        varied = {k: np.array([wide[i][k] for i in members]) for k in wide[members[0]]}
+    each = [split(spec, keys) for spec in specs]
+    for members in _alike(range(len(specs)), lambda i: each[i][0]):
+        wide = [each[i][1] for i in members]
+        varied = {k: np.array([own[k] for own in wide]) for k in wide[0]}
         differing = {k: v for k, v in varied.items() if (v != v[0]).any()}
         yield from _built(specs[members[0]], differing or dict([*varied.items()][:1]), members)
 
@@ -89,18 +85,25 @@ def batch_rows(
     def without(wide: Sequence[int]) -> Callable[[int], object]:
         return lambda i: tuple(v for k, v in enumerate(rows[i]) if k not in wide)
 
+    def first_spec(members: Sequence[int]) -> Spec | None:
+        for i in members[:20]:
+            with suppress(GenevaError):
+                return read(rows[i])
+        return None
+
     for kind in _alike(range(len(rows)), without(numbers)):
-        spec = _first_spec(rows, kind, read)
-        wide = [k for k in numbers if spec and _may_vary(spec, keys[k])]
+        wide = []
+        if spec := first_spec(kind):
+            for k in numbers:
+                with suppress(GenevaError):  # the key belongs to another kind of machine
+                    wide += [k] if may_vary(spec, keys[k]) else []
         for members in _alike(kind, without(wide)) if wide else ():
-            spec = _first_spec(rows, members, read)
-            if spec is not None:
+            if spec := first_spec(members):
                 varied = {keys[k]: np.array([rows[i][k] for i in members]) for k in wide}
                 yield from _built(spec, varied, members)
 
 
 def _alike(members: Iterable[int], shape: Callable[[int], object]) -> Iterator[list[int]]:
-    """Groups of the members whose shapes are equal."""
     groups: dict[object, list[int]] = {}
     for i in members:
         groups.setdefault(shape(i), []).append(i)
@@ -108,29 +111,9 @@ def _alike(members: Iterable[int], shape: Callable[[int], object]) -> Iterator[l
 
 
 def _built(spec: Spec, varied: Mapping[str, Array], members: Sequence[int]) -> Iterator[Batch]:
-    """The machine of those members that can be built, if there are any."""
     batch = many(spec, varied)
     if batch.machine is not None:
         yield [members[i] for i in batch.which.tolist()], batch.machine
-
-
-def _first_spec(
-    rows: Sequence[Sequence[Value]],
-    members: Sequence[int],
-    read: Callable[[Sequence[Value]], Spec],
-) -> Spec | None:
-    """The first valid spec among the first 20 members; None if there is none."""
-    for i in members[:20]:
-        with suppress(GenevaError):
-            return read(rows[i])
-    return None
-
-
-def _may_vary(spec: Spec, key: str) -> bool:
-    try:
-        return may_vary(spec, key)
-    except GenevaError:  # the key belongs to another kind of machine
-        return False
 
 
 class BatchKey(NamedTuple):

@@ -53,7 +53,9 @@ def compare(
         if quantity not in group_of() and (vary or not differs):
             continue  # a key that the designs share, or that the columns' names show
         if any(c is not None for c in cells):
-            rows.append((quantity, *(_ratios(cells) if ratio else cells), differs))
+            if ratio:
+                cells[1:] = [over(cell, cells[0]) for cell in cells[1:]]
+            rows.append((quantity, *cells, differs))
     names = ("quantity", *designs, "differs")
     if len(designs) == 1:  # nothing to differ from
         names, rows = names[:-1], [row[:-1] for row in rows]
@@ -62,7 +64,6 @@ def compare(
 
 
 def _shape(spec: Spec) -> dict[str, Cell]:
-    """The keys of wheel, drives and motion by table.key, but those that are lists."""
     shape: dict[str, Cell] = {}
     for table, keys in keys_in(spec).items():
         for own in values_of(spec, table) if table not in PLAIN else ():
@@ -74,15 +75,6 @@ def differing(table: Table) -> Table:
     """The rows of a comparison whose cells differ; none of a single design."""
     rows = [row for row in table.rows() if row[-1]] if "differs" in table.names else []
     return rows_table(table.names, rows, mixed=True).replaced(reading=table.reading)
-
-
-def _ratios(cells: Sequence[Cell]) -> list[Cell]:
-    """The first cell, and the others divided by it.
-
-    Words stay as they are; a ratio to a missing value or to 0 is None.
-    """
-    first, *others = cells
-    return [first, *(over(c, first) for c in others)]
 
 
 def over(cell: Cell, first: Cell) -> Cell:

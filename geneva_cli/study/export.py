@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import partial
 from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
-from geneva_cli.drawings.coupon import SinglePart, single_parts
+from geneva_cli.drawings.coupon import single_parts
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
 from geneva_cli.output.folder import LIST
@@ -17,7 +19,7 @@ from geneva_cli.output.formats import curve_tolerance, usual_curves
 from geneva_cli.parts.projection import Missing
 from geneva_cli.spec.schema import Points, SpecTable, fields
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.verdict.parts_warnings import gears_without_teeth
+from geneva_cli.verdict.warnings import gears_without_teeth
 
 T = TypeVar("T", bound=SpecTable)
 
@@ -74,20 +76,29 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
     """
     files: list[ExportFile] = []
     missing: list[Missing] = []
-    for format in trade.single:
-        curves = CURVES[usual_curves("", format)]
-        fine = curve_tolerance(None, "", format)
-        parts, missing = single_parts(design.parts, fine, curves)
-        if format == "dxf":
-            files += _laid_flat(design, fine)
-        files += _single(parts, format)
-    # shells do not lie on a bed
     bent = design.parts.LAID_FLAT
+    for format in trade.single:
+        fine = curve_tolerance(None, "", format)
+        parts, missing = single_parts(design.parts, fine, CURVES[usual_curves("", format)])
+        for part in bent if format == "dxf" else ():
+            with suppress(GenevaError):  # no arm: the list of parts has the reason
+                drawing = design.drawing(part, fine)
+                content = f"{part} laid flat: {SINGLE['dxf']}"
+                files.append(ExportFile(f"{part}-flat.dxf", content, partial(draw, drawing)))
+        seen: Counter[str] = Counter()  # parts of one name and size are numbered
+        for one in parts:
+            if one.is_cut or format != "dxf":
+                name = re.sub("[^a-z0-9]+", "-", one.name.lower().replace("'", "")).strip("-")
+                stem = f"{name}-{one.copies}x-{one.thickness_mm:.6g}mm"
+                seen[stem] += 1
+                more = f"-{seen[stem]}" if seen[stem] > 1 else ""
+                content, work = f"{one.name}: {SINGLE[format]}", partial(draw, one.drawing)
+                files.append(ExportFile(f"{stem}{more}.{format}", content, work))
+    # shells do not lie on a bed
     names = [name for name in trade.whole if not (bent and name.startswith("plate."))]
-    files += [ExportFile(name, CONTENTS[name], _writer(design, name)) for name in names]
-    files.append(
-        ExportFile("parts.csv", "list of parts", partial(show, design.part_table("parts")))
-    )
+    files += [ExportFile(name, CONTENTS[name], partial(_write, design, name)) for name in names]
+    parts_list = partial(show, design.part_table("parts"))
+    files.append(ExportFile("parts.csv", "list of parts", parts_list))
     return [*files, *_spec_files(design, {file.name for file in files})], missing
 
 
@@ -97,69 +108,25 @@ def shop_warnings(design: Design) -> list[str]:
     return list(dict.fromkeys((*design.warnings, *gears_without_teeth(design.spec))))
 
 
-def _single(parts: list[SinglePart], format: str) -> Iterator[ExportFile]:
-    """Yield a file for each part; parts of one name and size are numbered."""
-    seen: dict[str, int] = {}
-    for part in parts:
-        if format == "dxf" and not part.is_cut:
-            continue
-        stem = f"{_slug(part.name)}-{part.copies}x-{part.thickness_mm:.6g}mm"
-        seen[stem] = seen.get(stem, 0) + 1
-        more = f"-{seen[stem]}" if seen[stem] > 1 else ""
-        content = f"{part.name}: {SINGLE[format]}"
-        yield ExportFile(f"{stem}{more}.{format}", content, partial(draw, part.drawing))
+def _write(design: Design, name: str, path: str) -> None:
+    stem, _, format = name.partition(".")
+    if stem == "report":
+        from geneva_cli.study.document import document
 
+        show_document(document(design), path)
+    elif stem == "machine":
+        from geneva_cli.study.animation.turning_scene import scene
 
-def _slug(name: str) -> str:
-    """A name in small letters, digits and hyphens.
-
-    >>> _slug("crank's shaft")
-    'cranks-shaft'
-    """
-    return re.sub("[^a-z0-9]+", "-", name.lower().replace("'", "")).strip("-")
-
-
-def _laid_flat(design: Design, tolerance_mm: float) -> Iterator[ExportFile]:
-    """Yield the outlines of a spherical machine's cones."""
-    for part in design.parts.LAID_FLAT:
-        try:
-            drawing = design.drawing(part, tolerance_mm)
-        except GenevaError:  # a machine without an arm; the list of parts has the reason
-            continue
-        yield ExportFile(
-            f"{part}-flat.dxf",
-            f"{part} laid flat: outline to cut",
-            partial(draw, drawing),
-        )
-
-
-def _writer(design: Design, name: str) -> Callable[[str], None]:
-    """The function that writes a file of the whole machine."""
-
-    def write(path: str) -> None:
-        stem, _, format = name.partition(".")
-        if stem == "report":
-            from geneva_cli.study.document import document
-
-            show_document(document(design), path)
-        elif stem == "machine":
-            from geneva_cli.study.animation.turning_scene import scene
-
-            animate(scene(design), path)
-        elif stem == "sheet":
-            draw_sheet(design.sheet(), path)
-        else:
-            fine = curve_tolerance(None, "", format)
-            draw(design.drawing(stem, fine, usual_curves("", format)), path)
-
-    return write
+        animate(scene(design), path)
+    elif stem == "sheet":
+        draw_sheet(design.sheet(), path)
+    else:
+        fine = curve_tolerance(None, "", format)
+        draw(design.drawing(stem, fine, usual_curves("", format)), path)
 
 
 def _spec_files(design: Design, taken: set[str]) -> Iterator[ExportFile]:
-    """Yield the spec with all settings, and the points that it names, in the same folder.
-
-    ``taken`` are the names of the other files.
-    """
+    """Yield the spec with all settings, and the points that it names, in the same folder."""
     spec, taken = design.spec, {*taken, "spec.toml", LIST}
     points: dict[str, Points] = {}
     spec = spec.replace(drive=_named_here(spec.drive, points, taken))

@@ -148,7 +148,6 @@ def _families(table: Columns, x: str) -> dict[str, list[int]]:
 def _curve(
     number: int, name: str, pairs: Iterable[tuple[float | None, float | None]], is_key: bool
 ) -> Curve | None:
-    """A curve or points; None if no row has both numbers."""
     rows = list(pairs)
     points = [(x, y) for x, y in rows if x is not None and y is not None]
     if not points:
@@ -168,7 +167,6 @@ def _curve(
 
 
 def _without_gaps(rows: Sequence[tuple[float | None, float | None]]) -> list[Piece]:
-    """The rows in order of x, divided where one has no value."""
     out: list[list[tuple[float, float]]] = [[]]
     for x, y in sorted((r for r in rows if r[0] is not None), key=lambda r: r[0] or 0.0):
         if x is None or y is None:

@@ -63,10 +63,7 @@ def cores() -> int:
 
 
 def _attend() -> None:
-    """Set up a worker process, which ends with the program that started it.
-
-    It ends silently on Ctrl-C if that ends the program: a script's background program ignores it.
-    """
+    """Set up a worker process, which ends with the program that started it."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     show_with(None)  # the parent process shows the progress of all

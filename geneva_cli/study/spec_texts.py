@@ -31,14 +31,19 @@ def spec_texts(
         if len(paths) > 1:
             raise GenevaError("--vary is for one SPEC; leave it out to compare several")
         return _varied(read(paths[0], settings), vary)
-    twice = next((p for p in paths if list(paths).count(p) > 1), None)
+    paths = list(paths)
+    twice = next((p for p in paths if paths.count(p) > 1), None)
     if twice:
         raise GenevaError(
             f"{cut(shown_name(twice))}: given twice; use --vary to compare changes of one spec"
         )
     if len(paths) > DESIGNS_MAX:
         raise GenevaError(f"{len(paths)} designs; at most {DESIGNS_MAX} can be compared")
-    return {_short_name(p, paths, taken): read(p, settings) for p in paths}
+    # a file's name without folder and ending, if no other file shares it
+    stems = [os.path.splitext(os.path.basename(path))[0] for path in paths]
+    is_short = [stems.count(stem) == 1 and stem not in taken for stem in stems]
+    names = [s if short else p for s, short, p in zip(stems, is_short, paths, strict=True)]
+    return {name: read(path, settings) for name, path in zip(names, paths, strict=True)}
 
 
 def designs_of(texts: Mapping[str, Text], reverse: bool) -> dict[str, Design]:
@@ -54,15 +59,7 @@ def designs_of(texts: Mapping[str, Text], reverse: bool) -> dict[str, Design]:
     return out
 
 
-def _short_name(path: str, paths: Sequence[str], taken: Collection[str]) -> str:
-    """A file's name without folder and ending, if no other file shares it."""
-    stems = [os.path.splitext(os.path.basename(p))[0] for p in paths]
-    stem = stems[list(paths).index(path)]
-    return stem if stems.count(stem) == 1 and stem not in taken else path
-
-
 def _varied(text: Text, vary: Sequence[str]) -> dict[str, Text]:
-    """One spec with each combination of the values."""
     axes = [axis(v) for v in vary]
     refuse_twice(axes, text.set_keys)
     out: dict[str, Text] = {}

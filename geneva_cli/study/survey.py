@@ -62,16 +62,12 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
         *("dwell_s", "index_deg", "acceleration_max_deg", "rollers_max", "acceleration_entry"),
         "jerk_entry",
     )
-    reading = Reading(first, _title(gearing, n_rpm, rollers, A), ("gearing", "rollers", "cycle_s"))
-    return rows_table(NAMES, rows).replaced(reading=reading)
-
-
-def _title(gearing: str, n_rpm: float, rollers: int, A: float) -> str:
-    """A phrase for what all wheels of the table have in common."""
     drive = f"side-crank A = {A:g}" if A else "one roller" if rollers == 1 else f"{rollers} rollers"
     indexes = "one index" if rollers == 1 else f"{rollers} indexes"
     cycle = f"cycle {60.0 / n_rpm / rollers:.5g} s"
-    return f"{gearing.capitalize()} wheels, {drive}, {n_rpm:g} rpm: {indexes} a turn, {cycle}."
+    title = f"{gearing.capitalize()} wheels, {drive}, {n_rpm:g} rpm: {indexes} a turn, {cycle}."
+    reading = Reading(first, title, ("gearing", "rollers", "cycle_s"))
+    return rows_table(NAMES, rows).replaced(reading=reading)
 
 
 def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> tuple[object, ...]:
@@ -84,7 +80,7 @@ def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> t
     acceleration, at_deg = (
         (entry, 0.5 * motion) if sign < 0.0 else classic.acceleration_peak(l, gap)
     )
-    velocity, index = classic.velocity_peak(l, gap), 360.0 / z
+    velocity, index = l / gap, 360.0 / z
     power = classic.power_peak(l, gap)[0]
     return (
         z,

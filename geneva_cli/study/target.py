@@ -83,9 +83,8 @@ class Target(NamedTuple):
 
     def wheel(self, gearing: str, z: int) -> Gearing:
         """A wheel of a gearing and a number of slots, with a stop if the frame's has one."""
-        kind = registry.gearing(gearing)
+        wheel = registry.gearing(gearing)(z)
         stops = self.frame is not None and self.frame.wheel.stopped
-        wheel = kind(z)
         return wheel.with_key("stop", True) if stops else wheel
 
     @property
@@ -104,11 +103,6 @@ class Target(NamedTuple):
     def known_bounds(self) -> list[Constraint]:
         """The bounds on quantities that a batch can compute."""
         return [b for b in self.limits if in_batch([b.name])]
-
-    @property
-    def known_sort(self) -> Objective | None:
-        """The goal by which rows are sorted, if a batch can compute it."""
-        return self.sort if self.sort and in_batch([self.sort.name]) else None
 
     @property
     def by_bounds(self) -> Target:
@@ -132,7 +126,7 @@ class Target(NamedTuple):
         return self.any_motion and not self.bounds
 
     def with_times(self) -> Target:
-        """The requirement with its bounds on times and angles of a motion turned into ranges.
+        """The requirement with its bounds on a motion's times and angles as ranges.
 
         Returned unchanged if those ranges allow any motion.
         """
@@ -235,7 +229,6 @@ class Target(NamedTuple):
         return [*several, *behind]
 
     def _contradiction(self, m: float) -> str:
-        """The contradiction in the requirements for m motions in a turn; empty if there is none."""
         for name, (low, high) in self.spans.items():
             if low > high:
                 return f"{self._option(name)}: nothing is at least {low:.7g} and at most {high:.7g}"
@@ -256,7 +249,6 @@ class Target(NamedTuple):
         return ""
 
     def _option(self, name: str) -> str:
-        """The option that sets a range."""
         return f"--subject-to {name}" if name in self.bounded else f"--{name.replace('_', '-')}"
 
 

@@ -76,10 +76,7 @@ def checks_table(verdicts: Sequence[Verdict], directed: bool = False) -> Table:
     columns = "spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why"
     names = (*columns, *(["direction"] if directed else []))
     rows = [
-        (
-            *(v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.why),
-            *([c.direction] if directed else []),
-        )
+        (v.path, *(getattr(c, name) for name in ("name", *names[2:])))
         for v in verdicts
         for c in v.checks
     ]

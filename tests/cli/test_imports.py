@@ -113,7 +113,7 @@ ROWS = [
     Row("keys"),
     Row("explain"),
     Row("explain horn_mm"),
-    Row("laws"),
+    Row("laws", "numpy"),
     # NumPy: each row of synth says whether its parts can be built, for which they are laid out
     Row("synth --tau 1/3 --z 6 --check 1", "numpy"),
     Row("synth --subject-to acceleration_max<=0.5 --z 6 --check 1", "numpy"),

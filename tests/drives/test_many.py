@@ -11,7 +11,6 @@ from geneva_cli.drives.side_crank import SideCrank
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
 from geneva_cli.motion.peak_search import motion_peaks, search_peaks
-from geneva_cli.motion.peaks import peak
 from geneva_cli.motion.registry import gearing as wheel_of
 from geneva_cli.motion.wheels.side_crank_arrays import (
     acceleration,
@@ -88,18 +87,6 @@ def test_inside_a_slow_crank_never_passes_its_jump(z):
     jump = acceleration_at_end(w)[0]
     inner = acceleration(w, np.linspace(0.0, 1.0, 2001)[:-1, None] * w.half)[0]
     assert (inner <= jump).all()
-
-
-@pytest.mark.parametrize("z", [120, 221])
-def test_beyond_what_the_quick_way_is_sure_of(engagement, z):
-    """Near |A| = 1 a peak is a sliver that a scan steps over: the general search finds it."""
-    A = 0.9999988390361856
-    exact, _ = Geneva(z, "external", A).peak("acceleration")
-    found = peak(engagement(z, "external", A).motion, "acceleration")
-    assert found.max == pytest.approx(float(exact), rel=1e-12)  # A is so near to 1
-    spec = Spec(wheel_of("external")(z), SideCrank(A=0.1))
-    motion = many(spec, {"drive.A": np.array([A])}).machine.engagements[0].motion
-    assert motion_peaks(motion, ["acceleration"])["acceleration"].max[0] == found.max
 
 
 @pytest.mark.sampled(8)

@@ -22,8 +22,6 @@ from geneva_cli.motion.both_ways import backwards
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import may_vary
 from geneva_cli.motion.mechanism import build
-from geneva_cli.output.scene import place_at, value_at
-from geneva_cli.study.animation.turning_scene import scene
 
 pytestmark = pytest.mark.usefixtures("no_advice")
 
@@ -216,30 +214,6 @@ def test_cranks_that_meet_fail():
     assert check.value < 0.0
 
 
-@pytest.mark.sampled(3)
-@built
-def test_the_page_turns_all_cranks(z, places):
-    """Rollers and cranks by hand; each force is at a roller, whose radius is L/20."""
-    shown = scene(with_cranks(z, places))
-    cranks = [body for body in shown.bodies if body.name.startswith("crank")]
-    assert len(cranks) == len(shown.rollers) == len(places)
-    R = 100.0 * math.sin(math.pi / z)
-    for t in np.linspace(0.5, 359.5, 61):
-        for j, (body, roller) in enumerate(zip(cranks, shown.rollers, strict=True)):
-            at, turn = by_hand(z, places, j, shown.start_deg + t)
-            assert complex(*body.centre) == pytest.approx(at, abs=1e-9)
-            off = value_at(body.angle, t) - turn
-            assert math.remainder(off, math.tau) == pytest.approx(0.0, abs=1e-6)
-            pin = at + R * np.exp(1j * turn)
-            assert complex(*place_at(roller, t)) == pytest.approx(pin, abs=1e-3)
-    for push in shown.pushes:
-        for t, x, y in zip(push.at, push.x, push.y, strict=True):
-            near = min(math.dist((x, y), place_at(roller, t)) for roller in shown.rollers)
-            assert near == pytest.approx(5.0, rel=1e-3)
-    moves = [phase.words for phase in shown.states if phase.moves]
-    assert moves == [f"crank {j + 1} moves the wheel" for j in range(len(places))]
-
-
 def test_a_report_lists_when_each_crank_moves_the_wheel():
     design = Design(External(8), Crank(rollers=2, crank_steps=(0, 3), n_rpm=30))
     names = ("crank", "place_deg", "behind_deg", "entry_deg", "exit_deg", "entry_s", "slot")
@@ -289,36 +263,6 @@ def eased(z, places):
     return Design.of(Spec(External(z), drive, drive_before=gears, load=LOAD))
 
 
-@pytest.mark.long
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(("z", "places"), [(8, (0, 3)), (5, (0, 4, 3))])
-def test_gears_before_the_cranks_turn_all_of_them(z, places):
-    """As elliptical gears turn one crank with as many rollers: the same engagements.
-
-    The wheel then follows psi(g(phi)), and each crank stands an even part of a turn behind the
-    first. 2e-3 mm: tracks of the page are within 1e-5 of a radian, at pins 60 mm from their axis.
-    """
-    design = eased(z, places)
-    one = Design(External(z), EllipticalGears(rollers=len(places), **BEFORE), load=LOAD)
-    moving, own = (each.motion(181).to_dict() for each in (design, one))
-    for name in own:
-        assert moving[name] == pytest.approx(own[name], rel=1e-12, abs=1e-12)
-    assert design.peaks.acceleration.max == pytest.approx(one.peaks.acceleration.max, rel=1e-12)
-    loads = design.loads_table.to_dict(), one.loads_table.to_dict()
-    for name in ("pin_force_N.max", "input_torque_Nm.max", "input_torque_Nm.rms"):
-        assert loads[0][name] == pytest.approx(loads[1][name], rel=1e-12)
-    shown, e = scene(design), BEFORE["eccentricity"]
-    R = 100.0 * math.sin(math.pi / z)
-    for t in np.linspace(0.5, 359.5, 61):
-        half = math.radians(shown.start_deg + t) / 2.0
-        # equal ellipses about foci 2 a apart, slow at mid-motion
-        ratio = (1.0 - e) / (1.0 + e)
-        angle = math.degrees(2.0 * math.atan2(ratio * math.sin(half), math.cos(half)))
-        for j, roller in enumerate(shown.rollers):
-            at, turn = by_hand(z, places, j, angle)
-            assert abs(complex(*place_at(roller, t)) - at - R * np.exp(1j * turn)) < 2e-3
-
-
 def test_gears_turn_cranks_whose_slots_a_law_gives():
     """The law holds by the shaft's angle: the wheel is where it is behind one crank then."""
     law = Motion(Cycloidal())
@@ -330,22 +274,6 @@ def test_gears_turn_cranks_whose_slots_a_law_gives():
         x = np.linspace(one.entry_deg, one.exit_deg, 31)
         turned = one.motion(x, 0).c[0]
         assert turned == pytest.approx(own.motion(one.own_deg(x), 0).c[0], abs=1e-14)
-
-
-def test_the_report_lists_when_each_crank_moves_the_wheel_behind_gears():
-    design = eased(8, (0, 3))
-    rows = design.report.table.to_dict()["cranks"]
-    each = design.mechanism.engagements
-    for row, one in zip(rows, each, strict=True):
-        assert row["entry_deg"] == pytest.approx(one.mid_deg + one.entry_deg - each[0].mid_deg)
-    assert rows[0]["entry_s"] == 0.0
-    assert rows[1]["entry_s"] == pytest.approx(
-        (rows[1]["entry_deg"] - rows[0]["entry_deg"]) / 360.0
-    )
-    assert rows[1]["behind_deg"] == pytest.approx(180.0)
-    assert rows[0]["exit_deg"] - rows[0]["entry_deg"] != pytest.approx(
-        rows[1]["exit_deg"] - rows[1]["entry_deg"]
-    )
 
 
 def test_slots_do_not_vary_in_a_batch_of_cranks_that_turn_both_ways():

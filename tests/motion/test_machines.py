@@ -439,8 +439,8 @@ def test_peaks_against_a_dense_grid(machine, case):
         (2, found.ends.acceleration_entry, found.ends.acceleration_exit),
         (3, found.ends.jerk_entry, found.ends.jerk_exit),
     ):
-        assert first == max(abs(a.derivatives()[k]) for a, _ in ends)
-        assert last == max(abs(b.derivatives()[k]) for _, b in ends)
+        assert first == pytest.approx(max(abs(a.derivatives()[k]) for a, _ in ends), rel=1e-14)
+        assert last == pytest.approx(max(abs(b.derivatives()[k]) for _, b in ends), rel=1e-14)
 
 
 @every

@@ -10,9 +10,8 @@ import design_arrays
 import numpy as np
 import pytest
 from design_arrays import RATIO
-from exact.others import other_one, read
-from exact.rates import DIGITS
-from exact.table import LIMIT, Table
+from exact.machines import compare_machine, read
+from exact.table import DIGITS, LIMIT, Table
 from witness import mp
 
 from geneva_cli.motion.mechanism import build
@@ -36,7 +35,7 @@ def test_near_the_limit(z, side):
     with mp.workdps(DIGITS // 2):
         for gap in NEAR:
             text = spec(z, side * (1.0 - gap) * limit(z))
-            other_one(table, "offset", text, read(text), sample=True)
+            compare_machine(table, "offset", text, read(text), sample=True)
     assert table.count > 100
     assert not table.over, LIMIT
 

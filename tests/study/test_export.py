@@ -10,9 +10,7 @@ import trimesh
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
-from geneva_cli.design import load
 from geneva_cli.study import export
-from geneva_cli.study.export import TRADES, export_files, trade_of
 
 WHEEL = "[wheel]\nz = 4\n[size]\ncenter_distance_mm = 30\n"
 
@@ -51,14 +49,12 @@ def test_the_files_of_a_laser(spec, tmp_path):
         }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("design", "trade", "keys", "warned"),
     [
-        ("behind-gears", "print", ["process=print"], True),
         ("gear-sector", "laser", [], True),
         ("gear-sector", "laser", ["gear_module_mm=3"], False),
-        ("turret", "laser", [], False),
     ],
 )
 def test_gears_without_teeth_are_a_warning(design, trade, keys, warned, tmp_path):
@@ -94,45 +90,6 @@ def test_what_is_printed_is_as_large_as_the_list_says(spec, tmp_path):
         assert mesh.volume == pytest.approx(volume, rel=0.02)
 
 
-@pytest.mark.sampled(48)
-@pytest.mark.parametrize("design", sorted(repo.DESIGNS.glob("*.toml")), ids=lambda p: p.stem)
-@pytest.mark.parametrize("trade", [None, *TRADES])
-def test_every_design_has_files_of_other_names(design, trade):
-    made = load(str(design))
-    files, missing = export_files(made, trade_of(trade))
-    names = [file.name for file in files]
-    assert len(names) == len(set(names)) and not missing
-    assert {"parts.csv", "spec.toml"} <= set(names)
-
-
-def test_its_own_folder_is_replaced(spec, tmp_path):
-    folder = tmp_path / "out"
-    folder.mkdir()
-    assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
-    assert run(spec, "--for", "print", "-o", folder).exit_code == 0
-    assert not list(folder.glob("*.dxf"))
-    assert sorted(os.listdir(tmp_path)) == ["out", "spec.toml"]
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("name", ["spec.toml", "contents.csv"])
-def test_a_persons_file_is_refused_by_name(spec, tmp_path, name):
-    """Changed after it was written, or there before; ``--force`` replaces it."""
-    changed, foreign = tmp_path / "changed", tmp_path / "foreign"
-    assert run(spec, "--for", "laser", "-o", changed).exit_code == 0
-    written = bytes_of(changed)
-    foreign.mkdir()
-    for folder in (changed, foreign):
-        (folder / name).write_text("work")
-        before = bytes_of(folder)
-        result = run(spec, "--for", "laser", "-o", folder)
-        assert result.exit_code == 2
-        assert name in result.stderr and "--force replaces" in result.stderr
-        assert bytes_of(folder) == before
-        assert run(spec, "--for", "laser", "--force", "-o", folder).exit_code == 0
-        assert bytes_of(folder) == written
-
-
 def test_what_a_person_adds_or_changes_meanwhile_stays(spec, tmp_path, monkeypatch):
     folder = tmp_path / "out"
     assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
@@ -153,15 +110,6 @@ def test_what_a_person_adds_or_changes_meanwhile_stays(spec, tmp_path, monkeypat
     monkeypatch.undo()
     assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
     assert bytes_of(folder) == before | {"notes.txt": b"work"}
-
-
-def test_an_input_in_the_folder_stays(spec, tmp_path):
-    folder = tmp_path / "out"
-    assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
-    before = bytes_of(folder)
-    result = run(folder / "spec.toml", "--for", "laser", "--force", "-o", folder)
-    assert result.exit_code == 2 and "this file is an input" in result.stderr
-    assert bytes_of(folder) == before
 
 
 def test_all_or_nothing(spec, tmp_path, monkeypatch):

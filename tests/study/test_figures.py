@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 import repo
 
-import geneva_cli
 from geneva_cli import (
     Cycloidal,
     Design,
-    EllipticalGears,
     External,
     Harmonic,
     Load,
@@ -20,9 +18,6 @@ from geneva_cli import (
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle_figures import MACHINES_MAX, USUAL_QUANTITIES, figure
-from geneva_cli.loads.stages import motion_stages
-from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
@@ -70,20 +65,6 @@ def test_marks_are_the_answers_and_nothing_is_beyond_them(path):
 
 
 # of a stop no load is known
-BOUNDED = [p for p in DESIGNS if "[load]" in p.read_text() and p.stem != "geneva-stop"]
-
-
-@pytest.mark.sampled(8)
-@pytest.mark.parametrize("path", BOUNDED, ids=lambda p: p.stem)
-def test_every_point_is_the_cycle_s(path):
-    """Compared with the rows of `geneva loads` at the same input angles."""
-    design = load(str(path))
-    for panel in design.figure(["pin_force_N", "input_torque_Nm"]).panels:
-        (curve,) = panel.curves
-        inner = [p for x, y in curve.pieces for p in zip(x[1:-1], y[1:-1], strict=True)]
-        x, y = np.array(sorted(inner)).T
-        want = getattr(design.cycle.states(x), panel.y.name)
-        assert np.abs(y - want).max() < 1e-6 * np.abs(y).max()
 
 
 def test_jumps_have_both_values():
@@ -97,41 +78,6 @@ def test_jumps_have_both_values():
     # where all is smooth a jump may be a rounding
     jumps = [pytest.approx(j, rel=1e-9) for j in jumps if abs(j[1] - j[2]) > 1e-9]
     assert jumps == [(-60.0, 0.0, size), (60.0, -size, 0.0), (300.0, 0.0, size)]
-
-
-def test_a_break_within_a_motion_is_a_jump():
-    """Friction turns round where the sliding does, at mid-motion of a straight slot."""
-    loaded = Load(inertia_kgm2=0.0, torque_Nm=15, friction=0.2)
-    curve = curve_of(Design(External(6), load=loaded), "pin_force_N")
-    middle = [(a, b) for x, a, b in curve.jumps() if abs(x) < 30.0 and abs(a - b) > 1.0]
-    assert len(middle) >= 1
-
-
-@pytest.mark.parametrize("ramp", [0.0, 0.1])
-@pytest.mark.parametrize("cruise", [0.0, 0.2])
-@pytest.mark.parametrize("gears", [None, EllipticalGears(eccentricity=0.3)])
-def test_each_piece_has_its_own_values_at_its_ends(gears, cruise, ramp):
-    """Breaks of a law are angles with roundings: the ends are those of places 1e-7 degrees inside.
-
-    1e-6 of the greatest value: what acceleration and jerk change over 1e-7 degrees.
-    """
-    law = Motion(geneva_cli.SCurve(cruise=cruise, ramp=ramp), alpha0_deg=-4.6)
-    spec = Spec(External(6), motion=law, load=Load(inertia_kgm2=0.1), drive_before=gears)
-    machine = build(spec)
-    for stage in motion_stages(machine, ["acceleration", "jerk"]):
-        near = np.array([stage.start, stage.start + 1e-7, stage.end - 1e-7, stage.end])
-        rows = stage.of(near)
-        scale = 1e-6 * (1.0 + np.abs(rows).max(axis=1))
-        assert (np.abs(rows[:, 0] - rows[:, 1]) <= scale).all()
-        assert (np.abs(rows[:, 3] - rows[:, 2]) <= scale).all()
-
-
-def test_the_end_of_a_dwell_meets_the_next_motion():
-    """Also where rounding puts the two a last digit apart: no gap, and a jump is found."""
-    for path in DESIGNS:
-        curve = curve_of(load(str(path)), "acceleration")
-        for (x, _), (next_x, _) in itertools.pairwise(curve.pieces):
-            assert x[-1] == next_x[0], path
 
 
 def test_a_load_without_a_bound_leaves_the_panel():
@@ -153,14 +99,6 @@ def test_a_load_without_a_bound_leaves_the_panel():
     # no line runs along the edge
     runs = [p for _, y in curve.pieces for p in itertools.pairwise(y)]
     assert not [pair for pair in runs if pair == (high, high)]
-
-
-def test_beside_a_cusp_nothing_is_rounding():
-    """Curved slots at mid-motion: the force is that of the way in, and of the way out."""
-    design = Design(External(6), motion=Motion(Cycloidal(), ratio="matched"), load=LOADED)
-    values = [y for x, y in points(curve_of(design, "pin_force_N")) if abs(x) < 1.0]
-    assert max(values) < design.loads["pin_force_N"].max
-    assert np.ptp(values) < 0.1 * max(values)
 
 
 def test_what_cannot_be_shown():

@@ -33,13 +33,6 @@ def test_fronts_of_many_rows(costs, levels):
     assert best(rows) == np.flatnonzero(~np.array(better)).tolist()
 
 
-@pytest.mark.parametrize("costs", [2, 3, 4])
-def test_a_front_of_all_rows(costs):
-    """On a sphere no row beats another: each is held against few of the others."""
-    points = np.abs(np.random.default_rng(1).normal(size=(20_000, costs)))
-    assert len(best(-points / np.linalg.norm(points, axis=1)[:, None])) == 20_000
-
-
 def test_rows_without_a_number_are_none_of_them():
     rows = [(1.0, 2.0, "a"), (None, 0.0, "b"), (2.0, 1.0, "c"), (2.0, 2.0, "d")]
     assert front(rows, (0, 1), (1.0, 1.0)) == [0, 2]
@@ -56,14 +49,3 @@ def test_objectives():
 def test_no_objective(text):
     with pytest.raises(GenevaError, match=r"--best .*min:FIELD or max:FIELD"):
         objective(text, "--best")
-
-
-def test_of_blocks_the_same_front_is_left():
-    """What came block by block is chosen as if it had come at once, equal rows with it."""
-    random = np.random.default_rng(3)
-    rows = [(*(float(v) for v in row), i) for i, row in enumerate(random.integers(0, 9, (300, 2)))]
-    found = []
-    for start in range(0, len(rows), 40):
-        some = [*found, *rows[start : start + 40]]
-        found = [some[i] for i in front(some, (0, 1), (1.0, -1.0))]
-    assert found == [rows[i] for i in front(rows, (0, 1), (1.0, -1.0))]

@@ -1,14 +1,11 @@
 """The table of wheels: closed forms against the general machinery, and the names it prints."""
 
-import math
-
 import pytest
 from sampling import some
 from witness import Geneva, near, to_degrees
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.peaks import ends, peak
-from geneva_cli.motion.timing import timings
+from geneva_cli.motion.peaks import peak
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.study.survey import parse_z, survey
@@ -28,28 +25,6 @@ def row(*args):
     assert table.names == tuple(FIELDS.split())
     (values,) = table.rows()
     return dict(zip(table.names, values, strict=True))
-
-
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-def test_closed_forms_agree_with_the_machinery(machine, gearing):
-    for z in Z:
-        m = machine(z, gearing)
-        s = m.engagements[0]
-        got = row(str(z), gearing, 60.0, 1, 0.0)
-        assert (got["z"], got["gearing"], got["rollers"]) == (z, gearing, 1)
-        assert got["rollers_max"] == m.rollers_max
-        times = timings(m)[0]._asdict()
-        assert times.pop("index_mm") is None  # a rack's, which is no column
-        for name, value in times.items():
-            assert got[name] == near(value, SAME), (z, name)
-        velocity, acceleration = peak(s.motion, "velocity"), peak(s.motion, "acceleration")
-        assert got["velocity_max"] == near(velocity.max, SAME), z
-        assert got["acceleration_max"] == near(acceleration.max, SAME), z
-        # a root of the jerk, where the acceleration is flat: 1e-8 degrees is what it can hide
-        assert got["acceleration_max_deg"] == pytest.approx(acceleration.at_deg, abs=1e-8), z
-        jumps = ends(s)
-        assert got["acceleration_entry"] == near(jumps.acceleration_entry, SAME), z
-        assert got["jerk_entry"] == near(jumps.jerk_entry, SAME), z
 
 
 @pytest.mark.sampled(3)
@@ -104,14 +79,6 @@ def test_factors_as_index_drive_makers_would_print_them():
         for name, value in zip(("Am", "Vm", "Qm"), factors, strict=True):
             digits = SAME if z == 4 else 5e-6 / value  # to the decimals printed
             assert got[name] == near(value, digits), (z, name)
-
-
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-def test_a_wheel_of_very_many_slots_is_a_harmonic_curve(gearing):
-    got, pi = row("1000000", gearing, 60.0, 1, 0.0), math.pi
-    limits = (("Am", pi * pi / 2), ("Vm", pi / 2), ("Qm", pi / 4))
-    for name, value in limits:
-        assert got[name] == near(value, 1e-5), name  # l = 3e-6 is left of it
 
 
 def test_z_texts():

@@ -36,9 +36,7 @@ def rows(spec, vary, picks, random=None):
     ("spec", "vary"),
     [
         ("side-crank-z6.toml", ["drive.A=-0.9..1.1:0.1", "wheel.z=2..8"]),
-        ("side-crank-z6.toml", ["drive.A=-0.5..0.5:0.25", "wheel.gearing=external,internal"]),
         ("spherical-z6.toml", ["wheel.axes_deg=0..180:20", "wheel.z=3..5"]),
-        ("offset-slots.toml", ["wheel.offset_mm=-80..80:8"]),
         ("internal-z6.toml", ["drive.kind=crank,side-crank", "drive.A=0.1,0.3"]),
         ("modified-sine-matched.toml", ["motion.alpha0_deg=-100..100:25", "wheel.z=3..6"]),
         (
@@ -61,16 +59,6 @@ def test_together_as_alone(spec, vary):
         assert one[-1] == other[-1]
         for a, b in zip(one[len(keys) : -1], other[len(keys) : -1], strict=True):
             assert a == b or a == pytest.approx(b, rel=CLOSE)
-
-
-def test_what_no_design_has_is_had_at_once():
-    """Without a face width there is no contact stress: no design need be asked for it alone."""
-    _, alone, found = rows(
-        "internal-z6.toml", ["drive.n_rpm=10..50:10"], ["loads.contact_stress_MPa.max"]
-    )
-    every = found.plan.rows(0, len(alone))
-    known = found.known(every)
-    assert [*known.values()] == [[None]] * 5 == [row[1:-1] for row in alone]
 
 
 @pytest.mark.sampled(3)
@@ -112,12 +100,10 @@ def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
     assert last("0..0.8:0.0001") == last("0..0.8:0.002")
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("table", "picked"),
     [
-        ("loads", "loads.pin_force_N.max"),
-        ("sizing", "sizing.energy_fluctuation_J"),
         ("strength", "strength.crank_shaft.stress_MPa"),
         ("life", "life.slot_travel_m"),
     ],

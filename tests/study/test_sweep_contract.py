@@ -1,15 +1,9 @@
 """Whatever varies in a sweep, each row has its own design's answers."""
 
-import numpy as np
 import pytest
-from design_arrays import MACHINES
-from words import Motion
 
-from geneva_cli import External, SideCrank
 from geneva_cli.design import load
-from geneva_cli.motion.batch import taken
-from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import many, may_vary
+from geneva_cli.motion.many import may_vary
 from geneva_cli.study.sweep.request import request
 
 
@@ -54,17 +48,6 @@ def test_horns_of_machines_that_differ_in_size_alone(tmp_path, text):
     assert rows[1][1] / rows[0][1] == pytest.approx(1.1**-2, rel=1e-9)
 
 
-def test_a_machine_whose_parts_are_not_built_has_no_horns(tmp_path):
-    """The gears between two cranks and a side-crank are not built, nor are the other parts."""
-    text = "[wheel]\nz = 8\n[drive]\nrollers = 2\ncrank_steps = [0, 3]\n"
-    before = '[drive.before]\nkind = "side-crank"\nA = 0.2\n'
-    pick = "life.horn_stress_MPa"
-    [[_, stress], _] = swept(tmp_path, text + HORN, "drive.n_rpm=30,60", pick=pick)
-    assert stress > 0.0
-    rows = swept(tmp_path, text + before + HORN, "drive.n_rpm=30,60", pick=pick)
-    assert [row[1] for row in rows] == [None, None]
-
-
 @pytest.mark.parametrize(
     ("text", "vary", "refused"),
     [
@@ -86,16 +69,3 @@ def test_one_of_a_batch_is_left(tmp_path, text, vary, refused):
     assert left[1:-1] == pytest.approx(single[1:-1], rel=1e-14)
     assert other[1:-1] == [None, None]
     assert refused in other[-1]
-
-
-def test_a_batch_knows_how_many_it_has():
-    """Whatever varies in it, in parts of it, and in one of it."""
-    spec, _ = MACHINES["side-crank"]
-    found = many(spec, {"drive.A": np.array([0.5, 2.0, 0.5, 0.5])})
-    assert found.machine.designs == 3
-    assert taken(found.machine, slice(1, 3)).designs == 2
-    assert taken(found.machine, np.array([1])).designs == 1
-    assert taken(found.machine, 1).designs == 1
-    assert taken(found.machine, 1).design == 2
-    plain = Spec(External(6), SideCrank(A=0.5), motion=Motion(None))
-    assert many(plain, {"size.pin_mm": np.array([4.0, 4.0])}).machine.designs == 2

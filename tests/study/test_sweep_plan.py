@@ -40,11 +40,6 @@ def test_a_cloud_is_the_same_wherever_it_is_cut():
     assert len(set(whole)) == len(whole)
 
 
-def test_another_seed_is_another_cloud():
-    axes = [VariedKey("drive.A", (0.0, 1.0), span=True)]
-    assert plan(axes, 8, 1).rows(0, 8) != plan(axes, 8, 2).rows(0, 8)
-
-
 @given(st.integers(0, 10**6), st.integers(1, 500))
 def test_shares_make_the_whole(length, of):
     spans = [shard(f"{i}/{of}").span(length) for i in range(1, of + 1)]

@@ -110,22 +110,6 @@ def test_elliptical_gears_are_found_again(gearing, phase, e):
         assert phased(found) == (pytest.approx(e, rel=1e-12), phase), z
 
 
-def test_what_is_out_of_a_drive_s_reach_is_not_offered():
-    assert closed.side_crank(120.0, 240.0) == pytest.approx(1.0)  # twice as long
-    assert closed.side_crank(240.0, 119.0) < -1.0
-    assert closed.side_crank(120.0, 350.0) == math.inf
-    assert "side-crank" not in {w.drive for w in candidates(motion_deg="240", z="6", external=True)}
-    assert "side-crank" not in {w.drive for w in candidates(motion_deg="300", z="6", external=True)}
-
-
-def test_elliptical_gears_make_both_gearings_alike():
-    """At equal motion angles the wheel cannot tell which side the crank is on."""
-    found = candidates(motion_deg="200", z="7")
-    both = [costs(w) for w in found if w.drive == "elliptical-gears" and w.axes_deg is None]
-    assert len(both) == 2
-    assert both[0] == pytest.approx(both[1], rel=1e-9)
-
-
 # The sources' tables
 
 
@@ -153,36 +137,6 @@ def test_rollers_up_to_the_strict_bound(z, most):
         candidates(z=str(z), cycle="1", external=True, rollers=most + 1)
 
 
-def test_k_of_internal_wheels():
-    """5 ... 1.4 for z = 3..12: (z+2)/(z-2)."""
-    assert (3 + 2) / (3 - 2) == 5.0
-    assert (12 + 2) / (12 - 2) == 1.4
-    for z in some(range(3, 13), (3, 6, 12)):
-        near = f"{max(z - 1, 3)}..{min(z + 1, 12)}"
-        (candidate,) = plain(candidates(tau=f"{z + 2}/{2 * z}", z=near, internal=True, space=NEAR))
-        assert (candidate.z, candidate.rollers) == (z, 1)
-        assert candidate.k == pytest.approx((z + 2) / (z - 2), rel=1e-13)
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(
-    ("z", "motion", "A"),
-    [
-        (6, "180", 1.0 / math.sqrt(3.0)),
-        (6, "120", None),
-        (4, "131.40962", 0.5),
-        (4, "174.40477", 0.95),
-        (6, "150.11729", 0.3),
-        (8, "202.32884", 0.6),
-        (8, "247.50453", 0.9),
-    ],
-)
-def test_A_from_the_motion_angle(z, motion, A):
-    """Formula (1) of the side-crank paper, with the angles of its table."""
-    found = [w.A for w in candidates(motion_deg=motion, z=str(z), external=True) if w.A is not None]
-    assert found == ([] if A is None else [pytest.approx(A, abs=5e-7)])
-
-
 def test_the_side_crank_paper_s_half_turn():
     (candidate,) = [
         w for w in candidates(motion_deg="180", z="6", external=True) if w.A is not None
@@ -197,43 +151,6 @@ def test_the_side_crank_paper_s_half_turn():
 
 
 # A greatest acceleration
-
-
-@pytest.mark.long
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(("limit", "laws"), [("0.3", "modified-sine"), ("0.7", "all")])
-def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit, laws):
-    rows = searched(subject_to=[f"acceleration_max <= {limit}"], law=laws, z="3,6,12")[1].rows
-    found = [row.candidate for row in rows]
-    islands = {(w.z, w.gearing, w.law) for w in found if w.parts == "no: island"}
-    for row, candidate in zip(rows, found, strict=True):
-        assert candidate.acceleration_max <= float(limit)
-        if row.is_replacement:  # the nearest that can be built
-            assert candidate.parts == "maybe"
-            assert (candidate.z, candidate.gearing, candidate.law) in islands
-            continue
-        if candidate.A is not None and candidate.axes_deg is not None:
-            continue  # of two numbers, whose search is not of the nearest
-        above = (
-            candidate.A is not None
-            or candidate.eccentricity is not None
-            or (candidate.law and candidate.alpha0_deg)
-        )
-        if above and candidate.acceleration_max < float(limit) * (1.0 - 1e-10):
-            if candidate.rollers > 1:  # as near to the plain crank's motion as they are in time
-                assert candidate.motion_deg == pytest.approx(0.99 * 360.0 / candidate.rollers)
-                continue
-            # inside, the plain crank's motion is too quick for any R/L as well
-            assert (candidate.drive, candidate.gearing) == ("crank", "internal")
-            assert candidate.ratio == pytest.approx(9.0 / 11.0)
-    cranks = [w for w in found if w.drive == "crank" and w.law is None]
-    below = {(w.z, w.gearing) for w in cranks if w.axes_deg in (None, 90.0)}
-    assert below == {
-        (z, g)
-        for z in (3, 6, 12)
-        for g in (*GEARINGS, "spherical")
-        if peak(build(Spec(Wheel(z, g))).engagements[0].motion, "acceleration").max <= float(limit)
-    }
 
 
 @pytest.mark.long
@@ -271,29 +188,14 @@ def test_no_drive_nearer_to_the_plain_crank_keeps_the_limit(z, gearing, share):
 
 
 WISHES = [
-    {"tau": "1/3", "z": "3,6"},
-    {"tau": "7/12", "z": "3,5,12"},
+    {"tau": "1/3", "z": "3"},
     {"motion_deg": "180", "z": "6", "law": "all"},
-    {"motion_deg": "70", "z": "4,20"},
     {"z": "6", "cycle": "2"},
     {"z": "8", "cycle": "1.5", "motion_s": "0.7", "law": "all"},
-    {"subject_to": ["acceleration.max <= 0.5"], "z": "3,5,8"},
-    {"subject_to": ["acceleration.max <= 0.9"], "z": "4", "law": "all", "cycle": "3"},
+    {"subject_to": ["acceleration.max <= 0.5"], "z": "5"},
 ]
 
 
-@pytest.mark.sampled(9)
-@pytest.mark.parametrize("options", WISHES, ids=str)
-def test_rows_are_sorted_and_numbered(options):
-    target, found = searched(**options)
-    table = synthesis_table(target, 0, ranking=found)
-    columns = dict(zip(table.names, table.columns, strict=True))
-    assert list(columns["no"]) == list(range(1, len(table) + 1))
-    peaks = columns["acceleration_max_rad_s2" if target.timed else "acceleration_max"]
-    assert all(a <= b * (1 + 1e-11) for a, b in zip(peaks, peaks[1:], strict=False))
-
-
-@pytest.mark.sampled(9)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
     target, found_rows = searched(**options)
@@ -349,14 +251,6 @@ def test_curved_slots_of_all_laws():
             assert candidate.ratio == pytest.approx(V / (1.0 + V))  # the mid condition
 
 
-def test_the_plain_crank_fits_within_a_millionth():
-    near, far = 120.0 * (1 + 0.5e-6), 120.0 * (1 + 2e-6)
-    assert len(plain(candidates(motion_deg=repr(near), z="6", rollers=1, external=True))) == 1
-    assert not plain(candidates(motion_deg=repr(far), z="6", external=True))
-    first, *_ = plain(candidates(tau="0.3333333", z="6", external=True))
-    assert first.tau == pytest.approx(1 / 3, rel=1e-15)
-
-
 # Refusals
 
 
@@ -366,14 +260,8 @@ def test_the_plain_crank_fits_within_a_millionth():
         ({}, ["no requirement", "--tau", "--subject-to"]),
         ({"tau": "0.3", "motion_deg": "240"}, ["--tau 0.3", "--motion-deg 240", "108 deg"]),
         ({"tau": "1.2"}, ["--tau 1.2", "below 1"]),
-        ({"tau": "-1/3"}, ["--tau -1/3", "above 0"]),
-        ({"tau": "nan"}, ["--tau nan"]),
         ({"tau": "third"}, ["--tau", "third", "1/4"]),
-        ({"tau": "1/0"}, ["--tau", "1/0"]),
-        ({"tau": "0"}, ["--tau 0", "above 0"]),
-        ({"motion_deg": "360"}, ["--motion-deg 360", "below 360"]),
         ({"motion_deg": "200", "rollers": 2}, ["--motion-deg 200", "2 rollers", "below 180 deg"]),
-        ({"z": "6", "cycle": "0"}, ["--cycle 0"]),
         ({"tau": "0.3", "sort": "-jerk.max"}, ["--sort -jerk.max", "min:FIELD or max:FIELD"]),
         (
             {"z": "6", "cycle": "1", "motion_s": "1"},
@@ -385,40 +273,22 @@ def test_the_plain_crank_fits_within_a_millionth():
             ["100..", "at most 80 deg", "least 90 deg"],
         ),
         ({"tau": "0.4..0.2"}, ["--tau 0.4..0.2", "must not be above"]),
-        ({"tau": ".."}, ["--tau ..", "LOW..HIGH"]),
         (
             {"tau": "0.3", "z": "6", "external": True, "subject_to": ["jerk.max <= 1e-9"]},
             ["jerk.max <= 1e-09", "(nearest "],
         ),
         (
-            {"tau": "0.3", "z": "6", "subject_to": ["jrk.max <= 1"]},
-            ["--subject-to jrk.max", '"jerk.max"'],
-        ),
-        (
             {"tau": "0.3", "subject_to": ["dwell_s >= 0.8", "timing.dwell_s <= 0.7"]},
             ["nothing is both", "timing.dwell_s <= 0.7"],
         ),
-        ({"tau": "0.3", "z": "6", "sort": "min:loads.pin"}, ["--sort loads.pin", "no quantity"]),
-        (
-            {"tau": "0.3", "z": "6", "sort": "max:loads.pin_force_N.rms"},
-            ["loads.pin_force_N.rms: noth"],
-        ),
-        ({"tau": "0.3", "z": "6", "subject_to": ["drive.kind >= 1"]}, ["a word has no order"]),
         (
             {"tau": "0.3", "z": "6", "subject_to": ["pin_force_N.max <= 9"]},
             ["pin_force_N.max: nothing resists the wheel", "--from SPEC"],
         ),
         ({"z": "6", "cycle": "1", "rollers": 3}, ["--rollers 3", "at most 2"]),
-        ({"tau": "0.3", "rollers": 0}, ["--rollers 0", "at least 1"]),
-        ({"tau": "0.3", "rollers": 10**400}, ["--rollers", "at most 60"]),
         ({"tau": "0.3", "rollers": 61}, ["--rollers 61", "at most 60"]),
-        ({"tau": "0.3", "z": "2"}, ["--z 2", "at least 3"]),
         ({"tau": "0.3", "z": "3..900"}, ["--z 3..900", "200"]),
         ({"tau": "0.3", "law": "modified-sin"}, ["--law", '"modified-sine"']),
-        (
-            {"subject_to": ["acceleration.max <= 0.02"], "z": "24", "external": True},
-            ["keeps acceleration.max <= 0.02", "nearest 0.0354063"],
-        ),
         (
             {"subject_to": ["acceleration.max <= 0.1"], "z": "3", "internal": True},
             ["nearest 0.299222"],
@@ -432,19 +302,6 @@ def test_refusals(options, wants):
         candidates(**options)
     for text in wants:
         assert text in str(said.value)
-
-
-def test_the_reach_that_a_refusal_names_is_right():
-    """A cam of 99 % of a turn has the least peak: the law's 5.528 of the step over it squared."""
-    with pytest.raises(GenevaError) as said:
-        candidates(subject_to=["acceleration.max <= 0.02"], z="9", internal=True)
-    least = float(str(said.value).partition("nearest ")[2].partition(")")[0])
-    of_cam = 4.0 * math.pi**2 / (4.0 + math.pi) * (math.tau / 9.0) / (0.99 * math.tau) ** 2
-    assert least == pytest.approx(of_cam, rel=1e-5)  # the message has 6 digits
-    assert candidates(subject_to=[f"acceleration.max <= {least * 1.001}"], z="9", internal=True)
-    with pytest.raises(GenevaError):
-        # the whole turn, without a dwell, has 0.98 of it
-        candidates(subject_to=[f"acceleration.max <= {least * 0.98}"], z="9", internal=True)
 
 
 # The command
@@ -482,20 +339,6 @@ def test_what_cannot_be_written(words, wants):
 # What is listed
 
 
-def test_rollers_beyond_those_of_straight_slots():
-    """Four rollers, 27 degrees each, on z = 4: they leave a dwell, and the parts are built."""
-    found = [w for w in candidates(tau="0.3", z="4", external=True) if w.law and w.drive == "crank"]
-    assert [w.rollers for w in found[:4]] == [1, 2, 3, 4]
-    assert found[3].motion_deg == pytest.approx(27.0, rel=1e-14)
-    assert found[3].parts == "maybe"
-    # the next one up is not built, so the list is complete up to where it ends
-    most = found[-1].rollers
-    more = candidates(tau="0.3", z="4", external=True, rollers=most + 1)
-    (beyond,) = [w for w in more if w.law and w.drive == "crank"]
-    assert beyond.parts.startswith("no: ")
-    assert [w.rollers for w in found] == list(range(1, most + 1))
-
-
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize("z", [3, 6, 20])
 @pytest.mark.parametrize("share", [0.001, 0.2, 0.5, 0.7, 0.999])
@@ -527,40 +370,14 @@ def test_the_angle_of_the_shafts_in_50_digits():
             assert angle == pytest.approx(float(mpmath.degrees(S)), rel=1e-11)
 
 
-def test_the_shortest_extra_dwell(tmp_path):
-    """-33, not -32.99999999999997; and it still makes the motion."""
-    target = read_target(z="8", cycle="1.5", motion_s="0.7")
-    found = listed(target)
-    number = next(i for i, (_, w) in enumerate(found, 1) if w.law and w.gearing == "external")
-    text = written(target, found, number)
-    assert "alpha0_deg = -33.0 " in text
-    file = tmp_path / "spec.toml"
-    file.write_text(text, encoding="utf-8")
-    (time,) = timings(load(str(file)))
-    assert time.motion_s == pytest.approx(0.7, rel=1e-14)
-
-
-def test_the_roller_that_fills_the_way_in_and_out():
-    """z = 6, two rollers in 54 degrees each: the two ways are 10.97 mm apart, the slot as wide."""
-    (spec, candidate) = next(
-        (s, w)
-        for s, w in listed(read_target(tau="0.3", z="6"))
-        if w.law and w.rollers == 2 and w.drive == "crank"
-    )
-    assert spec.size.roller_radius_mm == 5.5
-    assert candidate.parts == "maybe"
-
-
 # Turned, written, checked and exported: a sample of the trial in tests/stress/stress_synth.py
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("options", "number"),
     [
         ({"z": "8", "cycle": "1.5", "motion_s": "0.7", "external": True}, 7),
-        ({"tau": "0.68", "z": "10", "law": "cycloidal", "rollers": 2, "external": True}, 2),
-        ({"subject_to": ["acceleration.max <= 0.5"], "z": "6", "internal": True}, 1),
         ({"dwell_s": "0.8..", "cycle": "1.5", "z": "8", "motion_deg": "..100"}, 1),
     ],
     ids=str,
@@ -629,16 +446,3 @@ def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():
     assert [row["no"] for row in seen.to_rows()] == [1, 2, 3]
     assert seen.title.endswith(f" The first 3 rows. All {len(rows)} rows: -o FILE.csv")
     assert for_terminal(table, len(rows)).title == table.title
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("more", [{}, {"cycle": "1"}, {"internal": True}])
-def test_a_peak_that_nothing_reaches_is_said_with_the_nearest(more):
-    """Issue: the motion was blamed, which all machines have."""
-    asked = {"motion_deg": "120", "z": "6", **more}
-    with pytest.raises(GenevaError) as error:
-        search(read_target(subject_to=["acceleration.max <= 0.0001"], **asked))
-    told = str(error.value)
-    least = min(row.candidate.acceleration_max for row in search(read_target(**asked)).rows)
-    assert told.startswith("--subject-to: none of ")
-    assert f"(nearest {least:.6g})" in told and "R/L" not in told

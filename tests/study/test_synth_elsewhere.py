@@ -1,7 +1,6 @@
 """Families whose best machine's parts cannot be built: the best of those that can, in its range."""
 
 import itertools
-import pickle
 
 import pytest
 from sampling import some
@@ -12,7 +11,6 @@ from geneva_cli.design import load
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.study.synth import group_search as every
 from geneva_cli.study.synth.built import built
 from geneva_cli.study.synth.fast_parts import machine_and_parts
 from geneva_cli.study.synth.reading import read_target
@@ -115,32 +113,6 @@ def test_a_larger_roller_holds_the_wheel_better(z):
     assert not [c for c in checks(build(made.spec)) if c.passes is False]
     kept = built(row.spec, frozenset({"roller_radius_mm"}))
     assert kept.trouble == "hand_over_play_deg"
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(
-    "options",
-    [
-        {"motion_deg": "100..200", "z": "4,6"},
-        {"motion_deg": "100..200", "z": "6", "sort": "min:jerk.max", "law": "all"},
-        {"subject_to": ["acceleration.max <= 0.5"], "z": "6"},
-        {"z": "4", "subject_to": ["velocity.max <= 2"]},
-    ],
-    ids=str,
-)
-def test_families_go_to_other_processes(options):
-    """What a row knows of its family makes the same machines there."""
-    target = read_target(**options)
-    seen = 0
-    for kind, own in every.kinds(target):
-        for family in every.families(kind, own):
-            if family.keys:
-                there = pickle.loads(pickle.dumps(family))
-                for x in (0.0, 0.7, 1.0):
-                    place = [a + (b - a) * x for a, b in zip(family.low, family.high, strict=True)]
-                    assert there.at(place) == family.at(place)
-                seen += 1
-    assert seen > 3 or "subject_to" in options
 
 
 def test_more_rollers_where_only_shorter_motions_can_be_built():

@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.many import many
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.study.batches import columns
-from geneva_cli.study.sweep.constraints import Objective, objective
+from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.reading import SPANS, read_target, span
 from geneva_cli.study.synth.synth_search import search
 from geneva_cli.study.target import AllowedSpan
@@ -69,24 +69,6 @@ def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
         rows(motion_deg="30", dwell_deg="60", z="6")
     with pytest.raises(GenevaError, match="only behind a first wheel"):
         rows(dwell_deg="400", z="6")
-
-
-@pytest.mark.parametrize(
-    ("target", "bound", "said"),
-    [
-        ({"cycle": "2"}, "dwell_s >= 3", "--subject-to dwell_s 3.. with --cycle 2: that leaves no"),
-        ({"z": "6"}, "tau >= 1.2", "--subject-to tau 1.2..: that leaves no dwell"),
-        ({"z": "6"}, "k <= 0", "--subject-to k ..0: that leaves no time to move"),
-        ({"motion_deg": "100"}, "motion_deg >= 120", "nothing is at least 120 and at most 100"),
-        ({"motion_deg": "70", "rollers": 3}, "dwell_deg >= 51", "no machine does both"),
-    ],
-)
-def test_bounds_on_times_that_nothing_keeps_are_refused_at_once(target, bound, said, monkeypatch):
-    """As the options are that say the same, and before any machine is looked for."""
-    monkeypatch.setattr("geneva_cli.study.synth.group_search.families", None)
-    with pytest.raises(GenevaError) as error:
-        search(read_target(**target, subject_to=[bound]))
-    assert said in str(error.value)
 
 
 FLAT = {"internal": True, "external": True}
@@ -180,52 +162,6 @@ def test_no_dense_sweep_finds_a_gentler_machine(z, low, high, gearing):
     assert mine <= min(peak for _, peak in gears) * (1 + NEAR)
 
 
-@pytest.mark.long
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    "sort", ["min:jerk.max", "max:timing.dwell_s", "min:loads.input_torque_Nm.rms"]
-)
-def test_in_a_range_the_best_of_a_kind_is_what_the_order_asks_for(sort):
-    """Against a dense sweep of side-cranks: no A in the range is before the one listed."""
-    frame = load(os.path.join(DESIGNS, "press-345.toml")).spec
-    sign, name = objective(sort, "--sort")
-    found = search(
-        read_target(frame=frame, motion_deg="80..140", rollers=1, external=True, sort=sort)
-    ).rows
-    (ours,) = [r for r in found if r.candidate.drive == "side-crank"]
-    fine = many(ours.spec, {"drive.A": np.linspace(-0.9, 0.9, 1801)})
-    motion, value = columns(fine.machine, ["timing.motion_deg", name], len(fine.which))
-    theirs = sign * value[(motion >= 80.0) & (motion <= 140.0)]
-    assert sign * ours.extra[0] <= theirs.min() + abs(theirs.min()) * NEAR
-
-
-@pytest.mark.long
-def test_bounds_are_kept_where_the_gentlest_of_a_kind_breaks_them():
-    """In a range the machine of a kind is the gentlest of those that keep the bound."""
-    target = {"motion_deg": "80..140", "z": "6", "external": True, "rollers": 1}
-    free = {r.candidate.drive: r.candidate for r in rows(**target)}
-    assert free["side-crank"].velocity_max < 0.9
-    kept = rows(**target, subject_to=["velocity.max >= 0.95"])
-    (side,) = [r.candidate for r in kept if r.candidate.drive == "side-crank"]
-    assert side.velocity_max >= 0.95 * (1 - 1e-9)
-    fine = np.linspace(-0.9, 0.9, 4001)
-    found = many(Spec(Wheel(6), Drive("side-crank"), Keys("side-crank", 0.1)), {"drive.A": fine})
-    names = ["acceleration.max", "timing.motion_deg", "velocity.max"]
-    peak, motion, velocity = columns(found.machine, names, len(found.which))
-    fits = (motion >= 80.0) & (motion <= 140.0) & (velocity >= 0.95)
-    # the best stands at the bound, which the search nears to 1e-5 of the range
-    assert side.acceleration_max <= peak[fits].min() * (1 + 1e-4)
-
-
-def test_a_bound_that_little_keeps_is_kept():
-    """A band of a hundredth of the velocity: no place of a range is in it at first."""
-    target = {"motion_deg": "60..270", "z": "6", "rollers": 1, "external": True}
-    found = rows(**target, subject_to=["velocity.max >= 1.49", "velocity.max <= 1.5"])
-    assert {r.candidate.drive for r in found} >= {"crank", "cam"}
-    for row in found:
-        assert 1.49 * (1 - 1e-9) <= Design.of(row.spec).peaks.velocity.max <= 1.5 * (1 + 1e-9)
-
-
 def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bounds():
     """The velocity of z = 6 is 1; down to 0.8 with the least change of each kind, and no less."""
     found = rows(z="6", external=True, rollers=1, subject_to=["velocity.max <= 0.8"])
@@ -260,37 +196,6 @@ def test_a_limit_of_acceleration_alone_gives_what_general_bounds_give(gearing, l
     least = math.degrees(math.sqrt(C_a * math.pi / 3.0 / limit))
     assert own.motion_deg == pytest.approx(max(natural, least), rel=1e-9)
     assert other.motion_deg == pytest.approx(own.motion_deg, rel=1e-8)
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    ("target", "bounds", "same"),
-    [
-        ({"cycle": "1.5"}, ["dwell_s >= 0.8"], {"cycle": "1.5", "dwell_s": "0.8.."}),
-        ({}, ["tau <= 0.45", "timing.tau >= 0.3"], {"tau": "0.3..0.45"}),
-        ({"tau": "..0.45"}, ["dwell_deg <= 252"], {"tau": "0.3..0.45"}),
-    ],
-)
-def test_a_bound_on_how_long_a_motion_is_is_a_wish_for_it(target, bounds, same):
-    """The same machines as of the option, each the gentlest; angles in seconds with a cycle."""
-    usual = {"z": "6", "external": True, "rollers": 1}
-    found = rows(**usual, **target, subject_to=bounds)
-    theirs = rows(**usual, **same)
-    timed = {"n_rpm", "acceleration_max_rad_s2", "motion_s", "dwell_s"}
-    assert [c.drive for c in told(found)] == [c.drive for c in told(theirs)]
-    for ours, other in zip(told(found), told(theirs), strict=True):
-        for name in set(ours._fields) - timed - {"parts"}:
-            value = getattr(other, name)
-            near = pytest.approx(value, rel=1e-12) if isinstance(value, float) else value
-            assert getattr(ours, name) == near, name
-
-
-@pytest.mark.parametrize(("limit", "said"), [(0.9, "maybe"), (0.5, "no: velocity_max")])
-def test_limits_are_kept_on_a_sphere(limit, said):
-    """The plain crank's greatest velocity, tan(180/z), is 0.577."""
-    frame = Spec(Wheel(6), limits=Limits(velocity_max=limit))
-    found = rows(frame=frame, motion_deg="180", spherical=True)
-    assert {row.candidate.parts for row in found} == {said}
 
 
 @pytest.mark.long
@@ -338,50 +243,6 @@ def dense(spec, key, values, names):
     """Quantities of a dense sweep, (n,) each."""
     found = many(spec, {key: np.asarray(values)})
     return columns(found.machine, names, len(found.which))
-
-
-@pytest.mark.long
-def test_slots_are_as_far_aside_as_a_bound_wants():
-    """With e = cos b sin d the entry is sin b cos d / cos(b - d): a half where d = 30° - d."""
-    target = {"motion_deg": "120", "z": "6", "external": True, "rollers": 1}
-    found = rows(**target, subject_to=["acceleration.entry <= 0.5"])
-    (row,) = [r for r in found if r.spec.wheel.offset_mm]
-    aside = 100.0 * math.cos(math.pi / 6.0) * math.sin(math.radians(15.0))
-    assert row.spec.wheel.offset_mm == pytest.approx(aside, rel=1e-3)
-    assert row.candidate.acceleration_entry <= 0.5 * (1 + 1e-12)
-    # the other way aside the exit is the gentler end
-    found = rows(**target, subject_to=["acceleration.exit <= 0.5"])
-    (row,) = [r for r in found if r.spec.wheel.offset_mm]
-    assert row.spec.wheel.offset_mm == pytest.approx(-aside, rel=1e-3)
-
-
-def test_any_motion_within_a_band_of_a_few_thousandths():
-    """Two bounds leave a side-crank 5.6e-4 of the 2 that A runs through, in any motion."""
-    bounds = ["velocity.max <= 1.3737", "acceleration.exit <= 0.15002"]
-    spec = Spec(Wheel(11, "internal"), Drive("side-crank"), Keys("side-crank", 0.1))
-    names = ["velocity.max", "acceleration.exit"]
-    speed, exit_ = dense(spec, "drive.A", np.linspace(-0.9999, 0.9999, 20001), names)
-    assert 4 <= ((speed <= 1.3737) & (exit_ <= 0.15002)).sum() <= 6
-    found = rows(z="11", internal=True, rollers=1, subject_to=bounds)
-    assert "side-crank" in {r.candidate.drive for r in found}
-
-
-def test_the_best_that_a_bound_leaves_beside_the_end_of_a_range():
-    """A bound that is kept by the last place looked at alone: gentler ones are nearer to it."""
-    frame = Spec(Wheel(6), load=Load(inertia_kgm2=0.4, torque_Nm=15.0))
-    bound = "loads.input_torque_Nm.max"
-    found = rows(
-        frame=frame,
-        motion_deg="100..200",
-        internal=True,
-        rollers=1,
-        subject_to=[f"{bound} <= 10"],
-    )
-    (side,) = [r for r in found if r.candidate.drive == "side-crank"]
-    names = ["acceleration.max", "timing.motion_deg", bound]
-    peak, motion, torque = dense(side.spec, "drive.A", np.linspace(-0.45, -0.35, 4001), names)
-    fits = (motion >= 100.0) & (motion <= 200.0) & (torque <= 10.0)
-    assert side.candidate.acceleration_max <= peak[fits].min() * (1 + 1e-4)
 
 
 @pytest.mark.long

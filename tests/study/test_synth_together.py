@@ -1,14 +1,11 @@
 """What synthesis looks up of many machines at once, against each machine alone."""
 
-import math
-
 import pytest
 
 from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
 from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.side_crank import SideCrank
-from geneva_cli.errors import GenevaError
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -28,8 +25,6 @@ from geneva_cli.study.synth.parts_data import (
     compute_parts_data,
     parts_data,
 )
-from geneva_cli.study.synth.reading import read_target
-from geneva_cli.study.synth.synth_search import search
 
 LAW = Cycloidal()
 MATCHED = Motion(LAW, ratio="matched")
@@ -67,51 +62,6 @@ def test_looks_at_parts():
         w = machine.roller_radius_mm + spec.size.allowances.slot_clearance_mm
         cut = [depths_mm(wall, w, machine.center_distance_mm)[0] for wall in seen.walls or ()]
         assert max(cut, default=0.0) == pytest.approx(found.depth_mm if found else 0.0, rel=1e-9)
-
-
-def test_side_cranks_that_differ_in_the_wheel_alone():
-    """Near the end of A a general search finds the peaks, of every wheel its own.
-
-    A plain crank's peak velocity is l/(1 - l), and a side-crank's less by 1 + A at mid-motion.
-    """
-    specs = [Spec(External(z), SideCrank(A=0.9999)) for z in (4, 5, 8)]
-    for spec, row in zip(specs, numbers(specs, ["velocity.max"]), strict=True):
-        l = math.sin(math.pi / spec.wheel.z)
-        assert row == [pytest.approx(l / (1.0 - l) / 1.9999, rel=1e-12)]
-
-
-def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
-    """Three rollers of a plain crank jam on nine slots; curved slots rest for 50 degrees here."""
-    target = {"motion_deg": "70", "z": "9", "rollers": 3, "external": True}
-    found = search(read_target(**target, subject_to=["dwell_deg >= 49"], sort="min:jerk.max"))
-    assert found.requested.names == ("jerk.max", "timing.dwell_deg")
-    row = found.rows[0]
-    assert row.extra == (pytest.approx(row.candidate.jerk_max), pytest.approx(50.0))
-    with pytest.raises(GenevaError, match="none of 2 machines that keep all other bounds"):
-        search(read_target(**target, subject_to=["dwell_deg >= 49", "jerk.max <= 1"]))
-
-
-@pytest.mark.parametrize(
-    ("bounds", "unkept"),
-    [
-        (
-            ["velocity.max <= 2", "jerk.max <= 0.01"],
-            r"keeps jerk\.max <= 0\.01 \(nearest [\d.]+\)$",
-        ),
-        (
-            ["velocity.max <= 0.35", "acceleration.entry <= 0.3"],
-            r"keeps velocity\.max <= 0\.35 and acceleration\.entry <= 0\.3 at once$",
-        ),
-    ],
-)
-def test_a_refusal_names_the_bounds_that_no_machine_keeps(bounds, unkept):
-    """An internal wheel's peak velocity behind a side-crank is (1/3)/(1 + A), so 0.303 here.
-
-    It enters with a jump of 0.64. The modified sine has none, and a velocity of 60/250 C_v: 0.42.
-    """
-    target = {"motion_deg": "250", "z": "6", "internal": True, "subject_to": bounds}
-    with pytest.raises(GenevaError, match=unkept):
-        search(read_target(**target))
 
 
 def test_specs_of_one_kind_keep_their_own_loads_and_sizes():

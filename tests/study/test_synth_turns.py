@@ -4,22 +4,16 @@ import numpy as np
 import pytest
 
 import geneva_cli
-from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
-from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.external import External
-from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.full_turn import gap_about
 from geneva_cli.study.synth.built import built
-from geneva_cli.study.synth.fast_parts import USUAL, exact, parts, with_roller
+from geneva_cli.study.synth.fast_parts import USUAL, exact, with_roller
 from geneva_cli.study.synth.parts_data import distances_at_rest, parts_data
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
-from geneva_cli.study.synth.turns import Turn
 from geneva_cli.verdict.checks import checks
 
 
@@ -29,20 +23,6 @@ def four_bar():
     rows = search(read_target(motion_deg="180", z="6", external=True, rollers=1)).rows
     (spec,) = [row.spec for row in rows if row.candidate.drive == "four-bar"]
     return spec
-
-
-def test_a_gap_that_fails_is_found_where_it_failed_before(four_bar):
-    """With the next roller, at the place where a larger one touched: the whole turn agrees."""
-    L = build(four_bar).center_distance_mm
-    large, next_, fits = (with_roller(four_bar, exact(x * L)) for x in (0.05, 0.04, 0.025))
-    seen = Turn(build(large)).failing
-    assert [one.name for one in seen] == ["gap_mm"]
-    assert [one.name for one in Turn(build(large)).first_failing] == ["gap_mm"]
-    parts = parts_of(build(next_))
-    assert gap_about(parts, seen[0].at_deg) < -parts.contact
-    assert Turn(build(next_)).some_failing(seen) == seen
-    assert [c.name for c in checks(build(next_)) if c.passes is False] == ["gap_mm"]
-    assert Turn(build(fits)).some_failing(seen) == []
 
 
 @pytest.mark.parametrize("share", [0.05, 0.03, 0.02])
@@ -58,21 +38,6 @@ def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     back = parts_data(four_bar).back
     seen = distances_at_rest(*back, sizes.rim, sizes.half_width).min() - sizes.roller
     assert seen == pytest.approx(drawn, abs=1e-9 * L)
-
-
-@pytest.mark.parametrize(
-    "wheel, alpha0_deg, end",
-    [(Internal(8), -35.0, ("", 4.0)), (External(8), -65.0, ("lock_radius_mm", 5.0))],
-    ids=["a little", "by far"],
-)
-def test_a_wheel_that_is_free_by_far_is_given_up(wheel, alpha0_deg, end):
-    """One that is free by a little, between lock and slot, is mended by a smaller roller.
-
-    The other has no lock with rollers of 5, 4 and 3 mm, and with one of 2.5 mm it is 18 times as
-    free as lets that find its slot.
-    """
-    found = built(Spec(wheel, Cam(), motion=Motion(ModifiedSine(), alpha0_deg=alpha0_deg)))
-    assert (found.trouble, found.spec.roller_radius_mm(100.0)) == end
 
 
 MENDED = [  # what is found to fail with the usual roller, and the roller that mends it, mm
@@ -93,29 +58,3 @@ def test_the_first_roller_that_passes_every_check_is_taken(drive, wheel, name, r
     first = next(s for s in sized if all(c.passes is not False for c in checks(build(s))))
     assert built(spec) == (first, "")
     assert first.size.roller_radius_mm == radius
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(("z", "alpha0"), [(5, 0.0), (8, 0.0), (8, -20.0)])
-def test_an_undercut_near_its_limit_is_told_as_its_check_tells_it(z, alpha0):
-    """Where a look at few places is within two hundredths of the limit, at all of them."""
-    motion = Motion(ModifiedSine(), alpha0_deg=alpha0, ratio="matched")
-
-    def machine(r):
-        return build(with_roller(Spec(External(z), motion=motion), r))
-
-    def check(r):
-        (found,) = [c for c in checks(machine(r), parts=False) if c.name == "undercut_mm"]
-        return found
-
-    low, high = 0.5, 15.0
-    for _ in range(16):
-        middle = 0.5 * (low + high)
-        low, high = (
-            (low, middle) if check(middle).value > 0.99 * check(low).limit else (middle, high)
-        )
-    near = 0
-    for r in np.linspace(0.998 * low, 1.002 * low, 9).tolist():
-        near += 0.98 < check(r).value / check(r).limit <= 1.0
-        assert (parts(machine(r)).why == "undercut") == (check(r).passes is False)
-    assert near

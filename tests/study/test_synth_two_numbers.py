@@ -65,13 +65,6 @@ def test_no_dense_grid_of_two_numbers_finds_a_gentler_machine(z, low, high, boun
     assert all(c.acceleration_max > 1.01 * row.candidate.acceleration_max for c in others)
 
 
-def test_what_one_number_brings_as_well_is_no_row():
-    """Down to 120 deg inclined shafts alone are as gentle: the side-crank would add nothing."""
-    found = search(read_target(z="4", spherical=True, rollers=1, motion_deg="100..120")).rows
-    assert {row.candidate.drive for row in found} >= {"crank", "side-crank"}
-    assert not any(row.candidate.of_two_numbers for row in found)
-
-
 def test_elliptical_gears_move_alike_on_shafts_at_any_angle():
     """Why they are not looked for: tan(phi/4) of what gears and shafts make has one ratio."""
     wheel = Wheel(6, "spherical", axes_deg=90.0)
@@ -89,14 +82,3 @@ def test_elliptical_gears_move_alike_on_shafts_at_any_angle():
     names = ["timing.motion_deg", "velocity.max", "acceleration.max", "jerk.max"]
     for value in columns(found.machine, names, 3):
         assert value == pytest.approx(value[0], rel=1e-11)
-
-
-@pytest.mark.long
-def test_bounds_that_no_number_keeps_alone_two_may():
-    """Without a wish for a motion two numbers are shown where one does not do."""
-    target = {"z": "6", "spherical": True, "rollers": 1}
-    bounds = ("acceleration.max <= 0.3", "velocity.max <= 0.5", "timing.dwell_deg >= 110")
-    row = both(search(read_target(**target, subject_to=bounds)).rows)
-    assert row.candidate.acceleration_max <= 0.3 and row.candidate.dwell_deg >= 110.0 * (1 - 1e-12)
-    found = search(read_target(**target, subject_to=("velocity.max <= 0.5",))).rows
-    assert not any(row.candidate.of_two_numbers for row in found)

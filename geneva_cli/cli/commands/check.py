@@ -8,10 +8,7 @@ import typer
 from geneva_cli.cli.options import Format, Output, Settings, flag, option, say
 from geneva_cli.errors import clean
 
-EXAMPLES = (
-    "geneva check spec.toml",
-    "geneva check spec.toml --set size.slot_clearance_mm=0.05",
-)
+EXAMPLES = ("geneva check spec.toml", "geneva check spec.toml --set size.slot_clearance_mm=0.05")
 
 
 def run(

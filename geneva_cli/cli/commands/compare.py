@@ -1,15 +1,12 @@
 """``geneva compare``."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from geneva_cli.cli import completion
+from geneva_cli.cli.completion import fields, keys, listed
 from geneva_cli.cli.options import AlsoReverse, Format, Output, Settings, flag, option
 from geneva_cli.errors import GenevaError
-
-if TYPE_CHECKING:
-    from geneva_cli.table import Table
 
 EXAMPLES = (
     "geneva compare spec.toml --vary wheel.z=4,6,8 --pick dwell_s,acceleration.max",
@@ -21,26 +18,18 @@ def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
     vary: Annotated[
         list[str] | None,
-        option(
-            "KEY=VALUES",
-            "One spec with several values: drive.A=0,0.3,0.6.",
-            complete=completion.keys,
-        ),
+        option("KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6.", complete=keys),
     ] = None,
     pick: Annotated[
         str,
-        option(
-            "FIELD,...",
-            "Only these, as acceleration.max,dwell_s.",
-            complete=completion.listed(completion.fields),
-        ),
+        option("FIELD,...", "Only these, as acceleration.max,dwell_s.", complete=listed(fields)),
     ] = "",
     against: Annotated[
         str,
         option(
             "NAME,...",
             "One spec with cam, servo: the same step, time and load.",
-            complete=completion.listed(("cam", "servo")),
+            complete=listed(("cam", "servo")),
         ),
     ] = "",
     ratio: Annotated[bool, flag("--ratio", "Numbers over the first design's.")] = False,
@@ -61,24 +50,16 @@ def run(
     if ratio:
         refuse_inches("ratios have no unit")
     if against:
-        table = _against(
-            specs, settings or [], against, bool(vary or pick or ratio or differing or reverse)
-        )
+        from geneva_cli.spec.load_named import load_extra
+
+        if len(specs) > 1 or vary or pick or ratio or differing or reverse:
+            raise GenevaError(
+                "--against: it compares one spec, without --vary, --pick, --ratio and --reverse"
+            )
+        names = [name.strip() for name in against.split(",")]
+        table = load_extra("servo", "against")(specs[0], settings or [], names)
     else:
         picks = [name.strip() for name in pick.split(",")] if pick else []
         table = compare(specs, settings or (), vary or (), picks, ratio, reverse)
         table = only_differing(table) if differing else table
     show(table, output, format, specs)
-
-
-def _against(specs: list[str], settings: list[str], names: str, others: bool) -> "Table":
-    """The comparison of one spec with other kinds of drives."""
-    from geneva_cli.spec.load_named import load_extra
-
-    if len(specs) > 1 or others:
-        raise GenevaError(
-            "--against: it compares one spec, without --vary, --pick, --ratio and --reverse"
-        )
-    listed = [name.strip() for name in names.split(",")]
-    table: Table = load_extra("servo", "against")(specs[0], settings, listed)
-    return table

@@ -4,14 +4,10 @@ from typing import Annotated, Any
 
 import typer
 
-from geneva_cli.cli import completion
+from geneva_cli.cli.completion import topics
 from geneva_cli.errors import GenevaError, cut, nearest
 
-EXAMPLES = (
-    "geneva help",
-    "geneva help cycle",
-    "geneva help friction",
-)
+EXAMPLES = ("geneva help", "geneva help cycle", "geneva help friction")
 
 
 def run(
@@ -21,7 +17,7 @@ def run(
         typer.Argument(
             metavar="[WORD...]",
             help="A page, a command, or words to search for; without one: all pages.",
-            autocompletion=completion.topics,
+            autocompletion=topics,
         ),
     ] = None,
 ) -> None:

@@ -4,13 +4,10 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli import completion
+from geneva_cli.cli.completion import tables_and_keys
 from geneva_cli.cli.options import Format, Output
 
-EXAMPLES = (
-    "geneva keys drive",
-    "geneva keys size.center_distance_mm",
-)
+EXAMPLES = ("geneva keys drive", "geneva keys size.center_distance_mm")
 
 
 def run(
@@ -19,7 +16,7 @@ def run(
         typer.Argument(
             metavar="[TABLE|KEY]",
             help="drive, drive.A or A; without one: all.",
-            autocompletion=completion.tables_and_keys,
+            autocompletion=tables_and_keys,
         ),
     ] = "",
     output: Output = "-",

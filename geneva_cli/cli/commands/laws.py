@@ -4,10 +4,7 @@ from typing import Annotated
 
 from geneva_cli.cli.options import Format, Output, option
 
-EXAMPLES = (
-    "geneva laws",
-    "geneva laws --lambda 0.1 --format csv",
-)
+EXAMPLES = ("geneva laws", "geneva laws --lambda 0.1 --format csv")
 
 
 def run(

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli import completion
+from geneva_cli.cli.completion import designs, kinds
 from geneva_cli.cli.options import Output, flag, option
 from geneva_cli.errors import GenevaError
 
@@ -22,11 +22,11 @@ def run(
         typer.Argument(
             metavar="[KIND]",
             help="curved, turret, a kind of drive, ...: see --list.",
-            autocompletion=completion.kinds,
+            autocompletion=kinds,
         ),
     ] = "",
     from_design: Annotated[
-        str, option("NAME", "A copy of one of the designs, as it is.", complete=completion.designs)
+        str, option("NAME", "A copy of one of the designs, as it is.", complete=designs)
     ] = "",
     list_: Annotated[bool, flag("--list", "All kinds and designs, and what they are.")] = False,
     all_: Annotated[

@@ -32,6 +32,8 @@ EXAMPLES = (
     "geneva profile spec.toml --part sheet -o machine.pdf",
 )
 
+WRITTEN = (*FORMATS, *DRAWN, "pdf")
+WALLS = ("arcs", "spline")
 CUT = "To cut"
 DRAWING = "The drawing"
 
@@ -51,12 +53,7 @@ def run(
     samples: Annotated[int | None, option("N", "Number of rows of a table, evenly spaced.")] = None,
     curves: Annotated[
         str | None,
-        option(
-            "KIND",
-            "Curved walls as arcs or spline; .step has spline.",
-            DRAWING,
-            complete=("arcs", "spline"),
-        ),
+        option("KIND", "Curved walls as arcs or spline; .step has spline.", DRAWING, WALLS),
     ] = None,
     kerf: Annotated[float | None, option("MM", "Paths for a cut of this width.", CUT)] = None,
     cutter: Annotated[
@@ -69,34 +66,22 @@ def run(
         bool, flag("--center-marks", "A cross in every circle, on layer CENTER.", DRAWING)
     ] = False,
     units: Annotated[
-        str,
-        option(
-            "UNIT", "Unit of drawings and tables: mm or inch.", DRAWING, complete=("mm", "inch")
-        ),
+        str, option("UNIT", "Unit of drawings and tables: mm or inch.", DRAWING, ("mm", "inch"))
     ] = "mm",
     dxf_version: Annotated[
         str | None,
         option(
-            "VERSION",
-            "Version of .dxf, R12 to R2018.  [default: R2000]",
-            DRAWING,
-            complete=DXF_VERSIONS,
+            "VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING, DXF_VERSIONS
         ),
     ] = None,
     fill: Annotated[
-        str | None, option("LOOK", "Plates in .svg: none, tint or hatch.", DRAWING, complete=FILLS)
+        str | None, option("LOOK", "Plates in .svg: none, tint or hatch.", DRAWING, FILLS)
     ] = None,
     force: Annotated[bool, flag("--force", "Draw even a machine that jams.")] = False,
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
-        str,
-        option(
-            "FORMAT",
-            one_of((*FORMATS, *DRAWN, "pdf")),
-            name="--format",
-            complete=(*FORMATS, *DRAWN, "pdf"),
-        ),
+        str, option("FORMAT", one_of(WRITTEN), complete=WRITTEN, name="--format")
     ] = "",
 ) -> None:
     """Write a part as a table of points, or as a drawing to cut: csv, dxf, svg, step or pdf.
@@ -116,7 +101,11 @@ def run(
     own |= {"fill": fill} if fill is not None else {}
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
-        _refuse(kerf, cutter, center_marks, own)
+        _refuse(kerf, cutter, center_marks)
+        if own:
+            raise GenevaError(
+                "--dxf-version and --fill are for drawings; this is a table of points"
+            )
         with in_units(units):
             show(design.part_table(part, tolerance, samples), output, format, files)
         warn(design)
@@ -144,10 +133,9 @@ def run(
 
 def _require(curves: str, units: str, dog_bones: bool, cutter: float | None) -> None:
     """Raise GenevaError for values with which no drawing can be written."""
-    from geneva_cli.design import CURVES
     from geneva_cli.geometry.pieces import UNITS
 
-    if curves not in CURVES:
+    if curves not in WALLS:
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
@@ -155,18 +143,12 @@ def _require(curves: str, units: str, dog_bones: bool, cutter: float | None) -> 
         raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
 
 
-def _refuse(
-    kerf: float | None,
-    cutter: float | None,
-    marks: bool,
-    own: dict[str, str] | None = None,
-) -> None:
+def _refuse(kerf: float | None, cutter: float | None, marks: bool) -> None:
     """Raise GenevaError for options of parts to cut, if none is written."""
-    if kerf is not None:
-        raise GenevaError("--kerf is for parts to cut; this one is a table, or a sheet")
-    if cutter is not None:
-        raise GenevaError("--cutter is for parts to cut; this one is a table, or a sheet")
-    if marks:
-        raise GenevaError("--center-marks is for drawings; this one is a table, or a sheet")
-    if own:
-        raise GenevaError("--dxf-version and --fill are for drawings; this is a table of points")
+    for name, given, of in (
+        ("--kerf", kerf is not None, "parts to cut"),
+        ("--cutter", cutter is not None, "parts to cut"),
+        ("--center-marks", marks, "drawings"),
+    ):
+        if given:
+            raise GenevaError(f"{name} is for {of}; this one is a table, or a sheet")

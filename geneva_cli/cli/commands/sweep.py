@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from contextlib import closing
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
-from geneva_cli.cli import completion
+from geneva_cli.cli.completion import fields, keys, listed
 from geneva_cli.cli.options import Format, Settings, SpecPath, flag, option, output_option
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
-    from geneva_cli.study.sweep.outcome import Digest, Outcome
+    from geneva_cli.study.sweep.outcome import Outcome
     from geneva_cli.study.sweep.request import SweepRequest
 
 Rows: TypeAlias = list[list[Any]]
@@ -31,21 +31,11 @@ def run(
     spec: SpecPath,
     vary: Annotated[
         list[str] | None,
-        option(
-            "KEY=VALUES",
-            "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.",
-            DESIGNS,
-            complete=completion.keys,
-        ),
+        option("KEY=VALUES", "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.", DESIGNS, keys),
     ] = None,
     pick: Annotated[
         str,
-        option(
-            "FIELD,...",
-            "Quantities, as acceleration.max,dwell_s.",
-            DESIGNS,
-            complete=completion.listed(completion.fields),
-        ),
+        option("FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS, listed(fields)),
     ] = "",
     random: Annotated[
         int | None, option("N", "N random designs from the ranges, not the grid.", DESIGNS)
@@ -56,12 +46,7 @@ def run(
     check: Annotated[bool, flag("--check", "Add whether all checks pass.", DESIGNS)] = False,
     subject_to: Annotated[
         list[str] | None,
-        option(
-            "BOUND",
-            'Only rows that keep it: "dwell_s >= 0.8"; repeat.',
-            CHOICE,
-            complete=completion.fields,
-        ),
+        option("BOUND", 'Only rows that keep it: "dwell_s >= 0.8"; repeat.', CHOICE, fields),
     ] = None,
     pareto: Annotated[
         str, option("min:FIELD,...", "Only rows that no other row beats in all of these.", CHOICE)
@@ -84,10 +69,11 @@ def run(
     whole range between.
     Long runs, shards and the best of many: `geneva help search`.
     """
-    from geneva_cli.output import is_seen
+    from geneva_cli.output import show, show_text
     from geneva_cli.output.formats import FORMATS
     from geneva_cli.study.sweep.outcome import Outcome
     from geneva_cli.study.sweep.request import request
+    from geneva_cli.table import rows_table
 
     if format and format not in FORMATS:
         raise GenevaError(f"--format {cut(format)}: it must be one of {', '.join(FORMATS)}")
@@ -107,76 +93,24 @@ def run(
         shard=shard,
         jobs=jobs,
     )
-    if best:
-        _write_best(plan, spec, output)
-        return
-    if resume and (plan.chooses or format not in ("", "csv")):
-        raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
     outcome = Outcome(plan)
-    if format not in ("", "csv"):
-        _show_rows(plan, outcome, output, format)
-    elif format or not is_seen(output):
-        _write_rows(plan, outcome, output, resume)
+    if best:
+        from geneva_cli.study.sweep.best import best_spec
+
+        lines = best_spec(outcome, _tracked(plan, 0))
+        show_text("\n".join(lines) + "\n", output, plan.inputs)
+    elif resume and (plan.chooses or format not in ("", "csv")):
+        raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
+    elif format in ("", "csv"):
+        _write_rows(plan, outcome, output, resume, bool(format))
     else:
-        _show_some(plan, outcome)
-    for note in outcome.notes():
+        rows = [row for block in outcome.rows(_tracked(plan, 0)) for row in block]
+        show(rows_table(plan.sweep.names, rows), output, format, plan.inputs)
+    for note in outcome.refused() if best else outcome.notes():
         print(clean(f"{spec}: {note}"), file=sys.stderr)
 
 
-def _write_rows(plan: "SweepRequest", outcome: "Outcome", output: str, resume: bool) -> None:
-    """Write all rows or the chosen ones as they come; show a person some rows of the file."""
-    from geneva_cli.output import is_seen
-    from geneva_cli.output.growing import GrowingTable
-    from geneva_cli.study.sweep.outcome import Digest
-    from geneva_cli.study.sweep.run import TEXTS
-
-    sweep = plan.sweep
-    first = sweep.shard.number == 1
-    growing = GrowingTable(sweep.names, plan.key, first, output, resume, plan.inputs)
-    with closing(growing) as rows:
-        if rows.message:
-            print(clean(rows.message), file=sys.stderr)
-        if rows.is_whole:
-            return
-        shows_all = is_seen(output)
-        digest = Digest(plan, output) if is_seen("-") and not (shows_all or rows.done) else None
-        blocks = plan.blocks(rows.done) if shows_all else _tracked(plan, rows.done)
-        for block in outcome.rows(blocks):
-            rows.append(block)
-            if digest:
-                digest.add(block)
-        rows.finish(TEXTS)
-    _show_digest(digest)
-
-
-def _show_rows(plan: "SweepRequest", outcome: "Outcome", output: str, format: str) -> None:
-    """Show the rows as a table of another format, once all are computed."""
-    from geneva_cli.output import show
-    from geneva_cli.table import rows_table
-
-    rows = [row for block in outcome.rows(_tracked(plan, 0)) for row in block]
-    show(rows_table(plan.sweep.names, rows), output, format, plan.inputs)
-
-
-def _show_some(plan: "SweepRequest", outcome: "Outcome") -> None:
-    """Show a person the first rows and the best."""
-    from geneva_cli.study.sweep.outcome import Digest
-
-    digest = Digest(plan)
-    for block in outcome.rows(_tracked(plan, 0)):
-        digest.add(block)
-    _show_digest(digest)
-
-
-def _show_digest(digest: "Digest | None") -> None:
-    from geneva_cli.output import show
-
-    for table in digest.tables() if digest else ():
-        show(table)
-
-
 def _refuse_with_best(output: str, format: str, resume: bool) -> None:
-    """Refuse options that do not go with --best, before the search begins."""
     if output != "-" and not output.endswith(".toml"):
         raise GenevaError(f'-o "{cut(output, 300)}": --best writes a spec: it must end in .toml')
     if format:
@@ -185,16 +119,42 @@ def _refuse_with_best(output: str, format: str, resume: bool) -> None:
         raise GenevaError("--resume continues rows, and --best writes none; leave one out")
 
 
-def _write_best(plan: "SweepRequest", spec: str, output: str) -> None:
-    from geneva_cli.output import show_text
-    from geneva_cli.study.sweep.best import best_spec
-    from geneva_cli.study.sweep.outcome import Outcome
+def _write_rows(
+    plan: "SweepRequest", outcome: "Outcome", output: str, resume: bool, whole: bool
+) -> None:
+    """Write all rows or the chosen ones as they come; show a person some of them and the best.
 
-    outcome = Outcome(plan)
-    lines = best_spec(outcome, _tracked(plan, 0))
-    show_text("\n".join(lines) + "\n", output, plan.inputs)
-    for note in outcome.refused():
-        print(clean(f"{spec}: {note}"), file=sys.stderr)
+    ``whole`` shows a person all rows too.
+    """
+    from geneva_cli.output import is_seen, show
+    from geneva_cli.output.growing import GrowingTable
+    from geneva_cli.study.sweep.outcome import Digest
+    from geneva_cli.study.sweep.run import TEXTS
+
+    sweep, shows_all = plan.sweep, is_seen(output)
+    digest = None
+    if shows_all and not whole:
+        digest = Digest(plan)
+        for block in outcome.rows(_tracked(plan, 0)):
+            digest.add(block)
+    else:
+        first = sweep.shard.number == 1
+        growing = GrowingTable(sweep.names, plan.key, first, output, resume, plan.inputs)
+        with closing(growing) as rows:
+            if rows.message:
+                print(clean(rows.message), file=sys.stderr)
+            if rows.is_whole:
+                return
+            if is_seen("-") and not (shows_all or rows.done):
+                digest = Digest(plan, output)
+            blocks = plan.blocks(rows.done) if shows_all else _tracked(plan, rows.done)
+            for block in outcome.rows(blocks):
+                rows.append(block)
+                if digest:
+                    digest.add(block)
+            rows.finish(TEXTS)
+    for table in digest.tables() if digest else ():
+        show(table)
 
 
 def _tracked(plan: "SweepRequest", done: int) -> Iterator[Rows]:

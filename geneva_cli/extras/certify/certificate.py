@@ -156,43 +156,32 @@ def certificate(
     each = mechanism.engagements
     with precision():
         exact = exact_rates(mechanism) if decimals and quantity in QUANTITIES else None
-        if exact is None:
-            # in doubles, as the program computes it
-            formulas = [
-                load_formula(mechanism, e, quantity)
-                if quantity in LOADS
-                else _peak(e.motion.rate, quantity)
-                for e in each
-            ]
-            peaks = [
-                greatest(_curve(formula), {*e.motion.seams_deg, *e.slot.seams_deg}, limit)
-                for formula, e in zip(formulas, each, strict=True)
-            ]
-        else:
-            peaks = [
-                greatest(_curve(_peak(rate, quantity)), (e.entry_deg, e.exit_deg), limit, False)
-                for rate, e in zip(exact, each, strict=True)
-            ]
-    combined = _combined(
-        quantity, [_EngagementPeak(mechanism, *both) for both in zip(each, peaks, strict=True)]
-    )
-    return combined._replace(about=DOUBLES if exact is None else DECIMALS)
+        peaks: list[Greatest] = []
+        for i, e in enumerate(each):
+            if quantity in LOADS:
+                formula = load_formula(mechanism, e, quantity)
+            else:
+                formula = _peak(exact[i] if exact else e.motion.rate, quantity)
+            # in doubles a motion has the seams that the program computes it with
+            seams = (e.entry_deg, e.exit_deg) if exact else {*e.motion.seams_deg, *e.slot.seams_deg}
+            peaks.append(greatest(_curve(formula), seams, limit, not exact))
+    about = DECIMALS if exact else DOUBLES
+    return _combined(mechanism, quantity, peaks)._replace(about=about)
 
 
 def _peak(rate: Formula, quantity: str) -> Formula:
     """Velocity, acceleration, jerk or power from the wheel's rate."""
 
-    def power(x: Number, order: int) -> Jet:
-        speed = rate(x, order + 1)
-        return speed.lower * speed.derivative()
-
-    def derivative(x: Number, order: int) -> Jet:
+    def formula(x: Number, order: int) -> Jet:
+        if quantity == "power":
+            speed = rate(x, order + 1)
+            return speed.lower * speed.derivative()
         jet = rate(x, order + DERIVED[quantity])
         for _ in range(DERIVED[quantity]):
             jet = jet.derivative()
         return jet
 
-    return power if quantity == "power" else derivative
+    return formula
 
 
 def _curve(formula: Formula) -> Callable[[Ball, int], Sequence[Ball]]:
@@ -202,50 +191,32 @@ def _curve(formula: Formula) -> Callable[[Ball, int], Sequence[Ball]]:
     return lambda at, order: [ball_of(c) for c in formula(cast("Number", at), order).c]
 
 
-class _EngagementPeak(NamedTuple):
-    """The greatest size over one engagement, with its angles as the machine's input angles."""
-
-    mechanism: Mechanism
-    engagement: Engagement
-    greatest: Greatest
-
-    def shown(self, interval: BoundedSpan) -> Place:
-        """An interval of the engagement as the machine's; longer by the rounding of both ends."""
-        start = self.mechanism.shown_deg(self.engagement.mid_deg + interval.start)
-        # rounding of an angle that is counted from another mid-motion
-        slack = 0.0 if start == interval.start else (2.0**-42)
-        end = interval.end + (start - interval.start)
-        return Place(start - slack, end + slack)
-
-    def mirrors(self, one: BoundedSpan, other: BoundedSpan) -> bool:
-        """True if two intervals lie opposite each other in a symmetric motion."""
-        apart = abs(one.start + other.end)
-        return self.engagement.motion.symmetric and apart < NARROW_DEG
-
-
-def _combined(quantity: str, peaks: Sequence[_EngagementPeak]) -> Certificate:
-    """One certificate of all engagements."""
-    low = max(one.greatest.low for one in peaks)
+def _combined(mechanism: Mechanism, quantity: str, peaks: Sequence[Greatest]) -> Certificate:
+    each = [*zip(mechanism.engagements, peaks, strict=True)]
+    low = max(peak.low for peak in peaks)
     least = low * (1.0 - TIE)
-    count = sum(one.greatest.intervals for one in peaks)
-    left = [
-        Open(*one.shown(one.greatest.open), _known(one.greatest.open.high))
-        for one in peaks
-        if one.greatest.open and one.greatest.open.high >= least
-    ]
+    count = sum(peak.intervals for peak in peaks)
+    # the intervals that are not settled, by their bounds
+    left = [(p.open.high, _shown(mechanism, e, p.open)) for e, p in each if p.open]
+    left = [one for one in left if one[0] >= least]
     if left:
-        worst = max(left, key=lambda o: math.inf if o.below is None else o.below)
-        return Certificate(quantity, low, None, (), False, count, worst)
-    places = [(one, place) for one in peaks for place in one.greatest.places if place.high >= least]
-    first, last = places[0], places[-1]
-    mirrored = len(places) == 2 and first[0] is last[0] and first[0].mirrors(first[1], last[1])
-    shown = tuple(sorted(one.shown(place) for one, place in places))
-    high = max(one.greatest.high for one in peaks)
-    return Certificate(quantity, low, high, shown, mirrored, count, None)
+        bound, place = max(left, key=lambda one: one[0])
+        below = bound if math.isfinite(bound) else None
+        return Certificate(quantity, low, None, (), False, count, Open(*place, below))
+    places = [(e, place) for e, peak in each for place in peak.places if place.high >= least]
+    (first, one), (last, other) = places[0], places[-1]
+    opposite = first is last and first.motion.symmetric and abs(one.start + other.end) < NARROW_DEG
+    shown = tuple(sorted(_shown(mechanism, e, place) for e, place in places))
+    high = max(peak.high for peak in peaks)
+    return Certificate(quantity, low, high, shown, len(places) == 2 and opposite, count, None)
 
 
-def _known(high: float) -> float | None:
-    return high if math.isfinite(high) else None
+def _shown(mechanism: Mechanism, engagement: Engagement, interval: BoundedSpan) -> Place:
+    """An interval of the engagement as the machine's; longer by the rounding of both ends."""
+    start = mechanism.shown_deg(engagement.mid_deg + interval.start)
+    # rounding of an angle that is counted from another mid-motion
+    slack = 0.0 if start == interval.start else 2.0**-42
+    return Place(start - slack, interval.end + (start - interval.start) + slack)
 
 
 def _outwards(x: float, rounding: str) -> str:

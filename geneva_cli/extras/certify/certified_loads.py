@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias, cast
 
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle_quantities import FORCE, QUANTITIES, TORQUE
-from geneva_cli.loads.forces import Contact, LoadCase, QuantityValue, feeding, sliding, wheel_torque
+from geneva_cli.loads.forces import Contact, LoadCase
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.numerics.arrays import Undecided, enclosed
@@ -53,19 +53,24 @@ def load_formula(mechanism: Mechanism, engagement: Engagement, quantity: str) ->
     def load(input_deg: Number, order: int) -> Jet:
         at = contact(engagement, input_deg, order, reactions=False)
         own = enclosed(input_deg, case)
-        instants = (Instant(own, at, *signs) for signs in _signs(own, at))
-        return _joined([_bounded(QUANTITIES[quantity](instant)) for instant in instants])
+        found: list[Jet] = []
+        for signs in _signs(own, at):
+            one = QUANTITIES[quantity](Instant(own, at, *signs))
+            if one.margin is not None and not one.margin.c[0] > 0.0:
+                raise Undecided("friction alone may hold the wheel: the pin force has no bound")
+            found.append(one.value)
+        return _joined(found)
 
     return torque if quantity == WHEEL_TORQUE else load
 
 
 def _signs(case: LoadCase, at: Contact[Jet]) -> Iterator[Signs]:
     """Yield the signs that are possible; signs that no quantity depends on are 1."""
-    for drives in _signs_of(wheel_torque(case, at)):
-        rubs = _signs_of(sliding(at, drives, case.radius)) if case.rubs else (1.0,)
+    for drives in _signs_of(Instant(case, at).wheel_torque_Nm):
+        rubs = _signs_of(Instant(case, at, drives).slip) if case.rubs else (1.0,)
         for slides in rubs:
             lossless = case.efficiency == 1.0
-            feeds = (1.0,) if lossless else _signs_of(feeding(case, at, drives, slides))
+            feeds = (1.0,) if lossless else _signs_of(Instant(case, at, drives, slides).feeding)
             yield from ((drives, slides, fed) for fed in feeds)
 
 
@@ -74,13 +79,6 @@ def _signs_of(jet: Jet) -> tuple[float, ...]:
 
     sign = ball_of(jet.c[0]).sign
     return (float(sign),) if sign else (1.0, -1.0)
-
-
-def _bounded(load: QuantityValue[Jet]) -> Jet:
-    """Return the value of a load; raises Undecided where friction alone may hold the wheel."""
-    if load.margin is not None and not load.margin.c[0] > 0.0:
-        raise Undecided("the pin force has no bound")
-    return load.value
 
 
 def _joined(loads: Sequence[Jet]) -> Jet:

@@ -38,32 +38,24 @@ def exact_rates(mechanism: Mechanism) -> list[Formula] | None:
     rates: list[Formula] = []
     for i, engagement in enumerate(mechanism.engagements):
         step = _decimal(wheel.steps[i]) / 360 if wheel.steps else Fraction(1, wheel.z)
-        advance = drive.exact_advance(_sin_cos(_crank_deg(mechanism, i) / 360), _exact)
+        # the crank's angle at which its roller crosses the line of centres, in turns
+        places = drive.roller_angles_deg
+        at = _decimal(places[i]) / 360 if places else Fraction(i, drive.rollers)
+        advance = drive.exact_advance(_sin_cos(at), _exact)
         followed = wheel.exact_rate(_sin_cos(step), L, _exact)
         assert advance is not None  # it is not None at angle 0
-        rates.append(_rate(advance, followed))
+        rates.append(_followed(advance, followed))
         if not _ends_proved(rates[-1], engagement.motion):
             return None
     return rates
 
 
-def _rate(advance: Displacement, followed: FollowedRate) -> Formula:
+def _followed(advance: Displacement, followed: FollowedRate) -> Formula:
     return lambda input_deg, order: followed(*advance(radians(input_deg), order + 1))
 
 
-def _crank_deg(mechanism: Mechanism, i: int) -> Fraction:
-    """Angle of the crank at which its roller number i crosses the line of centres, degrees."""
-    drive = mechanism.spec.drive
-    if drive.roller_angles_deg:
-        return _decimal(drive.roller_angles_deg[i])
-    return Fraction(360 * i, drive.rollers)
-
-
 def _ends_proved(rate: Formula, motion: WheelMotion) -> bool:
-    """True if the wheel is at rest within ``EDGE_DEG`` of the motion's ends: its rate changes sign.
-
-    In between it turns forwards.
-    """
+    """True if the wheel's rate changes its sign within ``EDGE_DEG`` of the motion's ends."""
     try:
         for end_deg, outwards in ((motion.entry_deg, -EDGE_DEG), (motion.exit_deg, EDGE_DEG)):
             at = Ball.exact(end_deg)
@@ -84,6 +76,5 @@ def _exact(x: float) -> float:
 
 
 def _sin_cos(turn: Fraction) -> tuple[float, float]:
-    """Sine and cosine of pi times a fraction."""
     angle = cast("float", Ball.fraction(turn) * Ball.library.pi)
     return Ball.library.sin(angle), Ball.library.cos(angle)

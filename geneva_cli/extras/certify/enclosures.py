@@ -55,10 +55,7 @@ class Greatest(NamedTuple):
 
 
 class _Enclosure(NamedTuple):
-    """Balls that hold the function in the middle of an interval, and on all of it.
-
-    On all of it they hold its first two derivatives too.
-    """
+    """Balls that hold the function in the middle of an interval, and on all of it."""
 
     middle: Ball
     value: Ball
@@ -72,7 +69,6 @@ class _Enclosure(NamedTuple):
 
     @property
     def is_concave(self) -> bool:
-        """True if the size is concave."""
         return self.value.sign * self.bend.sign < 0
 
 
@@ -102,13 +98,12 @@ def greatest(curve: Curve, seams: Iterable[float], limit: int, sharp: bool = Tru
     Between two seams, in degrees, the curve is one analytic formula. The first and the last are
     exact if ``sharp``; else they are within ``EDGE_DEG`` of the curve's ends.
     """
-    return _Search(curve, limit).run(_pieces(sorted(seams), sharp))
-
-
-def _pieces(seams: Sequence[float], sharp: bool) -> list[_Piece]:
-    """Pieces between seams; seams as near as their own errors are one."""
-    ends = pairwise(distinct(seams, 4.0 * EDGE_DEG))
-    return [_Piece(a, b, sharp and a == seams[0], sharp and b == seams[-1]) for a, b in ends]
+    ends = sorted(seams)
+    pieces = [
+        _Piece(a, b, sharp and a == ends[0], sharp and b == ends[-1])
+        for a, b in pairwise(distinct(ends, 4.0 * EDGE_DEG))  # as near as their errors: one
+    ]
+    return _Search(curve, limit).run(pieces)
 
 
 class _Search:
@@ -123,7 +118,6 @@ class _Search:
         self.unsettled: list[BoundedSpan] = []
 
     def run(self, pieces: Sequence[_Piece]) -> Greatest:
-        """The answer over some pieces."""
         for piece in pieces:
             for x in (piece.start, piece.end):
                 self._take(*piece.at(x))
@@ -151,7 +145,6 @@ class _Search:
         heapq.heappush(self.waiting, (-high, a, b, piece))
 
     def _examine(self, piece: _Piece, interval: BoundedSpan) -> None:
-        """Settle an interval, or halve it."""
         a, b, high = interval
         enclosure = self._on(*piece.reach(a, b))
         if enclosure:
@@ -203,10 +196,7 @@ class _Search:
         return BoundedSpan(a, b, high)
 
     def _take_top(self, piece: _Piece, a: float, b: float, on: _Enclosure) -> bool:
-        """Take the one place where the slope is 0; False if Newton does not close on it.
-
-        The signs of the slopes beside it prove that it is there, and that it is a top.
-        """
+        """Take the one place where the slope is 0; False if Newton does not close on it."""
         x, y = piece.reach(a, b)
         # 60 Newton steps, each of which squares the width
         for _ in range(60):
@@ -253,7 +243,6 @@ class _Search:
 
 
 def _sum(coefficients: Sequence[Ball], t: Ball) -> Ball:
-    """Value of a polynomial."""
     total = coefficients[-1]
     for c in reversed(coefficients[:-1]):
         total = total * t + c

@@ -43,12 +43,12 @@ ROWS = {
     "inertia_ratio": "sizing.inertia_ratio",
     "residual_deg": "vibration.residual_deg",
 }
-# What no number says of the alternatives; the design's own words are its machine's.
+# What no number says of the design and the alternatives; its lock or detent holds its dwell.
 WORDS = {
-    "holds_the_dwell_by": ("cam", "motor torque"),
-    "impact_at_entry": ("none", "none"),
-    "without_power": ("follows cam", "coasts"),
-    "another_step_or_time": ("a new cam", "a parameter"),
+    "holds_the_dwell_by": ("", "cam", "motor torque"),
+    "impact_at_entry": ("if R/L is off", "none", "none"),
+    "without_power": ("follows crank", "follows cam", "coasts"),
+    "another_step_or_time": ("a new wheel", "a new cam", "a parameter"),
 }
 LAWS: dict[str, Law] = {"cam": ModifiedSine(), "servo": SCurve()}
 NAMES = tuple(LAWS)
@@ -66,22 +66,12 @@ def against(path: str, settings: Sequence[str], names: Sequence[str]) -> Table:
     design = load(path, settings)
     columns = {name: _values(design, name) for name in dict.fromkeys(("geneva", *names))}
     rows: list[tuple[Cell, ...]] = [(row, *(own[row] for own in columns.values())) for row in ROWS]
-    own_words = _words(design)
-    for row, words in WORDS.items():
-        cells = {"geneva": own_words[row], **dict(zip(NAMES, words, strict=True))}
+    for row, (own_words, *words) in WORDS.items():
+        cells = {"geneva": own_words or design.spec.dwell_holder or "nothing"}
+        cells |= zip(NAMES, words, strict=True)
         rows.append((row, *(cells[name] for name in columns)))
     known = [row for row in rows if any(cell is not None for cell in row[1:])]
     return rows_table(("quantity", *columns), known, design.spec.title, mixed=True)
-
-
-def _words(design: Design) -> dict[str, str]:
-    """What no number says of the design, by the rows of WORDS."""
-    return {
-        "holds_the_dwell_by": design.spec.dwell_holder or "nothing",
-        "impact_at_entry": "if R/L is off",
-        "without_power": "follows crank",
-        "another_step_or_time": "a new wheel",
-    }
 
 
 def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
@@ -131,7 +121,6 @@ def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
 
 
 def _values(design: Design, name: str) -> dict[str, Cell]:
-    """The values of the design itself or of an alternative, by the names of ROWS."""
     machine = alternative(design, name) if name in NAMES else design.mechanism
     values = dict(zip(ROWS, pick([*ROWS.values()]).of(machine), strict=True))
     if name != "servo":
@@ -150,11 +139,7 @@ def _values(design: Design, name: str) -> dict[str, Cell]:
 
 
 def _servo_rms_Nm(design: Design) -> float:
-    """The root mean square of a servo's motor torque over a cycle.
-
-    The reducer's losses count whether the motor drives the load or brakes it. Torques are lines
-    between the law's breaks and the places where the load begins to drive.
-    """
+    """The root mean square of a servo's motor torque over a cycle."""
     motor, first, law = design.spec.motor, design.timings[0], LAWS["servo"]
     unit = math.radians(first.index_deg or 0.0) / first.motion_s**2
     inertia, resisting = inertia_kgm2(design.spec), resisting_torque_Nm(design.spec)

@@ -12,7 +12,7 @@ from decimal import ROUND_CEILING, Context
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.extras.servo.electronic_cam import CamPoints, cam_pairs, cam_pieces, cam_points
-from geneva_cli.motion.knots import periods
+from geneva_cli.motion.motion_table import periods
 from geneva_cli.output.formats import CONTROLLERS
 from geneva_cli.table import Table
 
@@ -36,9 +36,9 @@ def codesys(cam: CamPoints, title: str) -> Iterator[str]:
     yield "  cam : MC_CAM_REF := (byType := 3, "
     yield f"xStart := 0.0, xEnd := {end!r}, nElements := {count});\n"
     yield f"  points : ARRAY[1..{count}] OF SMC_CAMXYVA := [\n"
-    columns = (cam.master_deg, cam.slave_deg, cam.velocity, cam.acceleration_per_deg)
+    columns = (column + 0.0 for column in cam[:4])  # without a minus before 0
     for i, row in enumerate(zip(*(column.tolist() for column in columns), strict=True), 1):
-        x, y, v, a = (value + 0.0 for value in row)
+        x, y, v, a = row
         comma = "," if i < count else ""
         yield f"    (dX := {x!r}, dY := {y!r}, dV := {v!r}, dA := {a!r}){comma}\n"
     yield "  ];\nEND_VAR\n"

@@ -14,8 +14,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.knots import Stretch, stretches
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.motion_table import Stretch, stretches
 from geneva_cli.numerics.jet import Array
 from geneva_cli.table import Table
 
@@ -26,7 +26,7 @@ BETWEEN = 1.01
 LEAST_DEG = 1e-3  # shorter pieces are not halved: a servo's cycle is longer
 
 # widths of pieces, and the states after and before their ends -> powers of their polynomials
-Interpolation: TypeAlias = "Callable[[Array, Array, Array], Array]"
+Interpolation: TypeAlias = Callable[[Array, Array, Array], Array]
 
 
 class CamPoints(NamedTuple):
@@ -89,10 +89,7 @@ def cam_points(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoi
 def _period_points(
     mechanism: Mechanism, tolerance_deg: float, before: Array | None
 ) -> tuple[Array, float, Array]:
-    """Points (4, k) of a period without its end, their error, and the state (3,) at its end.
-
-    ``before`` is the state at the end of the period before it, if there is one.
-    """
+    """Points (4, k) of a period without its end, their error, and the state (3,) at its end."""
     points: list[Array] = []
     error_deg = 0.0
     for stretch in stretches(mechanism):
@@ -105,11 +102,10 @@ def _period_points(
             ramp = np.append(begin[0, 0], before[1:])[:, None]
             begin[:, :1] = after
             points.append(np.vstack([[[start]], ramp]))
-            error_deg = max(
-                error_deg,
-                _error(stretch, np.array([start, nodes[0]]), ramp, after),
-                _error(stretch, nodes[:2], after, end[:, :1]),
-            )
+            places = np.append(start, nodes[:2])
+            states = np.hstack([ramp, after]), np.hstack([after, end[:, :1]])
+            powers = _quintic(np.diff(places), *states)
+            error_deg = max(error_deg, float(_errors(stretch, places, powers).max()))
         points.append(np.vstack([nodes[:-1], begin]))
         before = end[:, -1]
     assert before is not None  # a period has a motion
@@ -140,7 +136,14 @@ def cam_pairs(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoin
         here = (ends >= stretch.begin_deg - grid) & (ends <= stretch.end_deg + grid)
         slave[here] = stretch.slave_deg(ends[here])
     slave = grid * np.rint(slave / grid)
-    error_deg = max(_linear_error(stretch, ends, slave) for stretch in own)
+    errors = []
+    for stretch in own:
+        inner = ends[(ends > stretch.begin_deg) & (ends < stretch.end_deg)]
+        nodes = np.concatenate([[stretch.begin_deg], inner, [stretch.end_deg]])
+        places = (nodes[:-1, None] + np.diff(nodes)[:, None] * INSIDE).ravel()
+        off = abs(np.interp(places, ends, slave) - stretch.slave_deg(places))
+        errors.append(BETWEEN * float(off.max()))
+    error_deg = max(errors)
     again = np.arange(count)[:, None]
     master = np.append((again * mechanism.period_deg + ends[:-1]).ravel(), 0.0)
     angle = np.append((again * step_deg(mechanism) + slave[:-1]).ravel(), 0.0)
@@ -158,10 +161,7 @@ def step_deg(mechanism: Mechanism) -> float:
 def _halved(
     stretch: Stretch, interpolation: Interpolation, tolerance_deg: float, least_deg: float
 ) -> tuple[Array, tuple[Array, Array], Array]:
-    """Nodes of a stretch, the states (3, k) after and before each piece's ends, and its errors.
-
-    Pieces are halved until each is within the tolerance, or no longer than ``least_deg``.
-    """
+    """Nodes of a stretch, the states (3, k) after and before each piece's ends, and its errors."""
     nodes = np.array([stretch.begin_deg, stretch.end_deg])
     while True:
         after = stretch.states(nodes[:-1], 1)
@@ -186,20 +186,6 @@ def _errors(stretch: Stretch, nodes: Array, powers: Array) -> Array:
     return out
 
 
-def _error(stretch: Stretch, nodes: Array, after: Array, before: Array) -> float:
-    """The error of one polynomial of degree five between two nodes and their states (3, 1)."""
-    return float(_errors(stretch, nodes, _quintic(np.diff(nodes), after, before))[0])
-
-
-def _linear_error(stretch: Stretch, master: Array, slave: Array) -> float:
-    """The greatest error of linear interpolation in a stretch."""
-    inner = master[(master > stretch.begin_deg) & (master < stretch.end_deg)]
-    nodes = np.concatenate([[stretch.begin_deg], inner, [stretch.end_deg]])
-    places = (nodes[:-1, None] + np.diff(nodes)[:, None] * INSIDE).ravel()
-    true = stretch.slave_deg(places)
-    return BETWEEN * float(abs(np.interp(places, master, slave) - true).max())
-
-
 def _quintic(width: Array, after: Array, before: Array) -> Array:
     """The powers (6, k) of the polynomials with these values, slopes and curvatures at the ends."""
     y0, v0, a0 = after
@@ -214,5 +200,4 @@ def _quintic(width: Array, after: Array, before: Array) -> Array:
 
 
 def _linear(width: Array, after: Array, before: Array) -> Array:
-    """The powers (2, k) of the straight lines between the ends."""
     return np.stack([after[0], (before[0] - after[0]) / width])

@@ -21,13 +21,11 @@ class _Phase(NamedTuple):
     jerk: float
 
     def at(self, u: Number, order: int) -> Jet:
-        """The jet of s at u in the segment."""
         x = Jet.variable(u - self.begin, order)
         speed = self.v + x * (0.5 * self.a + x * (self.jerk / 6.0))
         return self.s + x * speed
 
     def after(self, begin: float, jerk: float) -> _Phase:
-        """The segment that follows, from its beginning."""
         x = begin - self.begin
         a = self.a + self.jerk * x
         v = self.v + x * (self.a + 0.5 * self.jerk * x)
@@ -63,17 +61,16 @@ class SCurve(Law):
 
     @cached_property
     def _phases(self) -> list[_Phase]:
-        """The segments of the first half."""
         rise = 0.5 * (1.0 - self.cruise)
         ramp = self.ramp * rise
         most = 2.0 / (1.0 + self.cruise) / (rise - ramp)
-        phases = [_Phase(0.0, 0.0, 0.0, 0.0, most / ramp)] if ramp else []
-        if ramp < rise - ramp:
-            phases.append(
-                phases[-1].after(ramp, 0.0) if phases else _Phase(0.0, 0.0, 0.0, most, 0.0)
-            )
         if ramp:
+            phases = [_Phase(0.0, 0.0, 0.0, 0.0, most / ramp)]
+            if ramp < rise - ramp:
+                phases.append(phases[-1].after(ramp, 0.0))
             phases.append(phases[-1].after(rise - ramp, -most / ramp))
+        else:
+            phases = [_Phase(0.0, 0.0, 0.0, most, 0.0)]
         if self.cruise:
             phases.append(phases[-1].after(rise, 0.0)._replace(a=0.0))
         return phases

@@ -18,7 +18,7 @@ import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pin_path import PinPath
-from geneva_cli.drives.transmission import PinTravel, same
+from geneva_cli.drives.transmission import same
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Anchor, Engagement, Path, Slot, SlotAxis, WheelMotion
@@ -301,7 +301,7 @@ def _slot(b: float) -> tuple[Engagement, RadialSlot]:
         step = poses.HalfStep(degrees, 180)
 
     entry, middle, exit_ = (
-        Anchor(pose.crank_deg, pose.wheel, pose.along, PinTravel(pose, same))
+        Anchor(pose.crank_deg, pose.wheel, pose.along, poses.PinTravel(pose, same))
         for pose in poses.radial(1.0, step)
     )
     path = AnchoredPath((entry, middle, exit_))

@@ -14,10 +14,17 @@ from geneva_cli.kinds.linkages.link_path import (
     PointDisplacement,
 )
 from geneva_cli.kinds.linkages.path_wheels import chosen, solved_wheels
+from geneva_cli.kinds.linkages.tangent_pairs import (
+    DOUBLE_ROOT_SLOPE,
+    displaced,
+    newton,
+    residual,
+)
 from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.poses import HalfStep
-from geneva_cli.numerics.arrays import Array, Complex, library, parameter
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import Array, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 
@@ -59,37 +66,56 @@ def _engagement(
     path: LinkPath, step: HalfStep, entry: Array, exit_: Array, sense: Array
 ) -> tuple[Engagement, float]:
     """Engagement from crank angles at entry and exit in radians, and the centre distance."""
-    angles = entry, 0.5 * (entry + exit_), exit_
-    (p, t), (place, _), (q, u) = (_point(path, phi) for phi in angles)
+    single = not any(np.ndim(x) for x in (*path.numbers, step.b)) and len(entry) == 1
+
+    def plain(x: Array) -> float:
+        return parameter(x.item() if single else x)
+
+    middle, ends = _polished(path, step.b, np.hstack((entry, exit_)), sense)
+    half, late = (plain(0.5 * (ends[:, 1:] + k * ends[:, :1])) for k in (-1.0, 1.0))
+    # from the roller's place in the middle: the roller at both ends, its tangents, and the centre
+    at = displaced(path, middle, ends)
+    (p, q), (t, u) = (np.hsplit(z, 2) for z in (at.p, at.t))
     rho = np.abs(q - p) / np.abs(t + u)
     centre = 0.5 * ((p + rho * t) + (q - rho * u))
-    rays = [at - centre for at in (p, place, q)]
-    half_way = rays[0] / np.abs(rays[0]) + rays[2] / np.abs(rays[2])
-    turn, ahead = (sense * np.angle(rays[1] * line.conj()) for line in (half_way, -centre))
-    half_deg = np.degrees(0.5 * (exit_ - entry))
-    numbers = [sense, angles[1], half_deg, turn, ahead, centre.real, centre.imag, np.abs(centre)]
-    numbers += [*angles, *(part for ray in rays for part in (ray.real, ray.imag, np.abs(ray)))]
-    single = not any(np.ndim(x) for x in (*path.numbers, step.b)) and len(entry) == 1
-    s, middle, half, back, front, x, y, L, *rest = (
-        parameter(n.item() if single else n) for n in numbers
-    )
+    x, y = path.at(middle, 0)
+    axis = -(x.c[0] + 1j * y.c[0] + centre)  # from the wheel's centre to the crank's axis
+    L, s = plain(np.abs(axis)), plain(sense)
+    half_way = (p - centre) / np.abs(p - centre) + (q - centre) / np.abs(q - centre)
+    turn, ahead = (plain(sense * np.angle(line.conj() * -centre)) for line in (half_way, axis))
     anchors = []
-    for i, (end, wheel) in enumerate(zip((-1.0, 0.0, 1.0), (-step.b, back, step.b), strict=True)):
-        along_x, along_y, far = rest[3 + 3 * i : 6 + 3 * i]
-        move = _along_ray(path.about(rest[i]), (along_x, along_y), s, L, end)
-        anchors.append(Anchor(end * half, wheel, far / L, move))
-    anchored = AnchoredPath(tuple(anchors), front)
-    body = LinkRate(path, middle, s)
-    reactions = LinkReactions(*body, L, -x / L, -y / L)
+    for end, wheel, angle, ray in (
+        (-1.0, -step.b, middle + ends[:, :1], p - centre),
+        (0.0, turn, middle, -centre),
+        (1.0, step.b, middle + ends[:, 1:], q - centre),
+    ):
+        along = plain(ray.real), plain(ray.imag)
+        move = _along_ray(path.about(plain(angle)), along, s, L, end)
+        input_deg = end * half / DEGREE if end else 0.0 - late / DEGREE
+        anchors.append(Anchor(input_deg, wheel, plain(np.abs(ray)) / L, move))
+    anchored = AnchoredPath(tuple(anchors), ahead)
+    body = LinkRate(path, plain(middle), s)
+    reactions = LinkReactions(*body, L, plain(axis.real) / L, plain(axis.imag) / L)
     motion = StraightSlotMotion(anchored, step.b, mirrored=False)
     return Engagement(0.0, anchored, RadialSlot(anchored), motion, body, reactions, -s), L
 
 
-def _point(path: LinkPath, phi: Array) -> tuple[Complex, Complex]:
-    """Position and unit tangent at crank angles (n, 1), as complex numbers."""
-    x, y = path.at(phi, 1)
-    (p, v) = (np.asarray(a) + 1j * np.asarray(b) for a, b in zip(x.c, y.c, strict=True))
-    return p, v / np.abs(v)
+def _polished(path: LinkPath, b: float, ends: Array, sense: Array) -> tuple[Array, Array]:
+    """Crank angle in the middle of a motion, (n, 1), and of entry and exit from there, (n, 2).
+
+    A roller that moves much more slowly than its links has few digits in its place at a crank
+    angle, and in a short motion the angle itself has few. Its displacement has them all.
+    """
+    middle = 0.5 * (ends[:, :1] + ends[:, 1:])
+    ends, half = ends - middle, np.broadcast_to(b, sense.shape)[:, 0]
+    for _ in range(2):
+        at = displaced(path, middle, ends)
+        rest = residual(at, half, sense[:, 0])
+        # a step towards a double root would only be rounding
+        steep = np.abs(rest.det) >= DOUBLE_ROOT_SLOPE * np.abs(rest.by_exit)
+        ends = ends + np.where(steep[:, None], newton(at, rest), 0.0)
+    moved = middle + 0.5 * (ends[:, :1] + ends[:, 1:])
+    return moved, ends - (moved - middle)
 
 
 class AlongRay(NamedTuple):

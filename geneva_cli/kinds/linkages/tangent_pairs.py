@@ -22,12 +22,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 
 from geneva_cli.kinds.linkages.link_path import LinkPath
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, blocks, joined, record_of
+from geneva_cli.numerics.jet import Jet, sine_versine
 
 SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 # Slope of the index angle along the family of pairs. With less, two roots are nearly one: they are
@@ -96,6 +97,17 @@ def points(path: LinkPath, phi: Array) -> PathPoints:
     """Points of paths; a row of ``phi`` holds the angles of one design."""
     x, y = path.at(phi, 2)
     return _points(phi, *(_complex(*place) for place in zip(x.arrays(), y.arrays(), strict=True)))
+
+
+def displaced(path: LinkPath, phi: Array, tau: Array) -> PathPoints:
+    """Points after crank rotations (n, 2) from their places at crank angles (n, 1), radians.
+
+    In numbers of 80 bits, where the computer has them: what is left of the links' speeds in a
+    roller that moves much more slowly then still has the digits of a double.
+    """
+    begin, since = (cast("Array", np.asarray(x, np.longdouble)) for x in (phi, tau))
+    x, y = path.about(cast("float", begin))(*sine_versine(Jet.variable(since, 2)))
+    return _points(tau, *(_complex(*place) for place in zip(x.arrays(), y.arrays(), strict=True)))
 
 
 def _points(phi: Array, p: Complex, v: Complex, a: Complex) -> PathPoints:

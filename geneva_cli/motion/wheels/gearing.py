@@ -17,7 +17,7 @@ from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.engagement import CarrierVelocity, Displacement, Slot, WheelMotion
+    from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
     from geneva_cli.motion.plane_motion import PlaneMotion
 
 
@@ -223,10 +223,6 @@ class Gearing(SpecTable):
         from geneva_cli.motion.plane_motion import PlaneMotion
 
         return PlaneMotion()
-
-    def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
-        """Angular velocity of the roller's carrier; None for a crank arm in the plane."""
-        return None
 
     def exact_rate(
         self, step: tuple[float, float], L: float, exact: Callable[[float], float]

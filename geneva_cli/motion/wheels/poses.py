@@ -15,9 +15,10 @@ exactly zero. So are the wheel's angle and velocity there.
 import math
 from typing import NamedTuple
 
+from geneva_cli.motion.engagement import Displacement, Vector
 from geneva_cli.motion.wheels.classic import gap, half_motion_deg
 from geneva_cli.numerics.angles import sin_cos_pi
-from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.jet import Jet, Number
 
 
 class PinPose(NamedTuple):
@@ -29,11 +30,21 @@ class PinPose(NamedTuple):
     slope: tuple[float, float]  # d(position)/d(crank angle)
     bend: tuple[float, float]  # second derivative
 
-    def displacement(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+    def displacement(self, sine: Jet, versine: Jet) -> Vector:
         """Displacement since the pose, from sin d and 1 - cos d of the crank's rotation d."""
-        u = sine * self.slope[0] + versine * self.bend[0]
-        v = sine * self.slope[1] + versine * self.bend[1]
-        return u, v
+        (along, across), (bend_along, bend_across) = self.slope, self.bend
+        return sine * along + versine * bend_along, sine * across + versine * bend_across
+
+
+class PinTravel(NamedTuple):
+    """Displacement of a crank's pin from a pose, by the input angle."""
+
+    pose: PinPose
+    advance: Displacement  # of the crank: sin d and 1 - cos d
+
+    def __call__(self, tau: Number, order: int) -> Vector:
+        """Displacement along the pose's ray and across it, ``tau`` input radians later."""
+        return self.pose.displacement(*self.advance(tau, order))
 
 
 class HalfStep(NamedTuple):

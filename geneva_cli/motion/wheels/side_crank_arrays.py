@@ -6,7 +6,7 @@ A + cos phi) the crank's angle, C = sqrt(1 - A² sin² f) and rho = C + A cos f 
     f1 = C / rho,   f2 = A (1-A²) sin f / rho³        (by the input angle)
 
 and the wheel's acceleration is g2 f1² + g1 f2, with g1 and g2 the wheel's derivatives by f (see
-``classic_arrays``). As functions of f all of them are smooth even where |A| is near 1. C² is
+``classic``). As functions of f all of them are smooth even where |A| is near 1. C² is
 written as a sum of squares, and rho as (1-A²)/(C - A cos f) where A cos f < 0: nothing cancels.
 
 With c = cos f, g = 1 outside and -1 inside, and D = 1 - 2 g l c + l², the acceleration is

@@ -6,14 +6,14 @@ from collections.abc import Callable
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.engagement import Displacement, Slot
+from geneva_cli.motion.engagement import Displacement, Height, Slot
 from geneva_cli.motion.path_and_slot import AnchoredPath, MeridianSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot
 from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
-from geneva_cli.numerics.jet import Jet, Number, turning
+from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.rules import Range
 from geneva_cli.spec.schema import Example
 
@@ -109,41 +109,6 @@ class Spherical(Gearing):
             return turning(versine * (sin_th * cos_S) + least, sine * sin_th)
 
         return rate
-
-    def body(self, place: RollerPlace, turn: Displacement) -> CrankCone:
-        """Angular velocity of the crank, whose axis differs from the roller's."""
-        return CrankCone(turn, place.cone)
-
-
-class CrankCone(NamedTuple):
-    """Rotation of a spherical crank about the axis of its roller, which it carries on a cone."""
-
-    turn: Displacement
-    cos_th: float
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """Rate, positive with the wheel, ``tau`` input radians after mid-motion."""
-        sine, versine = self.turn(tau, order + 1)
-        out: Jet = turning(1.0 - versine, sine) * -self.cos_th
-        return out
-
-
-class Height(NamedTuple):
-    """The pin's position along the wheel's axis: top - fall (1 - cos a)."""
-
-    top: float
-    fall: float
-    turn: Displacement
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """Position ``tau`` input radians after mid-motion."""
-        out: Jet = self.top - self.turn(tau, order)[1] * self.fall
-        return out
-
-    @property
-    def hub(self) -> float:
-        """Position of the centre of the pin's circle."""
-        return self.top - self.fall
 
 
 class Sphere(NamedTuple):

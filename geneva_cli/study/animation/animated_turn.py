@@ -10,12 +10,13 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate
+from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import AxisPlace, Joint, Link
 from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Bar, CarriedShapes, Place, Track
-from geneva_cli.parts.assembly import Passage, assembled_by_input
+from geneva_cli.parts.assembly import assembled_by_input
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
@@ -48,7 +49,7 @@ class MachineTurn:
             motion = one.engagement.motion
             for a, b in cut(motion.entry_deg, motion.exit_deg, motion.breaks_deg):
                 mid = one.mid + behind
-                pieces.append((mid + a, mid + b, _by_motion(one, mid, turned)))
+                pieces.append((mid + a, mid + b, _by_motion(motion, mid, turned)))
             turned += one.engagement.half_step
             end = after.entry if after else self.end - behind
             pieces.append((one.exit + behind, end + behind, resting(turned)))
@@ -94,21 +95,18 @@ class MachineTurn:
         gain = -sign * (sense or 1.0) * math.tau
         rate = gain / self.turn_deg
 
-        def even(x: Array) -> Array:
-            return ahead + rate * (x - one.mid)
-
-        def shaft(x: Array) -> Array:
-            at = self.assembly.from_mid(x, one.mid)
-            return even(x) + rate * (one.engagement.own_deg(at) - at)
+        turned -= rate * behind  # cranks turn at one rate, also if that varies
 
         def angle(x: Array) -> Array:
+            even = ahead + rate * (x - one.mid)
+            if sense:
+                at = self.assembly.from_mid(x, one.mid)
+                return turned + (even + rate * (one.engagement.own_deg(at) - at))
             u, v = (self.centre(0, x) - (self.L, 0.0)).T
-            off: Array = (np.arctan2(v, u) - even(x) + math.pi) % math.tau - math.pi
-            return even(x) + off
+            off: Array = (np.arctan2(v, u) - even + math.pi) % math.tau - math.pi
+            return turned + (even + off)
 
-        first = shaft if sense else angle
-        turned -= rate * behind  # cranks turn at one rate, also if that varies
-        return self._sampled(lambda x: turned + first(x), ANGLE_ERROR, gain)
+        return self._sampled(angle, ANGLE_ERROR, gain)
 
     def centre(self, number: int, input_deg: Array) -> Array:
         """The centre of a roller by its number, mm, (n, 2)."""
@@ -180,9 +178,9 @@ def _plates(
     return out
 
 
-def _by_motion(one: Passage, mid: float, turned: float) -> Moving:
+def _by_motion(motion: WheelMotion, mid: float, turned: float) -> Moving:
     def moving(x: Array) -> tuple[Array, Array]:
-        psi = one.engagement.motion(x - mid, 1)
+        psi = motion(x - mid, 1)
         return turned + np.asarray(psi.c[0]), np.asarray(psi.c[1]) * (math.pi / 180.0)
 
     return moving

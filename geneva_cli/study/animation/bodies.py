@@ -14,9 +14,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Plate, placed
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, polygon
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link
 from geneva_cli.motion.records import thing
-from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.output.scene import Body, Box, Track
 from geneva_cli.parts.gears.gear_curves import gears_table
@@ -33,10 +33,14 @@ def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Bod
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
     L = turn.L
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
-    shapes = _hollow(_shapes(design, "wheel")) if turn.mechanism.axes else ()
-    flat = bool(shapes)
+    shapes = _shapes(design, "wheel") if turn.mechanism.axes else ()
+    if rims := tuple(s for s in shapes if isinstance(s, Circle) and s.layer == "WHEEL"):
+        # an internal wheel: its rim first, then what is cut out of the plate
+        cuts = (s for s in shapes if s not in rims)
+        hollow = (s._replace(layer="HOLLOW") if s.layer == "WHEEL" else s for s in cuts)
+        shapes = (*rims, *hollow)
     yield from wheels_of(design.spec).bodies(shapes, turn)
-    if flat:
+    if shapes:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
         for place in turn.mechanism.crank_places:
@@ -45,7 +49,11 @@ def bodies(design: Design, turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Bod
         yield Body("groove", _shapes(design, "groove"), (L, 0.0), still())
         if turn.mechanism.frame > 0.0:
             yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still())
-    yield from round_gears(turn, teeth)
+    for link in links_at(turn.mechanism, np.zeros(1)):  # round gears on shafts that stand
+        angle = _angle(turn, link)
+        if link.name in teeth.round and angle:
+            (x, y) = (float(c[0]) for c in link.joints[0])
+            yield Body(link.name, teeth.round[link.name], (x, y), angle)
     if design.spec.gears:
         yield from _gears(turn, teeth)
 
@@ -57,22 +65,11 @@ def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
     return ()
 
 
-def _hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
-    """The shapes of an internal wheel: its rim first, then its cut-outs."""
-    rims = tuple(s for s in shapes if isinstance(s, Circle) and s.layer == "WHEEL")
-    if not rims:
-        return shapes
-    # the layer of what is cut out of a plate, together with the plate's edge
-    hollow = [s._replace(layer="HOLLOW") if s.layer == "WHEEL" else s for s in shapes]
-    return (*rims, *(h for h, s in zip(hollow, shapes, strict=True) if s not in rims))
-
-
 def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
-    """Both gears, with their teeth or by their pitch curves."""
     machine = turn.mechanism
     gears, (x, sense) = machine.spec.gears, machine.gear_shaft
     assert gears
-    driven, driver = teeth.pair or _pitch_curves(turn, -sense)
+    driven, driver = teeth.pair or _pitch_curves(machine, -sense)
     before = machine.spec.drive_before
     first = before is not None and before.gears is not None  # the gears turn the shaft of the drive
     yield Body(
@@ -86,18 +83,13 @@ def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
     )
 
 
-def _pitch_curves(turn: MachineTurn, sign: float) -> list[tuple[Shape, ...]]:
-    """The pitch curves of the driven gear and the driver."""
-    table = gears_table(turn.mechanism, 0.001, 241).to_dict()
-    # the table turns as an external wheel does
-    return [
-        (_closed(-table[f"{gear}_x_mm"], -sign * table[f"{gear}_y_mm"]),)
-        for gear in ("driven", "driver")
-    ]
-
-
-def _closed(x: Array, y: Array) -> Contour:
-    return polygon("GEAR", list(zip(x[:-1].tolist(), y[:-1].tolist(), strict=True)))
+def _pitch_curves(machine: Mechanism, sign: float) -> list[tuple[Shape, ...]]:
+    table = gears_table(machine, 0.001, 241).to_dict()
+    curves = []
+    for gear in ("driven", "driver"):  # the table turns as an external wheel does
+        x, y = -table[f"{gear}_x_mm"][:-1], -sign * table[f"{gear}_y_mm"][:-1]
+        curves.append((polygon("GEAR", list(zip(x.tolist(), y.tolist(), strict=True))),))
+    return curves
 
 
 class DrawnTeeth(NamedTuple):
@@ -127,15 +119,6 @@ def drawn_teeth(design: Design) -> DrawnTeeth:
 def _gear_shapes(gear: Member) -> tuple[Shape, ...]:
     assert isinstance(gear.part, Plate)
     return (gear.part.outline, *gear.part.holes)
-
-
-def round_gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
-    """Round gears with teeth on shafts that stand."""
-    for link in links_at(turn.mechanism, np.zeros(1)):
-        angle = _angle(turn, link)
-        if link.name in teeth.round and angle:
-            (x, y) = (float(c[0]) for c in link.joints[0])
-            yield Body(link.name, teeth.round[link.name], (x, y), angle)
 
 
 def _angle(turn: MachineTurn, link: Link) -> Track | None:
@@ -170,7 +153,20 @@ class WheelScene:
 
     def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
         """All wheels; without shapes, as symbols."""
-        wheel = (*(shapes or _slots(turn)), _mark(shapes, turn))
+        one, machine = turn.passages[0], turn.mechanism
+        # distances of the first roller from the wheel's axis in its slot
+        reach = np.hypot(*turn.assembly.driving(0, np.linspace(one.entry, one.exit, 181)).T)
+        least, most = float(reach.min()), float(reach.max())
+        if not shapes:  # a disc with a line along each slot
+            angles = np.arange(machine.spec.wheel.z) * math.tau / machine.spec.wheel.z
+            along = [(math.cos(a), math.sin(a)) for a in angles.tolist()]
+            ends = [((least * c, least * s), (most * c, most * s)) for c, s in along]
+            lines = [Contour("WHEEL", (Line(*both),), closed=False) for both in ends]
+            shapes, dot = (Circle("WHEEL", (0.0, 0.0), 1.02 * most), *lines), 1.01 * least
+        else:
+            dot = 0.78 * least
+        # a dot behind the end of the first slot tells the slots apart
+        wheel = (*shapes, Circle("PITCH", (dot, 0.0), 0.012 * turn.L))
         for place in turn.mechanism.wheel_places:
             name = f"wheel {place.number}" if place.number > 1 else "wheel"
             yield Body(name, wheel, place.at, turn.wheel(place))
@@ -188,29 +184,3 @@ def wheels_of(spec: Spec) -> WheelScene:
     """What a page shows of a machine's wheels."""
     wheels: WheelScene = (thing(spec.wheel.NAME, "scene") or WheelScene)()
     return wheels
-
-
-def _slots(turn: MachineTurn) -> tuple[Shape, ...]:
-    """A symbol for a wheel without drawing: a disc with a line along each slot."""
-    spec, reach = turn.mechanism.spec, _reach(turn)
-    lines = [
-        Contour("WHEEL", (Line(_at(reach.min(), a), _at(reach.max(), a)),), closed=False)
-        for a in np.arange(spec.wheel.z) * math.tau / spec.wheel.z
-    ]
-    return (Circle("WHEEL", (0.0, 0.0), 1.02 * float(reach.max())), *lines)
-
-
-def _reach(turn: MachineTurn) -> Array:
-    """The distances of the first roller from the wheel's axis in its slot."""
-    one = turn.passages[0]
-    return np.hypot(*turn.assembly.driving(0, np.linspace(one.entry, one.exit, 181)).T)
-
-
-def _at(r: float, a: float) -> tuple[float, float]:
-    return float(r * math.cos(a)), float(r * math.sin(a))
-
-
-def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
-    """A dot behind the end of the first slot, which tells the slots apart."""
-    least = float(_reach(turn).min())
-    return Circle("PITCH", (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
+import cmath
 from collections.abc import Iterator
 
 import numpy as np
 
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.motion.pivots import AxisPlace
+from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Push
 from geneva_cli.parts.assembly import Passage
@@ -34,15 +34,20 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
         if not turn.mechanism.output.turns:
             arm = normal[:, 1]  # a rack is pushed along y
         normal *= np.where(arm * torque < 0.0, -1.0, 1.0)[:, None]
-        contact = (pin + turn.mechanism.roller_radius_mm * normal)[sound]
-        arrow = force[sound, None] * normal[sound]
+        contact = _complex(pin + turn.mechanism.roller_radius_mm * normal)[sound]
+        arrow = force[sound] * _complex(normal)[sound]
         at = (one.mid + local - turn.start)[sound]
-        columns = (at, contact[:, 0], contact[:, 1], arrow[:, 0], arrow[:, 1])
-        push = Push(*(tuple(column.tolist()) for column in columns))
-        place = turn.on_crank(i)
-        yield _moved_push(push, place._replace(behind_deg=0.0), 0.0) if place.turn else push
-        for place in turn.mechanism.wheel_places[1:]:
-            yield _moved_push(push, place, turn.L)
+        # the first crank's forces as those at its own crank, and those at the other wheels
+        own = turn.on_crank(i)._replace(behind_deg=0.0)
+        for place, axis in ((own, 0.0), *((x, turn.L) for x in turn.mechanism.wheel_places[1:])):
+            turned = cmath.rect(1.0, place.turn)
+            there, pushed = (contact - axis) * turned + axis, arrow * turned
+            columns = (at + place.behind_deg, there.real, there.imag, pushed.real, pushed.imag)
+            yield Push(*(tuple(column.tolist()) for column in columns))
+
+
+def _complex(points: Array) -> Array:
+    return points[:, 0] + 1j * points[:, 1]
 
 
 def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array:
@@ -58,27 +63,7 @@ def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array
         direction[slow] = bend[slow]
         # each slot of a pair is offset from the middle between them
         psi = one.engagement.motion(local, 0).c[0] - np.sign(local) * one.engagement.apart
-        c, s = np.cos(psi), np.sin(psi)
-        direction = np.column_stack(
-            (c * direction[:, 0] - s * direction[:, 1], s * direction[:, 0] + c * direction[:, 1])
-        )
+        direction = turned_points(direction, psi)
     else:
         direction = pin
     return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]
-
-
-def _moved_push(push: Push, place: AxisPlace, axis: float) -> Push:
-    """The force at the first wheel or crank as that at another one, which works later.
-
-    ``axis`` is the place on the line of centres, mm, about which they stand.
-    """
-    c, s = math.cos(place.turn), math.sin(place.turn)
-
-    def turned(x: tuple[float, ...], y: tuple[float, ...], about: float) -> list[list[float]]:
-        pairs = [(u - about, v) for u, v in zip(x, y, strict=True)]
-        return [[about + c * u - s * v for u, v in pairs], [s * u + c * v for u, v in pairs]]
-
-    places = turned(push.x, push.y, axis)
-    forces = turned(push.force_x, push.force_y, 0.0)
-    later = tuple(t + place.behind_deg for t in push.at)
-    return Push(later, *map(tuple, (*places, *forces)))

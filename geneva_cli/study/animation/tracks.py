@@ -81,7 +81,6 @@ def _knots(a: float, b: float, moving: Moving, error: float) -> tuple[Array, Arr
 
 
 def _hermite(u: float, h: Array, v: Array, s: Array) -> Array:
-    """The cubics between knots, at the fraction ``u`` of each step."""
     w = 1.0 - u
     return (
         w * w * (1.0 + 2.0 * u) * v[:-1]

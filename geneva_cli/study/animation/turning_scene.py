@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import cmath
+import itertools
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -41,10 +41,7 @@ from geneva_cli.study.animation.bodies import (
 )
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.summary.load_lines import title_of
-from geneva_cli.verdict.report.words import words
-
-if TYPE_CHECKING:
-    from geneva_cli.figure import Figure
+from geneva_cli.verdict.report import words
 
 
 def scene(design: Design) -> Scene:
@@ -68,6 +65,7 @@ def scene(design: Design) -> Scene:
     spec, title = design.spec, title_of(design)
     frame = _frame_rotation(mechanism, turn.start, turn.turn_deg)
     wheels = wheels_of(spec)
+    loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
     turning = tuple(body for body in parts if not body.travel)
     box = _box(turning, bars, rollers, mechanism.roller_radius_mm, turn.turn_deg)
     return Scene(
@@ -83,7 +81,7 @@ def scene(design: Design) -> Scene:
         roller_radius=mechanism.roller_radius_mm,
         pushes=tuple(pushes(design.cycle, turn)),
         states=tuple(_states(design, turn)),
-        figure=_figure(design),
+        figure=design.figure(("velocity", "acceleration", *loads)),
         box=_swept(parts, frame) if frame else wheels.view(parts[0], box, turn),
         stops=wheels.stops(outlines, turn),
         frame=frame,
@@ -103,7 +101,6 @@ def _bars(turn: MachineTurn, outlines: Outlines | None, teeth: DrawnTeeth) -> tu
 
 
 def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
-    """A remark on simplifications in the picture."""
     if not design.mechanism.axes:
         return " Seen along the wheel's shaft."
     out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
@@ -117,13 +114,13 @@ def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
     return out
 
 
-def _figure(design: Design) -> Figure:
-    loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
-    return design.figure(("velocity", "acceleration", *loads))
-
-
 def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
-    rest = _rest(design)
+    holder = design.spec.dwell_holder  # what holds the wheel at rest
+    rest = f"the {design.spec.output.noun} rests"
+    if design.spec.wheel.held_by:
+        rest += f", held by a {design.spec.wheel.held_by}"
+    else:
+        rest += f", locked by the {holder.split()[-1]}" if holder else "; nothing holds it"
     if design.spec.drive.wheels_on_carrier > 1:
         yield from _wheels_in_turn(design, turn)
         return
@@ -148,7 +145,6 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
 
 
 def _wheels_in_turn(design: Design, turn: MachineTurn) -> Iterator[Phase]:
-    """The motions of several wheels at one finger."""
     (one,), places = turn.passages, design.mechanism.wheel_places
     for place in places:
         start, end = place.behind_deg, place.behind_deg + one.engagement.motion_deg
@@ -156,16 +152,6 @@ def _wheels_in_turn(design: Design, turn: MachineTurn) -> Iterator[Phase]:
         yield Phase(
             end, start + turn.turn_deg / len(places), False, "all wheels rest on the carrier"
         )
-
-
-def _rest(design: Design) -> str:
-    """A phrase that names what holds the wheel at rest."""
-    spec = design.spec
-    rests = f"the {spec.output.noun} rests"
-    if spec.wheel.held_by:
-        return f"{rests}, held by a {spec.wheel.held_by}"
-    lock = spec.dwell_holder
-    return f"{rests}, locked by the {lock.split()[-1]}" if lock else f"{rests}; nothing holds it"
 
 
 def _swept(parts: tuple[Body, ...], frame: Rotation) -> Box:
@@ -193,26 +179,15 @@ def _box(
     for (across, up), r in places:
         x0, x1, y0, y1 = min(across.value), max(across.value), min(up.value), max(up.value)
         boxes.append((x0 - r, y0 - r, x1 + r, y1 + r))
-    for bar in bars:
-        if bar.plates:
-            boxes += [_plates(bar, turn_deg * k / 24) for k in range(24)]
+    for bar, k in itertools.product(bars, range(24)):
+        for plate in bar.plates:
+            x, y, angle = pose(bar, plate, turn_deg * k / 24)
+            own, turned = bounds(plate.shapes[0]), cmath.rect(1.0, angle)
+            corners = itertools.product((own.x0, own.x1), (own.y0, own.y1))
+            ends = [complex(x, y) + complex(*corner) * turned for corner in corners]
+            boxes += [(z.real, z.imag, z.real, z.imag) for z in ends]
     columns = list(zip(*boxes, strict=True))
     return min(columns[0]), min(columns[1]), max(columns[2]), max(columns[3])
-
-
-def _plates(bar: Bar, t: float) -> Box:
-    """The bounding box of a link and its blocks at an input angle."""
-    corners = []
-    for plate in bar.plates:
-        x, y, angle = pose(bar, plate, t)
-        box = bounds(plate.shapes[0])
-        corners += [
-            complex(x, y) + complex(u, v) * cmath.rect(1.0, angle)
-            for u in (box.x0, box.x1)
-            for v in (box.y0, box.y1)
-        ]
-    across, up = [z.real for z in corners], [z.imag for z in corners]
-    return min(across), min(up), max(across), max(up)
 
 
 def _reach(shape: Shape) -> float:

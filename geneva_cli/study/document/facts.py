@@ -23,7 +23,7 @@ def capital(text: str) -> str:
     return text if is_symbol else text[:1].upper() + text[1:]
 
 
-def fact(name: str, value: Any) -> Fact:
+def fact(name: str, value: Any = None) -> Fact:
     """A value of a report by its name.
 
     >>> fact("loads.pin_force_N", 42.0)
@@ -65,21 +65,21 @@ class RemainingValues:
 
     def rest(self) -> Iterator[Block]:
         """All values that no section has taken, such as those of a new section."""
-        groups = dict.fromkeys(name.rpartition(".")[0] for name in self.values)
-        for group in groups:
+        for group in dict.fromkeys(name.rpartition(".")[0] for name in self.values):
             own = {n: v for n, v in self.values.items() if n.rpartition(".")[0] == group}
-            for name in [n for n, v in own.items() if isinstance(v, Table)]:
-                yield grid(capital(name.rpartition(".")[2]), own.pop(name))
-            plain = {n.rpartition(".")[2]: v for n, v in own.items()}
-            yield from facts(capital(group.replace(".", ", ")), plain)
+            by_name = {n.rpartition(".")[2]: v for n, v in own.items()}
+            for name in [n for n, v in by_name.items() if isinstance(v, Table)]:
+                yield grid(capital(name), by_name.pop(name))
+            yield from facts(capital(group.replace(".", ", ")), by_name)
 
 
 def grid(caption: str, table: Table) -> Grid:
     """A table with units in its headings, without columns that have no value."""
     rows = list(table.rows())
     shown = [i for i in range(len(table.names)) if any(is_known(row[i]) for row in rows)]
-    heads = [head(table.names[i]) for i in shown]
-    return Grid(caption, tuple(heads), tuple(tuple(row[i] for i in shown) for row in rows))
+    named = [fact(table.names[i]) for i in shown]
+    heads = tuple(f"{head.name}, {head.unit}" if head.unit else head.name for head in named)
+    return Grid(caption, heads, tuple(tuple(row[i] for i in shown) for row in rows))
 
 
 def grids(caption: str, table: Table | None) -> list[Grid]:
@@ -94,18 +94,12 @@ def section(heading: str, blocks: Sequence[Block]) -> Iterator[Block]:
         yield from blocks
 
 
-def head(name: str) -> str:
-    """The head of a column: its name and its unit."""
-    column = fact(name, None)
-    return f"{column.name}, {column.unit}" if column.unit else column.name
-
-
 def inputs(spec: Spec, with_units: Sequence[str]) -> Iterator[Block]:
     """The keys that are set, in the order of a file; ``with_units`` as in ``Design``."""
     rows = [
-        (f"{name}.{key.key}", _shown(value), described(key.key)[1], key.meaning)
-        for name, key, value in _known(spec)
-        if value != key.default
+        (name, value, described(key.key)[1], key.meaning)
+        for name, key, value, is_default in _known(spec)
+        if not is_default
     ]
     yield Heading("Inputs")
     caption = "Keys that are set; the appendix has those at their defaults"
@@ -117,27 +111,25 @@ def inputs(spec: Spec, with_units: Sequence[str]) -> Iterator[Block]:
 
 def defaults(spec: Spec) -> Iterator[Block]:
     """The keys at their defaults, in the order of a file."""
-    facts = (
-        Fact(f"{name}.{key.key}", _shown(value), described(key.key)[1])
-        for name, key, value in _known(spec)
-        if value == key.default
-    )
+    facts = [
+        Fact(name, value, described(key.key)[1])
+        for name, key, value, is_default in _known(spec)
+        if is_default
+    ]
     yield Heading("Appendix: keys at their defaults")
     yield Facts("", tuple(facts))
 
 
-def _known(spec: Spec) -> Iterator[tuple[str, Field, Any]]:
-    """Table, key and value of each key that has a value, in the order of a file."""
+def _known(spec: Spec) -> Iterator[tuple[str, Field, Any, bool]]:
+    """Name, key, value and whether it is the default, of each key that has a value."""
     for table, keys in keys_in(spec).items():
         several = values_of(spec, table)
         for number, values in enumerate(several):
             name = table if len(several) < 2 else f"{table}.{number}"
             for key in keys:
-                if values[key.key] is not None:
-                    yield name, key, values[key.key]
-
-
-def _shown(value: Any) -> Any:
-    if isinstance(value, tuple):
-        return ", ".join(f"{one:.6g}" for one in value)
-    return value
+                value = values[key.key]
+                shown = value
+                if isinstance(value, tuple):
+                    shown = ", ".join(f"{one:.6g}" for one in value)
+                if value is not None:
+                    yield f"{name}.{key.key}", key, shown, value == key.default

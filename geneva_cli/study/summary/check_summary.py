@@ -50,7 +50,6 @@ def _lines(verdict: Verdict) -> tuple[SummaryLine, ...]:
 
 
 def _count(judged: Sequence[Verdict], unread: int) -> Summary:
-    """The count of the specs that pass; ``unread`` ones could not be read."""
     states = [headline(v.checks, v.warnings)[0] for v in judged]
     failed, warned = states.count(FAILS), states.count(WARNS)
     many = len(states) + unread

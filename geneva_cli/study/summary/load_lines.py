@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
-from geneva_cli.loads.indexer_formula import RecommendedMotor, recommended_motor
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.indexer_formula import recommended_motor
+from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import no_load
 from geneva_cli.numerics.tolerances import TIE
-from geneva_cli.spec.tables import Motor
 from geneva_cli.study.fields import pick
 from geneva_cli.table import Table
-from geneva_cli.verdict.headline import (
-    bare,
-    below_summary,
-    measured,
-    warning,
-)
+from geneva_cli.verdict.headline import bare, below_summary, measured, warning
 
 NO_BOUND = "no bound: see the warnings"
 
@@ -38,9 +32,13 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
     if not design.cycle.is_loaded:
         yield SummaryLine("loads", f"not known: {no_load(design.cycle)}")
         return
-    yield motor_line(design)
-    yield from cycle_lines(design)
-    yield from _backwards(design)
+    lines = [motor_line(design), *cycle_lines(design)]
+    yield from lines
+    if design.spec.drive.both_ways and not design.is_backwards:
+        own, other = {line.text for line in lines}, design.backwards
+        for there in (motor_line(other), *cycle_lines(other)):
+            if there.text not in own:
+                yield there._replace(label=f"{there.label}, backwards")
     sizing = _sizing(design)
     whole, add = sizing["flywheel_kgm2"], sizing["flywheel_to_add_kgm2"]
     if whole is not None:
@@ -48,17 +46,6 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
         text = f"{measured(whole, 'kg m²')} on the input for a speed variation of {variation}"
         text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
         yield SummaryLine("flywheel", text)
-
-
-def _backwards(design: Design) -> Iterator[SummaryLine]:
-    """The lines on motor, input, pin and wheel that differ backwards, if it must turn both ways."""
-    if design.is_backwards or not design.spec.drive.both_ways:
-        return
-    other = design.backwards
-    own = {line.text for line in (motor_line(design), *cycle_lines(design))}
-    for there in (motor_line(other), *cycle_lines(other)):
-        if there.text not in own:
-            yield there._replace(label=f"{there.label}, backwards")
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
@@ -80,7 +67,15 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     else:
         pin += f"; contact stress {_greatest(stress, 'MPa')}"
     yield SummaryLine("pin", pin)
-    yield from _impact(design.strength.reversal)
+    impact = design.strength.reversal  # of the roller on the other wall of its slot
+    if impact["jump"] is not None and impact["at_deg"] is not None:
+        text = f"speed jumps by {measured(impact['jump'])} of the input's"
+        if impact["force_N"] is not None:
+            text = measured(impact["force_N"], "N")
+        text += f" at {measured(impact['at_deg'], 'deg')}, where the roller changes sides"
+        if impact["contact_stress_MPa"] is not None:
+            text += f"; contact stress {measured(impact['contact_stress_MPa'], 'MPa')}"
+        yield SummaryLine("impact", text, "geneva explain reversal_shock_N")
     if design.spec.output.turns:
         turned = _greatest(loads["alpha_rad_s2"], "rad/s²")
         twisted = _greatest(loads["wheel_torque_Nm"], "N m")
@@ -89,19 +84,6 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
         moved = _greatest(loads["rack_acceleration_m_s2"], "m/s²")
         pushed = _greatest(loads["rack_force_N"], "N")
         yield SummaryLine("rack", f"{moved}; force {pushed}")
-
-
-def _impact(reversal: Mapping[str, float | None]) -> Iterator[SummaryLine]:
-    """The impact of the roller on the other wall of its slot, if there is one."""
-    jump, at_deg = reversal["jump"], reversal["at_deg"]
-    force, stress = reversal["force_N"], reversal["contact_stress_MPa"]
-    if jump is None or at_deg is None:
-        return
-    size = f"speed jumps by {measured(jump)} of the input's"
-    size = size if force is None else measured(force, "N")
-    text = f"{size} at {measured(at_deg, 'deg')}, where the roller changes sides"
-    text += "" if stress is None else f"; contact stress {measured(stress, 'MPa')}"
-    yield SummaryLine("impact", text, "geneva explain reversal_shock_N")
 
 
 def _greatest(ends: LoadSummary[float | None], unit: str) -> str:
@@ -126,8 +108,10 @@ def motor_line(design: Design) -> SummaryLine:
     if motor is None:
         return SummaryLine("motor", "none suffices: nothing bounds the input's torque", "", WARNS)
     keys = design.spec.motor
-    needed = f"{measured(motor.needed_W, 'W')} {_why(motor, keys.service_factor)}"
-    torque = measured(motor.input_torque_Nm, "N m")
+    why = "at most over the exact cycle"
+    if motor.formula_W >= motor.peak_W:  # the cam-indexer formula decides
+        why = f"with service factor {measured(keys.service_factor)} and all losses"
+    needed = f"{measured(motor.needed_W, 'W')} {why}"
     if motor.rated_kW is None:
         text = f"{needed}: more than any standard motor has"
         return SummaryLine("motor", text, "geneva explain motor", WARNS)
@@ -135,31 +119,21 @@ def motor_line(design: Design) -> SummaryLine:
     if motor.is_small:
         source = f"less than the smallest motor of IEC 60072-1, {power}"
         power = f"{measured(motor.needed_W, 'W')}, {measured(motor.torque_Nm, 'N m')}"
+    four_poles_rpm = 1400.0  # at full load, of small motors with four poles at 50 Hz
+    geared = f"{measured(motor.rpm, 'rpm')}, gear ratio {measured(keys.ratio)}"
+    if keys.gear_ratio is None and 2.0 * motor.rpm <= four_poles_rpm:  # a slow input
+        geared = (
+            f"{measured(motor.rpm, 'rpm')} behind its reducer, as gear ratio "
+            f"{measured(four_poles_rpm / motor.rpm, digits=3)} from "
+            f"{measured(four_poles_rpm, 'rpm')}"
+        )
+    torque = measured(motor.input_torque_Nm, "N m")
     return SummaryLine(
         "motor",
-        f"{power}, {_geared(motor, keys)}",
+        f"{power}, {geared}",
         f"{needed}; {torque} on the input by the cam-indexer formula; {source} "
         "(geneva explain motor)",
     )
-
-
-def _geared(motor: RecommendedMotor, keys: Motor) -> str:
-    """Speed and gear ratio; a suggestion for a slow input, if the spec leaves the ratio open."""
-    four_poles_rpm = 1400.0  # at full load, of small motors with four poles at 50 Hz
-    if keys.gear_ratio is not None or 2.0 * motor.rpm > four_poles_rpm:
-        return f"{measured(motor.rpm, 'rpm')}, gear ratio {measured(keys.ratio)}"
-    ratio = measured(four_poles_rpm / motor.rpm, digits=3)
-    return (
-        f"{measured(motor.rpm, 'rpm')} behind its reducer, as gear ratio {ratio} from "
-        f"{measured(four_poles_rpm, 'rpm')}"
-    )
-
-
-def _why(motor: RecommendedMotor, service_factor: float) -> str:
-    """The reason for the power: the cam-indexer formula or the exact cycle."""
-    if motor.formula_W >= motor.peak_W:
-        return f"with service factor {measured(service_factor)} and all losses"
-    return "at most over the exact cycle"
 
 
 def _powers(design: Design) -> Iterator[SummaryLine]:

@@ -36,27 +36,34 @@ def of_report(design: Design) -> Answer:
 def key_figures(design: Design) -> Iterator[SummaryLine]:
     """Six figures of a machine and its motor; without a load its peaks instead."""
     values = design.report.table.to_dict()
-    yield _cycle(design, values)
+    unit, times = design.mechanism.output.unit, design.timings
+    steps, motions, dwells = (
+        " and ".join(dict.fromkeys(each))
+        for each in (
+            [measured(t.step, unit) for t in times],
+            [measured(t.motion_s, "s") for t in times],
+            [measured(t.dwell_s, "s") for t in times],
+        )
+    )
+    n_rpm = measured(design.spec.drive.n_rpm, "rpm")
+    text = f"{steps} in {motions}, then {dwells} of dwell; input at {n_rpm}"
+    yield SummaryLine("cycle", text)
     yield _size(values)
     if design.cycle.is_loaded:
         yield from cycle_lines(design)
         yield from tightest(design.checks)
         yield motor_line(design)
     else:
-        yield from _peaks(values, design.mechanism.output.rate_unit)
+        unit = design.mechanism.output.rate_unit
+        for name, digit, power in (
+            ("velocity", "", ""),
+            ("acceleration", "2", "²"),
+            ("jerk", "3", "³"),
+        ):
+            size = measured(values[f"{name}.max_{unit}_s{digit}"], f"{unit}/s{power}")
+            yield SummaryLine(name, f"{size} at {measured(values[f'{name}.at_deg'], 'deg')}")
         yield from tightest(design.checks)
         yield SummaryLine("motor", f"not known: set {design.spec.load_keys}")
-
-
-def _cycle(design: Design, values: dict[str, Any]) -> SummaryLine:
-    """Steps, times and speed."""
-    timings = design.timings
-    unit = design.mechanism.output.unit
-    steps = " and ".join(dict.fromkeys(measured(t.step, unit) for t in timings))
-    motions = " and ".join(dict.fromkeys(measured(t.motion_s, "s") for t in timings))
-    dwells = " and ".join(dict.fromkeys(measured(t.dwell_s, "s") for t in timings))
-    n_rpm = measured(design.spec.drive.n_rpm, "rpm")
-    return SummaryLine("cycle", f"{steps} in {motions}, then {dwells} of dwell; input at {n_rpm}")
 
 
 def _size(values: dict[str, Any]) -> SummaryLine:
@@ -72,15 +79,3 @@ def _size(values: dict[str, Any]) -> SummaryLine:
     rim = values["sizes.wheel_radius_mm"]
     text += "" if rim is None else f", wheel Ø {measured(2.0 * rim, 'mm')}"
     return SummaryLine("size", f"{text}{roller}")
-
-
-def _peaks(values: dict[str, Any], unit: str) -> Iterator[SummaryLine]:
-    """Peaks of the output's motion, at the design's speed."""
-    for name, digit, power in (
-        ("velocity", "", ""),
-        ("acceleration", "2", "²"),
-        ("jerk", "3", "³"),
-    ):
-        size = measured(values[f"{name}.max_{unit}_s{digit}"], f"{unit}/s{power}")
-        at_deg = measured(values[f"{name}.at_deg"], "deg")
-        yield SummaryLine(name, f"{size} at {at_deg}")

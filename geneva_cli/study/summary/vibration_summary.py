@@ -41,18 +41,13 @@ def _swing_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     if values["residual_share_worst"] is not None:
         worst = measured(values["residual_share_worst"])
         yield SummaryLine("worst", f"{worst} of the step, with a stiffness off by up to 20 %")
-    windup = "" if values["windup_deg"] is None else measured(values["windup_deg"], "deg")
-    factor = measured(values["dynamic_factor"])
-    yield SummaryLine(
-        "load",
-        f"accelerated {factor} times as hard as the wheel"
-        + (f"; the shaft winds up by {windup}" if windup else ""),
-    )
-    speeds = values["speeds_to_avoid_rpm"]
-    avoid = ", ".join(measured(rpm) for rpm in speeds)
-    yield SummaryLine(
-        "avoid", f"{avoid} rpm" if speeds else "no speed from half to twice the design's"
-    )
+    text = f"accelerated {measured(values['dynamic_factor'])} times as hard as the wheel"
+    if values["windup_deg"] is not None:
+        text += f"; the shaft winds up by {measured(values['windup_deg'], 'deg')}"
+    yield SummaryLine("load", text)
+    avoid = ", ".join(map(measured, values["speeds_to_avoid_rpm"]))
+    text = f"{avoid} rpm" if avoid else "no speed from half to twice the design's"
+    yield SummaryLine("avoid", text)
 
 
 def of_tolerance(design: Design, record: Table) -> Answer:
@@ -74,7 +69,14 @@ def _error_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     if values["entry_jump.worst"] is not None:
         jump = measured(values["entry_jump.worst"])
         yield SummaryLine("entry", f"the wheel's velocity jumps by up to {jump} of the input's")
-    yield SummaryLine("clearances", _clearances(values))
+    turns = {True: "every machine turns", False: "not every machine turns", None: "not known"}
+    parts = [
+        f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {bare(needed, 'mm')}"
+        for part in ("slot", "lock")
+        if (needed := values[f"clearances.{part}_needed_mm"]) is not None
+    ]
+    text = "; ".join([turns[values["clearances.turns"]], *parts])
+    yield SummaryLine("clearances", text)
 
 
 def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> SummaryLine:
@@ -82,20 +84,6 @@ def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> SummaryL
     if worst is None:
         return SummaryLine(label, f"{what} is not known")
     most = measured(values[f"{name}.p997_deg"], "deg")
-    seconds = measured(values[f"{name}.p997_arcsec"], "arc seconds", 3)
-    at_worst = measured(worst, "deg")
-    text = f"{what} within {most} ({seconds}) in 99.7 % of machines, {at_worst} at worst"
+    most += f" ({measured(values[f'{name}.p997_arcsec'], 'arc seconds', 3)})"
+    text = f"{what} within {most} in 99.7 % of machines, {measured(worst, 'deg')} at worst"
     return SummaryLine(label, text)
-
-
-def _clearances(values: dict[str, Any]) -> str:
-    turns = values["clearances.turns"]
-    sentence = {True: "every machine turns", False: "not every machine turns", None: "not known"}[
-        turns
-    ]
-    parts = [
-        f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {bare(needed, 'mm')}"
-        for part in ("slot", "lock")
-        if (needed := values[f"clearances.{part}_needed_mm"]) is not None
-    ]
-    return "; ".join([sentence, *parts])

@@ -10,6 +10,8 @@ import numpy as np
 from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.study.sweep.constraints import is_number
 
+BLOCK = 256  # rows that are compared at once with all that are kept before them
+
 
 def front(
     rows: Sequence[Sequence[Any]], columns: Sequence[int], signs: Sequence[float]
@@ -28,62 +30,23 @@ def front(
 
 
 def best(costs: Array) -> list[int]:
-    """The numbers of the rows of costs that no other row dominates, ascending.
-
-    Time grows as n log n for two costs, with one more log n for each further cost.
-    """
-    order = np.lexsort(costs.T[::-1])
-    rows = costs[order]
-    new = np.append(True, (rows[1:] != rows[:-1]).any(axis=1))
-    kept = np.empty(len(rows), dtype=bool)
-    kept[order] = _not_dominated(rows[new])[np.cumsum(new) - 1]
-    return np.flatnonzero(kept).tolist()
-
-
-def _not_dominated(rows: Array) -> Mask:
-    """Mask of the rows that no other dominates; the rows differ, in lexicographic order.
-
-    In this order nothing later dominates anything earlier. So the later half is held against what
-    is kept of the earlier one, and the rest of it is searched alone (H. T. Kung, F. Luccio and F.
-    P. Preparata, 1975).
-    """
-    count = len(rows)
-    if count <= 256:  # fewer rows take no longer all at once
-        alone: Mask = _pairs(rows, rows).sum(axis=1) == 1  # with itself
-        return alone
-    half = count // 2
-    kept = np.zeros(count, dtype=bool)
-    kept[:half] = _not_dominated(rows[:half])
-    rest = half + np.flatnonzero(~_covered(rows[half:, 1:], rows[:half][kept[:half], 1:]))
-    kept[rest] = _not_dominated(rows[rest])
-    return kept
-
-
-def _covered(rows: Array, by: Array) -> Mask:
-    """Mask of the rows for which a row of ``by`` is as good or better in all costs.
-
-    Both are divided at the median of the first cost until few are left: a row beyond it is held
-    against the rows up to it by the other costs alone.
-    """
-    if not by.shape[1]:
-        return np.full(len(rows), len(by) > 0)
-    if by.shape[1] <= 2:
-        by = by[np.argsort(by[:, 0], kind="stable")]
-        least = np.append(np.nan, np.minimum.accumulate(by[:, -1]))  # NaN: none is up to it
-        at_most: Mask = least[np.searchsorted(by[:, 0], rows[:, 0], "right")] <= rows[:, -1]
-        return at_most
-    if len(rows) * len(by) <= 1 << 16:  # pairs that are compared all at once
-        return np.asarray(_pairs(rows, by).any(axis=1))
-    middle = np.partition(by[:, 0], len(by) // 2)[len(by) // 2]
-    beyond, up_to = rows[:, 0] >= middle, by[:, 0] <= middle
-    out = np.zeros(len(rows), dtype=bool)
-    out[beyond] = _covered(rows[beyond, 1:], by[up_to, 1:])
-    out[~beyond] = _covered(rows[~beyond], by[by[:, 0] < middle])
-    rest = beyond & ~out
-    out[rest] = _covered(rows[rest], by[~up_to])
-    return out
+    """The numbers of the rows of costs (n, d) that no other row dominates, ascending."""
+    rows, same = np.unique(costs, axis=0, return_inverse=True)
+    # in lexicographic order nothing later dominates anything earlier
+    if rows.shape[1] <= 2:
+        least = np.minimum.accumulate(rows[:, -1])
+        kept = np.append(True, rows[1:, -1] < least[:-1])
+    else:
+        kept = np.zeros(len(rows), dtype=bool)
+        for start in range(0, len(rows), BLOCK):
+            block = rows[start : start + BLOCK]
+            beaten = _pairs(block, rows[:start][kept[:start]]).any(axis=1)
+            left = block[~beaten]
+            beaten[~beaten] = _pairs(left, left).sum(axis=1) > 1
+            kept[start : start + BLOCK] = ~beaten
+    return np.flatnonzero(kept[same.ravel()]).tolist()
 
 
 def _pairs(rows: Array, by: Array) -> Mask:
     """Mask (n, m) of the pairs in which a row of ``by`` is as good or better in all costs."""
-    return np.asarray((rows[:, None] >= by).all(axis=2))
+    return np.logical_and.reduce([x[:, None] >= y for x, y in zip(rows.T, by.T, strict=True)])

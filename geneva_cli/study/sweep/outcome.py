@@ -45,16 +45,16 @@ class Outcome:
                     del self._unknown[i]
             yield block
 
-    def refused(self) -> Sequence[str]:
+    def refused(self) -> list[str]:
         """The number of designs that cannot be built, with the first reason or where to find it."""
         if not self.failed:
             return []
         why = f"the first: {self._first}" if self.request.chooses else "column error says why"
         return [f"{self.failed:,} of {self.all:,} designs cannot be built: {why}"]
 
-    def notes(self) -> Sequence[str]:
+    def notes(self) -> list[str]:
         """Notes for the user besides the rows."""
-        notes = [*self.refused()]
+        notes = self.refused()
         if self.all and not self.left:
             unknown = [f"no design has a value of {name}" for name in self._unknown.values()]
             why = dict.fromkeys([*unknown, *self._nearness.phrases()])
@@ -116,7 +116,6 @@ class Digest:
             yield self._table(best, f"The {len(best)} rows with the {self.goal}")
 
     def _table(self, rows: Sequence[Numbered], title: str) -> Table:
-        """A table of some rows, without empty columns."""
         names = ("row", *self.names)
         kept = [i for i in range(len(names)) if any(row[i] is not None for row in rows)]
         shown = [tuple(row[i] for i in kept) for row in rows]

@@ -59,7 +59,6 @@ class SweepPlan(NamedTuple):
 
 
 def _at(axis: VariedKey, x: float) -> Value:
-    """The value of a key at a fraction of its range, or of its list."""
     if axis.span:
         low, high = (float(v) for v in axis.values)
         return low + (high - low) * x

@@ -18,13 +18,13 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
-from geneva_cli.study.batches import batch_rows, cells_of, number_rows
+from geneva_cli.study.batches import Batch, batch_rows, cells_of, number_rows
 from geneva_cli.study.fields import Cell, Pick, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
 from geneva_cli.study.sweep.values import Value, VariedKey
-from geneva_cli.verdict.together import share
+from geneva_cli.verdict.quantities.under_load import share
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 ERROR = "error"  # the column that says why a design cannot be built
@@ -86,35 +86,34 @@ class Sweep(NamedTuple):
         return [out[i] for i in range(len(designs))]
 
     def _keeps(self, cells: Mapping[str, Cell]) -> bool:
-        """Return True unless one of some quantities breaks a bound."""
         return all(bound.kept(cells[bound.name]) for bound in self.bounds if bound.name in cells)
 
-    def _machines(self, designs: Sequence[Sequence[Value]]) -> list[Mechanism | GenevaError]:
-        """The machine of each row, or why it cannot be built.
+    @property
+    def _makes_parts(self) -> bool:
+        return any(group.makes_parts for group in self.pick.groups)
 
-        Machines whose parts are made take the loads of their checks from batches of them.
-        """
-        machines = [self._machine_or_error(values) for values in designs]
-        if any(group.makes_parts for group in self.pick.groups):
-            keys = [a.key for a in self.plan.axes]
-            for members, machine in batch_rows(designs, keys, self._spec):
+    def _batches(self, designs: Sequence[Sequence[Value]]) -> Iterator[Batch]:
+        return batch_rows(designs, [a.key for a in self.plan.axes], self._spec)
+
+    def _machines(self, designs: Sequence[Sequence[Value]]) -> list[Mechanism | GenevaError]:
+        """The machine of each row, or why it cannot be built."""
+        machines: list[Mechanism | GenevaError] = []
+        for values in designs:
+            try:
+                machines.append(self.machine(values))
+            except GenevaError as error:
+                machines.append(error)
+        if self._makes_parts:  # the loads of their checks are those of batches
+            for members, machine in self._batches(designs):
                 own = [one for i in members if isinstance(one := machines[i], Mechanism)]
                 if len(own) == len(members) > 1:
                     share(machine, own)
         return machines
 
-    def _machine_or_error(self, values: Sequence[Value]) -> Mechanism | GenevaError:
-        try:
-            return self.machine(values)
-        except GenevaError as error:
-            return error
-
     def known(self, designs: Sequence[Sequence[Value]]) -> Mapping[int, list[Cell]]:
         """The quantities that a batch can compute, of the designs of batches by their numbers."""
         names = self.pick.batched
-        if not names:
-            return {}
-        rows = number_rows(batch_rows(designs, [a.key for a in self.plan.axes], self._spec), names)
+        rows = number_rows(self._batches(designs), names) if names else {}
         return {i: cells for i, row in rows.items() if (cells := cells_of(row))}
 
     @property
@@ -122,8 +121,7 @@ class Sweep(NamedTuple):
         """The number of designs in one task."""
         if self.is_batched:
             return BLOCK
-        draws_parts = any(group.makes_parts for group in self.pick.groups)
-        if not draws_parts:
+        if not self._makes_parts:
             return 64
         # Parts are slow: eight tasks keep several processes busy. Four designs or more share the
         # searches of their batch, which keeps the results of at most KEPT.
@@ -152,8 +150,10 @@ class Sweep(NamedTuple):
 
     def row(self, values: Sequence[Value]) -> list[Cell]:
         """The row of the design with these values of the keys, computed alone."""
-        machine = self._machine_or_error(values)
-        return self._row(values, parts_of(machine) if isinstance(machine, Mechanism) else machine)
+        try:
+            return self._row(values, parts_of(self.machine(values)))
+        except GenevaError as error:
+            return self._row(values, error)
 
     def _row(
         self,
@@ -184,22 +184,13 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     """
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
     names = tuple(name for name in pick(picks).names if name not in varied)
-    run = Sweep(text, plan, Pick(names))
-    _refuse_hopeless(run)
-    return run
-
-
-def _refuse_hopeless(run: Sweep) -> None:
-    """Raise GenevaError if neither the middle design nor any of a sample can be built.
-
-    The middle design comes first: most ranges have one that can be built.
-    """
-    plan, most = run.plan, 1000  # designs of the sample
+    run, most = Sweep(text, plan, Pick(names)), 1000  # designs of the sample
     reasons = []
+    # the middle design comes first: most ranges have one that can be built
     for values in itertools.chain([plan.middle()], plan.sample(most)):
         try:
             run.machine(values)
-            return
+            return run
         except GenevaError as error:
             reasons.append(str(error))
     del reasons[0]  # the middle design, which may be one of the others
@@ -214,14 +205,12 @@ def _refuse_hopeless(run: Sweep) -> None:
 
 def with_values(text: Text, axes: Sequence[VariedKey], values: Sequence[Value]) -> Text:
     """The spec with the values of the varied keys set over its own."""
-    changes = tuple(_changed(a.key, v) for a, v in zip(axes, values, strict=True))
+    changes = []
+    for (key, *_), value in zip(axes, values, strict=True):
+        shown = f"{value:.12g}" if isinstance(value, float) else str(value)
+        path = setting(f"{key}=0", "--vary").path
+        changes.append(Setting(cut(f"{key}={shown}"), path, value))
     return text._replace(set_keys=(*text.set_keys, *changes))
-
-
-def _changed(key: str, value: Value) -> Setting:
-    path = setting(f"{key}=0", "--vary").path
-    text = f"{value:.12g}" if isinstance(value, float) else str(value)
-    return Setting(cut(f"{key}={text}"), path, value)
 
 
 def blocks(run: Sweep, done: int = 0, workers: int | None = None) -> Iterator[list[list[Cell]]]:

@@ -83,7 +83,6 @@ def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
 
 
 def _whole(parts: Iterable[str]) -> bool:
-    """Return True if all these are whole numbers."""
     return all(re.fullmatch(r"[+-]?\d{1,99}", part) for part in parts)
 
 
@@ -130,10 +129,7 @@ def _in_unit_of(key: str, text: str, option: str) -> str:
 
 
 def _ends_in_unit_of(key: str, ends: RangeText, option: str) -> RangeText:
-    """A range whose numbers have units as plain numbers.
-
-    Raises GenevaError if some have a unit and others have none: 4..8 in may mean two things.
-    """
+    """A range whose numbers have units as plain numbers."""
     plain = RangeText(*(_in_unit_of(key, part, option) for part in ends))
     changed = [new != old for new, old in zip(plain, ends, strict=True) if old]
     if any(changed) and not all(changed):

@@ -1,8 +1,7 @@
 """The best machine of each family that keeps the bounds, or the one nearest to them.
 
 The best has the least peak acceleration (in rad/s² if times are required), or the least of the
-goal's quantity. If any motion is allowed, it is the nearest to the plain crank. Where its parts
-cannot be built, the best that can be built is searched between it and worse ones.
+goal's quantity. If any motion is allowed, it is the nearest to the plain crank.
 """
 
 from __future__ import annotations
@@ -21,21 +20,15 @@ from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.study.batches import BatchKey, columns, numbers, split
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
-from geneva_cli.study.synth.optimiser import (
-    BROKEN,
-    SETTLED,
-    Places,
-    Zoom,
-    sampled,
-    tops,
-    zoom,
-)
+from geneva_cli.study.synth.optimiser import BROKEN, SETTLED, Places, Zoom, sampled, tops, zoom
 from geneva_cli.study.target import Target
+from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 GRID = 24  # intervals of the span of one number, sampled first
 QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
 # Of one number: samples on both sides of the best, each time four times as close.
 LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 0.25, 20)
+MIDDLES = (np.arange(10) + 0.5) / 10  # places of the second of two numbers, sampled first
 
 
 def _ring(number: int) -> Array:
@@ -45,7 +38,6 @@ def _ring(number: int) -> Array:
     return np.stack((far * np.cos(turn), far * np.sin(turn)), axis=-1)
 
 
-MIDDLES = (np.arange(10) + 0.5) / 10  # places of the second of two numbers, sampled first
 RING = Zoom(_ring, 0.1, 1.4, 0.5, 40)
 
 
@@ -64,8 +56,9 @@ def best(
     The others break the bounds least, with ``how_near`` to the last digit.
     """
     chosen: dict[int, tuple[Sequence[float], bool]] = {}
+    searched = {i: f for i, f in enumerate(families) if f.keys and f.is_free and math.isnan(f.best)}
     for freedom in (1, 2):
-        some = [i for i, f in enumerate(families) if len(f.low) == freedom and _is_searched(f)]
+        some = [i for i, f in searched.items() if len(f.low) == freedom]
         if some:
             free = FamilyCosts([families[i] for i in some], target)
             found = _best_places(free, freedom, how_near)
@@ -75,7 +68,7 @@ def best(
     kept: list[FamilyMachine] = []
     broken_ones: list[FamilyMachine] = []
     for i, f in enumerate(families):
-        if i not in chosen and _is_searched(f):
+        if i in searched and i not in chosen:
             continue
         place, keeps = chosen.get(i, (f.low if math.isnan(f.best) else (f.best,), True))
         alike = zip(place, f.known, f.low, f.high, strict=False)
@@ -85,12 +78,7 @@ def best(
     return kept, broken_ones
 
 
-def _is_searched(f: Family) -> bool:
-    return f.keys is not None and f.is_free and math.isnan(f.best)
-
-
 def _best_places(free: FamilyCosts, freedom: int, how_near: bool) -> Places:
-    """The best place of each family that has a machine."""
     every = np.arange(len(free.families))
     plain, inside = free.plain
     nearest = sampled(free, every[inside], plain[inside])
@@ -123,9 +111,10 @@ class FamilyCosts:
 
     def __init__(self, families: Sequence[Family], target: Target) -> None:
         self.families, self.bounds, self.peak = families, target.known_bounds, target.peak
-        sort = target.known_sort
+        sort = target.sort if target.sort and in_batch([target.sort.name]) else None
         self.nearest = target.any_motion and not sort
         self.goal = sort or Objective(1.0, self.peak)
+        self.names = [self.goal.name, *(b.name for b in self.bounds)]
         self.low = np.array([f.low or (0.0,) for f in families])
         self.high = np.array([f.high or (f.several - 1.0,) for f in families])
         missing = (math.nan,) * self.low.shape[1]
@@ -150,9 +139,8 @@ class FamilyCosts:
         return numbers
 
     def _places(self, of: Whole, at: Array) -> Array:
-        low, high = self.low[of], self.high[of]
+        low, high, plain = self.low[of], self.high[of], self._plain[of]
         inside: Array = np.where(at == 1.0, high, low + (high - low) * at)
-        plain = self._plain[of]
         # without the rounding of the unit cube
         return np.where(abs(inside - plain) <= 1e-15 * (high - low), plain, inside)
 
@@ -175,51 +163,45 @@ class FamilyCosts:
 
     def _numbers(self, of: Whole, places: Array) -> Array:
         """The goal and the bounded quantities at places, (n, names); NaN without a machine."""
-        names = [self.goal.name, *(b.name for b in self.bounds)]
-        out = np.full((len(of), len(names)), math.nan)
+        out = np.full((len(of), len(self.names)), math.nan)
         shape = self._shape[of]
         for kind in np.unique(shape).tolist():
             which = np.flatnonzero(shape == kind)
             if self.families[of[which[0]]].make:
                 specs = {i: self.families[of[i]].at(places[i]) for i in which.tolist()}
                 some = {i: spec for i, spec in specs.items() if spec}
-                found = [*zip(some, numbers([*some.values()], names), strict=True)]
-                out[[i for i, row in found if row]] = [row for _, row in found if row]
+                rows = zip(some, numbers([*some.values()], self.names), strict=True)
+                for i, row in rows:
+                    out[i] = row or math.nan
                 continue
-            varied = self._varied(of[which], places[which])
+            varied = {
+                key: np.array([self._own[i][key] for i in of[which]]) for key in self._own[kind]
+            }
+            for i in np.unique(of[which]).tolist():
+                own, keys = of[which] == i, self.families[i].keys
+                assert keys
+                for key, value in keys(places[which][own]).items():
+                    varied[key] = varied[key].astype(float)
+                    varied[key][own] = value
             able = np.isfinite(list(varied.values())).all(axis=0)
-            which = which[able]
-            if len(which):
-                spec = self.families[of[which[0]]].spec
-                alike, values = self._batch(spec, {k: v[able] for k, v in varied.items()}, names)
-                out[which[alike]] = values
+            if able.any():
+                spec = self.families[of[which[able][0]]].spec
+                alike, values = self._batch(spec, {k: v[able] for k, v in varied.items()})
+                out[which[able][alike]] = values
         return out
 
-    def _varied(self, of: Whole, places: Array) -> dict[str, Array]:
-        """The keys of places of families that are one batch, (n,) each."""
-        varied = {key: np.array([self._own[i][key] for i in of]) for key in self._own[of[0]]}
-        for i in np.unique(of).tolist():
-            own, keys = of == i, self.families[i].keys
-            assert keys
-            for key, value in keys(places[own]).items():
-                varied[key] = varied[key].astype(float)
-                varied[key][own] = value
-        return varied
-
-    def _batch(
-        self, spec: Spec, varied: dict[str, Array], names: Sequence[str]
-    ) -> tuple[Whole, Array]:
+    def _batch(self, spec: Spec, varied: dict[str, Array]) -> tuple[Whole, Array]:
         """The numbers of those machines of a batch that can be built, and their quantities."""
         same = {key for key, value in varied.items() if not (value != value[0]).any()}
         same -= {next(iter(varied))} if len(same) == len(varied) else set()
         try:
             batch = many(spec, {k: v[0].item() if k in same else v for k, v in varied.items()})
         except GenevaError:  # a frame that allows no such machine
-            return np.zeros(0, dtype=int), np.zeros((0, len(names)))
+            return np.zeros(0, dtype=int), np.zeros((0, len(self.names)))
         count, values = len(batch.which), None
         if batch.machine:
-            values = columns(batch.machine, names, count)
+            values = columns(batch.machine, self.names, count)
             if values is None and (peak := columns(batch.machine, [self.peak], count)):
                 # what no batch computes is computed later: it keeps its bounds so far
                 values = [*peak, *(np.full(count, b.bound) for b in self.bounds)]
-        return batch.which, np.reshape(values or [], (len(names), -1)).T
+        return batch.which, np.reshape(values or [], (len(self.names), -1)).T

@@ -2,15 +2,15 @@
 
 A curved slot needs a roller between two limits. Where its entry and exit paths differ, a small
 roller leaves an island of the wheel between them, which falls out. A large roller undercuts the
-outer walls. Adjacent slots and the locking disc limit the roller too. The test takes some
-milliseconds; collisions in a whole turn are left to ``geneva check``.
+outer walls. Adjacent slots and the locking disc limit the roller too. Collisions in a whole turn
+are left to ``geneva check``.
 """
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
 from typing import NamedTuple
 
@@ -22,7 +22,8 @@ from geneva_cli.motion.undercut import depths_mm
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.machine_sizes import sizes
-from geneva_cli.parts.turn.machine_parts import CONTACT
+from geneva_cli.parts.turn.pairs import CONTACT
+from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.study.synth.parts_data import PartsData, distances_at_rest, parts_data
 from geneva_cli.verdict.checks.motion_checks import undercut_depth
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
@@ -31,7 +32,8 @@ USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  
 SPARE = 1.001  # times the least roller, for what lies between the samples
 
 # Reasons why parts cannot be built.
-ISLAND, UNDERCUT, LOCK, SIZES = "island", "undercut", "lock", "sizes"
+ISLAND, UNDERCUT, LOCK, SIZES, WALLS = "island", "undercut", "lock", "sizes", "walls"
+HORN = "horn"  # shown as that of the lock
 
 # Entries of the table for parts that pass a full turn, and for parts that were not turned.
 YES = "yes"
@@ -50,9 +52,7 @@ class Parts(NamedTuple):
     @property
     def entry(self) -> str | None:
         """The entry in the table for parts that were not turned."""
-        if self.why is None:
-            return None
-        return f"no: {self.why}" if self.why else MAYBE
+        return f"no: {self.why}" if self.why else None if self.why is None else MAYBE
 
 
 @lru_cache(maxsize=1024)  # machines with more rollers are requested twice
@@ -68,6 +68,11 @@ def machine_and_parts(spec: Spec) -> tuple[Mechanism, Parts]:
 def has_no_obstacle(spec: Spec) -> bool:
     """Return True if the spec makes a machine whose parts can be drawn without an obstacle."""
     try:
+        if spec.motion and spec.is_flat:  # most of those without walls need not be built
+            at, L = parts_data(spec), spec.given_distance_mm
+            least = spec.size.roller_radius_mm or 0.01 * L * radii_from(at.least / L)[0]
+            if _thin(spec, at, L, least):
+                return False
         return machine_and_parts(spec)[1].why == ""
     except GenevaError:
         return False
@@ -83,48 +88,54 @@ def parts(mechanism: Mechanism) -> Parts:
         return Parts(spec, None)
     if suiting := thing(spec.wheel.NAME, "roller"):
         r, why = suiting(mechanism)
-        return Parts(spec if r is None else with_roller(spec, r), why)
-    at, m = parts_data(spec), spec.drive.rollers
-    # the parts do not depend on the drive that turns the crank
-    if spec.drive.crank and not mechanism.law:
-        r, why = _of_crank(at.spec, m)
+    elif spec.drive.crank and not mechanism.law:  # whatever turns the crank
+        r, why = _of_crank(parts_data(spec).spec, spec.drive.rollers)
     else:
-        r, why = _suiting_plane(assembly(mechanism), at, m)
+        r, why = _suiting(assembly(mechanism), parts_data(spec), spec.drive.rollers)
     return Parts(spec if r is None else with_roller(spec, r), why)
 
 
 @lru_cache(maxsize=1024)
 def _of_crank(spec: Spec, m: int) -> tuple[float | None, str]:
-    return _suiting_plane(assembly(build(spec)), parts_data(spec), m)
+    return _suiting(assembly(build(spec)), parts_data(spec), m)
 
 
-def _suiting_plane(where: Assembly, at: PartsData, m: int) -> tuple[float | None, str]:
-    """The radius in mm of the roller that suits m rollers, and the obstacle to the parts.
-
-    The radius is None for the roller of the spec, or the usual one.
-    """
+def _suiting(where: Assembly, at: PartsData, m: int) -> tuple[float | None, str]:
+    """The radius in mm of the roller that suits m rollers, and the obstacle to the parts."""
     mechanism, L = where.mechanism, where.L
+    own = mechanism.spec.size.roller_radius_mm
     apart = math.inf if m == 1 else mechanism.ratio * L * math.sin(math.pi / m)
 
     @cache
-    def obstacle(r: float) -> str:
+    def obstacle(percent: float) -> str:
+        r = own or 0.01 * percent * L
         return "rollers" if apart <= r else _obstacle(where, at, r)
 
-    def of_percent(percent: float) -> str:
-        return obstacle(0.01 * percent * L)
+    def quick(percent: float) -> str:  # for all but the reason
+        thin = _thin(mechanism.spec, at, L, 0.01 * percent * L)
+        return WALLS if thin else obstacle(percent)
 
-    if mechanism.spec.size.roller_radius_mm is not None:
-        r = mechanism.spec.size.roller_radius_mm
-        return None, obstacle(r) or (ISLAND if r < at.least else "")
+    if own is not None:
+        return None, _shown(obstacle(0.0)) or (ISLAND if own < at.least else "")
     radii = radii_from(at.least / L)
-    percent, why = largest(radii, of_percent)
-    # the horns of a small roller are thin; those of a larger one may be thick enough
-    if why == LOCK:
-        percent, why = next(((r, "") for r in reversed(radii) if not of_percent(r)), (None, LOCK))
+    percent, why = None if quick(radii[-1]) else radii[-1], ""
+    if percent is None:
+        why = obstacle(radii[0])
+        if why == HORN:  # that of a larger roller may be thick enough: it is no thicker than it
+            wall = (1.0 - 1e-9) * wall_min(mechanism.spec.size, L)
+            thick = (r for r in reversed(radii) if 0.01 * r * L >= wall)
+            percent = next((r for r in thick if not quick(r)), None)
+        elif why in ("", SIZES):
+            percent, _ = largest(radii, quick)
+        why = "" if percent else why
     if percent is None and at.least > 0.01 * USUAL[-1] * L:
-        percent, _ = largest(radii_from(0.0), of_percent)  # there is no obstacle except the island
+        percent, _ = largest(radii_from(0.0), quick)  # there is no obstacle except the island
         why = ISLAND
-    return radius_mm(percent, L), why
+    return radius_mm(percent, L), _shown(why)
+
+
+def _shown(why: str) -> str:
+    return LOCK if why == HORN else why
 
 
 def radius_mm(percent: float | None, L: float) -> float | None:
@@ -149,7 +160,7 @@ def radii_from(least: float) -> list[float]:
     return usual if percent <= USUAL[-1] else [to_digits(percent, 2, math.ceil), *usual]
 
 
-def largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[float | None, str]:
+def largest(radii: Sequence[float], obstacle: Callable[[float], str]) -> tuple[float | None, str]:
     """The largest radius without an obstacle, or else the obstacle of the smallest.
 
     An obstacle to a roller is one to larger rollers too, except for the thin horns of a lock.
@@ -161,18 +172,22 @@ def largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[float
     return (radii[count - 1], "") if count else (None, obstacle(radii[0]))
 
 
+def _thin(spec: Spec, at: PartsData, L: float, r: float) -> bool:
+    w = r + spec.size.allowances.slot_clearance_mm
+    return at.between - 2.0 * w < wall_min(spec.size, L)
+
+
 def _obstacle(where: Assembly, at: PartsData, r: float) -> str:
-    """The obstacle to a roller; empty if there is none."""
     mechanism = where.mechanism
     mechanism = mechanism._replace(spec=with_roller(mechanism.spec, r))
     try:
         lengths = sizes(where._replace(mechanism=mechanism), at.paths)
     except GenevaError as error:
         return LOCK if error.key == ("size", "lock_radius_mm") else SIZES
-    if at.between - 2.0 * lengths.half_width < lengths.wall_min:
-        return "walls"
+    if _thin(mechanism.spec, at, where.L, r):
+        return WALLS
     if lengths.lock and lengths.horn < lengths.wall_min:
-        return LOCK
+        return HORN
     w, L = lengths.half_width, where.L
     if at.back:
         gap = distances_at_rest(*at.back, lengths.rim, w).min() - lengths.roller

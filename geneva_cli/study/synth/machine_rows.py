@@ -15,8 +15,8 @@ from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.synth.families.family import Family, allows
 from geneva_cli.study.synth.fast_parts import machine_and_parts
-from geneva_cli.study.synth.parts_data import compute_parts_data, parts_data
-from geneva_cli.study.target import USUAL_RPM, Target
+from geneva_cli.study.synth.parts_data import compute_parts_data, parts_data, with_one_roller
+from geneva_cli.study.target import Target
 from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, applicable
 from geneva_cli.verdict.checks.motion_checks import GROOVE_MAX_DEG, driven_fraction, groove_pressure
 
@@ -112,60 +112,19 @@ class MachineRow(NamedTuple):
         return (one.wheel, one.drive, one.motion) == (two.wheel, two.drive, two.motion)
 
     @property
-    def is_impossible(self) -> bool:
-        """Return True if its parts are known to be impossible."""
-        return bool(self.trouble)
-
-    @property
     def trouble(self) -> str:
         """The reason why its parts cannot be built; empty if none is known."""
         return (self.candidate.parts or "").partition(": ")[2]
 
     @property
+    def is_impossible(self) -> bool:
+        """Return True if its parts are known to be impossible."""
+        return bool(self.trouble)
+
+    @property
     def breaks_limit(self) -> bool:
         """Return True if it breaks a limit of its frame."""
         return not LIMITED.keys().isdisjoint(self.trouble.split(", "))
-
-
-def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
-    """The checks that fail among those that need no parts; the peaks are known."""
-    limits, known = machine.spec.limits.as_dict(), dict(zip(COSTS, costs, strict=True))
-    peaks = {key: known[name] for key, name in LIMITED.items() if name in known}
-    limited = ((key, x) for key, x in peaks.items() if limits[key] is not None)
-    over = [key for key, x in limited if not keeps(x, "at most", limits[key])]
-    others = {name: check for name, check in LIMITS.items() if name not in peaks}
-    motion, rest = (
-        [check.name for check in applicable(among, machine) if check.passes is False]
-        for among in (MOTION, others)
-    )
-    return ", ".join([*motion, *over, *rest])
-
-
-def _slot_failure(machine: Mechanism) -> str:
-    """The name of the check of a cam's groove, or of a curved slot's drive, if it fails.
-
-    That of a groove is evaluated only near its limit.
-    """
-    if machine.engagements[0].groove is None:
-        name = "driven_fraction"
-        check = driven_fraction(name, machine)
-        return name if check and check.passes is False else ""
-    pressure_deg = parts_data(machine.spec).pressure_deg
-    name = "groove_pressure_deg"
-    # samples are never above the peak, and 1e-6 is beyond rounding
-    if not -NEAR_DEG <= pressure_deg - GROOVE_MAX_DEG <= 1e-6:
-        return name if pressure_deg > GROOVE_MAX_DEG else ""
-    check = groove_pressure(name, machine)
-    return name if check and check.passes is False else ""
-
-
-def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow | None]:
-    """The rows of the specs; None for one that cannot be built or breaks the required motion.
-
-    The reasons are added to ``errors``.
-    """
-    candidates = _rows(target, [with_peak_limit(target, spec) for spec in specs], errors)
-    return [row if row and _moves_as_required(target, row) else None for row in candidates]
 
 
 def with_peak_limit(target: Target, spec: Spec) -> Spec:
@@ -175,11 +134,38 @@ def with_peak_limit(target: Target, spec: Spec) -> Spec:
     return spec.replace(limits=spec.limits.replace(acceleration_max=target.acceleration_max))
 
 
-def _moves_as_required(target: Target, row: MachineRow) -> bool:
-    """Return True if the built machine moves as required.
+def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow | None]:
+    """The rows of the specs; None for one that cannot be built or breaks the required motion.
 
-    A linkage may drive the wheel otherwise.
+    The reasons are added to ``errors``.
     """
+    specs = [with_peak_limit(target, spec) for spec in specs]
+    alone = [with_one_roller(spec) for spec in specs]
+    different = [*dict.fromkeys(alone)]
+    costs = dict(zip(different, numbers(different, COSTS), strict=True))
+    # ``search`` keeps the required limit itself
+    limits = target.frame.limits.as_dict().values() if target.frame else ()
+    limited = any(value is not None for value in limits)
+    compute_parts_data(specs)
+    out: list[MachineRow | None] = []
+    for spec, one in zip(specs, alone, strict=True):
+        row, values = None, costs[one]
+        try:
+            machine, parts = machine_and_parts(spec)
+        except GenevaError as error:
+            errors.append(str(error))
+            values = None
+        if values:
+            if not parts.why:
+                sized = machine._replace(spec=parts.spec)
+                failed = _failing(sized, values) if limited else _slot_failure(machine)
+                parts = parts._replace(why=failed or parts.why)
+            row = MachineRow(parts.spec, _candidate(machine, target, values, parts.entry))
+        out.append(row if row and _moves_as_required(target, row) else None)
+    return out
+
+
+def _moves_as_required(target: Target, row: MachineRow) -> bool:
     drive = row.spec.drive
     limit, motion = target.acceleration_max, target.motion_for(drive.rollers / drive.turns)
     if motion is not None and not allows(motion, row.candidate.motion_deg):
@@ -187,33 +173,35 @@ def _moves_as_required(target: Target, row: MachineRow) -> bool:
     return limit is None or keeps(row.candidate.acceleration_max, "at most", limit)
 
 
-def _rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow | None]:
-    # peaks depend neither on the speed nor on the number of equal rollers
-    alone = [spec.replace(drive=spec.drive.replace(n_rpm=USUAL_RPM, rollers=1)) for spec in specs]
-    different = [*dict.fromkeys(alone)]
-    known = dict(zip(different, numbers(different, COSTS), strict=True))
-    costs = [known[spec] for spec in alone]
-    out: list[MachineRow | None] = []
-    # ``search`` keeps the required limit itself
-    limits = target.frame.limits.as_dict().values() if target.frame else ()
-    limited = any(value is not None for value in limits)
-    compute_parts_data(specs)
-    for spec, values in zip(specs, costs, strict=True):
-        try:
-            machine, parts = machine_and_parts(spec)
-        except GenevaError as error:
-            errors.append(str(error))
-            out.append(None)
-            continue
-        if values is None:
-            out.append(None)
-            continue
-        if not parts.why:
-            sized = machine._replace(spec=parts.spec)
-            failed = _failing(sized, values) if limited else _slot_failure(machine)
-            parts = parts._replace(why=failed or parts.why)
-        out.append(MachineRow(parts.spec, _candidate(machine, target, values, parts.entry)))
-    return out
+def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
+    """The checks that fail among those that need no parts; the peaks are known."""
+    limits, known = machine.spec.limits.as_dict(), dict(zip(COSTS, costs, strict=True))
+    peaks = {key: known[name] for key, name in LIMITED.items() if name in known}
+    over = [
+        key
+        for key, x in peaks.items()
+        if limits[key] is not None and not keeps(x, "at most", limits[key])
+    ]
+    others = {name: check for name, check in LIMITS.items() if name not in peaks}
+    motion, rest = (
+        [check.name for check in applicable(among, machine) if check.passes is False]
+        for among in (MOTION, others)
+    )
+    return ", ".join([*motion, *over, *rest])
+
+
+def _slot_failure(machine: Mechanism) -> str:
+    """The check of a cam's groove, or of a curved slot's drive, that fails; else empty."""
+    if machine.engagements[0].groove is None:
+        name, check = "driven_fraction", driven_fraction("driven_fraction", machine)
+    else:
+        name = "groove_pressure_deg"
+        pressure_deg = parts_data(machine.spec).pressure_deg
+        # samples are never above the peak, and 1e-6 is beyond rounding
+        if not -NEAR_DEG <= pressure_deg - GROOVE_MAX_DEG <= 1e-6:
+            return name if pressure_deg > GROOVE_MAX_DEG else ""
+        check = groove_pressure(name, machine)
+    return name if check and check.passes is False else ""
 
 
 def _candidate(

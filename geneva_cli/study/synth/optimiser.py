@@ -19,7 +19,6 @@ BROKEN = 1e-200  # a violation below it is rounding; each bound kept by rounding
 SETTLED = 1e-11  # fraction of a cost: samples nearer to the best than this are equally good
 # Violations, and costs, of places (n, d) of tasks by their numbers; infinite without a machine.
 Evaluate: TypeAlias = Callable[[Whole, Array], "tuple[Array, Array]"]
-Accept: TypeAlias = Callable[["Places"], Mask]
 
 
 class Places(NamedTuple):
@@ -72,8 +71,8 @@ def tops(evaluate: Evaluate, tasks: int, axes: Sequence[Array], most: int) -> Pl
     every = sampled(evaluate, np.repeat(np.arange(tasks), count), at)
     rank = np.empty(len(at), dtype=int)
     rank[np.lexsort((every.cost, every.violation))] = np.arange(len(at))
-    wide = np.pad(rank.reshape(tasks, *shape), [(0, 0)] + [(1, 1)] * len(shape),
-                  constant_values=len(at))  # fmt: skip
+    margins = [(0, 0)] + [(1, 1)] * len(shape)
+    wide = np.pad(rank.reshape(tasks, *shape), margins, constant_values=len(at))
     around = sliding_window_view(wide, (1, *[3] * len(shape)))
     least = around.min(axis=tuple(range(-len(shape) - 1, 0)))
     return every.take((rank == least.ravel()) & np.isfinite(every.violation)).best(most)
@@ -97,8 +96,7 @@ def zoom(
         k, d = offsets.shape
         at = (parents.at[:, None] + step[live][:, None, None] * offsets).reshape(-1, d)
         inside = np.clip(at, 0.0, 1.0)
-        for i in how.around:
-            inside[:, i] = at[:, i] % 1.0
+        inside[:, how.around] = at[:, how.around] % 1.0
         near = sampled(evaluate, np.repeat(parents.of, k), inside)
         tracks = np.concatenate((track, np.repeat(track[live], k)))
         steps = np.concatenate((step * how.worse, np.repeat(step[live] * how.better, k)))
@@ -109,16 +107,11 @@ def zoom(
             live = np.full(len(track), True)
         else:
             violation, cost = near.violation.reshape(-1, k), near.cost.reshape(-1, k)
-            with np.errstate(invalid="ignore"):
-                done = _settled(best.take(live), violation, cost)
-                done |= _beaten(best, live, cost)
-                if not patient:
-                    done |= _hopeless(best.violation[live], violation)
-            live[np.flatnonzero(live)[done]] = False
+            live[live] = ~_done(best, live, violation, cost, patient)
     return best
 
 
-def accepted(places: Places, accept: Accept) -> Places:
+def accepted(places: Places, accept: Callable[[Places], Mask]) -> Places:
     """For each task the best of its places without a violation that is accepted.
 
     One place of each task is tested at a time, the best first.
@@ -143,31 +136,25 @@ def _first(places: Places, group: Whole, count: int) -> Whole:
     return which
 
 
-def _settled(best: Places, violation: Array, cost: Array) -> Mask:
-    """Mask of places whose samples (n, k) are as good, or which stay the best in a corner."""
-    kept = (violation < BROKEN).all(axis=1) & (best.violation < BROKEN)
-    off = np.abs(cost - best.cost[:, None]).max(axis=1)
-    corner = np.isin(best.at, (0.0, 1.0)).all(axis=1)
-    flat = (off <= SETTLED * np.abs(best.cost)) | corner
-    alike = np.abs(violation - best.violation[:, None]).max(axis=1) <= SETTLED * best.violation
-    settled: Mask = (kept & flat) | (alike & (best.violation > BROKEN))
-    return settled
-
-
-def _beaten(best: Places, live: Mask, cost: Array) -> Mask:
-    """Mask of live places that another place of their task beats by more than samples differ."""
-    least = np.full(best.of.max() + 1, math.inf)
-    np.minimum.at(least, best.of, np.where(best.violation < BROKEN, best.cost, math.inf))
+def _done(best: Places, live: Mask, violation: Array, cost: Array, patient: bool) -> Mask:
+    """Mask of the live places that need no closer samples, from their last ones (n, k)."""
     own = best.take(live)
-    spread = np.abs(cost - own.cost[:, None]).max(axis=1)
-    beaten: Mask = own.cost - 4.0 * spread > least[own.of]
-    return beaten | ((own.violation > BROKEN) & np.isfinite(least[own.of]))
-
-
-def _hopeless(best: Array, violation: Array) -> Mask:
-    """Mask of places where no step as small can keep the bounds.
-
-    The violation is more than twice what a step near them changes.
-    """
-    hopeless: Mask = (best > BROKEN) & (best > 2.0 * (violation.max(axis=1) - best))
-    return hopeless
+    with np.errstate(invalid="ignore"):
+        spread = np.abs(cost - own.cost[:, None]).max(axis=1)
+        # as good as all samples, or the best in a corner; or broken alike
+        kept = (violation < BROKEN).all(axis=1) & (own.violation < BROKEN)
+        corner = np.isin(own.at, (0.0, 1.0)).all(axis=1)
+        settled = kept & ((spread <= SETTLED * np.abs(own.cost)) | corner)
+        off = np.abs(violation - own.violation[:, None]).max(axis=1)
+        broken = own.violation > BROKEN
+        settled |= broken & (off <= SETTLED * own.violation)
+        # beaten by another place of the task, by more than samples differ
+        least = np.full(best.of.max() + 1, math.inf)
+        np.minimum.at(least, best.of, np.where(best.violation < BROKEN, best.cost, math.inf))
+        beaten = own.cost - 4.0 * spread > least[own.of]
+        beaten |= broken & np.isfinite(least[own.of])
+        if patient:
+            return settled | beaten
+        # the violation is more than twice what a step near it changes
+        hopeless = broken & (own.violation > 2.0 * (violation.max(axis=1) - own.violation))
+        return settled | beaten | hopeless

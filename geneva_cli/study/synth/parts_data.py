@@ -62,11 +62,8 @@ def parts_data(spec: Spec) -> PartsData:
     own = _alike(spec)
     if own not in _kept:
         compute_parts_data([spec])
-    data = _kept.get(own)  # another thread may clear the cache
-    if data is None:
-        (data,) = _computed([own], build(own))
-        _kept[own] = data
-    return data
+    data = _kept.get(own)  # none of a machine that no batch builds; another thread may clear it
+    return data or _computed([own], build(own))[0]
 
 
 def compute_parts_data(specs: Iterable[Spec]) -> None:
@@ -85,16 +82,20 @@ def compute_parts_data(specs: Iterable[Spec]) -> None:
 @lru_cache(maxsize=CACHE)
 def _alike(spec: Spec) -> Spec:
     """The machine that represents all with the same slots and rollers' paths."""
-    drive = spec.drive
-    if spec.motion is None and drive.crank:
+    if spec.motion is None and spec.drive.crank:
         return spec.replace(drive=Crank(n_rpm=USUAL_RPM))
+    return with_one_roller(spec)
+
+
+def with_one_roller(spec: Spec) -> Spec:
+    """The machine at the usual speed with one of its equal rollers: its peaks are the same."""
+    drive = spec.drive
     if drive.n_rpm == USUAL_RPM and drive.rollers == 1:
         return spec
     return spec.replace(drive=drive.replace(n_rpm=USUAL_RPM, rollers=1))
 
 
 def _computed(specs: Sequence[Spec], machine: Mechanism) -> list[PartsData]:
-    """The data of n specs that form one batch machine."""
     engagement, *others = machine.engagements
     assert not others, "synth finds only machines whose rollers move alike"
     L = np.atleast_2d(array(machine.center_distance_mm))
@@ -121,13 +122,16 @@ def _computed(specs: Sequence[Spec], machine: Mechanism) -> list[PartsData]:
     walls = outer_walls(machine, UNDERCUT_SAMPLES)
     back = None if machine.spec.drive.LOCKS else _places_at_rest(machine)
     columns = np.broadcast_arrays(ends, arm, between, least, pressure)
-    out = []
-    for i, (spec, row) in enumerate(zip(specs, np.column_stack(columns).tolist(), strict=True)):
-        end, near, apart, radius, steep = row
-        own = (walls[0].of(i), walls[1].of(i)) if walls else None
-        away = (back[0][i], back[1][i]) if back else None
-        out.append(PartsData(spec, RollerPaths((end,), near), apart, radius, steep, own, away))
-    return out
+    return [
+        PartsData(
+            spec,
+            RollerPaths((row[0],), row[1]),
+            *row[2:],
+            walls and (walls[0].of(i), walls[1].of(i)),
+            back and (back[0][i], back[1][i]),
+        )
+        for i, (spec, row) in enumerate(zip(specs, np.column_stack(columns).tolist(), strict=True))
+    ]
 
 
 def _places_at_rest(machine: Mechanism) -> tuple[Array, Array]:
@@ -154,7 +158,6 @@ def _arm(machine: Mechanism) -> Array:
 
 
 def _between(x: Array, y: Array, z: int) -> float:
-    """The least distance between the pitch curves of adjacent slots, mm."""
     b = math.tau / z
     u, v = math.cos(b) * x - math.sin(b) * y, math.sin(b) * x + math.cos(b) * y
     dx, dy = x[:, None] - u, y[:, None] - v

@@ -14,7 +14,6 @@ from geneva_cli.spec.rules import POSITIVE, Range, range_text
 from geneva_cli.spec.schema import fields
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import (
-    Constraint,
     constraint,
     objective,
     refuse_contradictions,
@@ -61,18 +60,10 @@ def read_target(
     Numbers may be fractions (``1/3``), and those of ``SPANS`` ranges (``0.8..``). Raises
     GenevaError, naming the option, for contradictions and for values out of range.
     """
-    texts = {
-        "tau": tau,
-        "motion_deg": motion_deg,
-        "dwell_deg": dwell_deg,
-        "motion_s": motion_s,
-        "dwell_s": dwell_s,
-        "cycle": cycle,
-        "index_mm": index_mm,
-    }
+    texts = (tau, motion_deg, dwell_deg, motion_s, dwell_s, cycle, index_mm)
     spans = {
-        name: span(f"--{name.replace('_', '-')}", text, SPANS[name][0])
-        for name, text in texts.items()
+        name: span(f"--{name.replace('_', '-')}", text, rule)
+        for (name, (rule, *_)), text in zip(SPANS.items(), texts, strict=True)
         if text
     }
     if not (spans or subject_to or frame):
@@ -92,7 +83,11 @@ def read_target(
     racks = linear or bool(index_mm) or (frame is not None and not frame.output.turns)
     gearings = _gearings(requested, racks, wheels, frame)
     # families keep a limit on the peak in closed form, but not those of racks and carriers
-    peaks = [bound for bound in bounds if _is_peak(bound) and not (racks or wheels)]
+    peaks = [
+        b
+        for b in bounds
+        if (b.name, b.sign) == (PEAK, "<=") and b.bound > 0.0 and not (racks or wheels)
+    ]
     words = ", ".join(phrases) or "the spec alone"
     target = Target(
         words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
@@ -108,19 +103,14 @@ def read_target(
         number("--space", space, Range(0.1, 100.0)) if space else SPACE,
         wheels=wheels,
     )
-    _refuse_unloaded(target)
-    target.refuse_contradictions()
-    return target
-
-
-def _refuse_unloaded(target: Target) -> None:
-    """Raise GenevaError for a quantity of the loads without a load."""
     loads = [name for name in target.names if name.startswith("loads.")]
     if loads and not (target.frame and target.frame.is_loaded):
         raise GenevaError(
             f"{loads[0]}: nothing resists the wheel, so no machine has a value of it; give a load "
             "with --from SPEC and its [load]"
         )
+    target.refuse_contradictions()
+    return target
 
 
 def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
@@ -143,7 +133,6 @@ def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
 
 
 def _wheels(carousel: str, frame: Spec | None) -> tuple[int, ...]:
-    """The numbers of wheels on a carrier; none for cranks on the ground."""
     own = frame.drive.wheels_on_carrier if frame else 0
     if not carousel:
         return (own,) if own else ()
@@ -160,11 +149,7 @@ def _wheels(carousel: str, frame: Spec | None) -> tuple[int, ...]:
 def _gearings(
     chosen: tuple[str, ...], racks: bool, wheels: tuple[int, ...], frame: Spec | None
 ) -> tuple[str, ...]:
-    """The gearings to try: racks alone, or wheels.
-
-    On a carrier they are external or internal, and with a frame that has a stop those that may have
-    one.
-    """
+    """The gearings to try: racks alone, or wheels."""
     if racks:
         if chosen or wheels:
             other = f"--{chosen[0]}" if chosen else "--carousel"
@@ -176,7 +161,9 @@ def _gearings(
             )
         return ("linear",)
     if wheels:
-        able = _carried()
+        able = tuple(g for kind in KINDS if "carrier" in kind.families for g in kind.gearings)
+        if not able:
+            raise GenevaError("--carousel: no drive with wheels on a carrier is installed")
         wrong = next((name for name in chosen if name not in able), None)
         if wrong:
             raise GenevaError(f"--{wrong}: a carrier has {' or '.join(able)} wheels")
@@ -191,15 +178,6 @@ def _gearings(
     if not stopped:
         raise GenevaError(f"--{chosen[0]}: the spec has a stop, which this wheel cannot have")
     return stopped
-
-
-def _carried() -> tuple[str, ...]:
-    """The gearings of wheels on a carrier."""
-    drives = (kind for kind in KINDS if "carrier" in kind.families)
-    able = tuple(name for drive in drives for name in drive.gearings)
-    if not able:
-        raise GenevaError("--carousel: no drive with wheels on a carrier is installed")
-    return able
 
 
 def _rollers(rollers: int | None, racks: bool, frame: Spec | None) -> int | None:
@@ -237,12 +215,6 @@ def _laws(name: str) -> tuple[str, ...]:
             f'--law "{cut(name)}": unknown{hint}; it must be all or {few(name, LAWS)}'
         )
     return (name,)
-
-
-def _is_peak(bound: Constraint) -> bool:
-    """Return True for an upper limit of peak acceleration, which families keep in closed form."""
-    is_limit = bound.sign == "<=" and bound.bound > 0.0
-    return is_limit and bound.name == PEAK
 
 
 def span(option: str, text: str, rule: Range) -> AllowedSpan:

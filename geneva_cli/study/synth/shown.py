@@ -45,17 +45,15 @@ ORDER = (
 )
 
 
+LINKS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm")
+
+
 class SynthesisColumn(NamedTuple):
     """A column for people: its source, its heading and its cells."""
 
     source: str
     head: str
     cells: list[Any]
-
-    @property
-    def width(self) -> int:
-        """The width in characters, with the heading broken at underscores."""
-        return max(len(text) for text in (*self.head.split("_"), *map(cell, self.cells)))
 
 
 def for_terminal(table: Table, most: int) -> Table:
@@ -94,25 +92,26 @@ def for_people(table: Table) -> Table:
         elif not (column.source == "rollers" and constant and first == 1):
             columns.append(column)
     title = table.title + (f" All: {', '.join(once)}." if once else "")
-    kept = _fitting([c._replace(cells=[*map(_short, c.cells)]) for c in columns])
+    kept = _fitting(
+        [
+            c._replace(cells=[float(_number(v)) if isinstance(v, float) else v for v in c.cells])
+            for c in columns
+        ]
+    )
     return Table(tuple(c.head for c in kept), [c.cells for c in kept], title=title)
 
 
 def _columns(
     rows: list[dict[str, Any]], names: tuple[str, ...], several: bool
 ) -> Iterator[SynthesisColumn]:
-    """All columns in their order."""
     # the machine's description has the keys
     known = {*HEADS, "drive", "law", "alpha0_deg", *OWN_KEYS}
     for source in ORDER:
         if source == "machine":
             yield SynthesisColumn(source, source, [_machine(row, several) for row in rows])
         elif source == "extra":
-            for name in names:
-                if name not in known:
-                    yield SynthesisColumn(
-                        source, name.replace(".", "_"), [row[name] for row in rows]
-                    )
+            for name in (name for name in names if name not in known):
+                yield SynthesisColumn(source, name.replace(".", "_"), [row[name] for row in rows])
         elif source == "parts":
             yield SynthesisColumn(source, source, [_parts_entry(row["parts"]) for row in rows])
         else:
@@ -135,21 +134,17 @@ def _machine(row: dict[str, Any], several: bool) -> str:
         f"D {_number(row['sector_deg'])}" if row["sector_deg"] else "",
         f"first z {row['first_z']}" if row["first_z"] else "",
         f"{row['wheels']} wheels" if (row["wheels"] or 1) > 1 else "",
-        _links(row) if row["ground_mm"] else "",
+        " ".join(f"{row[key]:.3g}" for key in LINKS) if row["ground_mm"] else "",
     ]
     return " ".join([row["drive"], *filter(None, own)])
 
 
-def _links(row: dict[str, Any]) -> str:
-    """Crank, ground, coupler, rocker and the roller's place, in mm."""
-    lengths = (row[key] for key in ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm"))
-    return " ".join(f"{x:.3g}" for x in lengths)
-
-
 def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
-    """As many columns as fit, the least important ones left out."""
     rank = _ranks(columns)
-    wide = [c.width + 3 for c in columns]  # letters, with a frame's gap between two columns
+    # letters with a frame's gap between two columns; headings are broken at underscores
+    wide = [
+        max(len(text) for text in (*c.head.split("_"), *map(cell, c.cells))) + 3 for c in columns
+    ]
     kept = [*range(len(columns))]
     while sum(wide[i] for i in kept) + 1 > 100:
         kept.remove(max(kept, key=lambda i: rank[columns[i].source]))
@@ -157,10 +152,6 @@ def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
 
 
 def _ranks(columns: list[SynthesisColumn]) -> dict[str, float]:
-    """The rank of each column in importance.
-
-    The number of rollers comes before the wheel if rows differ in nothing else that names them.
-    """
     rank: dict[str, float] = {source: i for i, source in enumerate(HEADS)}
     named = [c.cells for c in columns if c.source in ("z", "gearing", "machine")]
     names = [*zip(*named, strict=True)]
@@ -171,10 +162,6 @@ def _ranks(columns: list[SynthesisColumn]) -> dict[str, float]:
         if rate in {c.source for c in columns}:  # rows are sorted by it
             rank[peak], rank[rate] = rank[rate], rank[peak]
     return rank
-
-
-def _short(value: Any) -> Any:
-    return float(_number(value)) if isinstance(value, float) else value
 
 
 def _number(value: Any) -> str:

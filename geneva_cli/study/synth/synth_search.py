@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -42,7 +43,7 @@ class Ranking(NamedTuple):
         if not self.requested.names:
             return row
         try:
-            return bounded(self.requested, with_batch_values(self.requested.names, [row]))[0]
+            return _bounded(self.requested, with_batch_values(self.requested.names, [row]))[0]
         except GenevaError:
             return None
 
@@ -58,17 +59,21 @@ def search(target: Target) -> Ranking:
     # the error message says how near they come
     if target.acceleration_max is None and not any(kind.keeps for kind in by_kind):
         by_kind = all_kinds(target, target.names, how_near=True)
-    errors = [error for kind in by_kind for error in kind.errors]
     every = [row for kind in by_kind for row in kind.rows]
     if not every:
         if target.acceleration_max is not None:
             return search(target.by_bounds)  # its message says how near they come
-        raise GenevaError(_out_of_reach(target, errors))
+        raise GenevaError(_out_of_reach(target, [e for kind in by_kind for e in kind.errors]))
     ranked = _ranked(target, every)
-    if frame_limits(target) and narrowed.motion_for(1) and any(row.breaks_limit for row in ranked):
+    limits = _frame_limits(target)
+    if limits and narrowed.motion_for(1) and any(row.breaks_limit for row in ranked):
+        # rows of the same kinds whose machines keep the frame's limits too
         which = [any(row.breaks_limit for row in kind.rows) for kind in by_kind]
-        within = _within_limits(target, narrowed, which)
-        ranked = with_replacements(ranked, within)
+        strict = narrowed._replace(bounds=(*narrowed.bounds, *limits))
+        found = all_kinds(strict, target.names, which=which)
+        within = [row for kind in found for row in kind.rows if not row.breaks_limit]
+        with suppress(GenevaError):  # none keeps the bounds as well
+            ranked = with_replacements(ranked, _ranked(target, within))
         ranked.sort(key=partial(_rank, target))
     ranking = Ranking(ranked, narrowed, target)
     others = map(ranking.in_turn, replacement_rows(narrowed, ranked[:TURNED], ranked))
@@ -77,60 +82,39 @@ def search(target: Target) -> Ranking:
     return ranking
 
 
-def _ranked(target: Target, machines: list[MachineRow]) -> list[MachineRow]:
-    """The rows that keep the bounds, in order."""
-    if target.names:
-        machines = bounded(target, machines)
-    machines = _worthwhile(target, machines)
-    machines.sort(key=partial(_rank, target))
-    return first_of_each(machines, linkages=in_batch(target.quantities))
-
-
-def _within_limits(target: Target, narrowed: Target, which: Sequence[bool]) -> list[MachineRow]:
-    """The rows of those kinds whose machines keep the frame's limits too.
-
-    ``narrowed`` is the requirement with its bounds on times as ranges.
-    """
-    strict = narrowed._replace(bounds=(*narrowed.bounds, *frame_limits(target)))
-    by_kind = all_kinds(strict, target.names, which=which)
-    kept = [row for kind in by_kind for row in kind.rows if not row.breaks_limit]
-    try:
-        return _ranked(target, kept)
-    except GenevaError:  # none keeps the bounds as well
-        return []
+def _ranked(target: Target, rows: list[MachineRow]) -> list[MachineRow]:
+    rows = _worthwhile(target, _bounded(target, rows) if target.names else rows)
+    rows.sort(key=partial(_rank, target))
+    return first_of_each(rows, linkages=in_batch(target.quantities))
 
 
 def _rank(target: Target, row: MachineRow) -> tuple[object, ...]:
-    """The sort key of a row: the goal's quantity, then peaks.
-
-    Numbers that differ only by rounding are equal.
-    """
-    candidate = row.candidate
+    """The sort key of a row: the goal's quantity, then peaks, equal in 12 digits."""
+    one = row.candidate
     first: tuple[object, ...] = ()
     if target.sort:
         value = row.extra[target.names.index(target.sort.name)]
         # texts, and unknown values, come behind the numbers
-        first = (0, _in_12_digits(_first(target, row))) if is_number(value) else (1, str(value))
-    return (
-        *first,
-        _in_12_digits(candidate.peak),
-        _in_12_digits(candidate.jerk_max),
-        candidate.rollers,
-        candidate.z,
-        candidate.gearing,
-        candidate.drive,
-    )
+        is_known = is_number(value)
+        first = (0, _in_12_digits(_first(target, row))) if is_known else (1, str(value))
+    peaks = _in_12_digits(one.peak), _in_12_digits(one.jerk_max)
+    return (*first, *peaks, one.rollers, one.z, one.gearing, one.drive)
 
 
 def _in_12_digits(x: float) -> float:
     return float(f"{x:.12g}")
 
 
-def _worthwhile(target: Target, machines: list[MachineRow]) -> list[MachineRow]:
-    """The rows without machines of two numbers that are hardly better than one of one number.
+def _first(target: Target, row: MachineRow) -> float:
+    """The first number of the sort key, least first; NaN if there is none."""
+    if not target.sort:
+        return row.candidate.peak
+    value = row.extra[target.names.index(target.sort.name)]
+    return target.sort.sign * float(value) if is_number(value) else math.nan
 
-    If the nearest machine to the plain crank is required, all of them are left out that have one.
-    """
+
+def _worthwhile(target: Target, machines: list[MachineRow]) -> list[MachineRow]:
+    """The rows without machines of two numbers that are hardly better than one of one number."""
     one = [row for row in machines if not row.candidate.of_two_numbers]
 
     def beaten(row: MachineRow) -> bool:
@@ -148,14 +132,6 @@ def _worthwhile(target: Target, machines: list[MachineRow]) -> list[MachineRow]:
 
     nearest = target.with_times().any_motion and not target.sort
     return [row for row in machines if not (row.candidate.of_two_numbers and beaten(row))]
-
-
-def _first(target: Target, row: MachineRow) -> float:
-    """The first number of the sort key, least first; NaN if there is none."""
-    if not target.sort:
-        return row.candidate.peak
-    value = row.extra[target.names.index(target.sort.name)]
-    return target.sort.sign * float(value) if is_number(value) else math.nan
 
 
 def _out_of_reach(target: Target, errors: list[str]) -> str:
@@ -203,7 +179,7 @@ def _out_of_reach(target: Target, errors: list[str]) -> str:
     )
 
 
-def frame_limits(target: Target) -> tuple[Constraint, ...]:
+def _frame_limits(target: Target) -> tuple[Constraint, ...]:
     """The frame's limits as bounds; the lock's load is equal in all machines of a wheel."""
     values = target.frame.limits.as_dict() if target.frame else {}
     return tuple(
@@ -214,16 +190,12 @@ def frame_limits(target: Target) -> tuple[Constraint, ...]:
 
 
 def _kind(row: MachineRow) -> tuple[object, ...]:
-    """A key that is equal for all machines of one wheel, drive, law and number of rollers."""
     one = row.candidate
     return one.gearing, one.z, one.drive, one.law, one.fixed, one.rollers
 
 
 def first_of_each(rows: Sequence[MachineRow], linkages: bool = False) -> list[MachineRow]:
-    """The first row of every kind, or the first that may be built if that one cannot.
-
-    With ``linkages`` every linkage counts as a kind, as several rows stand for those searched.
-    """
+    """The first row of every kind, or the first that may be built if that one cannot."""
     kept: list[MachineRow] = []
     can_be: dict[Any, bool] = {}  # by kind, whether one of the kept rows may be built
     for i, row in enumerate(rows):
@@ -243,8 +215,7 @@ def with_replacements(rows: Sequence[MachineRow], kept: Sequence[MachineRow]) ->
     return [*(row for row in rows if _kind(row) not in mended), *instead]
 
 
-def bounded(target: Target, rows: Sequence[MachineRow]) -> list[MachineRow]:
-    """The rows that keep the bounds, with the quantities that the requirement names."""
+def _bounded(target: Target, rows: Sequence[MachineRow]) -> list[MachineRow]:
     names = target.names
     alone = [row.spec for row in rows if not row.extra]
     rest = mapped(partial(_values, Pick(names)), alone, min(cores(), len(alone)), "machines")
@@ -272,13 +243,14 @@ def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
 
 def _how_near(nearness: Nearness, count: int) -> str:
     """The bounds that none of the machines keeps, and how near one is; or that none keeps all."""
-    each = [*zip(nearness.bounds, nearness.kept, nearness.nearest, strict=True)]
     phrases = [
         f"{b} (not known)" if nearest is None else f"{b} (nearest {nearest:.6g})"
-        for (_, b), kept, nearest in each
+        for (_, b), kept, nearest in zip(
+            nearness.bounds, nearness.kept, nearness.nearest, strict=True
+        )
         if not kept
     ]
     if not phrases:
-        *others, last = [str(b) for _, b in nearness.bounds]
-        phrases = [*others, f"{last} at once"]
+        phrases = [str(b) for _, b in nearness.bounds]
+        phrases[-1] += " at once"
     return f"none of {count} machines that keep all other bounds keeps {' and '.join(phrases)}"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -58,7 +57,7 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
     maybe = [one for one in every if one.row.candidate.parts == MAYBE]
     if not buildable:
         maybe = [one for one in maybe if one.no <= count]
-    work = partial(built, fixed=fixed(ranking.target))
+    work = partial(built, fixed=_fixed(ranking.target))
     done = mapped(work, [one.row.spec for one in maybe], min(len(maybe), cores()), "machines")
     done = tracked(done, "machines turned", len(maybe))
     results: dict[int, MachineRow] = {}
@@ -67,7 +66,7 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
         if buildable and passed >= count:
             last = one.no
             break
-        results[one.no] = with_result(one.row, next(done))
+        results[one.no] = _with_result(one.row, next(done))
         passed += results[one.no].candidate.parts == YES
     again = {
         no: row
@@ -75,7 +74,10 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
         if row.is_impossible and (buildable or row.is_replacement)
     }
     if buildable:
-        again |= _stuck(every[:last], ranking)
+        # rows that cannot be built, of families without a buildable row
+        able = {row.family for row in ranking.rows if not row.is_impossible}
+        stuck = (one for one in every[:last] if one.row.is_impossible)
+        again |= {one.no: one.row for one in stuck if one.row.family not in able}
     others = _others(ranking, again)
     results |= others
     shown = [one._replace(row=results.get(one.no, one.row)) for one in every]
@@ -87,23 +89,16 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
     return shown[:count] if buildable else shown
 
 
-def _stuck(every: Sequence[Numbered], ranking: Ranking) -> dict[int, MachineRow]:
-    """The rows that cannot be built, of families without a buildable row."""
-    able = {row.family for row in ranking.rows if not row.is_impossible}
-    return {no: row for no, row in every if row.is_impossible and row.family not in able}
-
-
 def _others(ranking: Ranking, failing: dict[int, MachineRow]) -> dict[int, MachineRow]:
-    """For rows that fail, by their numbers, the best machines of their families that pass."""
-    work = partial(other, ranking._replace(rows=[]))
+    work = partial(_other, ranking._replace(rows=[]))
     done = mapped(work, failing.values(), min(len(failing), cores()), "machines")
     done = tracked(done, "alternatives", len(failing))
     return {no: row for no, row in zip(failing, done, strict=True) if row}
 
 
-def other(ranking: Ranking, row: MachineRow) -> MachineRow | None:
+def _other(ranking: Ranking, row: MachineRow) -> MachineRow | None:
     """The best machine of a row's family that passes a full turn, other than the row's own."""
-    sizes = fixed(ranking.target)
+    sizes = _fixed(ranking.target)
 
     def turn(maybe: MachineRow, like: MachineRow | None) -> MachineRow | None:
         own = ranking.in_turn(maybe)
@@ -111,20 +106,19 @@ def other(ranking: Ranking, row: MachineRow) -> MachineRow | None:
             return None
         if like:
             spec = own.spec.replace(size=like.spec.size)
-            return with_result(own, Built(spec, "")) if passes(spec) else None
+            return _with_result(own, Built(spec, "")) if passes(spec) else None
         result = built(own.spec, sizes)
-        return None if result.trouble else with_result(own, result)
+        return None if result.trouble else _with_result(own, result)
 
     return buildable_rows(ranking.target, [row.family], turn)[0] if row.family else None
 
 
-def with_result(row: MachineRow, result: Built) -> MachineRow:
-    """A row with the result of turning its parts."""
+def _with_result(row: MachineRow, result: Built) -> MachineRow:
     entry = f"no: {result.trouble}" if result.trouble else YES
     return row._replace(spec=result.spec, candidate=row.candidate._replace(parts=entry))
 
 
-def fixed(target: Target) -> frozenset[str]:
+def _fixed(target: Target) -> frozenset[str]:
     """The sizes that the requirement's frame gives, which do not change."""
     sizes = target.frame.size.as_dict() if target.frame else {}
     return frozenset(key for key, value in sizes.items() if value is not None)
@@ -143,25 +137,21 @@ def chosen(
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ranking.rows)}")
     row = ranking.rows[number - 1]
     if not row.is_impossible:
-        row = with_result(row, built(row.spec, fixed(ranking.target)))
+        row = _with_result(row, built(row.spec, _fixed(ranking.target)))
     if row.is_impossible and (buildable or (row.is_replacement and number <= count)):
-        row = other(ranking, row) or row
+        row = _other(ranking, row) or row
     return row, commented(ranking.target, number, row)
 
 
 def commented(target: Target, number: int, machine: MachineRow) -> str:
     """The text of a spec from synthesis, with comments."""
-    return "\n".join([*_heading(target, number, machine), *spec_lines(machine.spec)]) + "\n"
-
-
-def _heading(target: Target, number: int, machine: MachineRow) -> list[str]:
     row = machine.candidate
-    z = f"{row.z} slots, {row.gearing}"
     slots = f"{row.drive}, {row.law}" if row.law else row.drive
+    title = f"{target.words}: {row.z} slots, {row.gearing}, {slots}"
     names = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
     costs = [f"{name} {getattr(row, name):.7g}" for name in names]
     lines = [
-        f"title = {quoted(f'{target.words}: {z}, {slots}')}",
+        f"title = {quoted(title)}",
         "",
         f"# Row {number} of `geneva synth`. It moves for {row.motion_deg:.7g} deg of the input and",
         f"# rests for {row.dwell_deg:.7g}: tau = {row.tau:.7g}, k = {row.k:.7g}.",
@@ -170,4 +160,4 @@ def _heading(target: Target, number: int, machine: MachineRow) -> list[str]:
     ]
     if machine.trouble:
         lines.append(f"# Warning: its parts cannot be built: {machine.trouble}.")
-    return lines
+    return "\n".join([*lines, *spec_lines(machine.spec)]) + "\n"

@@ -175,14 +175,6 @@ def test_the_lock_and_the_pivot_in_the_dwells(wheel):
     assert held_torque_Nm(design.mechanism) == pytest.approx(max(moments), rel=1e-13)
 
 
-@pytest.mark.parametrize(("wheels", "fingers"), [(1, 1), (2, 1), (1, 2)])
-def test_wheels_move_for_the_same_time_with_a_body_off_their_axis(wheels, fingers):
-    """A motion takes 180° - 360°/z of a turn, for each wheel and each finger."""
-    values = values_of(design_of(External(5), wheels=wheels, rollers=fingers))
-    fraction = wheels * fingers * (0.5 - 1.0 / 5.0)
-    assert values["carousel.moving_fraction"] == pytest.approx(fraction, rel=1e-14)
-
-
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("angle", [0.0, 130.0, 220.0])
 def test_the_place_of_a_horns_stress_names_the_turn(angle):
@@ -220,32 +212,6 @@ def test_a_balanced_pair_has_the_loads_of_its_inertia():
     for name in ("input_torque_Nm", "wheel_torque_Nm", "pin_force_N"):
         assert one[name].max == pytest.approx(other[name].max, rel=1e-12)
         assert one[name].rms == pytest.approx(other[name].rms, rel=1e-10)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("wheels", [2, 3])
-def test_several_wheels_have_the_sum_of_their_torques(wheels):
-    """Every wheel has the torques of one, a part of a turn later."""
-    one, several = (design_of(External(5), wheels=n).loads["input_torque_Nm"] for n in (1, wheels))
-    assert several.max == pytest.approx(one.max, rel=1e-12)
-    assert several.min == pytest.approx(one.min, rel=1e-12)
-    assert several.rms == pytest.approx(math.sqrt(wheels) * one.rms, rel=1e-10)
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("wheels", [1, 3])
-@pytest.mark.parametrize("angle", [0.0, 130.0, 220.0])
-def test_a_figure_marks_a_load_on_its_curve(wheels, angle):
-    """The states at a mark's own input angle have its value: it is in the right turn."""
-    design = design_of(External(4), angle=angle, wheels=wheels)
-    names = ["pin_force_N", "input_torque_Nm"]
-    for name, panel in zip(names, design.figure(names).panels, strict=True):
-        (curve,) = panel.curves
-        assert [mark.word for mark in curve.marks] == ["max", "min"]
-        for mark in curve.marks:
-            state = design.cycle.states(np.array([mark.x]))
-            # the load is flat about its peak, whose place has half of the digits
-            assert getattr(state, name)[0] == pytest.approx(mark.y, rel=1e-9)
 
 
 @pytest.mark.sampled(6)

@@ -104,13 +104,6 @@ def test_a_body_on_the_carriers_side_softens_the_shaft():
     assert far == pytest.approx(-near, rel=1e-14)
 
 
-def test_all_wheels_of_a_carrier_vibrate_alike():
-    """Each has all six directions in its own order."""
-    one, two = (carousel(500.0, 0.02, wheels=wheels).vibration().to_dict() for wheels in (1, 2))
-    assert len(two["stations"]) == 6
-    assert two["residual_share"] == pytest.approx(one["residual_share"], rel=1e-12)
-
-
 def test_the_steady_state_is_the_sum_of_all_earlier_residuals():
     """Slowly built up: 60 turns of the wheel, each motion a kick between free swings."""
     design = carousel(200.0, 0.02)

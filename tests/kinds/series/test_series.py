@@ -7,7 +7,6 @@ import math
 
 import numpy as np
 import pytest
-import repo
 from words import load
 
 from geneva_cli import (
@@ -33,18 +32,16 @@ from geneva_cli import (
 from geneva_cli.drives.retimed import retimed
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds
-from geneva_cli.loads.load_peaks import load_summaries
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.both_ways import backwards
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.pivots import Joint
-from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.cut_outlines import drawn
-from geneva_cli.parts.parts import parts_of
 from geneva_cli.specfile.tree import spec_of
 from geneva_cli.specfile.writer import spec_lines
 from geneva_cli.study.animation.animated_turn import MachineTurn
@@ -348,18 +345,6 @@ def test_gears_before_stand_on_the_shaft_that_they_turn():
         assert (driven.at, driver.at) == ((x, 0.0), (x + 50.0, 0.0))
         assert {"driver gear axis"} <= {one.name for one in design.mechanism.layout}
         assert all(check.passes for check in design.checks), drive.NAME
-
-
-@pytest.mark.long
-def test_gears_lie_below_all_links_and_inside_the_bolts():
-    """A sun stands on bolts: gears between it and the frame turn inside them."""
-    spec = load(str(repo.DESIGNS / "behind-gears.toml")).spec
-    flat = parts_of(build(spec)).flat
-    lows = [link.part.low for link in flat.links.cut]
-    assert all(gear.part.high <= min(lows) for gear in flat.gear_pair)
-    assert flat.gear_pair[0].part.low == flat.gear_pair[1].part.low
-    wide = Design.of(spec.with_("drive.before.gear_distance_mm", 100.0))
-    assert [c.name for c in wide.checks if c.passes is False] == ["gear_gap_mm"]
 
 
 def test_parts_that_are_not_built_say_why():

@@ -38,12 +38,6 @@ def test_gear_sectors_move_for_as_long_as_wished(z, motion):
     assert row.candidate.motion_deg == pytest.approx(motion, rel=1e-13)
 
 
-@pytest.mark.long
-def test_there_are_none_for_a_motion_shorter_than_the_crank_s():
-    assert not of_kind("gear-sector", motion_deg="..59.9", z="3")
-    assert not of_kind("gear-sector", motion_deg="150", z="5", internal=True)
-
-
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize(("z", "most"), [(3, 6), (4, 4), (5, 3), (6, 3), (7, 2)])
 def test_first_wheels_for_a_small_share_of_the_cycle(z, most):

@@ -7,6 +7,7 @@ import numpy as np
 from witness import mp
 
 LIMIT = 16.0
+DIGITS = 120  # A within 1e-12 of 1 costs a fourth derivative four times 12 of them, and more
 
 
 class Worst(NamedTuple):

@@ -6,8 +6,8 @@ Both take as many rollers as the plain wheel, and more as long as their parts ca
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from functools import cache, partial
+from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +22,7 @@ from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import MARGIN
-from geneva_cli.study.law_values import characteristic
+from geneva_cli.study.law_values import Characteristic, characteristic
 from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.family import (
     OPEN_END,
@@ -42,12 +42,6 @@ from geneva_cli.study.synth.parts_data import compute_parts_data
 from geneva_cli.study.target import AllowedSpan, Target
 
 
-@cache
-def standard(law: str) -> Law:
-    """A law by its name, with standard parameters."""
-    return registry.law(law)()
-
-
 def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """Curved slots and cams with each law.
 
@@ -55,92 +49,86 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     bounds or another goal, every motion of the range is possible. Below a limit of acceleration
     alone, the motion nearest to the plain crank's is best; the law's peak gives it in closed form.
     """
+    laws = [(law, characteristic(law)) for law in (registry.law(name)() for name in target.laws)]
     lines = [
-        own
+        _LawLine(target, wheel, *law, grooved, natural_deg(wheel))
         for wheel in wheels
         if wheel.FLAT
-        for law in target.laws
-        for own in _lines(target, wheel, law)
+        for law in laws
+        for grooved in (False, True)
     ]
-    several = more_rollers(target, [(own.natural, own.some) for own in lines])
-    for own, more in zip(lines, several, strict=True):
+    for own, more in zip(lines, _more_rollers(target, lines), strict=True):
         yield from own.families(more)
 
 
-def _lines(target: Target, wheel: Gearing, law: str) -> tuple[_LawMachines, _LawMachines]:
-    """Curved slots, and cams, of a wheel and a law."""
-    natural, until = natural_deg(wheel), partial(_until_parallel, wheel)
-    step, cost = 2.0 * math.pi / wheel.z, characteristic(standard(law))
-    limit = target.acceleration_max
-    least = closed.law_motion_deg(step, cost.acceleration, limit * (1.0 - MARGIN)) if limit else 0.0
-    fast = cost.velocity * step if wheel.SIGN < 0.0 else 0.0
-
-    def matched(motion: float) -> float:
-        """The motion, or a longer one for a wheel that is too quick for curved slots inside.
-
-        Where it turns half as fast as the crank, R/L is 1; at 0.45 it is 9/11.
-        """
-        return math.degrees(fast / 0.45) if fast >= 0.5 * math.radians(motion) else motion
-
-    make, grooved = partial(curved, target, wheel, law), partial(cam, target, wheel, law)
-    return (
-        _LawMachines(target, natural, make, lambda motions: motions, least, matched),
-        _LawMachines(target, natural, grooved, until, least, lambda motion: motion),
-    )
-
-
-class _LawMachines(NamedTuple):
-    """Machines of one wheel and law: ``make`` takes the number of rollers and the motion.
-
-    ``reached`` limits a range of motions to those that exist. ``least`` is the motion with which
-    the law's peak keeps a limit of acceleration; ``possible`` is the nearest motion that exists.
-    """
+class _LawLine(NamedTuple):
+    """Machines of one wheel and law: curved slots, or straight ones with a groove on the crank."""
 
     target: Target
-    natural: float
-    make: Callable[[int, float], Spec]
-    reached: Callable[[AllowedSpan], AllowedSpan]
-    least: float
-    possible: Callable[[float], float]
+    wheel: Gearing
+    law: Law
+    cost: Characteristic
+    grooved: bool
+    natural: float  # the plain crank's motion angle
+
+    def spec(self, m: int, motion_deg: float) -> Spec:
+        alpha0 = _alpha0(self.target, self.natural, motion_deg)
+        if self.grooved:
+            kind, motion = Cam, Motion(self.law, alpha0_deg=alpha0)
+        else:
+            kind, motion = Crank, Motion(self.law, alpha0_deg=alpha0, ratio="matched")
+
+        def drive(n_rpm: float) -> Cam | Crank:
+            return kind(n_rpm=n_rpm, rollers=m)
+
+        return machine(self.target, self.wheel, drive, m, motion_deg, motion)
 
     def families(self, more: Sequence[Spec]) -> Iterator[Family]:
         """The families, including those with ``more`` rollers than the plain wheel takes."""
+        several = rollers(self.target, self.natural)
+        more_counts = [spec.drive.rollers for spec in more]
         if self.target.only_acceleration:
-            every = [*rollers(self.target, self.natural), *(spec.drive.rollers for spec in more)]
-            yield from map(self._below, every)
+            yield from map(self._below, (*several, *more_counts))
             return
-        for m in rollers(self.target, self.natural):
-            free = self._motions(m)
-            if free is None:
-                continue
-            own = allows(free, self.natural)
-            plain = AllowedSpan(self.natural, self.natural)
-            yield self._free(m, plain if own and free.exact else free)
-            if own:
-                yield Family(self.make(m, self.natural))
-        for spec in more:
-            m = spec.drive.rollers
-            yield self._free(m, self._motions(m) or AllowedSpan(self.natural, self.natural))
+        plain = AllowedSpan(self.natural, self.natural)
+        for m in several:
+            if free := self._motions(m):
+                own = allows(free, self.natural)
+                yield self._free(m, plain if own and free.exact else free)
+                if own:
+                    yield Family(self.spec(m, self.natural))
+        for m in more_counts:
+            yield self._free(m, self._motions(m) or plain)
 
     def some(self, m: int) -> list[Spec]:
         """The gentlest machine of m rollers and, in a range, some others."""
         if self.target.only_acceleration:
-            return [self.make(m, self._below(m).best)]
+            return [self.spec(m, self._below(m).best)]
         free = self._motions(m)
-        if not free:
-            return []
-        low, high = free
-        return [self.make(m, x) for x in dict.fromkeys((high, 0.5 * (low + high), low))]
+        motions = (free.high, 0.5 * (free.low + free.high), free.low) if free else ()
+        return [self.spec(m, x) for x in dict.fromkeys(motions)]
+
+    def _motions(self, m: int) -> AllowedSpan | None:
+        """The allowed motions; with a groove those below that of a slot parallel to the crank."""
+        free = closed_span(allowed_motions(self.target, m, self.natural), m)
+        parallel = (1.0 - OPEN_END) * (360.0 - self.wheel.SIGN * 360.0 / self.wheel.z)
+        if free and self.grooved and not free.exact and free.low < parallel:
+            return AllowedSpan(free.low, min(free.high, parallel))
+        return free
 
     def _below(self, m: int) -> Family:
         """The machines below a limit of acceleration; the nearest to the plain crank is best."""
+        step, limit = 2.0 * math.pi / self.wheel.z, self.target.acceleration_max
+        least = 0.0
+        if limit:
+            least = closed.law_motion_deg(step, self.cost.acceleration, limit * (1.0 - MARGIN))
         most = longest_deg(m)
-        best = self.possible(max(self.least, min(self.natural, most)))
-        return self._line(m, AllowedSpan(self.least, max(most, best)), best)
-
-    def _motions(self, m: int) -> AllowedSpan | None:
-        allowed = closed_span(allowed_motions(self.target, m, self.natural), m)
-        return self.reached(allowed) if allowed else None
+        best = max(least, min(self.natural, most))
+        # where an internal wheel turns half as fast as the crank, R/L is 1; at 0.45 it is 9/11
+        fast = self.cost.velocity * step
+        if not self.grooved and self.wheel.SIGN < 0.0 and fast >= 0.5 * math.radians(best):
+            best = math.degrees(fast / 0.45)
+        return self._line(m, AllowedSpan(least, max(most, best)), best)
 
     def _free(self, m: int, motion: AllowedSpan) -> Family:
         """The machines of a range of motions, the longest of which is the gentlest."""
@@ -148,67 +136,36 @@ class _LawMachines(NamedTuple):
         return self._line(m, motion, best)
 
     def _line(self, m: int, motion: AllowedSpan, best: float) -> Family:
-        keys = partial(_motions, self.target, self.natural, m)
-        return line(self.make(m, motion.high), keys, motion, plain=(self.natural,), best=best)
+        keys = partial(_keys, self.target, self.natural, m)
+        return line(self.spec(m, motion.high), keys, motion, plain=(self.natural,), best=best)
 
 
-def _until_parallel(wheel: Gearing, motion: AllowedSpan) -> AllowedSpan:
-    """The range up to the motion at which crank and slot would be parallel."""
-    parallel = (1.0 - OPEN_END) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
-    inside = not motion.exact and motion.low < parallel
-    return AllowedSpan(motion.low, min(motion.high, parallel)) if inside else motion
-
-
-def more_rollers(
-    target: Target, lines: Sequence[tuple[float, Callable[[int], Sequence[Spec]]]]
-) -> list[list[Spec]]:
-    """More rollers than the plain wheel takes, for each line as long as parts can be built.
-
-    A line is the plain crank's motion angle, degrees, and a maker of machines with m rollers. The
-    first of these is taken if any may be built.
-    """
-    specs_of_line: list[list[Spec]] = [[] for _ in lines]
-    if target.rollers is not None:
-        return specs_of_line
-    more = [int(m) for m in target.counts if m >= 1.0]
-    begin = [next((m for m in more if m > rollers_max(natural)), None) for natural, _ in lines]
-    growing = {i: m for i, m in enumerate(begin) if m}
-    while growing:
-        specs = {i: some for i, m in growing.items() if (some := lines[i][1](m))}
-        compute_parts_data(first for first, *_ in specs.values())
-        stuck = {i for i, (first, *_) in specs.items() if not has_no_obstacle(first)}
-        compute_parts_data(spec for i in stuck for spec in specs[i][1:])
-        stuck = {i for i in stuck if not any(map(has_no_obstacle, specs[i][1:]))}
-        growing = {i: growing[i] + 1 for i in specs if i not in stuck}
-        for i in growing:
-            specs_of_line[i].append(specs[i][0])
-    return specs_of_line
-
-
-def curved(target: Target, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
-    """Curved slots, with the motion's alpha_0."""
-    law_motion = Motion(
-        standard(law), alpha0_deg=_alpha0(target, natural_deg(wheel), motion), ratio="matched"
-    )
-    return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, law_motion)
-
-
-def cam(target: Target, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
-    """A cam: straight slots with the law's motion, made by a groove along the crank."""
-    law_motion = Motion(standard(law), alpha0_deg=_alpha0(target, natural_deg(wheel), motion))
-    return machine(target, wheel, lambda n: Cam(n_rpm=n, rollers=m), m, motion, law_motion)
-
-
-def _motions(target: Target, natural: float, m: int, at: Array) -> dict[str, Array]:
+def _keys(target: Target, natural: float, m: int, at: Array) -> dict[str, Array]:
     motions = at[:, 0].tolist()
     alpha0 = np.array([_alpha0(target, natural, motion) for motion in motions])
     return {"motion.alpha0_deg": alpha0, **speeds(target, m, motions)}
 
 
 def _alpha0(target: Target, natural: float, motion: float) -> float:
-    """The shortest alpha_0 that makes a motion."""
     alpha0 = natural - motion
     spare = 2e-15 * natural  # the rounding of a difference of two angles
     # A motion that is shorter, by however little, would break a limit that it just keeps.
     most = alpha0 if target.acceleration_max else alpha0 + spare
     return closed.shortest(alpha0 - spare, most)
+
+
+def _more_rollers(target: Target, lines: Sequence[_LawLine]) -> list[list[Spec]]:
+    """More rollers than the plain wheel takes, for each line as long as parts can be built."""
+    specs_of_line: list[list[Spec]] = [[] for _ in lines]
+    if target.rollers is not None:
+        return specs_of_line
+    more = [int(m) for m in target.counts if m >= 1.0]
+    begin = [next((m for m in more if m > rollers_max(own.natural)), None) for own in lines]
+    growing = {i: m for i, m in enumerate(begin) if m}
+    while growing:
+        specs = {i: some for i, m in growing.items() if (some := lines[i].some(m))}
+        compute_parts_data(spec for some in specs.values() for spec in some)
+        growing = {i: growing[i] + 1 for i in specs if any(map(has_no_obstacle, specs[i]))}
+        for i in growing:
+            specs_of_line[i].append(specs[i][0])
+    return specs_of_line

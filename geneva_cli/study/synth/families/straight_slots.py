@@ -49,51 +49,58 @@ MOST = closed.PARAMETER_MAX
 class _InFront(NamedTuple):
     """A drive before the crank: its key, and its parameter for two motion angles."""
 
-    example: Drive
+    drive: Drive
     key: str
     parameter: Callable[[float, float], float]
     motion: Callable[[float, float], float]
     low: float = -MOST
     high: float = MOST
-    distance: str = ""  # the key of its own centre distance
+    distance: str = ""  # the key of its own centre distance: as far apart as wheel and crank
 
     def spec(self, target: Target, wheel: Gearing) -> Spec:
-        """A machine with the drive, with one roller.
-
-        The axes of gears are as far apart as the wheel's and the crank's.
-        """
-        drive = self.example
-        if self.distance and (distance := center_distance_mm(target)):
+        drive, distance = self.drive, center_distance_mm(target)
+        if self.distance and distance:
             drive = drive.replace(**{self.distance: distance})
         return machine(target, wheel, lambda n: drive.replace(n_rpm=n), 1, natural_deg(wheel))
 
-
-def _gears(phase: str, low: float, high: float) -> _InFront:
-    gears = EllipticalGears(eccentricity=0.1, phase=phase)
-    parameter, motion = closed.eccentricity, closed.gears_motion
-    return _InFront(
-        gears, "drive.eccentricity", parameter, motion, low, high, distance="gear_distance_mm"
-    )
+    def size(self, parameter: Array) -> Array:
+        """The value of the key: the size of an eccentricity, whose sign is the phase."""
+        return parameter if self.low * self.high else abs(parameter)
 
 
 SIDE_CRANK = _InFront(SideCrank(A=0.0), "drive.A", closed.side_crank, closed.side_crank_motion)
-GEARS = _gears("slow", 0.0, MOST), _gears("quick", -MOST, 0.0)  # eccentricity below 0: quick
+GEARS = tuple(
+    _InFront(
+        EllipticalGears(eccentricity=0.1, phase=phase),
+        "drive.eccentricity",
+        closed.eccentricity,
+        closed.gears_motion,
+        *span,
+        "gear_distance_mm",
+    )
+    for phase, span in (("slow", (0.0, MOST)), ("quick", (-MOST, 0.0)))
+)
 
 
 def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
     """The families with straight slots."""
     natural = natural_deg(wheel)
-    for m in rollers(target, natural):
-        if allows(allowed_motions(target, m, natural), natural):
-            yield Family(plain(target, wheel, m))
-            if m == 1:
-                yield from planets(target, wheel)
+    for m in _natural_rollers(target, natural):
+        yield Family(plain(target, wheel, m))
+        if m == 1:
+            yield from planets(target, wheel)
     yield from driven(target, wheel)
     for own in families_of_kinds("wheel", wheel.NAME):
         yield from own(target, wheel)
     if target.rollers in (None, 1):
         for kind in families_of_kinds("straight"):
             yield from kind(target, wheel)
+
+
+def _natural_rollers(target: Target, natural: float) -> list[int]:
+    """The numbers of rollers for which the plain crank's motion is allowed."""
+    several = rollers(target, natural)
+    return [m for m in several if allows(allowed_motions(target, m, natural), natural)]
 
 
 def plain(target: Target, wheel: Gearing, m: int) -> Spec:
@@ -107,16 +114,15 @@ def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
 
     With bounds or another goal, every other offset is possible too.
     """
-    natural, tenth = natural_deg(wheel), 0.1
-    for m in rollers(target, natural):
-        if allows(allowed_motions(target, m, natural), natural):
-            spec = plain(target, wheel, m)
-            keys = partial(_offset, spec.given_distance_mm)
-            yield line(spec, keys, AllowedSpan(tenth, tenth))
-            if target.limits or target.sort:
-                widest = MOST * wheel.step.sin_cos[1] ** 2
-                span = AllowedSpan(-widest, widest)
-                yield line(spec, keys, span, known=(0.0,), plain=(tenth,))
+    tenth = 0.1
+    for m in _natural_rollers(target, natural_deg(wheel)):
+        spec = plain(target, wheel, m)
+        keys = partial(_offset, spec.given_distance_mm)
+        yield line(spec, keys, AllowedSpan(tenth, tenth))
+        if target.limits or target.sort:
+            widest = MOST * wheel.step.sin_cos[1] ** 2
+            span = AllowedSpan(-widest, widest)
+            yield line(spec, keys, span, known=(0.0,), plain=(tenth,))
 
 
 def _offset(distance_mm: float, at: Array) -> dict[str, Array]:
@@ -159,22 +165,17 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     if motion is None or (motion.exact and allows(motion, natural)):
         return
     known = (0.0,) if allows(motion, natural) else ()
-    for drive in (SIDE_CRANK, *GEARS):
-        limits = AllowedSpan(drive.low, drive.high)
-        span = AllowedSpan(*(drive.parameter(natural, x) for x in motion)).within(limits)
+    for one in (SIDE_CRANK, *GEARS):
+        span = AllowedSpan(*(one.parameter(natural, x) for x in motion))
+        span = span.within(AllowedSpan(one.low, one.high))
         if not span.empty:
-            keys = partial(_in_front, target, natural, drive)
-            yield line(drive.spec(target, wheel), keys, span, known=known, plain=(0.0,))
+            keys = partial(_in_front, target, natural, one)
+            yield line(one.spec(target, wheel), keys, span, known=known, plain=(0.0,))
 
 
-def _in_front(target: Target, natural: float, drive: _InFront, at: Array) -> dict[str, Array]:
-    motions = [drive.motion(natural, x) for x in at[:, 0].tolist()]
-    return {drive.key: _size(drive, at[:, 0]), **speeds(target, 1, motions)}
-
-
-def _size(drive: _InFront, parameter: Array) -> Array:
-    """The value of the drive's key: the size of an eccentricity, whose sign is the phase."""
-    return parameter if drive.low * drive.high else abs(parameter)
+def _in_front(target: Target, natural: float, one: _InFront, at: Array) -> dict[str, Array]:
+    motions = [one.motion(natural, x) for x in at[:, 0].tolist()]
+    return {one.key: one.size(at[:, 0]), **speeds(target, 1, motions)}
 
 
 def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -194,12 +195,9 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
     if target.rollers in (None, 1) and motion:
         low, high = zip(motion, closed.AXES, strict=True)
         moved = all(map(is_motion, target.quantities))
-        for drive in (SIDE_CRANK,) if moved else (SIDE_CRANK, *GEARS):
-            keys, spec = partial(_both, target, z, drive), drive.spec(target, wheel)
-            scale, at_right = (
-                (180.0, closed.AXES.high - closed.AXES.low),
-                (natural_deg(wheel), 90.0),
-            )
+        scale, at_right = (180.0, closed.AXES.high - closed.AXES.low), (natural_deg(wheel), 90.0)
+        for one in (SIDE_CRANK,) if moved else (SIDE_CRANK, *GEARS):
+            keys, spec = partial(_both, target, z, one), one.spec(target, wheel)
             yield Family(spec, keys, low, high, at_right, scale, known=at_right)
 
 
@@ -208,9 +206,9 @@ def _on_axes(target: Target, z: int, m: int, at: Array) -> dict[str, Array]:
     return {"wheel.axes_deg": at[:, 0], **speeds(target, m, motions)}
 
 
-def _both(target: Target, z: int, drive: _InFront, at: Array) -> dict[str, Array]:
+def _both(target: Target, z: int, one: _InFront, at: Array) -> dict[str, Array]:
     """A drive in front of inclined shafts, at motion angles and angles of the shafts."""
-    x = np.array([drive.parameter(closed.axes_motion(z, axes), m) for m, axes in at.tolist()])
-    x = np.where((x >= drive.low) & (x <= drive.high), x, np.nan)
+    x = np.array([one.parameter(closed.axes_motion(z, axes), m) for m, axes in at.tolist()])
+    x = np.where((x >= one.low) & (x <= one.high), x, np.nan)
     motions = speeds(target, 1, at[:, 0].tolist())
-    return {drive.key: _size(drive, x), "wheel.axes_deg": at[:, 1], **motions}
+    return {one.key: one.size(x), "wheel.axes_deg": at[:, 1], **motions}
