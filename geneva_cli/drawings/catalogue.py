@@ -72,7 +72,6 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
 
 
 def _table(mechanism: Mechanism, part: str) -> str:
-    """Return the function that tabulates a part; empty without one."""
     own = (kind.tables.get(part) for kind in reversed(of_wheel(mechanism.spec.wheel.NAME)))
     return next(filter(None, own), PARTS[part])
 

@@ -92,7 +92,6 @@ def _around(usual: tuple[float, ...], own: float) -> list[float]:
 
 
 def _slot(low: Point, half: float, length: float) -> Contour:
-    """Return an upright slot of half a width, from the centre of its lower end."""
     (x, y), top = low, low[1] + length
     return closed(
         "COUPON",

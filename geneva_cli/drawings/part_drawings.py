@@ -235,7 +235,6 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
 
 
 def _free_direction(mechanism: Mechanism) -> float:
-    """Return the direction of the wheel's arrow: half-way between two cranks, if several."""
     turns = sorted(place.turn for place in mechanism.crank_places)
     if len(turns) == 1:
         return math.radians(140.0)
@@ -261,7 +260,6 @@ def _link_turns(parts: Outlines) -> Iterator[Arc]:
 
 
 def _arm(parts: FlatParts, crank: Member) -> list[Shape]:
-    """Return the visible part of a crank's arm: its outline, and its bore unless the disc's."""
     if parts.arm is None:
         return []
     bore = parts.arm.bore

@@ -75,7 +75,6 @@ def parts_list(parts: Parts) -> Table:
 
 
 def _parts(parts: Parts) -> Iterator[Row | Missing]:
-    """Yield all parts, and then the reason for each that cannot be built."""
     spec = parts.mechanism.spec
     missing: list[Missing] = []
 
@@ -196,7 +195,6 @@ def _dimensions(parts: Parts) -> Iterator[Row | Missing]:
 
 
 def _screws_and_edges(size: Size) -> Iterator[Dimension]:
-    """Yield the screws that hold hubs on their shafts, and the chamfer or rounding of edges."""
     for part in ("wheel", "crank"):
         for key, name in (("screw", "set screw"), ("clamp", "clamp screw")):
             screw = vars(size)[f"{part}_{key}_mm"]
@@ -208,7 +206,6 @@ def _screws_and_edges(size: Size) -> Iterator[Dimension]:
 
 
 def _screws(parts: Parts) -> Iterator[Dimension]:
-    """Yield the screws between the parts, with their threads and the parts that are tapped."""
     screws = parts.built.screws if parts.mechanism.spec.has_parts else ()
     yield from (Dimension(one.name, one.text) for one in screws)
 
@@ -233,7 +230,6 @@ def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
 
 
 def _motions(mechanism: Mechanism) -> Iterator[Dimension]:
-    """Yield the step and the input angles of each engagement of a period."""
     from geneva_cli.motion.timing import timings
 
     output = mechanism.output

@@ -107,7 +107,6 @@ def _inches() -> Any:
 
 
 def _module(name: str) -> Any:
-    """A module of this package, imported when it is needed."""
     return importlib.import_module(f"geneva_cli.output.{name}")
 
 
@@ -270,7 +269,6 @@ def show_document(
 
 
 def _terminal(output: str) -> tuple[int, bool]:
-    """The width of a chart in columns, and whether letters beyond ASCII are allowed."""
     if not is_seen(output):
         return 80, False
     import shutil

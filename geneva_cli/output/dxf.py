@@ -89,7 +89,6 @@ def _is_r12(space: BaseLayout) -> bool:
 
 
 def _entity(space: BaseLayout, layer: str, piece: Piece) -> None:
-    """A line, an arc or a spline as an entity of its own."""
     attributes = {"layer": layer}
     if isinstance(piece, Line):
         space.add_line(piece.start, piece.end, dxfattribs=attributes)
@@ -148,7 +147,6 @@ def dxf_text(
 
 
 def _document(units: str, version: str, fill: Callable[[Document, Modelspace], None]) -> str:
-    """The text as ezdxf writes it."""
     if version not in DXF_VERSIONS:
         raise GenevaError(
             f"--dxf-version {cut(version)}: it must be one of {', '.join(DXF_VERSIONS)}"

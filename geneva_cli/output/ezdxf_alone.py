@@ -41,14 +41,12 @@ class _LateParser:
     """The parser of ezdxf's queries, imported at its first use."""
 
     def parse_string(self, *arguments: Any, **settings: Any) -> Any:
-        """Parse a query."""
         from ezdxf.queryparser import EntityQueryParser
 
         return EntityQueryParser.parse_string(*arguments, **settings)
 
 
 def _late_font(*arguments: Any, **settings: Any) -> Any:
-    """A font, whose reader is imported at its first use."""
     from fontTools.ttLib import TTFont
 
     return TTFont(*arguments, **settings)

@@ -38,10 +38,7 @@ INSTEAD = {
 
 @cache
 def _other(unit: str) -> tuple[str, float]:
-    """The unit that is shown instead of an SI unit, and how many SI units it is; or unit and 1.
-
-    Numbers are divided by it, so that 25.4 mm are exactly 1 in.
-    """
+    """The unit that is shown instead of an SI unit, and how many SI units it is; or unit and 1."""
     instead = INSTEAD.get(unit)
     if instead is None:
         return unit, 1.0

@@ -91,14 +91,12 @@ def span_text(span: LevelDistance, units: str) -> str:
 
 
 def _span(span: LevelDistance, unit: float, low: float, gap: float) -> list[Contour]:
-    """Return a distance's line, and the lines from its ends down to it."""
     a, b = _ends(span, unit)
     sides = (((x / unit, y / unit), (x / unit, low - 0.4 * gap)) for x, y in (span.start, span.end))
     return [line("", *ends) for ends in (((a, low), (b, low)), *sides)]
 
 
 def _head(tip: Point, angle: float, mm: float) -> tuple[Point, Point, Point]:
-    """Return the corners of an arrow's head in a direction."""
     long, half, c, s = mm * ARROW[0], mm * ARROW[1], math.cos(angle), math.sin(angle)
     x, y = tip[0] - long * c, tip[1] - long * s
     return tip, (x - half * s, y + half * c), (x + half * s, y - half * c)

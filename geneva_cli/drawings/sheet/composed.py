@@ -66,7 +66,6 @@ def on_paper(
 
 
 def _inside(paper: PaperSize) -> Box:
-    """Return the area inside the frame of a sheet."""
     return LEFT, MARGIN, paper.width - MARGIN, paper.height - MARGIN
 
 
@@ -77,7 +76,6 @@ def _composed(
     rows: list[dict[str, Any]],
     blocks: list[Block],
 ) -> Sheet | None:
-    """Return all blocks on one sheet; None where they do not fit."""
     area = _inside(paper)
     if is_overfull(blocks, area):
         return None
@@ -116,7 +114,6 @@ def _composed(
 
 
 def _fields(spec: Spec) -> list[dict[str, str]]:
-    """Return the rows of the title block on surfaces, and on the drawing itself."""
     own = spec.drawing
     surfaces = {
         "roughness": _rough(own.roughness_um) or _micro(workshop(spec.size.process).roughness),
@@ -138,13 +135,11 @@ def _micro(roughness: str) -> str:
 
 
 def _working(own: TitleBlock) -> str:
-    """Return roughness and hardness of the faces that work, as far as they are known."""
     hard = f"{own.flank_hardness_HRC:g} HRC" if own.flank_hardness_HRC else ""
     return ", ".join(filter(None, (_rough(own.flank_roughness_um), hard)))
 
 
 def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
-    """Return the list of items (ISO 7573), numbered from below."""
     own = {"material.wheel": materials[0], "material.roller": materials[1]}
     lines = [
         (
@@ -182,7 +177,6 @@ def _mass(kg: float) -> str:
 
 
 def _mass_unit() -> tuple[str, float]:
-    """Return the sheet's unit of mass, and its kilograms."""
     return ("kg", 1.0) if is_metric() else ("lb", 0.45359237)
 
 

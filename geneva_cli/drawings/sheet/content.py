@@ -199,7 +199,6 @@ def balloons(
 
 
 def _around(shape: Shape) -> list[Point]:
-    """Return the middles of an outline's longest pieces."""
     pieces = two_arcs(shape) if isinstance(shape, Circle) else shape.segments
     longest = sorted(pieces, key=lambda piece: -math.dist(piece.start, piece.end))
     return [at(piece, 0.5) for piece in longest[:8]]

@@ -56,7 +56,6 @@ def draw_disc(view: View, parts: FlatParts) -> None:
 
 
 def _reliefs(view: View, arcs: list[Arc]) -> None:
-    """Draw the radii of arcs, and how far those of reliefs are from the axis."""
     alike: dict[tuple[str, str], list[Arc]] = {}
     for arc in arcs:
         far = length(math.hypot(*at(arc, 0.5)))
@@ -69,7 +68,6 @@ def _reliefs(view: View, arcs: list[Arc]) -> None:
 
 
 def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
-    """Draw the angles between the locking arcs."""
     ends = sorted(legs(arc) for arc in _joined(locking))
     after = zip(ends, [*ends[1:], *ends[:1]], strict=True)
     gaps = ((end, (start - end) % math.tau) for (_, end), (start, _) in after)
@@ -189,7 +187,6 @@ def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
 
 
 def _slot(view: View, slot: Contour, base: Point) -> None:
-    """Draw width and ends of a slot with round ends, and its direction if not the link's."""
     ends = [piece for piece in slot.segments if isinstance(piece, Arc)]
     near, far = sorted(ends, key=lambda arc: math.dist(arc.centre, base))
     (x0, y0), (x1, y1) = near.centre, far.centre

@@ -58,7 +58,6 @@ def sheet(parts: FlatParts) -> Sheet:
 
 
 def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View]:
-    """Yield a view of each part."""
     begin = titled(shown.rows, scale, parts)
     yield from _wheels(parts, begin)
     if parts.arm:
@@ -72,7 +71,6 @@ def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View
 
 
 def _wheels(parts: FlatParts, begin: Begin) -> Iterator[View]:
-    """Yield the views of wheels and locking discs; of two wheels in series, of both."""
     for front, of in zip(("", "first "), (parts, *parts.in_front), strict=False):
         view = begin(f"{front}wheel", f"{front}wheel's hub")
         draw_wheel(view, of)
@@ -86,7 +84,6 @@ def _wheels(parts: FlatParts, begin: Begin) -> Iterator[View]:
 
 
 def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
-    """Yield the views of shafts, and of the plates that stand still."""
     yield from shafted(begin, parts.shafts)
     grooved = flat_plates(parts.groove_plate)
     if grooved:
@@ -110,7 +107,6 @@ def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
 
 
 def _together(shown: SheetContent, parts: FlatParts, scale: float) -> View:
-    """Return the view of the assembled machine, with balloons of what the section does not cut."""
     view = View(f"assembly ({scale_name(scale)})", scale)
     draw_assembly(view, parts.outlines, shown.together)
     mark_items(view, shown)

@@ -290,10 +290,7 @@ class View:
 
 
 def _short_first(rows: Iterable[Iterator[Measure]]) -> Iterator[Measure]:
-    """Yield candidates of all rows, in the order of their leaders' length.
-
-    Each row is already in that order; equal lengths keep the order of rows.
-    """
+    """Yield candidates of all rows, in the order of their leaders' length."""
     return merge(*rows, key=lambda m: round(math.dist(*m.lines[0]), 6))
 
 

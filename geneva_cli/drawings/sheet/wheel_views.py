@@ -60,7 +60,6 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
 
 
 def _axes(view: View, parts: FlatParts) -> None:
-    """Draw the axes of straight slots, and the roller's path in a curved one."""
     outlines = parts.outlines
     for i, (engagement, direction) in enumerate(outlines.assembly.slots):
         if not engagement.slot.curved:
@@ -90,7 +89,6 @@ def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point
 
 
 def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
-    """Draw width, end and depth of a straight slot, and its offset from the wheel's centre."""
     direction = next(d for one, d in parts.assembly.slots if one is engagement)
     walls = turned(parts.slots[engagement], direction)
     ends = _ends(walls)
@@ -124,14 +122,12 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
 
 
 def _foot(p: Point, turn: float) -> Point:
-    """Return the point of a line that is nearest to the origin."""
     c, s = math.cos(turn), math.sin(turn)
     along = p[0] * c + p[1] * s
     return p[0] - along * c, p[1] - along * s
 
 
 def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
-    """Draw the recesses and the distance of their centres."""
     assembly, sizes = parts.assembly, parts.sizes
     L = assembly.L
     if not sizes.recess:
@@ -148,7 +144,6 @@ def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
 
 
 def _recess_centre(parts: Outlines) -> Point:
-    """Return the leftmost centre of a recess."""
     L = parts.assembly.L
     return min(
         ((L * math.cos(a), L * math.sin(a)) for a in parts.assembly.rests), key=lambda p: p[0]
@@ -156,7 +151,6 @@ def _recess_centre(parts: Outlines) -> Point:
 
 
 def _rims(view: View, arcs: list[Arc], reach: float) -> None:
-    """Draw arcs about the wheel's axis other than the outermost one."""
     own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME_ON_SHEET]
     for radius, some in _by_radius(own).items():
         if abs(radius - reach) > SAME_ON_SHEET:
@@ -164,7 +158,6 @@ def _rims(view: View, arcs: list[Arc], reach: float) -> None:
 
 
 def _steps(view: View, parts: Outlines, reach: float) -> None:
-    """Draw the angles between slots, and from a slot to the middle of a recess."""
     assembly = parts.assembly
     deviation = assembly.mechanism.spec.tolerance.slot_angle_deg
     angles = sorted(
@@ -181,7 +174,6 @@ def _steps(view: View, parts: Outlines, reach: float) -> None:
 
 
 def _directions(parts: Outlines, engagement: Engagement, direction: float) -> Iterator[float]:
-    """Yield the directions in the wheel of the axis of a slot, or of both slots of a pair."""
     if engagement.slot.curved:
         yield direction
         return

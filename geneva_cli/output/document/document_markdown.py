@@ -55,7 +55,6 @@ def _block(block: Block) -> Iterator[str]:
 
 
 def _peaks(curves: Curves) -> Grid:
-    """The marks of a figure, which describe its curves."""
     rows = tuple(
         (named(panel.y), mark_text(mark))
         for panel in curves.figure.panels

@@ -129,7 +129,6 @@ def _heading(text: str) -> Item:
 
 
 def _barred(text: str, size: float, ink: str, bold: bool = False, mark: str = "") -> Item:
-    """A line of the verdict, or of a reason, with a bar in the verdict's colour."""
     high = LEADING * size
     x = LEFT + MARK + (0.0 if bold else MARK)
 
@@ -193,7 +192,6 @@ def caption(text: str) -> Iterator[Item]:
 
 
 def _space() -> Item:
-    """The space below a table."""
     return Item(4.0, lambda top: "")
 
 

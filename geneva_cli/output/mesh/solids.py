@@ -79,7 +79,6 @@ def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
 
 
 def _placed(part: Part, at: Place) -> Iterator[tuple[Solid, Place]]:
-    """Yield every solid of a part at its position."""
     if not isinstance(part, Group):
         yield part, at
         return
@@ -97,7 +96,6 @@ def _turn(member: Member) -> Array:
 
 @lru_cache(maxsize=32)  # an export writes each solid by itself, and all of them together
 def _surface(solid: Solid, tolerance: float) -> Surface:
-    """Return the surface of a solid, which must not be changed."""
     if not tolerance > 0.0:
         raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
     if isinstance(solid, Shell):
@@ -177,7 +175,6 @@ def _triangles(loops: list[Array], name: str) -> Numbers:
 
 
 def _drill(hole: CrossHole, contours: list[Contour], tolerance: float) -> m3.Manifold:
-    """Return the cylinder of a hole across a plate, which ends beyond the two walls."""
     low, high = hole.openings(contours)
     over = -hole.radius, 0.0, hole.radius
     start = min(low.x(y) for y in over) - hole.radius
@@ -241,7 +238,6 @@ def _block(shell: Shell, middle: Vector, reach: float, tolerance: float) -> m3.M
 
 
 def _frame(axis: Vector) -> Array:
-    """Return three perpendicular unit vectors, the last of which is an axis."""
     x = square_to(axis)
     return np.array((x, cross(axis, x), axis))
 
@@ -259,7 +255,6 @@ def arc_chords(radius: float, sweep: float, tolerance: float) -> int:
 
 
 def _chords(segment: Segment, tolerance: float) -> int:
-    """Return the number of chords of a segment that keep a tolerance, mm."""
     if isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
         return arc_chords(segment.radius, segment.sweep, tolerance)
     if isinstance(segment, Cubic):
@@ -271,7 +266,6 @@ def _chords(segment: Segment, tolerance: float) -> int:
 
 
 def _corners(pieces: tuple[Segment, ...], counts: list[int]) -> Array:
-    """Return the starts of a contour's chords, (n, 2)."""
     flat = [p for piece, n in zip(pieces, counts, strict=True) for p in points(piece, n)[:-1]]
     return np.array(flat)
 
@@ -281,7 +275,6 @@ def _raised(flat: Array, z: float) -> Array:
 
 
 def _rounded(corners: Array) -> Array:
-    """Return corners with DECIMALS, and without negative zeros."""
     return np.round(corners, DECIMALS) + 0.0
 
 

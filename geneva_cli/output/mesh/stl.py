@@ -32,10 +32,7 @@ def data(drawing: Drawing, units: str) -> Iterator[bytes]:
 
 
 def _records(corners: Array) -> npt.NDArray[Any]:
-    """Return the records of triangles, (m, 3, 3), in mm.
-
-    Corners nearer than the format's seven digits become one, and a triangle of two is left out.
-    """
+    """Return the records of triangles, (m, 3, 3), in mm."""
     single = corners.astype("<f4")
     p, q, r = (single[:, k] for k in range(3))
     flat = (p == q).all(axis=1) | (q == r).all(axis=1) | (r == p).all(axis=1)
@@ -48,7 +45,6 @@ def _records(corners: Array) -> npt.NDArray[Any]:
 
 
 def _normals(corners: Array) -> Array:
-    """Return the unit normals of triangles; zeros for one without an area."""
     p, q, r = (corners[:, k] for k in range(3))
     out = np.cross(q - p, r - p)
     length = np.sqrt((out * out).sum(axis=1, keepdims=True))

@@ -44,7 +44,6 @@ def _file(name: str) -> str:
 
 
 def _view(scene: Scene) -> str:
-    """The view box of the drawing with a margin; y points down."""
     x0, y0, x1, y1 = scene.box
     margin = 0.02 * max(x1 - x0, y1 - y0)
     box = (x0 - margin, -y1 - margin, x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin)
@@ -59,7 +58,6 @@ def _group(body: Body) -> str:
 
 
 def _links(number: int, bar: Bar) -> str:
-    """The plates of a link, each as a group."""
     return "".join(
         f'<g id="link-{number}-{i}" class="link">'
         + "".join(
@@ -72,7 +70,6 @@ def _links(number: int, bar: Bar) -> str:
 
 
 def _data(scene: Scene) -> dict[str, Any]:
-    """The data for the page's script."""
     x0, y0, x1, y1 = scene.box
     return {
         "start": scene.start_deg,
@@ -129,7 +126,6 @@ def _panel(panel: Panel) -> dict[str, Any]:
 
 
 def _ticks(low: float, high: float, most: int, unit: str = "") -> list[tuple[float, str]]:
-    """Round places of an axis, and their labels."""
     places = ticks(low, high, most, unit)
     degree = "°" if unit == "deg" else ""
     return [(x, text + degree) for x, text in zip(places, labels(places), strict=True)]
@@ -150,5 +146,4 @@ def _viewed(values: Sequence[float]) -> list[float]:
 
 
 def _short(value: float) -> float:
-    """A value that is only viewed."""
     return float(f"{value:.5g}")

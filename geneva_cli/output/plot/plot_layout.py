@@ -140,7 +140,6 @@ def _head(figure: Figure, legend: list[tuple[Curve, float, float, str]], pen: Pe
 
 
 def _legend(curves: Iterable[Curve]) -> list[tuple[Curve, float, float, str]]:
-    """Return curves with their places and names, in lines below the title."""
     out, x, y = [], RIGHT, TITLE + 14.0 + LINE_HEIGHT
     for curve in curves:
         name = cut(clean(curve.name), 48)
@@ -161,7 +160,6 @@ def _sample(curve: Curve, x: float, y: float, long: float, pen: Pen) -> None:
 
 
 def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: Pen) -> None:
-    """Draw dwells, grid, axes and curves."""
     up = ticks(*frame.span, int(frame.high / 24.0), panel.y.unit)
     right = LEFT + frame.wide
     for a, b in figure.shaded:
@@ -209,7 +207,6 @@ def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) 
 
 
 def _below(figure: Figure, frame: Frame, across: list[float], pen: Pen) -> None:
-    """Write the numbers and the name of the x axis."""
     for value, label in zip(across, labels(across), strict=True):
         pen.text((frame.x(value), frame.bottom + 15.0), label, look="middle")
     pen.text((LEFT + 0.5 * frame.wide, frame.bottom + 34.0), named(figure.x), look="middle")

@@ -134,5 +134,4 @@ def _at(place: Point) -> str:
 
 
 def _n(value: float) -> str:
-    """A number with at most two decimals, without a negative zero."""
     return in_decimals(value, 2)

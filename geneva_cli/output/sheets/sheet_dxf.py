@@ -52,7 +52,6 @@ def _layers(document: Document) -> None:
 
 
 def _measure(document: Document, space: Modelspace, measure: Measure, unit_mm: float) -> None:
-    """A dimension, whose value is in the unit of its text."""
     if measure.kind != "angular":
         measure = measure._replace(value=measure.value / unit_mm)
     if measure.kind not in KINDS:
@@ -79,7 +78,6 @@ def _measure(document: Document, space: Modelspace, measure: Measure, unit_mm: f
 
 
 def _style(document: Document, measure: Measure) -> str:
-    """The style of a dimension's scale."""
     factor = 1.0
     if measure.kind != "angular":
         a, b = measure.points[:2]
@@ -110,7 +108,6 @@ def _style(document: Document, measure: Measure) -> str:
 
 
 def _drawn(space: BaseLayout, measure: Measure) -> None:
-    """Lines, arrows and text of a dimension."""
     for piece in measure.lines:
         draw(space, Contour(DIMENSION, (piece,), closed=False))
     for arrow in measure.arrows:

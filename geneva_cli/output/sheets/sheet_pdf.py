@@ -16,7 +16,6 @@ def chunks(sheet: Sheet) -> Iterator[str]:
 
 
 def _content(sheet: Sheet) -> Iterator[str]:
-    """The page's operators, in millimetres."""
     yield f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n"
     for layer, shapes in sheet.by_layer():
         dashes = " ".join(map(number, DASHED.get(layer, ())))

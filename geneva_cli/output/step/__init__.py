@@ -98,7 +98,6 @@ class Products:
         return self.file.placement(member.at, 0.0, ahead=self.file.direction(c, s))
 
     def _put(self, number: int, member: Member, part: Product, place: str, whole: Product) -> None:
-        """Add the use of a part in a group, at a place there."""
         file = self.file
         use = file.add(
             f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{number}',{words(member.part.name)},'',"
@@ -127,7 +126,6 @@ class Products:
 
 
 def _space(file: Entities) -> str:
-    """The context of a file: millimetres and radians, and the tolerance of equal points."""
     length = file.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))")
     angle = file.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
     solid_angle = file.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")

@@ -106,7 +106,6 @@ def _wall(
 
 
 def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> WallFace:
-    """The wall of a whole circle, cut open along a seam."""
     (x, y), r = circle.centre, circle.radius
     seam = _place(file, plate, (x + r, y))
     low, high = (
@@ -183,7 +182,6 @@ class _StackWriter:
         return face(self.file, [around], surface(self.file, side, plate), is_along(side))
 
     def _along(self, side: Side, z: float) -> str:
-        """The edge along a piece at a height."""
         if (side, z) not in self._edges:
             ends = self._vertex(side.start, z), self._vertex(side.end, z)
             line = curve(self.file, side, z)
@@ -191,7 +189,6 @@ class _StackWriter:
         return self._edges[side, z]
 
     def _rise(self, at: Point, plate: Plate) -> str:
-        """The edge up a corner of a step."""
         if (at, plate.low) not in self._edges:
             ends = self._vertex(at, plate.low), self._vertex(at, plate.high)
             line = f"LINE('',{self.file.point(at, plate.low)},{self.file.rise})"

@@ -69,7 +69,6 @@ def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
 
 
 def _layers(drawing: Drawing, mm: float) -> Iterator[str]:
-    """Yield the shapes by their layers; ``mm`` is a millimetre of the page in the file's unit."""
     for layer, ink in inks(drawing.layers).items():
         dashes, stroke = "", mm * STROKE * (1.6 if drawing.look else 1.0)  # wider lines to view
         if layer in CENTRE_LINES:
