@@ -125,15 +125,12 @@ def gears(parts: EdgedParts) -> Drawing:
             name = "pitch curves of the gears"
             parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
     members = *parts.round_gears, *parts.gear_pair
-    about_crank = _moved(members, -mechanism.center_distance_mm)
+    L = mechanism.center_distance_mm
+    about_crank = [one._replace(at=(one.at[0] - L, one.at[1])) for one in members]
     drawn = tuple(once(shapes(about_crank)))
     title, ends = titled(mechanism, name), [one.at for one in about_crank]
     line = Contour("PITCH", (Line(min(ends), max(ends)),), closed=False)
     return Drawing(title, (*drawn, line), solid=Group(title, members))
-
-
-def _moved(members: Iterable[Member], x: float) -> tuple[Member, ...]:
-    return tuple(one._replace(at=(one.at[0] + x, one.at[1])) for one in members)
 
 
 def groove_plate(parts: FlatParts) -> Drawing:

@@ -27,7 +27,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.spec.materials import roller_material, wheel_material
-from geneva_cli.spec.tables import Material, TitleBlock
+from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock, workshop
 from geneva_cli.spec.written import is_metric, length, number
 
@@ -115,10 +115,12 @@ def _composed(
 
 def _fields(spec: Spec) -> list[dict[str, str]]:
     own = spec.drawing
+    hard = f"{own.flank_hardness_HRC:g} HRC" if own.flank_hardness_HRC else ""
+    working = filter(None, (_rough(own.flank_roughness_um), hard))
     surfaces = {
         "roughness": _rough(own.roughness_um) or _micro(workshop(spec.size.process).roughness),
         "edges": edge_note(spec.size) or "free of burrs",
-        "faces that roll, slide, lock": _working(own),
+        "faces that roll, slide, lock": ", ".join(working),
     }
     names = {"drawing number": own.number, "revision": own.revision}
     names |= {"date": own.date, "author": own.author}
@@ -132,11 +134,6 @@ def _rough(roughness_um: float | None) -> str:
 def _micro(roughness: str) -> str:
     """Return a roughness; with its unit on a sheet in inches, where it might be in microinches."""
     return roughness if is_metric() or not roughness.startswith("Ra") else f"{roughness} µm"
-
-
-def _working(own: TitleBlock) -> str:
-    hard = f"{own.flank_hardness_HRC:g} HRC" if own.flank_hardness_HRC else ""
-    return ", ".join(filter(None, (_rough(own.flank_roughness_um), hard)))
 
 
 def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:

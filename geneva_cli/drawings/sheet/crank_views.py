@@ -192,7 +192,8 @@ def _slot(view: View, slot: Contour, base: Point) -> None:
     (x0, y0), (x1, y1) = near.centre, far.centre
     turn = math.atan2(y1 - y0, x1 - x0)
     view.centre_line(at(near, 0.5), at(far, 0.5))
-    view.linear(base, near.centre, turn, sized.plain(_along(base, near.centre, turn)))
+    along = (x0 - base[0]) * math.cos(turn) + (y0 - base[1]) * math.sin(turn)
+    view.linear(base, near.centre, turn, sized.plain(abs(along)))
     view.linear(near.centre, far.centre, turn, sized.plain(math.dist(near.centre, far.centre)))
     half = near.radius
     sides = [(x1 + s * half * math.sin(turn), y1 - s * half * math.cos(turn)) for s in (-1.0, 1.0)]
@@ -202,10 +203,6 @@ def _slot(view: View, slot: Contour, base: Point) -> None:
         legs = (0.0, turn) if turn > 0.0 else (turn, 0.0)
         reach = math.dist(base, near.centre)
         view.angular([legs], 0.0, reach, degrees(off))
-
-
-def _along(p: Point, q: Point, turn: float) -> float:
-    return abs((q[0] - p[0]) * math.cos(turn) + (q[1] - p[1]) * math.sin(turn))
 
 
 def _outline(view: View, plate: Plate, slides: bool) -> None:

@@ -13,8 +13,6 @@ from geneva_cli.drawings.part_drawings import machine
 from geneva_cli.drawings.sheet import points, sized
 from geneva_cli.drawings.sheet.content import (
     SheetContent,
-    Views,
-    mark_items,
     sheet_of,
     shown_on_sheet,
 )
@@ -26,7 +24,7 @@ from geneva_cli.drawings.sheet.crank_views import (
     draw_roller,
     round_parts,
 )
-from geneva_cli.drawings.sheet.paper import scale_name, table
+from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove, draw_shaft
 from geneva_cli.drawings.sheet.view import Block, View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
@@ -53,8 +51,12 @@ def sheet(parts: FlatParts) -> Sheet:
         *round_parts((*parts.links.joined, *parts.spacers), mechanism),
         *layout(mechanism),
     ]
-    views = Views(partial(_views, shown, parts), partial(_together, shown, parts), (0.0, L))
-    return sheet_of(mechanism.spec, shown, views, fixed)
+
+    def together(view: View) -> None:
+        draw_assembly(view, parts.outlines, shown.together)
+
+    views = partial(_views, shown, parts)
+    return sheet_of(mechanism.spec, shown, views, together, (0.0, L), fixed)
 
 
 def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View]:
@@ -104,13 +106,6 @@ def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
         screws={h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads},
     )
     yield view
-
-
-def _together(shown: SheetContent, parts: FlatParts, scale: float) -> View:
-    view = View(f"assembly ({scale_name(scale)})", scale)
-    draw_assembly(view, parts.outlines, shown.together)
-    mark_items(view, shown)
-    return view
 
 
 def layout(mechanism: Mechanism) -> list[Block]:

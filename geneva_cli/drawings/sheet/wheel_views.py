@@ -104,7 +104,8 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     else:  # one wall each
         half = sized.plain(parts.sizes.half_width)
         view.linear(corner, mouth, across, times(count, half), "from a slot's wall to its axis")
-    foot = _foot(end, turn)
+    along = end[0] * math.cos(turn) + end[1] * math.sin(turn)
+    foot = end[0] - along * math.cos(turn), end[1] - along * math.sin(turn)
     inwards, deep = sized.plain(math.dist(foot, end)), sized.plain(math.dist(end, mouth))
     view.linear(foot, end, turn, inwards, "from the wheel's middle to a slot's end", near=True)
     view.linear(end, mouth, turn, times(count, deep), "from a slot's end to its mouth", near=True)
@@ -119,12 +120,6 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
         if isinstance(s, Arc) and math.hypot(*s.centre) > SAME_ON_SHEET
     ]
     view.of_arcs(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
-
-
-def _foot(p: Point, turn: float) -> Point:
-    c, s = math.cos(turn), math.sin(turn)
-    along = p[0] * c + p[1] * s
-    return p[0] - along * c, p[1] - along * s
 
 
 def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:

@@ -9,14 +9,11 @@ from functools import partial
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.content import (
     SheetContent,
-    Views,
-    mark_items,
     sheet_of,
     shown_on_sheet,
 )
 from geneva_cli.drawings.sheet.crank_views import draw_arm
 from geneva_cli.drawings.sheet.machine_sheet import flat_plates, geared, rolling, shafted, titled
-from geneva_cli.drawings.sheet.paper import scale_name
 from geneva_cli.drawings.sheet.standing import bolted, circle_of, draw_frame, holes_of
 from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.geometry.measure import bounds
@@ -39,7 +36,7 @@ def sheet(parts: RackParts) -> Sheet:
     frames = flat_plates([parts.frame])  # behind links or gears the error says why there is none
     shown = shown_on_sheet(spec, parts.members, assembly(parts).shapes)
     views = partial(_views, shown, parts, frames)
-    return sheet_of(spec, shown, Views(views, partial(_together, shown, parts), (parts.sizes.arm,)))
+    return sheet_of(spec, shown, views, partial(_together, shown, parts), (parts.sizes.arm,))
 
 
 def _views(
@@ -141,16 +138,13 @@ def _draw_sector(view: View, parts: RackParts) -> None:
     bolted(view, screwed)
 
 
-def _together(shown: SheetContent, parts: RackParts, scale: float) -> View:
-    """Return the view of the assembled machine, with the crank's radius."""
-    view = View(f"assembly ({scale_name(scale)})", scale)
+def _together(shown: SheetContent, parts: RackParts, view: View) -> None:
+    """Draw the assembled machine, with the crank's radius."""
     hidden = {"ARM": HIDDEN, "FRAME": HIDDEN}
     for shape in shown.together:
         view.draw(shape, hidden.get(shape.layer, OUTLINE))
     R = parts.sizes.arm
     view.cross(parts.axis, parts.sizes.lock or 0.2 * R)
     view.linear((0.0, 0.0), parts.axis, 0.0, sized.plain(R, "R = "))
-    mark_items(view, shown)
     between = length(parts.sizes.guide.bar + 2.0 * parts.sizes.guide.slide)
     view.remark(f"guide: {between} between rail and wall")
-    return view

@@ -16,7 +16,7 @@ from geneva_cli.output.plot.plot_layout import labels, ticks
 from geneva_cli.output.svg.drawing_svg import element
 
 if TYPE_CHECKING:
-    from geneva_cli.output.scene import Bar, Body, Scene, Track
+    from geneva_cli.output.scene import Bar, Body, Place, Scene, Track
 
 
 def chunks(scene: Scene) -> Iterator[str]:
@@ -87,8 +87,16 @@ def _data(scene: Scene) -> dict[str, Any]:
             for b in scene.bodies
         ],
         "frame": scene.frame and {"centre": scene.frame.centre, "angle": _track(scene.frame.angle)},
-        "bars": [_bar(bar) for bar in scene.bars],
-        "rollers": [[_track(t) for t in place] for place in scene.rollers],
+        "bars": [
+            {
+                "name": bar.name,
+                "joints": list(map(_place, bar.joints)),
+                "radius": bar.radius,
+                "plates": [plate.joint for plate in bar.plates],
+            }
+            for bar in scene.bars
+        ],
+        "rollers": list(map(_place, scene.rollers)),
         "radius": scene.roller_radius,
         "pushes": [[[_short(v) for v in column] for column in push] for push in scene.pushes],
         "states": [[_short(s.start), _short(s.end), s.moves, s.words] for s in scene.states],
@@ -107,10 +115,8 @@ def _track(track: Track) -> dict[str, Any]:
     return {**named, "g": track.gain} if track.gain else named
 
 
-def _bar(bar: Bar) -> dict[str, Any]:
-    joints = [[_track(t) for t in place] for place in bar.joints]
-    plates = [plate.joint for plate in bar.plates]
-    return {"name": bar.name, "joints": joints, "radius": bar.radius, "plates": plates}
+def _place(place: Place) -> list[dict[str, Any]]:
+    return [_track(track) for track in place]
 
 
 def _panel(panel: Panel) -> dict[str, Any]:

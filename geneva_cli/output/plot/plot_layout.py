@@ -116,7 +116,10 @@ def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool
         _marks(figure, panel, frame, several, pen)
         pen.end()
         if is_last:
-            _below(figure, frame, across, pen)
+            for value, label in zip(across, labels(across), strict=True):
+                pen.text((frame.x(value), frame.bottom + 15.0), label, look="middle")
+            place = LEFT + 0.5 * wide, frame.bottom + 34.0
+            pen.text(place, named(figure.x), look="middle")
         if is_first:
             _dwell(figure, frame, pen)
 
@@ -204,12 +207,6 @@ def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) 
             words = mark_text(mark, "°" if figure.x.unit else "")
             pen.text((x + (SAMPLE if several else 0.0), y), words)
             y += LINE_HEIGHT
-
-
-def _below(figure: Figure, frame: Frame, across: list[float], pen: Pen) -> None:
-    for value, label in zip(across, labels(across), strict=True):
-        pen.text((frame.x(value), frame.bottom + 15.0), label, look="middle")
-    pen.text((LEFT + 0.5 * frame.wide, frame.bottom + 34.0), named(figure.x), look="middle")
 
 
 def _dwell(figure: Figure, frame: Frame, pen: Pen) -> None:

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry.shapes import Contour, Layer
-from geneva_cli.geometry.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Arrow, Label, Measure, Sheet
+from geneva_cli.geometry.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Label, Measure, Sheet
 from geneva_cli.output.dxf import USUAL, draw, dxf_text, extents, linetype
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace
 
@@ -111,13 +111,9 @@ def _drawn(space: BaseLayout, measure: Measure) -> None:
     for piece in measure.lines:
         draw(space, Contour(DIMENSION, (piece,), closed=False))
     for arrow in measure.arrows:
-        _arrow(space, arrow)
+        tip, left, right = arrow.corners
+        space.add_solid([tip, left, right, right], dxfattribs={"layer": DIMENSION})
     _text(space, measure.label, DIMENSION)
-
-
-def _arrow(space: BaseLayout, arrow: Arrow) -> None:
-    tip, left, right = arrow.corners
-    space.add_solid([tip, left, right, right], dxfattribs={"layer": DIMENSION})
 
 
 def _text(space: BaseLayout, label: Label, layer: Layer) -> None:

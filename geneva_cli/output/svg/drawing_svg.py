@@ -208,7 +208,7 @@ def style(layers: tuple[str, ...], plates: tuple[Layer, ...], frame: Box, margin
     ``plates`` are the layers of its filled plates.
     """
     dark = "".join(
-        f"g[id='{layer}'] {{ stroke: {brighter(ink.rgb)} }}\n"
+        f"g[id='{layer}'] {{ stroke: {mixed(ink.rgb, 0.55, '#ffffff')} }}\n"
         for layer, ink in inks(layers).items()
     )
     dark += "".join(
@@ -240,8 +240,3 @@ def noted(shown: Notes, mm: float) -> Iterator[str]:
     for at, text in shown.texts:
         yield f"<text {place(at)}>{escape(text, quote=False)}</text>\n"
     yield "</g>\n"
-
-
-def brighter(rgb: str) -> str:
-    """An ink for a dark page: 0.45 of the step to white is added."""
-    return mixed(rgb, 0.55, "#ffffff")
