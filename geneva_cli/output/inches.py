@@ -12,7 +12,7 @@ from typing import Any
 
 from geneva_cli.figure import Axis, Figure
 from geneva_cli.names import UNITS, unit_end, unit_of
-from geneva_cli.output.document.blocks import Block, Curves, Document, Fact, Facts, Grid, TextList
+from geneva_cli.output.document.blocks import Block, Curves, Document, Facts, Grid, TextList
 from geneva_cli.spec.units import ratio
 from geneva_cli.table import Table
 
@@ -175,19 +175,21 @@ def _block(block: Block) -> Block:
     if isinstance(block, TextList):
         return block._replace(texts=tuple(map(text_in_inches, block.texts)))
     if isinstance(block, Facts):
-        return block._replace(facts=tuple(map(_fact, block.facts)))
+        # a key of the spec keeps its unit
+        facts = (
+            fact
+            if unit_of(fact.name)
+            else fact._replace(
+                value=_over(fact.value, _other(fact.unit)[1]), unit=_other(fact.unit)[0]
+            )
+            for fact in block.facts
+        )
+        return block._replace(facts=tuple(facts))
     if isinstance(block, Grid) and "Key" not in block.heads:
         return _grid(block)
     if isinstance(block, Curves):
         return Curves(figure_in_inches(block.figure))
     return block
-
-
-def _fact(fact: Fact) -> Fact:
-    if unit_of(fact.name):  # a key of the spec
-        return fact
-    unit, size = _other(fact.unit)
-    return fact._replace(value=_over(fact.value, size), unit=unit)
 
 
 def _grid(grid: Grid) -> Grid:

@@ -121,7 +121,11 @@ def _plate(plate: Plate, tolerance: float) -> m3.Manifold:
     sections = [edge.at(k / steps) for k in range(steps + 1)] if edge.size else [(0.0, 0.0)]
     levels = [(depth, plate.low + edge.size - high) for depth, high in sections[::-1]]
     levels += [(depth, plate.high - edge.size + high) for depth, high in sections]
-    insets = [_insets(contour, sections) for contour in contours]
+    insets = [[contour.segments] for contour in contours]
+    if edge.size:
+        walls = [lines_and_arcs(contour) for contour in contours]
+        deeper = [depth for depth, _ in sections[1:]]
+        insets = [[tuple(w), *(inset(w, "", d).segments for d in deeper)] for w in walls]
     counts = [[_chords(piece, tolerance) for piece in contour[0]] for contour in insets]
     around = sum(map(sum, counts))
     _require_few(around * len(levels), plate.name)
@@ -154,14 +158,6 @@ def _strips(ring: Numbers, up: int) -> list[Numbers]:
         np.column_stack((ring, after, after + up)),
         np.column_stack((ring, after + up, ring + up)),
     ]
-
-
-def _insets(contour: Contour, sections: list[tuple[float, float]]) -> list[tuple[Segment, ...]]:
-    """Return the pieces of a contour at the depth of each section; all have as many."""
-    if len(sections) == 1:
-        return [contour.segments]
-    own = lines_and_arcs(contour)
-    return [inset(own, "", depth).segments if depth else tuple(own) for depth, _ in sections]
 
 
 def _triangles(loops: list[Array], name: str) -> Numbers:

@@ -40,12 +40,8 @@ def _records(corners: Array) -> npt.NDArray[Any]:
     record = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
     records = np.zeros(len(single), dtype=record)
     records["corners"] = single
-    records["normal"] = _normals(corners[~flat])
-    return records
-
-
-def _normals(corners: Array) -> Array:
-    p, q, r = (corners[:, k] for k in range(3))
+    p, q, r = (corners[~flat, k] for k in range(3))
     out = np.cross(q - p, r - p)
     length = np.sqrt((out * out).sum(axis=1, keepdims=True))
-    return out / np.where(length > 0.0, length, 1.0)
+    records["normal"] = out / np.where(length > 0.0, length, 1.0)  # none without an area
+    return records

@@ -6,9 +6,11 @@ counterclockwise: the lower edge, up at its end, the upper edge back, and down a
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from geneva_cli.geometry.moments import with_material_left
 from geneva_cli.geometry.plates import Plate, Stack
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point
+from geneva_cli.geometry.shapes import Arc, Circle, Line, Point
 from geneva_cli.geometry.stacks import Level, Side, levels, outline_of, sides
 from geneva_cli.output.solid_part import plate_contours
 from geneva_cli.output.splines import Piece, pieces
@@ -48,8 +50,12 @@ def solid(file: Entities, plate: Plate) -> str:
             walls = [_round(file, walled, shape, outside)]
         else:
             contour = with_material_left(shape, outside)
-            ends = [_place(file, walled, piece.start) for piece in pieces(contour.segments)]
-            walls = _walls(file, walled, contour, ends, bored.loops)
+            own = pieces(contour.segments)
+            ends = [_place(file, walled, piece.start) for piece in own]
+            walls = [
+                _wall(file, walled, piece, pair, bored.loops.get(piece, []))
+                for piece, pair in zip(own, pairwise([*ends, ends[0]]), strict=True)
+            ]
             if taken:
                 edges = edge_faces(file, plate, contour, ends, walls)
                 faces += edges.faces
@@ -65,20 +71,6 @@ def solid(file: Entities, plate: Plate) -> str:
     faces.append(face(file, lower, level(file, plate.low), False))
     faces.append(face(file, upper, level(file, plate.high), True))
     return closed_solid(file, faces)
-
-
-def _walls(
-    file: Entities,
-    plate: Plate,
-    contour: Contour,
-    corners: list[SolidCorner],
-    bored: dict[Piece, list[str]],
-) -> list[WallFace]:
-    pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
-    return [
-        _wall(file, plate, piece, ends, bored.get(piece, []))
-        for piece, ends in zip(pieces(contour.segments), pairs, strict=True)
-    ]
 
 
 def _place(file: Entities, plate: Plate, at: Point) -> SolidCorner:
