@@ -15,7 +15,6 @@ from geneva_cli.cli.app import COMMANDS
 DESIGNS = str(repo.DESIGNS)
 # What costs: a run may import only what its row allows of these.
 HEAVY = {"numpy", "scipy", "rich", "pydantic", "matplotlib", "ezdxf", "tomli", "tomllib", "json"}
-HEAVY |= {"pyparsing", "fontTools"}  # ezdxf's, which no drawing needs
 HEAVY |= {"ssl", "numpy.ma"}  # those of xml.sax.saxutils and of np.unique, for a line of code
 # The whole program, through its real entry point, which ends the process by os._exit.
 PROBE = """
