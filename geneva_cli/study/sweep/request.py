@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.columns import digest
-from geneva_cli.specfile.reader import Text, read
+from geneva_cli.specfile.reader import read
 from geneva_cli.study.fields import Cell, Pick
 from geneva_cli.study.fields import pick as pick_of
 from geneva_cli.study.sweep.constraints import (
@@ -23,7 +23,7 @@ from geneva_cli.study.sweep.constraints import (
 from geneva_cli.study.sweep.plan import WHOLE, plan
 from geneva_cli.study.sweep.plan import shard as share
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
-from geneva_cli.study.sweep.values import VariedKey, axis, refuse_twice
+from geneva_cli.study.sweep.values import axis, refuse_twice
 
 
 class SweepRequest(NamedTuple):
@@ -110,21 +110,29 @@ def request(
     try:  # report an error in the file before errors in the options
         files = text.spec().files
     except GenevaError as error:
-        files = _files(text, axes, error)
+        middle = [a.values[len(a.values) // 2] for a in axes]
+        try:  # a spec that is invalid on its own
+            files = with_values(text, axes, middle).spec().files
+        except GenevaError:
+            raise error from None
     refuse_twice(axes, text.set_keys)
     if best and random is None and any(a.span for a in axes):
         random = 4096  # designs that --best scans
     if seed is not None and random is None:
         raise GenevaError(f"--seed {cut(seed)}: it needs --random N; a grid has no random draw")
     bounds = [constraint(text) for text in subject_to]
-    goals = _objectives(pareto, best)
+    if pareto and best:
+        raise GenevaError("--pareto with --best: a front, or one design; choose one of them")
+    option = "--best" if best else "--pareto"
+    texts = [best] if best else pareto.split(",") if pareto else []
+    goals = [objective(one, option) for one in texts]
     part = share(shard) if shard else WHOLE
     if shard and goals:
         raise GenevaError("--shard: each shard has a front of its own; join all rows, then choose")
     names = [name.strip() for name in pick.split(",")] if pick else []
     if not names and not goals:
         names = list(DEFAULT)
-    by = dict.fromkeys([o.name for o in goals], "--best" if best else "--pareto")
+    by = dict.fromkeys([o.name for o in goals], option)
     needed = [*by, *(c.name for c in bounds)]
     names += ["checks.passes", "checks.failed"] if check else []
     of_best, picks = (pick_of(names), needed) if best else (Pick(), [*needed, *names])
@@ -135,19 +143,3 @@ def request(
     refuse_opposites(goals)
     refuse_words(dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it")
     return SweepRequest(swept, tuple(bounds), tuple(goals), jobs, files, of_best)
-
-
-def _files(text: Text, axes: Sequence[VariedKey], error: GenevaError) -> tuple[str, ...]:
-    """The files of a spec that is invalid on its own, with varied keys at their middle values."""
-    try:
-        return with_values(text, axes, [a.values[len(a.values) // 2] for a in axes]).spec().files
-    except GenevaError:
-        raise error from None
-
-
-def _objectives(pareto: str, best: str) -> list[Objective]:
-    if pareto and best:
-        raise GenevaError("--pareto with --best: a front, or one design; choose one of them")
-    if best:
-        return [objective(best, "--best")]
-    return [objective(text, "--pareto") for text in pareto.split(",")] if pareto else []

@@ -24,6 +24,8 @@ NEAR_DEG = 3.0  # below its limit, within which the pressure angle is searched b
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 
 
+# Known with a cycle time: the input speed, times, and the peak in rad/s² or of a rack in m/s².
+TIMED = ("n_rpm", "motion_s", "dwell_s", "acceleration_max_rad_s2", "acceleration_max_m_s2")
 # Keys of wheel and drive that only some machines have, and that describe a row.
 OWN_KEYS = (
     *("A", "eccentricity", "phase", "axes_deg", "offset_mm", "planet_ratio", "fixed"),
@@ -207,14 +209,19 @@ def _slot_failure(machine: Mechanism) -> str:
 def _candidate(
     machine: Mechanism, target: Target, costs: Sequence[float], parts: str | None
 ) -> Candidate:
-    spec, time, motion = machine.spec, timings(machine)[0], machine.spec.motion
+    spec, time, output = machine.spec, timings(machine)[0], machine.output
+    motion = spec.motion
     keys = spec.wheel.as_dict() | spec.drive.as_dict()
     own = {name: keys.get(name) for name in OWN_KEYS}
+    own |= {key: getattr(time, key) for key in ("motion_deg", "dwell_deg", "tau", "k", "index_mm")}
+    own |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=True)}
     own["offset_mm"] = own["offset_mm"] or None
-    n = spec.drive.n_rpm if target.timed else None
-    velocity, acceleration, entry, jerk, power = costs
-    output = machine.output
-    rate = acceleration * omega(n) ** 2 * output.rate_per_radian if n else None
+    timed = dict.fromkeys(TIMED)
+    if target.timed:
+        n = spec.drive.n_rpm
+        timed |= {"n_rpm": n, "motion_s": time.motion_s, "dwell_s": time.dwell_s}
+        rate = own["acceleration_max"] * omega(n) ** 2 * output.rate_per_radian
+        timed[f"acceleration_max_{output.rate_unit}_s2"] = rate
     return Candidate(
         z=spec.wheel.z,
         gearing=spec.wheel.NAME,
@@ -223,21 +230,7 @@ def _candidate(
         alpha0_deg=motion.alpha0_deg if motion else None,
         law=motion.law.NAME if motion else None,
         ratio=machine.ratio,
-        motion_deg=time.motion_deg,
-        dwell_deg=time.dwell_deg,
-        tau=time.tau,
-        k=time.k,
-        velocity_max=velocity,
-        acceleration_max=acceleration,
-        acceleration_entry=entry,
-        jerk_max=jerk,
-        power_max=power,
-        n_rpm=n,
-        acceleration_max_rad_s2=rate if output.turns else None,
         parts=parts,
-        motion_s=time.motion_s if n else None,
-        dwell_s=time.dwell_s if n else None,
-        index_mm=time.index_mm,
-        acceleration_max_m_s2=None if output.turns else rate,
         **own,
+        **timed,
     )
