@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.mass import MassProperties
     from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.loads.load_summary import LoadSummary
+    from geneva_cli.loads.load_peaks import LoadSummary
     from geneva_cli.motion.peaks import Peaks
     from geneva_cli.motion.timing import Timing
     from geneva_cli.parts.parts import Parts
@@ -433,14 +433,14 @@ class Design:
 
     def _loads(self, for_people: bool) -> Table:
         from geneva_cli.loads.load_tables import loads_table, missing
-        from geneva_cli.loads.sizing import sizing_with_wheel
+        from geneva_cli.loads.sizing import sizing as sized
         from geneva_cli.verdict.strength import OF_LIFE
 
         _ = self.loads  # all quantities at once, some of which the life needs
         # without a load every quantity needs one, and that is reported already
         needed = self.strength.missing(OF_LIFE) if self.cycle.is_loaded else []
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
-        sizing, sized_by = sizing_with_wheel(self.cycle, own)
+        sizing, sized_by = sized(self.cycle, own)
         notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
         impact = self.strength.reversal
         return loads_table(self.cycle, sizing, self.life, impact, notes, for_people)
@@ -736,7 +736,7 @@ class Design:
         """
         from geneva_cli.verdict.checks import proofs
 
-        return self._judged + (proofs(self.parts) if self.spec.is_turned else [])
+        return [*self._judged, *proofs(self.parts)]
 
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
@@ -752,7 +752,7 @@ class Design:
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--proof", to_mm, allowed, "the roller's radius")
-        return self._judged + (proofs(self.parts, to_mm) if self.spec.is_turned else [])
+        return [*self._judged, *proofs(self.parts, to_mm)]
 
     @answer
     def _judged(self) -> list[Check]:
@@ -803,7 +803,7 @@ class Design:
         >>> indexed.tolerance().to_dict()["dwell_position.worst_arcsec"]
         72.0
         """
-        from geneva_cli.verdict.tolerance.tolerance_tables import tolerance_table
+        from geneva_cli.verdict.tolerance.study import tolerance_table
 
         return tolerance_table(self.mechanism, self.parts, samples, seed, radius_mm)
 
@@ -817,7 +817,7 @@ class Design:
         >>> len(found["dwell_position_deg"]), float(sum(found["dwell_position_share"]))
         (60, 1.0)
         """
-        from geneva_cli.verdict.tolerance.tolerance_tables import histogram_table
+        from geneva_cli.verdict.tolerance.study import histogram_table
 
         return histogram_table(self.mechanism, self.parts, samples, seed)
 

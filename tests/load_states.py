@@ -10,6 +10,8 @@ from geneva_cli.loads.contact import contact
 from geneva_cli.loads.forces import contact_values
 from geneva_cli.loads.instant import bounded_loads
 from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.load_peaks import load_peaks
+from geneva_cli.motion.engagement import Peak
 from geneva_cli.numerics.arrays import Number
 
 
@@ -37,3 +39,9 @@ def state(mechanism, engagement, input_deg):
     rows = (loads.wheel_torque_Nm, np.abs(loads.pin_force_N), loads.input_torque_Nm, stress)
     single = np.ndim(input_deg) == 0 and all(np.ndim(row) < 2 for row in rows)
     return LoadState(*(row[0] if single and row is not None else row for row in (*rows, pressure)))
+
+
+def greatest(mechanism, name):
+    """The greatest size of a quantity of one design, and its first input angle."""
+    most, at_deg = load_peaks(mechanism, [name])[name]
+    return Peak(most.item(), at_deg.item())

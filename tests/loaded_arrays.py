@@ -7,8 +7,7 @@ from geneva_cli.loads.contact import NEAR_CUSP
 from geneva_cli.loads.cycle_quantities import QUANTITIES, SQUARED
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
-from geneva_cli.loads.load_peaks import load_summaries
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.many import many
 from geneva_cli.spec.tables import Load

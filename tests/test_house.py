@@ -56,7 +56,6 @@ MEMBERS = {
 SHARED = {
     "cli.commands": set(),
     "verdict.checks": {"check", "all_checks"},
-    "verdict.report": set(),
 }
 STREAMS = {"streams", "__main__", "specfile", "output", "manual", "cli"}
 # What commands know besides designs and studies: laws alone, extras, templates, units and names of

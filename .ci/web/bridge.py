@@ -84,7 +84,7 @@ def file_of(name: str) -> bytes:
 
 
 def _all_files(design: Design) -> bytes:
-    """The files of ``geneva export`` in an archive."""
+    """The files of ``geneva export`` in an archive, without meshes: manifold3d is not here."""
     refused = design.judge()[0] if design.spec.has_parts else ""
     if refused:
         raise GenevaError(f"not written: {refused}")
@@ -92,6 +92,8 @@ def _all_files(design: Design) -> bytes:
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
         for file in files:
+            if file.name.endswith((".stl", ".3mf")):
+                continue
             file.write(file.name)
             with open(file.name, "rb") as opened:
                 # A fixed time, so that the same design gives the same bytes.

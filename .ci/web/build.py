@@ -32,7 +32,7 @@ PYODIDE = (
     "pyodide-lock.json",
 )
 # What the library needs from PyPI; all are Python alone. SciPy, which there is not for browsers, is
-# needed by tolerance, sweep and bench only.
+# needed by tolerance, sweep and bench only, and there is no manifold3d, of meshes.
 PURE = ("tomli", "ezdxf", "pyparsing", "typing_extensions", "fonttools")
 PYTHON = "3.11"  # of this Pyodide
 LEFT_OUT = re.compile(

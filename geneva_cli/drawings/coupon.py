@@ -12,9 +12,8 @@ from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell, Solid, Stack, lowered, solids
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point, closed, polygon
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.parts import Parts
+from geneva_cli.parts.parts import EdgedParts, Parts
 from geneva_cli.parts.projection import Missing, alike, built_of, outlines_of, titled
 
 # mm per side: the first suit a mill, the last a laser or a printer

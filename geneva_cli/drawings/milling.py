@@ -10,8 +10,7 @@ import math
 from contextlib import suppress
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.cutter import faults, freed
-from geneva_cli.geometry.inset import TooWide
+from geneva_cli.geometry.cutter import TooWide, faults, freed
 from geneva_cli.geometry.plates import Group, Part, Plate, plates
 from geneva_cli.geometry.shapes import Arc, Contour, Layer, Line, Shape
 from geneva_cli.geometry.sheet import Drawing

@@ -18,8 +18,8 @@ from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, closed, join
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.arm import arm_plate, crank_arm
-from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled
 
 
@@ -154,7 +154,7 @@ def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
         ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
         return Contour("PITCH", (Line(*ends),), closed=False)
     from geneva_cli.geometry import fit
-    from geneva_cli.parts.outlines.walls.path_walls import parallel
+    from geneva_cli.parts.outlines.path_walls import parallel
 
     pieces: list[Segment] = []
     for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):

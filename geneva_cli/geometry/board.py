@@ -7,12 +7,12 @@ lines and texts. Of the free candidates the one is used that crosses the fewest 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from geneva_cli.geometry.measure import at, points, segment_length
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Segment, Shape, two_arcs
+from geneva_cli.geometry.measure import legs, points, segment_length
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point, Segment, Shape, two_arcs
 from geneva_cli.geometry.sheet import ABOVE, BELOW, Label, Measure
 from geneva_cli.numerics.arrays import Array
 
@@ -25,19 +25,18 @@ class Board:
 
     def __init__(self) -> None:
         self._texts: list[Label] = []
-        self._drawn: Array = np.empty((0, 4))  # straight lines of the part
-        self._part: Array = np.empty((0, 4))  # all chords of the part
-        self._ruled: Array = np.empty((0, 4))  # straight dimension lines
-        self._main: Array = np.empty((0, 4))  # dimension lines, leaders and arrows
-        self._extended: Array = np.empty((0, 4))  # extension lines
         self._swept: list[Arc] = []  # dimension lines that are arcs
-        self._all: Array = np.empty((0, 4))
+        none: Array = np.empty((0, 4))
+        self._drawn, self._part = none, none  # straight lines of the part; all chords of it
+        self._ruled = none  # straight dimension lines
+        self._main = none  # dimension lines, leaders and arrows
+        self._extended = none  # extension lines
+        self._all = none
 
     def draw(self, shape: Shape) -> None:
         """Add the lines of a shape."""
         own = chords(shape)
-        self._keep(own)
-        self._part = np.concatenate((self._part, own))
+        self._all, self._part = (np.concatenate((a, own)) for a in (self._all, self._part))
         if isinstance(shape, Contour):
             lines = _chords(piece for piece in shape.segments if isinstance(piece, Line))
             self._drawn = np.concatenate((self._drawn, lines))
@@ -45,11 +44,11 @@ class Board:
     def write(self, label: Label) -> None:
         """Add a text."""
         self._texts.append(label)
-        self._keep(_edges(label))
+        self._all = np.concatenate((self._all, _ring(label.corners)))
 
     def put(self, measure: Measure) -> None:
         """Add a dimension: its lines, arrows and text."""
-        self._keep(_lines(measure))
+        self._all = np.concatenate((self._all, _lines(measure)))
         self._main = np.concatenate((self._main, _main(measure)))
         self._extended = np.concatenate((self._extended, _chords(measure.extension_lines)))
         own = measure.lines[0]
@@ -90,10 +89,8 @@ class Board:
         return beside_part or _runs_along(own, self._ruled, BESIDE)
 
     def _crossings(self, measure: Measure) -> int:
-        """Return how often a dimension crosses others, and grazes lines of the part.
-
-        Extension lines may cross each other (ISO 129-1).
-        """
+        """Return how often a dimension crosses others, and grazes lines of the part."""
+        # extension lines may cross each other (ISO 129-1)
         main = _main(measure)
         crossings = _crossings(main, self._main) + _crossings(main, self._extended)
         crossings += _crossings(_chords(measure.extension_lines), self._main)
@@ -104,7 +101,7 @@ class Board:
         """Return True if a dimension's text keeps ``gap`` mm clear, and its lines meet no text."""
         if crosses(measure.label, self._all, gap):
             return False
-        own = np.concatenate((_lines(measure), _edges(measure.label)))
+        own = np.concatenate((_lines(measure), _ring(measure.label.corners)))
         return not any(crosses(text, own, 0.6) for text in self._texts)
 
     def box(self) -> tuple[float, float, float, float]:
@@ -112,54 +109,43 @@ class Board:
         x, y = self._all[:, ::2], self._all[:, 1::2]
         return float(x.min()), float(y.min()), float(x.max()), float(y.max())
 
-    def _keep(self, lines: Array) -> None:
-        self._all = np.concatenate((self._all, lines))
-
 
 def chords(shape: Shape) -> Array:
     """Return the chords of a shape, (n, 4)."""
-    if isinstance(shape, Circle):
-        return _chords(two_arcs(shape))
-    assert isinstance(shape, Contour)
-    return _chords(shape.segments)
+    return _chords(two_arcs(shape) if isinstance(shape, Circle) else shape.segments)
 
 
 def _arcs_together(a: Arc, b: Arc) -> bool:
     """Return True if two arcs run side by side with less than ``BESIDE`` between."""
     same = math.dist(a.centre, b.centre) < IN_LINE and abs(a.radius - b.radius) < BESIDE
-    turn = (_middle(b) - _middle(a)) % math.tau
+    turn = 0.5 * (sum(legs(b)) - sum(legs(a))) % math.tau
     off = min(turn, math.tau - turn)
     return same and (0.5 * (abs(a.sweep) + abs(b.sweep)) - off) * a.radius > IN_LINE
 
 
-def _runs_along(line: Line, lines: Array, apart: float) -> bool:
-    """Return True if a line runs beside one of others, (n, 4), with less than ``apart`` between."""
+def _beside(line: Line, lines: Array) -> tuple[float, Array, Array]:
+    """Return a line's length, and how far chords are along and across it, (n, 2) both."""
     (x, y), (u, v) = line
     long = math.dist(*line)
-    if long < IN_LINE:
-        return False
-    c, s = (u - x) / long, (v - y) / long
-    dx, dy = lines[:, ::2].T - x, lines[:, 1::2].T - y
-    (start, end), (one, other) = dx * c + dy * s, np.abs(dy * c - dx * s)
+    c, s = ((u - x) / long, (v - y) / long) if long else (1.0, 0.0)
+    dx, dy = lines[:, ::2] - x, lines[:, 1::2] - y
+    return long, dx * c + dy * s, dy * c - dx * s
+
+
+def _runs_along(line: Line, lines: Array, apart: float) -> bool:
+    """Return True if a line runs beside one of others, (n, 4), with less than ``apart`` between."""
+    long, along, across = _beside(line, lines)
     # a wheel of many slots has thousands of lines: reductions over pairs would take most of a sheet
+    (start, end), (one, other) = along.T, np.abs(across).T
     overlap = (np.minimum(start, end) < long - IN_LINE) & (np.maximum(start, end) > IN_LINE)
-    return bool((overlap & (np.maximum(one, other) < apart)).any())
+    return long >= IN_LINE and bool((overlap & (np.maximum(one, other) < apart)).any())
 
 
 def _grazes(piece: Segment, lines: Array) -> bool:
-    """Return True if a straight line lies within 1.5 mm of chords, (n, 4), in nearly its direction.
-
-    An eye does not keep such lines apart at arm's length.
-    """
+    """Return True if a straight line lies within 1.5 mm of chords, nearly in their direction."""
     if not isinstance(piece, Line):
         return False
-    (x, y), (u, v) = piece
-    long = math.dist(*piece)
-    if long < IN_LINE:
-        return False
-    c, s = (u - x) / long, (v - y) / long
-    dx, dy = lines[:, ::2] - x, lines[:, 1::2] - y
-    along, across = dx * c + dy * s, dy * c - dx * s
+    long, along, across = _beside(piece, lines)
     run, rise = np.diff(along)[:, 0], np.diff(across)[:, 0]
     slope = rise / np.where(run == 0.0, 1.0, run)
     steep = np.abs(rise) > 0.2 * np.abs(run)  # above 11 degrees lines are seen to cross
@@ -169,13 +155,7 @@ def _grazes(piece: Segment, lines: Array) -> bool:
     levels = (across[:, 0] + slope * (end - along[:, 0]) for end in (first, last))
     low, high = np.sort(np.stack(list(levels)), axis=0)
     near = (low < 1.5) & (high > -1.5) & (last - first > IN_LINE)
-    return bool((near & ~steep).any())
-
-
-def _middle(arc: Arc) -> float:
-    """Return the direction of an arc's middle from its centre."""
-    (x, y), (u, v) = arc.centre, at(arc, 0.5)
-    return math.atan2(v - y, u - x)
+    return long >= IN_LINE and bool((near & ~steep).any())
 
 
 def _chords(pieces: Iterable[Segment]) -> Array:
@@ -190,19 +170,12 @@ def _chords(pieces: Iterable[Segment]) -> Array:
 
 def _lines(measure: Measure) -> Array:
     """Return the chords of a dimension's lines and arrows."""
-    sides = [
-        Line(a, b)
-        for arrow in measure.arrows
-        for a, b in zip(arrow.corners, (*arrow.corners[1:], arrow.corners[0]), strict=True)
-    ]
-    return _chords([*measure.lines, *sides])
+    return np.concatenate([_chords(measure.lines), *(_ring(one.corners) for one in measure.arrows)])
 
 
 def _main(measure: Measure) -> Array:
-    """Return the chords of dimension line or leader, and the axes of arrows, without their tips.
-
-    Dimensions in a row meet with their tips, and a leader touches what it points at.
-    """
+    """Return the chords of dimension line or leader, and the axes of arrows, without their tips."""
+    # dimensions in a row meet with their tips, and a leader touches what it points at
     tip = 0.5  # mm at an end that may lie on another line
     rows = [_chords([piece]) for piece in measure.main_lines]
     for arrow in measure.arrows:
@@ -234,26 +207,19 @@ def _side(a: Array, b: Array, p: Array) -> Array:
     return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
 
 
-def _edges(label: Label) -> Array:
-    corners = label.corners
+def _ring(corners: Sequence[Point]) -> Array:
+    """Return the sides of a polygon, (n, 4)."""
     return np.array([(*p, *q) for p, q in zip(corners, (*corners[1:], corners[0]), strict=True)])
 
 
 def crosses(label: Label, lines: Array, gap: float = 0.0) -> bool:
     """Return True if chords, (n, 4), come nearer to a text's box than ``gap`` mm."""
-    xs, ys = zip(*label.corners, strict=True)
-    x, y = lines[:, ::2], lines[:, 1::2]
-    near = (np.minimum(x[:, 0], x[:, 1]) < max(xs) + 2.0 * gap) & (
-        np.maximum(x[:, 0], x[:, 1]) > min(xs) - 2.0 * gap
-    )
-    near &= (np.minimum(y[:, 0], y[:, 1]) < max(ys) + 2.0 * gap) & (
-        np.maximum(y[:, 0], y[:, 1]) > min(ys) - 2.0 * gap
-    )
-    return bool(near.any()) and _enters(label, lines[near], gap)
-
-
-def _enters(label: Label, lines: Array, gap: float) -> bool:
-    """Return True if one of a few chords meets the box of a text grown by ``gap``."""
+    near = np.ones(len(lines), dtype=bool)  # the few that may
+    for k, places in enumerate(zip(*label.corners, strict=True)):
+        one, other = lines[:, k], lines[:, k + 2]
+        near &= np.minimum(one, other) < max(places) + 2.0 * gap
+        near &= np.maximum(one, other) > min(places) - 2.0 * gap
+    lines = lines[near]
     c, s = math.cos(label.turn), math.sin(label.turn)
     x, y = lines[:, ::2] - label.at[0], lines[:, 1::2] - label.at[1]
     along, up = c * x + s * y, c * y - s * x

@@ -24,6 +24,12 @@ MANY_NODES = 5_000  # nodes from which on the first sufficient attempt is kept
 # polynomials of the fourth degree.
 PLACES = np.arange(1, 32) / 32.0
 MIDDLE = np.array([0.25, 0.5, 0.75])
+# Lagrange's weights (31, 3) of the errors at ``MIDDLE`` for those at ``PLACES``; at both ends it
+# is 0.
+KNOTS = (0.0, 0.25, 0.5, 0.75, 1.0)
+BETWEEN = np.column_stack(
+    [np.prod([(PLACES - b) / (a - b) for b in KNOTS if b != a], axis=0) for a in MIDDLE]
+)
 # Between measured errors the peak of an S is found to 3e-4 of itself.
 AIM = 1.0 - 5e-4  # fraction of a tolerance
 
@@ -31,10 +37,8 @@ AIM = 1.0 - 5e-4  # fraction of a tolerance
 def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bool = True) -> Array:
     """Fewest places whose chords keep the tolerance on every curve.
 
-    A chord's error is proportional to the square of its length. So nodes are spread evenly in the
-    integral of the error's square root. Then the errors are measured, and nodes are moved, added or
-    removed. All ends are nodes, and cusps must be ends. Without ``fewest`` the first sufficient
-    number is used, some ten per cent more, with fewer measurements.
+    All ends are nodes, and cusps must be ends. Without ``fewest`` the first sufficient number is
+    used, some ten per cent more, with fewer measurements.
 
     Raises GenevaError if that takes more than ``ROWS_MAX`` rows.
     """
@@ -46,6 +50,7 @@ def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bo
 
 
 def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: bool) -> Array:
+    """Nodes of a smooth stretch, spread evenly in the integral of the error's square root."""
     grid, fraction, total = _density(curves, np.linspace(a, b, 1025 if fewest else 257))
     count = max(1, int(np.ceil(total / np.sqrt(tolerance_mm))))
     if count > MANY_NODES or not fewest:
@@ -93,14 +98,10 @@ def _respread(places: Array, root: Array) -> Array:
 
 
 def _density(curves: Curves, grid: Array) -> tuple[Array, Array, float]:
-    """Grid, integral of the node density over it as a fraction of its total, and the total.
-
-    The total over the square root of a tolerance is the number of chords. The grid is moved only
-    where the curve runs away within a small part of an interval.
-    """
+    """Grid, integral of the node density over it as a fraction of its total, and the total."""
     error, hides = _measured(curves, grid, MIDDLE)
     for _ in range(8):  # each time to a thousandth: to the last digits of the parameter
-        if not hides.any():
+        if not hides.any():  # only where the curve runs away within a small part of an interval
             break
         grid = _respread(grid, np.sqrt(error))
         error, hides = _measured(curves, grid, MIDDLE)
@@ -127,50 +128,30 @@ def chord_errors(curves: Curves, at: Array, places: Array | None = None) -> Arra
 
 def _measured(curves: Curves, at: Array, places: Array) -> tuple[Array, Mask]:
     """Errors of chords, and a mask of those that hide most of a curve between two measurements."""
-    size = 4096  # chords in a block, so that memory stays flat
-    blocks = [
-        _chord_errors(curves, at[start : start + size + 1], places)
-        for start in range(0, len(at) - 1, size)
-    ]
-    errors, hides = (np.concatenate(parts) for parts in zip(*blocks, strict=True))
-    return errors, hides
-
-
-def _chord_errors(curves: Curves, at: Array, places: Array) -> tuple[Array, Mask]:
-    steps = np.diff(at)
-    inner = at[:-1, None] + steps[:, None] * places
-    worst, hides = np.zeros(len(steps)), np.zeros(len(steps), dtype=bool)
-    along = np.ones((len(steps), len(places) + 2))  # fractions of the chord, with both its ends
-    along[:, 0] = 0.0
-    for knots, points in zip(curves(at), curves(inner.ravel()), strict=True):
-        chord = np.diff(knots, axis=0)[:, None, :]
-        offset = points.reshape(len(steps), len(places), 2) - knots[:-1, None, :]
-        # distance to the chord itself, since an undercut flank folds back beyond its ends
-        square = np.maximum((chord * chord).sum(axis=2), 1e-300)
-        fraction = np.clip((offset * chord).sum(axis=2) / square, 0.0, 1.0)
-        off = offset - fraction[..., None] * chord
-        error = _peaks(off if len(places) > len(MIDDLE) else BETWEEN @ off)
-        along[:, 1:-1] = fraction
-        # A curve that starts from rest with the fourth power of its parameter leaves 0.68. At 0.75
-        # an arc's error is a third above the measured one.
-        hidden = np.diff(along, axis=1).max(axis=1) > 0.75
-        worst = np.maximum(worst, np.where(hidden, np.sqrt(square[:, 0]), error))
-        hides |= hidden & (square[:, 0] > error * error)
+    worst, hides = np.zeros(len(at) - 1), np.zeros(len(at) - 1, dtype=bool)
+    block = 4096  # chords, so that memory stays flat
+    for start in range(0, len(at) - 1, block):
+        some, ends = slice(start, start + block), at[start : start + block + 1]
+        steps = np.diff(ends)
+        inner = ends[:-1, None] + steps[:, None] * places
+        along = np.ones((len(steps), len(places) + 2))  # fractions of the chord, with both its ends
+        along[:, 0] = 0.0
+        for knots, points in zip(curves(ends), curves(inner.ravel()), strict=True):
+            chord = np.diff(knots, axis=0)[:, None, :]
+            offset = points.reshape(len(steps), len(places), 2) - knots[:-1, None, :]
+            # distance to the chord itself, since an undercut flank folds back beyond its ends
+            square = np.maximum((chord * chord).sum(axis=2), 1e-300)
+            fraction = np.clip((offset * chord).sum(axis=2) / square, 0.0, 1.0)
+            off = offset - fraction[..., None] * chord
+            error = _peaks(off if len(places) > len(MIDDLE) else BETWEEN @ off)
+            along[:, 1:-1] = fraction
+            # A curve that starts from rest with the fourth power of its parameter leaves 0.68. At
+            # 0.75 an arc's error is a third above the measured one.
+            hidden = np.diff(along, axis=1).max(axis=1) > 0.75
+            long = np.where(hidden, np.sqrt(square[:, 0]), error)
+            worst[some] = np.maximum(worst[some], long)
+            hides[some] |= hidden & (square[:, 0] > error * error)
     return worst, hides
-
-
-def _quartics() -> Array:
-    """Weights (31, 3) of the errors at ``MIDDLE`` for those at ``PLACES``; at both ends it is 0."""
-    knots = np.array([0.0, *MIDDLE, 1.0])
-    return np.column_stack(
-        [
-            np.prod([(PLACES - b) / (a - b) for b in knots if b != a], axis=0)
-            for a in MIDDLE  # Lagrange's polynomials
-        ]
-    )
-
-
-BETWEEN = _quartics()
 
 
 def _peaks(off: Array) -> Array:

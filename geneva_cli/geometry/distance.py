@@ -8,66 +8,50 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.geometry.measure import directions
-from geneva_cli.geometry.shapes import Arc, Contour, Line
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, about
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-
-if TYPE_CHECKING:
-    Which: TypeAlias = Whole | tuple[Whole, Whole]
 
 BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
 
 
 class PieceDistances(NamedTuple):
-    """Distances and sides of points relative to pieces.
-
-    ``side`` is the signed distance from the whole line or circle. ``facing`` is True if the nearest
-    point is inside the piece. ``along`` is the position along its chord, from the middle.
-    """
+    """Distances and sides of points relative to pieces."""
 
     distance: Array
-    side: Array
-    facing: Mask
-    along: Array
-
-    def at(self, which: Which) -> PieceDistances:
-        """Those at some indices."""
-        distance, side, facing, along = self
-        return PieceDistances(distance[which], side[which], facing[which], along[which])
+    side: Array  # signed distance from the whole line or circle
+    facing: Mask  # True if the nearest point is inside the piece
+    along: Array  # position along its chord, from the middle
 
 
 class Polyarc:
     """The boundary of a part, of closed contours with the material on their left."""
 
     def __init__(self, contours: Iterable[Contour]) -> None:
-        rows, turns = [], []
+        rows = []
         for contour in contours:
             pieces = [s for s in contour.segments if isinstance(s, Line | Arc)]
             assert len(pieces) == len(contour.segments), "cubics have no exact distance here"
-            rows += [_row(piece) for piece in pieces]
-            headings = [directions(piece) for piece in pieces]
-            turns += [_corner(headings[i - 1][1], headings[i][0]) for i in range(len(headings))]
-        x0, y0, x1, y1, cx, cy, radius, sense, sin_half, cos_half = np.array(rows).T
+            ends = [directions(piece) for piece in pieces]
+            steps = (math.remainder(on[0] - ends[i - 1][1], math.tau) for i, on in enumerate(ends))
+            turns = [turn if abs(turn) > SAME_ANGLE else 0.0 for turn in steps]
+            every = zip(pieces, turns, [*turns[1:], *turns[:1]], strict=True)
+            rows += [(*_row(piece), before, after) for piece, before, after in every]
+        x0, y0, x1, y1, cx, cy, radius, sense, sin_half, cos_half, *turned = np.array(rows).T
         dx, dy = x1 - x0, y1 - y0
         dx = np.where((dx == 0.0) & (dy == 0.0), 1e-150, dx)  # a point has a direction too
         square = np.maximum(dx * dx + dy * dy, 1e-300)
         length = np.sqrt(square)
         right = np.where(sense < 0.0, -1.0, 1.0) / length
         size = np.where(cos_half < 0.0, 2.0 * radius, 0.5 * length)
-        after, first = [], 0
-        for contour in contours:
-            count = len(contour.segments)
-            after += [first + (i + 1) % count for i in range(count)]
-            first += count
-        turn = np.array(turns)
         arcs = (cx, cy, radius, sense, dy * right, -dx * right, sin_half, cos_half)
         chords = (dx, dy, square, length, 0.5 * (x0 + x1), 0.5 * (y0 + y1), size)
-        self._name(np.array((x0, y0, x1, y1, *arcs, *chords, turn, turn[after])))
+        self._name(np.array((x0, y0, x1, y1, *arcs, *chords, *turned)))
 
     def _name(self, columns: Array) -> None:
         """Set the numbers of the pieces, one row of ``columns`` each."""
@@ -99,15 +83,23 @@ class Polyarc:
         return np.concatenate(blocks) if blocks else np.empty(0)
 
     def _signed(self, points: Array) -> Array:
-        x, y = points.T
-        row, pieces = self._nearby(points)
-        some = self.subset(pieces)
-        views = some.distances(x[row], y[row])
+        # The nearest piece is among those whose circles come nearer than the ends of any piece.
+        dx, dy = points[:, :1] - self.ox, points[:, 1:] - self.oy
+        away = np.sqrt(dx * dx + dy * dy)
+        most = (away + 0.5 * self.length).min(axis=1, keepdims=True)
+        # 1e-9 of a distance is more than its rounding
+        row, piece = np.nonzero(away - self.size <= most * (1.0 + 1e-9))
+        some = self.subset(piece)
+        seen = some.distances(*points[row].T)
         # the first of the nearest pieces of each point
-        least = np.minimum.reduceat(views.distance, np.flatnonzero(_changes(row)))
-        equal = np.flatnonzero(views.distance == least[row])
+        least = np.minimum.reduceat(seen.distance, np.flatnonzero(_changes(row)))
+        equal = np.flatnonzero(seen.distance == least[row])
         first = equal[_changes(row[equal])]
-        return some._signs(views.at(first), first)
+        distance, side, facing, along = seen
+        # Outside at a convex corner, inside at a hollow one; at a smooth joint the side decides.
+        turn = np.where(along[first] < 0.0, some.turn_start[first], some.turn_end[first])
+        inside = np.where(~facing[first] & (turn != 0.0), turn < 0.0, side[first] > 0.0)
+        return np.where(inside, -1.0, 1.0) * distance[first]
 
     def distances(self, x: Array, y: Array) -> PieceDistances:
         """Distances and sides of points relative to pieces; x and y broadcast with the pieces.
@@ -128,27 +120,6 @@ class Polyarc:
         side = (inside - 2.0 * self.cos_half * outward) / (1.0 + far)
         distance = np.where(facing, np.abs(side), np.sqrt(square + beyond * beyond))
         return PieceDistances(distance, np.where(self.sense < 0.0, -side, side), facing, along)
-
-    def _signs(self, view: PieceDistances, piece: Whole) -> Array:
-        """Signed distances of points from their nearest pieces."""
-        # Outside at a convex corner, inside at a hollow one; at a smooth joint the side decides.
-        turn = np.where(view.along < 0.0, self.turn_start[piece], self.turn_end[piece])
-        corner = ~view.facing & (turn != 0.0)
-        inside = np.where(corner, turn < 0.0, view.side > 0.0)
-        return np.where(inside, -1.0, 1.0) * view.distance
-
-    def _nearby(self, points: Array) -> tuple[Whole, Whole]:
-        """Each point with the pieces among which its nearest one is, both in order.
-
-        A piece's ends are half its chord from the middle of its circle. No point of it is farther
-        from there than its size.
-        """
-        dx, dy = points[:, :1] - self.ox, points[:, 1:] - self.oy
-        away = np.sqrt(dx * dx + dy * dy)
-        most = (away + 0.5 * self.length).min(axis=1, keepdims=True)
-        # 1e-9 of a distance is more than its rounding
-        row, piece = np.nonzero(away - self.size <= most * (1.0 + 1e-9))
-        return row, piece
 
     def samples(self, sagitta: float, longest: float) -> Array:
         """Points of the boundary, (n, 2): all corners, and points at the requested spacing."""
@@ -190,6 +161,68 @@ def _row(piece: Line | Arc) -> tuple[float, ...]:
     return (*piece.start, *piece.end, *piece.centre, radius, sense, sine, math.cos(half))
 
 
-def _corner(before: float, after: float) -> float:
-    turn = math.remainder(after - before, math.tau)
-    return turn if abs(turn) > SAME_ANGLE else 0.0
+def farthest(outline: Polyarc, x: Number, y: Number) -> Array:
+    """Return the distance from points to the farthest point of each piece.
+
+    x and y broadcast with the pieces. The farthest point is at an end of the piece, or where an arc
+    lies opposite the point as seen from its centre.
+    """
+    vx, vy = outline.cx - x, outline.cy - y
+    away = np.hypot(vx, vy)
+    opposite = outline.arc & (vx * outline.mx + vy * outline.my >= away * outline.cos_half)
+    start, end = np.hypot(outline.x0 - x, outline.y0 - y), np.hypot(outline.x1 - x, outline.y1 - y)
+    return np.where(opposite, away + outline.radius, np.maximum(start, end))
+
+
+def from_segments(outline: Polyarc, start: Array, end: Array, reach: float) -> Array:
+    """Return the least distance of segments that cross no piece from the outline, (n,).
+
+    ``start`` and ``end`` are (n, 2). Distances above ``reach`` are returned as ``reach``. The
+    distance is at an end of the segment, at a corner of the outline, or where the line from an
+    arc's centre meets the segment at a right angle.
+    """
+    # only pieces that may lie within reach of a segment are compared with it
+    (x, y), half = 0.5 * (start + end).T, 0.5 * np.hypot(*(end - start).T)
+    middle = np.hypot(outline.ox - x[:, None], outline.oy - y[:, None])
+    row, piece = np.nonzero(middle <= reach + half[:, None] + outline.size)
+    near = outline.subset(piece)
+    (x, y), (dx, dy), (ex, ey) = start[row].T, (end - start)[row].T, end[row].T
+    square = np.maximum(dx * dx + dy * dy, 1e-300)
+
+    def nearest(px: Array, py: Array) -> tuple[Array, Array]:
+        """The points of the segments that are nearest to points."""
+        along = np.clip(((px - x) * dx + (py - y) * dy) / square, 0.0, 1.0)
+        return x + along * dx, y + along * dy
+
+    def away(px: Array, py: Array) -> Array:
+        fx, fy = nearest(px, py)
+        return np.hypot(fx - px, fy - py)
+
+    places = (x, y), (ex, ey), nearest(near.cx, near.cy)
+    from_places = [near.distances(*place).distance for place in places]
+    corners = away(near.x0, near.y0), away(near.x1, near.y1)
+    out = np.full(len(start), reach)
+    np.minimum.at(out, row, np.minimum.reduce((*from_places, *corners)))
+    return out
+
+
+def short_pieces(contours: Iterable[Contour], step: float) -> Polyarc:
+    """Return an outline cut into equal pieces; arcs turn by at most ``step`` radians in each.
+
+    A line is cut like an arc of a quarter of a circle.
+    """
+    pieces: list[Segment] = []
+    for segment in (segment for contour in contours for segment in contour.segments):
+        if isinstance(segment, Arc):
+            (cx, cy), sweep = segment.centre, segment.sweep
+            start = math.atan2(segment.start[1] - cy, segment.start[0] - cx)
+            count = max(1, math.ceil(abs(sweep) / step))
+            turns = (start + sweep * i / count for i in range(count))
+            pieces += [about((cx, cy), segment.radius, turn, sweep / count) for turn in turns]
+            continue
+        (x0, y0), (x1, y1) = segment.start, segment.end
+        count = math.ceil(0.5 * math.pi / step)
+        shares = [i / count for i in range(count + 1)]
+        corners = [(x0 + (x1 - x0) * share, y0 + (y1 - y0) * share) for share in shares]
+        pieces += map(Line, corners[:-1], corners[1:])
+    return Polyarc([Contour("", tuple(pieces))])

@@ -6,13 +6,14 @@ it lies on the line from P through the centre of the rounded corner, behind the 
 circle the flank is an involute, and the fillet is offset from a trochoid.
 
 A curve is a function of its length s in mm, counterclockwise. It returns its points and its unit
-tangents. A tooth has two sides, 1 for the one at greater s, and -1.
+tangents. A tooth has two sides, 1 for the one at greater s, and -1. The gear that rolls on a curve,
+with teeth of the same rack, meshes with those along it. Tips and roots are parallel to it.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -23,6 +24,7 @@ from geneva_cli.numerics.arrays import Array
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.fit.path import Curve
+
 
 Writer: TypeAlias = "Callable[[Curve, float, float], Sequence[Segment]]"  # fits pieces to a curve
 
@@ -178,47 +180,39 @@ class RoundTeeth(NamedTuple):
 
     def roll(self, tangent: float) -> float:
         """Return the roll, from the middle of a tooth, at which a tangent's length is cut, mm."""
-        rack = self.rack
-        beyond = tangent - self.radius * math.sin(rack.angle)
-        return rack.half - beyond / math.cos(rack.angle)
+        beyond = tangent - self.radius * math.sin(self.rack.angle)
+        return self.rack.half - beyond / math.cos(self.rack.angle)
 
     def one(self, write: Writer) -> list[Segment]:
         """Return a tooth, or a space of a ring, about the x axis, counterclockwise."""
-        return self._space(write) if self.opening else self._tooth(write)
+        if self.opening:
+            return self._space(write)
+        (before, after), top = self.sides(write), self.half_angle(self.tip)
+        return [*before, about(ORIGIN, self.tip, -top, 2.0 * top), *after]
 
     def between(self) -> Segment:
         """Return the arc from a tooth about the x axis to the next."""
+        from_middle = self.rack.corner[0] / self.radius
         if self.opening:
             from_middle = self.half_angle(self.opening)
-        else:
-            from_middle = self.rack.corner[0] / self.radius
         return about(ORIGIN, self.root, from_middle, self.step - 2.0 * from_middle)
 
     def sides(self, write: Writer) -> tuple[list[Segment], list[Segment]]:
         """Return both sides of a tooth about the x axis: before its tip, and after it."""
         rack, pitch = self.rack, circle(self.radius)
-        first, last, end = rack.corner[0], rack.end, self.roll(self.tangent(self.tip))
-        before = [
-            *write(fillet(pitch, rack, 0.0, -1), first, last),
-            *write(flank(pitch, rack, 0.0, -1), -last, -end),
-        ]
+        root = write(fillet(pitch, rack, 0.0, -1), rack.corner[0], rack.end)
+        wall = write(flank(pitch, rack, 0.0, -1), -rack.end, -self.roll(self.tangent(self.tip)))
+        before = [*root, *wall]
         return before, mirrored(before)
-
-    def _tooth(self, write: Writer) -> list[Segment]:
-        (before, after), top = self.sides(write), self.half_angle(self.tip)
-        return [*before, about(ORIGIN, self.tip, -top, 2.0 * top), *after]
 
     def _space(self, write: Writer) -> list[Segment]:
         """Return a ring's space: its corners are arcs that touch the flank and the root circle."""
-        rack, pitch, corner = self.rack, circle(self.radius), self.space_corner
-        assert corner
-        (x, y), radius, centre, touch = corner
+        assert self.space_corner
+        (x, y), radius, centre, touch = self.space_corner
         begin = self.half_angle(self.base) - touch / self.base + 0.5 * math.pi
         inner, outer = self.roll(self.tangent(self.opening)), self.roll(touch)
-        before = [
-            *write(flank(pitch, rack, 0.0, -1), -inner, -outer),
-            about((x, -y), radius, -begin, begin - centre),
-        ]
+        wall = write(flank(circle(self.radius), self.rack, 0.0, -1), -inner, -outer)
+        before = [*wall, about((x, -y), radius, -begin, begin - centre)]
         return [*before, about(ORIGIN, self.tip, -centre, 2.0 * centre), *mirrored(before)]
 
     @property
@@ -241,3 +235,65 @@ class RoundTeeth(NamedTuple):
 def involute(angle: float) -> float:
     """Return the involute function tan a - a of an angle in radians."""
     return math.tan(angle) - angle
+
+
+def teeth_along(
+    pitch: Curve, rack: Rack, middles: Array, tip: float, write: Writer
+) -> Iterator[Segment]:
+    """Yield the outline of a gear whose teeth have their middles at lengths of its pitch curve.
+
+    ``tip`` is the height of the teeth above the curve, mm.
+    """
+    (first, height), last = rack.corner, rack.end
+    root = parallel(pitch, height - rack.rounding * rack.module)
+    top = parallel(pitch, tip)
+    ends = [zip(*_tips(pitch, rack, middles, side, tip), strict=True) for side in (-1, 1)]
+    for middle, (first_tip, begin), (last_tip, end) in zip(middles.tolist(), *ends, strict=True):
+        yield from write(fillet(pitch, rack, middle, -1), first - middle, last - middle)
+        yield from write(flank(pitch, rack, middle, -1), middle - last, first_tip)
+        yield from write(top, begin, end)
+        yield from write(flank(pitch, rack, middle, 1), last_tip, middle + last)
+        yield from write(fillet(pitch, rack, middle, 1), -middle - last, -middle - first)
+        yield from write(root, middle + first, middle + rack.pitch - first)
+
+
+def parallel(pitch: Curve, height: float) -> Curve:
+    """Return the curve at a height above a pitch curve, outwards."""
+
+    def curve(s: Array) -> tuple[Array, Array]:
+        place, along = pitch(s)
+        return place + height * right(along), along
+
+    return curve
+
+
+def _tips(
+    pitch: Curve, rack: Rack, middles: Array, side: int, tip: float
+) -> tuple[list[float], list[float]]:
+    """Return the rolls at which flanks end, and the lengths of the pitch curve below their tips."""
+    slope = math.sin(rack.angle) * math.cos(rack.angle)
+    s = middles + side * (rack.half - tip / slope)
+    foot = middles.copy()
+    # the height over the roll is nearly the slope of the rack's flank: a step leaves some m/R of
+    # the error, so 60 steps leave rounding alone
+    for _ in range(60):
+        place, along = pitch(foot)
+        away = flank(pitch, rack, middles, side)(s)[0] - place
+        foot = foot + np.einsum("ij,ij->i", away, along)
+        s = s + side * (np.einsum("ij,ij->i", away, right(along)) - tip) / slope
+    return s.tolist(), foot.tolist()
+
+
+def thinnest_tip(pitch: Curve, rack: Rack, middles: Array, tip: float) -> float:
+    """Return the least thickness of teeth at their tips, along the pitch curve, mm."""
+    (_, begins), (_, ends) = (_tips(pitch, rack, middles, side, tip) for side in (-1, 1))
+    return min(end - begin for begin, end in zip(begins, ends, strict=True))
+
+
+def curvatures(pitch: Curve, length: float, count: int) -> tuple[float, float]:
+    """Return the least and the greatest curvature at places of a closed pitch curve, per mm."""
+    s = np.linspace(0.0, length, count + 1)
+    along = pitch(s)[1]
+    turn = along[:-1, 0] * along[1:, 1] - along[:-1, 1] * along[1:, 0]
+    bends = np.arcsin(turn) * count / length
+    return float(bends.min()), float(bends.max())

@@ -13,7 +13,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.measure import at, directions, segment_length
+from geneva_cli.geometry.inset import between, corner, lines_and_arcs, parallel
+from geneva_cli.geometry.measure import at, directions, fraction_at, segment_length
 from geneva_cli.geometry.moments import with_material_left
 from geneva_cli.geometry.pieces import SHORTEST_MM, prepared
 from geneva_cli.geometry.plates import plates
@@ -54,21 +55,12 @@ def paths(drawing: Drawing, kerf: float) -> Drawing:
         _path(shape, outside[shape], kerf) if shape in outside else shape
         for shape in drawing.shapes
     )
-    return drawing._replace(
-        title=f"{drawing.title}, kerf {kerf:g} mm", shapes=shapes, solid=None, shells=None
-    )
+    title = f"{drawing.title}, kerf {kerf:g} mm"
+    return drawing._replace(title=title, shapes=shapes, solid=None, shells=None)
 
 
 def _path(shape: Contour | Circle, outside: bool, kerf: float) -> Contour | Circle:
     """Path about an outline or in a hole."""
-    try:
-        return offset(shape, outside, 0.5 * kerf)
-    except Closed as error:
-        raise GenevaError(f"--kerf {kerf:g}: {error}; {_widest(shape, outside, kerf)}") from None
-
-
-def _widest(shape: Contour | Circle, outside: bool, kerf: float) -> str:
-    """Advice for the user: the widest kerf that has a path, to three digits."""
 
     def leaves_a_path(width: float) -> bool:
         try:
@@ -77,11 +69,15 @@ def _widest(shape: Contour | Circle, outside: bool, kerf: float) -> str:
             return False
         return True
 
-    halvings = 12  # enough for the three digits
-    widest = boundary(leaves_a_path, 0.0, kerf, halvings)
-    if not widest:
-        return f"even {kerf * 0.5**halvings:.2g} mm is too wide"
-    return f"use a kerf up to {to_digits(widest, 3, math.floor):g} mm"
+    try:
+        return offset(shape, outside, 0.5 * kerf)
+    except Closed as error:
+        halvings = 12  # enough for the three digits that are shown
+        widest = boundary(leaves_a_path, 0.0, kerf, halvings)
+        advice = f"use a kerf up to {to_digits(widest, 3, math.floor):g} mm"
+        if not widest:
+            advice = f"even {kerf * 0.5**halvings:.2g} mm is too wide"
+        raise GenevaError(f"--kerf {kerf:g}: {error}; {advice}") from None
 
 
 def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour | Circle:
@@ -97,115 +93,58 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
         return shape._replace(radius=radius)
     (cleaned,) = prepared(Drawing("", (shape,))).shapes
     assert isinstance(cleaned, Contour)
-    contour = with_material_left(cleaned, outside)
-    pieces = [_moved_piece(segment, contour.layer, distance) for segment in contour.segments]
-    path = _joined(contour, pieces)
+    contour, layer = with_material_left(cleaned, outside), shape.layer
+    own = lines_and_arcs(contour, "--kerf works on lines and arcs only: omit --curves spline")
+    for piece in own:
+        if isinstance(piece, Arc) and piece.bulge < 0.0 and piece.radius - distance <= SHORTEST_MM:
+            text = f"a hollow of radius {piece.radius:.6g} mm on {layer} is narrower than the cut"
+            raise Closed(text, at(piece, 0.5))
+    path = closed(layer, _joined(layer, own, distance))
     _require_away(contour, path, distance)
     return path
 
 
-def _moved_piece(segment: Segment, layer: Layer, distance: float) -> Line | Arc:
-    """Move a piece to the right of its direction of travel."""
-    if isinstance(segment, Line):
-        (x0, y0), (x1, y1) = segment
-        scale = distance / math.dist(segment.start, segment.end)
-        x, y = scale * (y1 - y0), scale * (x0 - x1)
-        return Line((x0 + x, y0 + y), (x1 + x, y1 + y))
-    if not isinstance(segment, Arc):
-        raise GenevaError("--kerf works on lines and arcs only: omit --curves spline")
-    # A flat arc's centre is far away: its ends are moved along their own normals instead.
-    ends = [
-        _moved(point, direction, distance)
-        for point, direction in zip((segment.start, segment.end), directions(segment), strict=True)
-    ]
-    if segment.bulge < 0.0 and segment.radius - distance <= SHORTEST_MM:
-        text = f"a hollow of radius {segment.radius:.6g} mm on {layer} is narrower than the cut"
-        raise Closed(text, at(segment, 0.5))
-    return Arc(ends[0], ends[1], segment.bulge)
-
-
-def _moved(point: Point, direction: float, distance: float) -> Point:
-    return point[0] + distance * math.sin(direction), point[1] - distance * math.cos(direction)
-
-
-def _joined(contour: Contour, pieces: list[Line | Arc]) -> Contour:
+def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segment]:
     """Join the moved pieces with arcs round outer corners, and cut them off in inner ones."""
-    count = len(pieces)
-    low, high = [0.0] * count, [1.0] * count
-    around: list[Arc | None] = [None] * count
-    for i, piece in enumerate(pieces):
-        k = (i + 1) % count
-        before, after = directions(piece)[1], directions(pieces[k])[0]
-        turn = math.remainder(after - before, math.tau)
-        if math.dist(piece.end, pieces[k].start) < SHORTEST_MM:
+    moved = [parallel(piece, -distance) for piece in own]
+    starts, ends = [piece.start for piece in moved], [piece.end for piece in moved]
+    around: dict[int, Arc] = {}
+    for i, (piece, other) in enumerate(zip(moved, [*moved[1:], moved[0]], strict=True)):
+        k = (i + 1) % len(moved)
+        turn = math.remainder(directions(other)[0] - directions(piece)[1], math.tau)
+        if math.dist(piece.end, other.start) < SHORTEST_MM:
             continue
         if turn > 0.0:
-            around[i] = Arc(piece.end, pieces[k].start, math.tan(0.25 * turn))
-        else:
-            high[i], low[k] = _meeting(contour, piece, pieces[k])
+            around[i] = Arc(piece.end, other.start, math.tan(0.25 * turn))
+            continue
+        try:
+            ends[i] = starts[k] = point = corner(own[i], own[k], -distance, 1e-3)
+            s, t = fraction_at(piece, point), fraction_at(other, point)
+            apart = math.dist(at(piece, s), at(other, t))
+            meet = apart < SHORTEST_MM and 0.0 < s <= 1.0 and 0.0 <= t < 1.0
+        except GenevaError:  # too sharp
+            meet = False
+        if not meet:
+            raise Closed(f"an inner corner of {layer} is narrower than the cut", piece.end)
     segments: list[Segment] = []
-    for piece, start, end, arc in zip(pieces, low, high, around, strict=True):
-        if start >= end:
-            raise Closed(f"a piece of {contour.layer} is shorter than the cut is wide", piece.start)
-        segments += [_part(piece, start, end), *([arc] if arc else [])]
-    return closed(contour.layer, segments)
-
-
-def _meeting(contour: Contour, first: Line | Arc, second: Line | Arc) -> tuple[float, float]:
-    """Crossing of two pieces whose ends overlap, as fractions of their lengths.
-
-    Newton's method in both unknowns at once, from the corner, which is near.
-    """
-    s, t = 1.0, 0.0
-    for _ in range(40):  # Newton steps; four or five are usual
-        (x, y), (u, v) = at(first, s), at(second, t)
-        (a, b), (c, d) = _speed(first, s), _speed(second, t)
-        across = b * c - a * d
-        if abs(across) < 1e-12 * math.hypot(a, b) * math.hypot(c, d):
-            break
-        ds, dt = ((u - x) * d - (v - y) * c) / -across, ((u - x) * b - (v - y) * a) / -across
-        s, t = s + ds, t + dt
-        if abs(ds) + abs(dt) < 1e-15:
-            break
-    apart = math.dist(at(first, s), at(second, t))
-    if not (apart < SHORTEST_MM and 0.0 < s <= 1.0 and 0.0 <= t < 1.0):
-        text = f"an inner corner of {contour.layer} is narrower than the cut"
-        raise Closed(text, first.end)
-    return s, t
-
-
-def _speed(piece: Line | Arc, t: float) -> Point:
-    """Derivative of the point by the fraction of the length."""
-    first, last = directions(piece)
-    direction, length = first + t * (last - first), segment_length(piece)
-    return length * math.cos(direction), length * math.sin(direction)
-
-
-def _part(piece: Line | Arc, start: float, end: float) -> Line | Arc:
-    """Part of a piece between two fractions of its length."""
-    if (start, end) == (0.0, 1.0):
-        return piece
-    ends = at(piece, start), at(piece, end)
-    if isinstance(piece, Line):
-        return Line(*ends)
-    return Arc(*ends, math.tan(0.25 * piece.sweep * (end - start)))
+    for i, (piece, start, end) in enumerate(zip(moved, starts, ends, strict=True)):
+        if (start, end) != (piece.start, piece.end):
+            if fraction_at(piece, start) >= fraction_at(piece, end):
+                text = f"a piece of {layer} is shorter than the cut is wide"
+                raise Closed(text, piece.start)
+            piece = between(piece, start, end)
+        segments += [piece, around[i]] if i in around else [piece]
+    return segments
 
 
 def _require_away(contour: Contour, path: Contour, distance: float) -> None:
-    """Raise if the path comes nearer to the part than the beam's radius.
-
-    It does so wherever it crosses itself or turns inside out.
-    """
-    boundary = Polyarc([contour])
+    """Raise if the path comes nearer to the part than the beam's radius."""
     around = math.fsum(map(segment_length, path.segments))
     # four samples in the offset's length, but at most 50,000 for the path
     longest = max(distance / 4, around / 50_000)
     points = Polyarc([path]).samples(SAME_CUT_MM, longest)
-    away = boundary.signed(points)
+    away = Polyarc([contour]).signed(points)
     if float(away.min()) < distance - SAME_CUT_MM:
-        at_x, at_y = points[int(np.argmin(away))]
-        raise Closed(
-            f"near x = {at_x:.4g}, y = {at_y:.4g} on {contour.layer} a gap is narrower than the "
-            "cut",
-            (float(at_x), float(at_y)),
-        )
+        x, y = points[int(np.argmin(away))].tolist()
+        text = f"near x = {x:.4g}, y = {y:.4g} on {contour.layer} a gap is narrower than the cut"
+        raise Closed(text, (x, y))

@@ -5,10 +5,11 @@ All lengths are in millimetres on paper, except ``value``, which is that of the 
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Iterator
 
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Point, Segment, about, two_arcs
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Point, about, two_arcs
 from geneva_cli.geometry.sheet import (
     ARROW,
     BELOW,
@@ -37,63 +38,51 @@ def linear(
 
     A level is a coordinate normal to that direction, from the origin.
     """
-    u, n = _axes(turn)
-    a, b = sorted((_dot(p, u), _dot(p, n)) for p in ends)
-    for level in levels:
-        for place in (0.5, 0.25, 0.75, 0.0, 1.0, 2.0, -1.0):
-            mark = _linear(a, b, level, turn, place, text)
-            if mark is None:
-                continue
-            lines, arrows, label = mark
-            points = (*(_at(u, n, *p) for p in (a, b)), _at(u, n, b[0], level))
-            yield Measure("length", points, value, label, lines, arrows, turn)
+    u = cmath.rect(1.0, turn)
 
+    def at(along: float, across: float) -> Point:
+        place = complex(along, across) * u
+        return place.real, place.imag
 
-def _linear(
-    a: Point, b: Point, level: float, turn: float, place: float, text: str
-) -> tuple[tuple[Segment, ...], tuple[Arrow, ...], Label] | None:
-    """Return one candidate; None where the text does not fit between the arrows.
-
-    ``place`` is the fraction of the free length before the text. Below 0 or above 1 the text stands
-    beyond one end.
-    """
-    u, n = _axes(turn)
+    seen = (complex(*p) * u.conjugate() for p in ends)
+    a, b = sorted((p.real, p.imag) for p in seen)
     long, length = width(text) * SMALL, b[0] - a[0]
     spare = length - long - 2.0 * (LENGTH + CLEAR)
-    if 0.0 <= place <= 1.0 and spare < 0.0:
-        return None
     inside = length > 3.0 * LENGTH
-    low, high = a[0], b[0]
-    if not inside:
-        low, high = low - 2.5 * LENGTH, high + 2.5 * LENGTH
-    start = a[0] + LENGTH + CLEAR + place * spare
-    if place > 1.0:
-        start = b[0] + (0.5 if inside else 2.5) * LENGTH + CLEAR
-        high = start + long + CLEAR
-    elif place < 0.0:
-        start = a[0] - (0.5 if inside else 2.5) * LENGTH - CLEAR - long
-        low = start - CLEAR
-    lines = [Line(_at(u, n, low, level), _at(u, n, high, level))]
-    for along, across in (a, b):
-        side = math.copysign(1.0, level - across)
-        if abs(level - across) > CLEAR + PAST:
-            begin, end = across + side * CLEAR, level + side * PAST
-            lines.append(Line(_at(u, n, along, begin), _at(u, n, along, end)))
+    beyond = 0.0 if inside else 2.5 * LENGTH  # of the dimension line
+    aside = (beyond or 0.5 * LENGTH) + CLEAR  # of a text
     turns = (turn + math.pi, turn) if inside else (turn, turn + math.pi)
-    arrows = tuple(
-        Arrow(_at(u, n, along, level), out) for (along, _), out in zip((a, b), turns, strict=True)
-    )
-    return tuple(lines), arrows, _on_line(start, start + long, level, turn, text)
-
-
-def _on_line(start: float, end: float, level: float, turn: float, text: str) -> Label:
-    """Return the text above its line, readable from below or from the right."""
-    u, n = _axes(turn)
-    off = CLEAR + BELOW * SMALL
-    if math.cos(turn) > 1e-9 or (abs(math.cos(turn)) <= 1e-9 and math.sin(turn) > 0.0):
-        return Label(text, _at(u, n, start, level + off), SMALL, turn)
-    readable = math.remainder(turn + math.pi, math.tau)
-    return Label(text, _at(u, n, end, level - off), SMALL, readable)
+    for level in levels:
+        arrows = tuple(
+            Arrow(at(along, level), out) for (along, _), out in zip((a, b), turns, strict=True)
+        )
+        extensions = []
+        for along, across in (a, b):
+            side = math.copysign(1.0, level - across)
+            if abs(level - across) > CLEAR + PAST:
+                begin, end = across + side * CLEAR, level + side * PAST
+                extensions.append(Line(at(along, begin), at(along, end)))
+        points = at(*a), at(*b), at(b[0], level)
+        # fractions of the free length before the text; below 0 or above 1 it is beyond one end
+        for place in (0.5, 0.25, 0.75, 0.0, 1.0, 2.0, -1.0):
+            if 0.0 <= place <= 1.0 and spare < 0.0:
+                continue
+            low, high = a[0] - beyond, b[0] + beyond
+            start = a[0] + LENGTH + CLEAR + place * spare
+            if place > 1.0:
+                start = b[0] + aside
+                high = start + long + CLEAR
+            elif place < 0.0:
+                start = a[0] - aside - long
+                low = start - CLEAR
+            # the text is above its line, readable from below or from the right
+            off, readable, first = CLEAR + BELOW * SMALL, turn, start
+            if u.real < -1e-9 or (u.real <= 1e-9 and u.imag <= 0.0):
+                off, first = -off, start + long
+                readable = math.remainder(turn + math.pi, math.tau)
+            label = Label(text, at(first, level + off), SMALL, readable)
+            lines = (Line(at(low, level), at(high, level)), *extensions)
+            yield Measure("length", points, value, label, lines, arrows, turn)
 
 
 def angular(
@@ -150,23 +139,19 @@ def diameter(
     centre: Point, radius: float, angles: Iterable[float], text: str, value: float
 ) -> Iterator[Measure]:
     """Yield candidates of a diameter, with a leader to the circle in one of some directions."""
-    for tip, angle, end, label in _leaders(centre, radius, angles, text):
-        points = (polar(centre, -radius, angle), tip)
-        yield _led("diameter", points, value, tip, end, label)
+    return _led("diameter", (centre, radius), angles, text, value)
 
 
 def radius(
     centre: Point, reach: float, angles: Iterable[float], text: str, value: float
 ) -> Iterator[Measure]:
     """Yield candidates of a radius, with a leader to the circle in one of some directions."""
-    for tip, _, end, label in _leaders(centre, reach, angles, text):
-        yield _led("radius", (centre, tip), value, tip, end, label)
+    return _led("radius", (centre, reach), angles, text, value)
 
 
 def note(tip: Point, text: str) -> Iterator[Measure]:
     """Yield candidates of a text with a leader to a point."""
-    for _, _, end, label in _leaders(tip, 0.0, around(), text):
-        yield _led("note", (tip,), 0.0, tip, end, label)
+    return _led("note", (tip, 0.0), around(), text, 0.0)
 
 
 def balloon(tip: Point, text: str) -> Iterator[Measure]:
@@ -209,41 +194,22 @@ def within(start: float, end: float, count: int = 9) -> list[float]:
     return sorted(angles, key=lambda a: abs(math.sin(2.0 * a)) < 2.0 * 0.14)
 
 
-def _leaders(
-    centre: Point, reach: float, angles: Iterable[float], text: str
-) -> Iterator[tuple[Point, float, Point, Label]]:
-    """Yield tip, direction, bend and text of leaders, short ones first."""
-    directions = list(angles)
-    long = width(text) * SMALL
+def _led(
+    kind: str, circle: tuple[Point, float], angles: Iterable[float], text: str, value: float
+) -> Iterator[Measure]:
+    """Yield candidates with a leader to a circle, and a line under the text, short ones first."""
+    (centre, reach), directions, long = circle, list(angles), width(text) * SMALL
     for length in (6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0):
         for angle in directions:
             tip = polar(centre, reach, angle)
+            points = {"diameter": (polar(centre, -reach, angle), tip), "radius": (centre, tip)}
             for out in (1.0, -1.0) if length < 2.0 * reach else (1.0,):
                 end = polar(tip, out * length, angle)
                 right = out * math.cos(angle) >= 0.0
                 start = end[0] + CLEAR if right else end[0] - CLEAR - long
-                yield tip, angle, end, Label(text, (start, end[1] + CLEAR + BELOW * SMALL), SMALL)
-
-
-def _led(
-    kind: str, points: tuple[Point, ...], value: float, tip: Point, end: Point, label: Label
-) -> Measure:
-    """Return a dimension with a leader from the tip to the line under its text, and that line."""
-    left, right = label.at[0] - CLEAR, label.at[0] + label.width + CLEAR
-    far = right if abs(end[0] - left) < abs(end[0] - right) else left
-    lines = (Line(end, tip), Line(end, (far, end[1])))
-    turn = math.atan2(tip[1] - end[1], tip[0] - end[0])
-    return Measure(kind, points, value, label, lines, (Arrow(tip, turn),))
-
-
-def _axes(turn: float) -> tuple[Point, Point]:
-    c, s = math.cos(turn), math.sin(turn)
-    return (c, s), (-s, c)
-
-
-def _dot(p: Point, q: Point) -> float:
-    return p[0] * q[0] + p[1] * q[1]
-
-
-def _at(u: Point, n: Point, along: float, across: float) -> Point:
-    return along * u[0] + across * n[0], along * u[1] + across * n[1]
+                label = Label(text, (start, end[1] + CLEAR + BELOW * SMALL), SMALL)
+                far = start + long + CLEAR if right else start - CLEAR
+                lines = (Line(end, tip), Line(end, (far, end[1])))
+                turn = math.atan2(tip[1] - end[1], tip[0] - end[0])
+                arrows = (Arrow(tip, turn),)
+                yield Measure(kind, points.get(kind, (tip,)), value, label, lines, arrows)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.geometry.moments import Moments, moments, oriented, total
 from geneva_cli.geometry.plates import Plate, Stack
-from geneva_cli.geometry.shapes import Circle, Contour, Point, Shape
+from geneva_cli.geometry.shapes import Point, Shape
 from geneva_cli.geometry.stacks import require_faces
 
 if TYPE_CHECKING:
@@ -35,29 +35,21 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
     0.5
     """
-    within = plate.thickness - 2.0 * plate.edge.size
-    whole = face_properties(face(plate), within, density_kgm3)
+    rows = [face(plate).times(plate.thickness - 2.0 * plate.edge.size)]
     if plate.edge.size:
-        edges = _between(plate)
-        whole = added(whole, face_properties(edges, 2.0, density_kgm3))  # moments of 1 mm, twice
-    if not plate.cross:
-        return whole
-    from geneva_cli.geometry.round_holes import drilled
+        rows.append(_between(plate).times(2.0))
+    if plate.cross:
+        from geneva_cli.geometry.round_holes import drilled
 
-    contours = drilled((plate.outline, *plate.holes), plate.cross)
-    taken = total(_removed(hole, contours) for hole in plate.cross)
-    return added(whole, face_properties(taken, -1.0, density_kgm3))  # moments of 1 mm
+        contours = drilled((plate.outline, *plate.holes), plate.cross)
+        rows += [_removed(hole, contours).times(-1.0) for hole in plate.cross]
+    whole, per = total(rows), density_kgm3 * MM**3
+    return MassProperties(per * whole.area, whole.centroid, per * MM**2 * whole.polar)
 
 
 def solid_properties(solid: Plate | Stack, density_kgm3: float) -> MassProperties:
     """Mass, centroid and inertia of a flat or a turned part."""
     return reduce(added, (mass_properties(one, density_kgm3) for one in solid.plates))
-
-
-def face_properties(section: Moments, thickness_mm: float, density_kgm3: float) -> MassProperties:
-    """Mass, centroid and inertia of a plate from the moments of its face."""
-    per = density_kgm3 * thickness_mm * MM
-    return MassProperties(per * section.area * MM**2, section.centroid, per * section.polar * MM**4)
 
 
 def added(one: MassProperties, other: MassProperties) -> MassProperties:
@@ -80,19 +72,13 @@ def face(plate: Plate) -> Moments:
     >>> face(washer).area / 3.141592653589793
     16.0
     """
-    return _counterclockwise(plate.outline).less(total(map(_counterclockwise, plate.holes)))
-
-
-def _counterclockwise(shape: Contour | Circle) -> Moments:
-    own = moments(shape)
-    return own.times(math.copysign(1.0, own.area))
+    out, *holes = (moments(shape) for shape in (plate.outline, *plate.holes))
+    cut = (hole.times(-math.copysign(1.0, hole.area)) for hole in holes)
+    return total((out.times(math.copysign(1.0, out.area)), *cut))
 
 
 def _between(plate: Plate) -> Moments:
-    """Return the moments of the layer in one edge, added up along the axis, by Gauss's points.
-
-    The moments of an inset are polynomials of the depth, but for the corners, whose share is small.
-    """
+    """Return the moments of the layer in one edge, added up along the axis."""
     from geneva_cli.geometry.inset import inset, lines_and_arcs
 
     require_faces(plate)
@@ -105,11 +91,8 @@ def _between(plate: Plate) -> Moments:
 
 
 def _removed(hole: CrossHole, shapes: Sequence[Shape]) -> Moments:
-    """Return the moments of the material that the hole takes, added up along the plate's axis.
-
-    With y = r sin t the integrals over the width are those of smooth periodic functions, whose
-    means over evenly spaced t converge faster than any power of their number.
-    """
+    """Return the moments of the material that the hole takes, added up along the plate's axis."""
+    # with y = r sin t the integrals over the width are means of smooth periodic functions
     entry, exit_ = hole.openings(shapes)
     ax, ay = hole.seen((0.0, 0.0))  # the axis in the hole's frame
     count, r = 128, hole.radius  # to rounding, up to a hole of 0.97 of its wall's width

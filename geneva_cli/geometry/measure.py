@@ -13,12 +13,16 @@ from typing import NamedTuple, TypeVar
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Point, Segment, Shape
 
 STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
-# Gauss-Legendre's abscissae and weights of eight points on -1..1, one sign of each pair
-GAUSS = (
-    (0.18343464249564980, 0.36268378337836198),
-    (0.52553240991632899, 0.31370664587788729),
-    (0.79666647741362674, 0.22238103445337447),
-    (0.96028985649753623, 0.10122853629037626),
+# Gauss-Legendre's abscissae and weights of eight points on 0..1
+GAUSS = tuple(
+    (0.5 + 0.5 * sign * node, 0.5 * weight)
+    for node, weight in (
+        (0.18343464249564980, 0.36268378337836198),
+        (0.52553240991632899, 0.31370664587788729),
+        (0.79666647741362674, 0.22238103445337447),
+        (0.96028985649753623, 0.10122853629037626),
+    )
+    for sign in (-1.0, 1.0)
 )
 S = TypeVar("S", Contour, Circle, Shape)
 
@@ -126,16 +130,12 @@ def _on_arc(arc: Arc, parameters: Iterable[float]) -> list[Point]:
     return out
 
 
-def halves(arc: Arc) -> tuple[Arc, Arc]:
-    """The arc cut in two at its middle."""
-    middle, bulge = at(arc, 0.5), math.tan(0.125 * arc.sweep)
-    return Arc(arc.start, middle, bulge), Arc(middle, arc.end, bulge)
-
-
 def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:
     """A segment alone; an arc halved until no part ``is_long`` by the size of its bulge."""
     if isinstance(segment, Arc) and is_long(abs(segment.bulge)):
-        return [part for half in halves(segment) for part in halved(half, is_long)]
+        middle, bulge = at(segment, 0.5), math.tan(0.125 * segment.sweep)
+        halves = Arc(segment.start, middle, bulge), Arc(middle, segment.end, bulge)
+        return [part for half in halves for part in halved(half, is_long)]
     return [segment]
 
 
@@ -186,25 +186,20 @@ def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, .
 
 def mirrored(pieces: Sequence[Segment]) -> list[Segment]:
     """Mirror pieces of an outline in the x axis, and run them backwards."""
-    return [_mirrored(piece) for piece in reversed(pieces)]
-
-
-def _mirrored(segment: Segment) -> Segment:
-    start, end = _over(segment.end), _over(segment.start)
-    if isinstance(segment, Cubic):
-        return Cubic(start, _over(segment.second), _over(segment.first), end)
-    return segment._replace(start=start, end=end)  # an arc's bulge changes its sign twice
-
-
-def _over(p: Point) -> Point:
-    return p[0], -p[1]
+    over = mapped(Contour("", tuple(pieces), closed=False), lambda p: (p[0], -p[1]))
+    # backwards, but an arc's bulge changes its sign twice
+    return [
+        Arc(piece.end, piece.start, piece.bulge)
+        if isinstance(piece, Arc)
+        else type(piece)(*piece[::-1])
+        for piece in reversed(over.segments)
+    ]
 
 
 def _mapped(segment: Segment, point: Callable[[Point], Point]) -> Segment:
-    if isinstance(segment, Cubic):
-        return Cubic(*map(point, segment))
-    start, end = point(segment.start), point(segment.end)
-    return Arc(start, end, segment.bulge) if isinstance(segment, Arc) else Line(start, end)
+    if isinstance(segment, Arc):
+        return Arc(point(segment.start), point(segment.end), segment.bulge)
+    return type(segment)(*map(point, segment))
 
 
 def _box(points: Iterable[Point]) -> Box:

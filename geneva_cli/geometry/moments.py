@@ -7,10 +7,18 @@ polynomials of degree eleven, and to rounding for the sines of an arc of a radia
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import NamedTuple
 
-from geneva_cli.geometry.measure import GAUSS, STRAIGHT, halves, mapped
+from geneva_cli.geometry.measure import (
+    GAUSS,
+    STRAIGHT,
+    at,
+    directions,
+    halved,
+    mapped,
+    segment_length,
+)
 from geneva_cli.geometry.shapes import (
     Arc,
     Circle,
@@ -46,10 +54,6 @@ class Moments(NamedTuple):
         """Moments multiplied by a factor."""
         return Moments(*[factor * part for part in self])
 
-    def less(self, other: Moments) -> Moments:
-        """Moments of a plate after another is cut out of it."""
-        return Moments(*[a - b for a, b in zip(self, other, strict=True)])
-
 
 def moments(shape: Shape) -> Moments:
     """Moments of a closed contour, or of a circle.
@@ -61,8 +65,9 @@ def moments(shape: Shape) -> Moments:
         (x, y), square = shape.centre, shape.radius * shape.radius
         area = math.pi * square
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
-    parts = [_swept(piece) for segment in shape.segments for piece in _small(segment)]
-    return total(parts)
+    radian = math.tan(0.25)  # the bulge of an arc of one
+    pieces = (p for s in shape.segments for p in halved(s, lambda bulge: bulge > radian))
+    return total(map(_swept, pieces))
 
 
 def area(shape: Shape) -> float:
@@ -96,70 +101,28 @@ def total(parts: Iterable[Moments]) -> Moments:
     return Moments(*map(math.fsum, zip(*rows, strict=True)))
 
 
-def _small(segment: Segment) -> Iterator[Segment]:
-    """The segment in pieces that are integrated exactly."""
-    # eight points integrate the sines of an arc of 1 radian to rounding
-    if isinstance(segment, Arc) and abs(segment.sweep) > 1.0:
-        for half in halves(segment):
-            yield from _small(half)
-    else:
-        yield segment
-
-
 def _swept(segment: Segment) -> Moments:
     """Moments of the area that the ray from the origin to the segment's point sweeps."""
+    (a, b), (c, d) = segment.start, segment.end
+    if isinstance(segment, Line) or (isinstance(segment, Arc) and abs(segment.bulge) < STRAIGHT):
+        cross = a * d - b * c
+        squares = (a * a + b * b) + (a * c + b * d) + (c * c + d * d)
+        thirds = (a + c) / 6.0, (b + d) / 6.0
+        return Moments(cross / 2.0, cross * thirds[0], cross * thirds[1], cross * squares / 12.0)
+    rows = []
+    for t, weight in GAUSS:
+        (x, y), (dx, dy) = at(segment, t), _rate(segment, t)
+        swept = weight * (x * dy - y * dx)
+        rows.append(Moments(0.5, x / 3.0, y / 3.0, 0.25 * (x * x + y * y)).times(swept))
+    return total(rows)
+
+
+def _rate(segment: Arc | Cubic, t: float) -> Point:
+    """Derivative of the point by the parameter."""
     if isinstance(segment, Cubic):
-        return _of_cubic(segment)
-    whole = _triangle(segment.start, segment.end)
-    if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
-        return whole
-    return total((whole, _cap(segment)))
-
-
-def _triangle(p: Point, q: Point) -> Moments:
-    (a, b), (c, d) = p, q
-    cross = a * d - b * c
-    squares = (a * a + b * b) + (a * c + b * d) + (c * c + d * d)
-    return Moments(
-        cross / 2.0, cross * (a + c) / 6.0, cross * (b + d) / 6.0, cross * squares / 12.0
-    )
-
-
-def _cap(arc: Arc) -> Moments:
-    """Moments between an arc and its chord, in the chord's frame: x along it, y the arc's height.
-
-    y = 2 r sin((h + t)/2) sin((h - t)/2) at t = -h..h, with half the sweep h, does not cancel.
-    """
-    (x0, y0), (x1, y1) = arc.start, arc.end
-    chord, half = math.dist(arc.start, arc.end), 0.5 * abs(arc.sweep)
-    r = 0.5 * chord / math.sin(half)
-    area = first = own = 0.0
-    for node, weight in GAUSS:  # the cap is symmetric
-        t = node * half
-        x, y = r * math.sin(t), 2.0 * r * math.sin(0.5 * (half + t)) * math.sin(0.5 * (half - t))
-        part = 2.0 * weight * half * r * math.cos(t)  # dx
-        area += part * y
-        first += part * y * y / 2.0
-        own += part * (x * x * y + y * y * y / 3.0)
-    sign = math.copysign(1.0, arc.bulge)
-    # the middle of the chord, and the direction from it to the arc: right if counterclockwise
-    m, n = (0.5 * (x0 + x1), 0.5 * (y0 + y1)), (sign * (y1 - y0) / chord, sign * (x0 - x1) / chord)
-    polar = own + area * (m[0] * m[0] + m[1] * m[1]) + 2.0 * first * (m[0] * n[0] + m[1] * n[1])
-    moved = area * m[0] + first * n[0], area * m[1] + first * n[1]
-    return Moments(sign * area, sign * moved[0], sign * moved[1], sign * polar)
-
-
-def _of_cubic(cubic: Cubic) -> Moments:
-    sums = [0.0, 0.0, 0.0, 0.0]
-    for node, weight in GAUSS:
-        for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
-            u = 1.0 - t
-            at = (u * u * u, 3.0 * u * u * t, 3.0 * u * t * t, t * t * t)
-            by = (-3.0 * u * u, 3.0 * u * (u - 2.0 * t), 3.0 * t * (2.0 * u - t), 3.0 * t * t)
-            x, y = (sum(b * p[k] for b, p in zip(at, cubic, strict=True)) for k in (0, 1))
-            dx, dy = (sum(b * p[k] for b, p in zip(by, cubic, strict=True)) for k in (0, 1))
-            swept = 0.5 * weight * (x * dy - y * dx)
-            for k, (part, of) in enumerate(((0.5, 1.0), (1 / 3, x), (1 / 3, y))):
-                sums[k] += swept * part * of
-            sums[3] += swept * 0.25 * (x * x + y * y)
-    return Moments(*sums)
+        by = 3.0 * (1.0 - t) ** 2, 6.0 * t * (1.0 - t), 3.0 * t * t
+        steps = [(q[0] - p[0], q[1] - p[1]) for p, q in zip(segment, segment[1:], strict=False)]
+        x, y = (sum(b * step[k] for b, step in zip(by, steps, strict=True)) for k in (0, 1))
+        return x, y
+    length, direction = segment_length(segment), directions(segment)[0] + t * segment.sweep
+    return length * math.cos(direction), length * math.sin(direction)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.measure import mapped, segment_length
@@ -33,26 +34,37 @@ def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
     It has columns for control points only if there are cubics. ``units`` is mm or inch, and names
     the columns. Raises GenevaError as ``prepared`` does.
     """
-    rows = []
+    unit, rows = SUFFIX[units], list[dict[str, Any]]()
     for number, shape in enumerate(prepared(drawing, units).shapes, 1):
         pieces = shape.segments if isinstance(shape, Contour) else (shape,)
         for i, piece in enumerate(pieces, 1):
-            kind, values = _values(piece)
+            kind = type(piece).__name__.lower()
+            row = {"layer": shape.layer, "contour": number, "piece": i, "kind": kind}
             # decimals beyond the twelfth are rounding
-            shown = [None if v is None else round(v, 12) + 0.0 for v in values]
-            rows.append((shape.layer, number, i, kind, *shown))
-    points = ("x", "y", "end_x", "end_y", "center_x", "center_y", "radius")
-    controls = ("control1_x", "control1_y", "control2_x", "control2_y")
-    lengths = [f"{name}_{SUFFIX[units]}" for name in (*points, *controls)]
-    names = ["layer", "contour", "piece", "kind", *lengths[:7], "sweep_deg", *lengths[7:]]
-    if not any(row[3] == "cubic" for row in rows):
-        names = names[:-4]
-        rows = [row[:-4] for row in rows]
+            rows.append(row | {k: round(v, 12) + 0.0 for k, v in _numbers(piece, unit)})
+    points = [f"{name}_{unit}" for name in ("x", "y", "end_x", "end_y", "center_x", "center_y")]
+    names = ["layer", "contour", "piece", "kind", *points, f"radius_{unit}", "sweep_deg"]
+    if any(row["kind"] == "cubic" for row in rows):
+        names += [f"control{k}_{axis}_{unit}" for k in (1, 2) for axis in "xy"]
+    table = rows_table(names, [tuple(map(row.get, names)) for row in rows], drawing.title)
     # A narrow window keeps the kind of a piece, its start, and its circle.
-    important = ("x", "y", "radius", "center_x", "center_y", "end_x", "end_y")
-    first = [f"{name}_{SUFFIX[units]}" for name in important]
-    reading = Reading(("layer", "contour", "piece", "kind", *first))
-    return rows_table(names, rows, drawing.title).replaced(reading=reading)
+    first = (*names[:6], f"radius_{unit}", *points[4:], *points[2:4])
+    return table.replaced(reading=Reading(first))
+
+
+def _numbers(piece: Segment | Circle, unit: str) -> Iterator[tuple[str, float]]:
+    """Start, end, centre, radius, sweep in degrees and control points that a piece has."""
+    places: dict[str, Point] = {}
+    if not isinstance(piece, Circle):
+        places = {"": piece.start, "end_": piece.end}
+    if isinstance(piece, Cubic):
+        places |= {"control1_": piece.first, "control2_": piece.second}
+    if isinstance(piece, Arc | Circle):
+        places["center_"] = piece.centre
+        yield f"radius_{unit}", piece.radius
+        yield "sweep_deg", math.degrees(piece.sweep) if isinstance(piece, Arc) else 360.0
+    for name, point in places.items():
+        yield from zip((f"{name}x_{unit}", f"{name}y_{unit}"), point, strict=True)
 
 
 def prepared(drawing: Drawing, units: str = "mm") -> Drawing:
@@ -63,19 +75,14 @@ def prepared(drawing: Drawing, units: str = "mm") -> Drawing:
     """
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
-    shapes = [shape for original in drawing.shapes for shape in _cleaned(original)]
-    return drawing._replace(
-        shapes=tuple(_divided(shape, UNITS[units]) for shape in dict.fromkeys(shapes))
-    )
+    unit = UNITS[units]
 
+    def divided(shape: Shape) -> Shape:
+        # a single rounding, so that 25.4 mm are exactly 1 inch
+        return mapped(shape, lambda p: (p[0] / unit, p[1] / unit), lambda radius: radius / unit)
 
-def _divided(shape: Shape, unit: float) -> Shape:
-    """Shape divided by a unit, with a single rounding, so that 25.4 mm are exactly 1 inch."""
-
-    def point(p: Point) -> Point:
-        return p[0] / unit, p[1] / unit
-
-    return mapped(shape, point, lambda radius: radius / unit)
+    shapes = dict.fromkeys(shape for original in drawing.shapes for shape in _cleaned(original))
+    return drawing._replace(shapes=tuple(map(divided, shapes)))
 
 
 def _cleaned(shape: Shape) -> Iterator[Shape]:
@@ -85,12 +92,10 @@ def _cleaned(shape: Shape) -> Iterator[Shape]:
             yield shape
         return
     kept = [_straightened(s) for s in shape.segments if segment_length(s) > SHORTEST_MM]
-    if kept:
-        yield (
-            closed(shape.layer, kept)
-            if shape.closed
-            else Contour(shape.layer, joined(kept), closed=False)
-        )
+    if kept and shape.closed:
+        yield closed(shape.layer, kept)
+    elif kept:
+        yield Contour(shape.layer, joined(kept), closed=False)
 
 
 def _straightened(segment: Segment) -> Segment:
@@ -110,16 +115,3 @@ def _require_finite(shape: Shape) -> None:
                 raise GenevaError(
                     f"layer {shape.layer}: a {kind} at {value}: coordinates must be finite"
                 )
-
-
-def _values(piece: Segment | Circle) -> tuple[str, tuple[float | None, ...]]:
-    """Kind; and start, end, centre, radius, sweep in degrees and control points."""
-    if isinstance(piece, Circle):
-        return "circle", (*[None] * 4, *piece.centre, piece.radius, 360.0, *[None] * 4)
-    ends = (*piece.start, *piece.end)
-    if isinstance(piece, Cubic):
-        return "cubic", (*ends, *[None] * 4, *piece.first, *piece.second)
-    if isinstance(piece, Line):
-        return "line", (*ends, *[None] * 8)
-    sweep = math.degrees(piece.sweep)
-    return "arc", (*ends, *piece.centre, piece.radius, sweep, *[None] * 4)

@@ -12,13 +12,54 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.geometry.edges import Edge
-from geneva_cli.geometry.measure import S, mapped, turned
+from geneva_cli.geometry.measure import GAUSS, S, mapped, turned
 from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.round_holes import CrossHole, RoundHole
     from geneva_cli.geometry.sphere import Region, Rotation, Vector
+
+
+class Edge(NamedTuple):
+    """The edge of a face: its size, mm, 0 for a sharp one, and whether it is rounded.
+
+    An edge takes as much of the face as of the wall. A section at a height above the wall is the
+    outline at a depth inside the material (``inset``): as deep as high for a chamfer of 45 degrees,
+    and on a quarter of a circle for a rounding.
+    """
+
+    size: float = 0.0
+    rounded: bool = False
+
+    @property
+    def key(self) -> str:
+        """The key of ``[size]`` that sets it."""
+        return "edge_fillet_mm" if self.rounded else "edge_chamfer_mm"
+
+    def at(self, fraction: float) -> tuple[float, float]:
+        """Return depth and height at a fraction of the way from the wall to the face.
+
+        >>> [round(x, 12) for x in Edge(2.0, rounded=True).at(1.0 / 3.0)]  # 30 degrees
+        [0.267949192431, 1.0]
+        """
+        if not self.rounded:
+            return self.size * fraction, self.size * fraction
+        angle = 0.5 * math.pi * fraction
+        # 1 - cos, without losing digits
+        return 2.0 * self.size * math.sin(0.5 * angle) ** 2, self.size * math.sin(angle)
+
+    def slope(self, fraction: float) -> tuple[float, float]:
+        """Return the derivatives of depth and height by the fraction."""
+        if not self.rounded:
+            return self.size, self.size
+        angle = 0.5 * math.pi * fraction
+        speed = 0.5 * math.pi * self.size
+        return speed * math.sin(angle), speed * math.cos(angle)
+
+    def layers(self) -> Iterator[tuple[float, float]]:
+        """Yield depths and thicknesses of layers that stand for the edge, at Gauss's points."""
+        for fraction, weight in GAUSS:
+            yield self.at(fraction)[0], weight * self.slope(fraction)[1]
 
 
 class Plate(NamedTuple):

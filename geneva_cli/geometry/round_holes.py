@@ -38,7 +38,7 @@ class RoundHole(NamedTuple):
 
     def volume(self, inner: float, outer: float) -> float:
         """Volume between two spheres, mm³."""
-        return self._volume(outer) - self._volume(inner)
+        return self._integrals(outer)[0] - self._integrals(inner)[0]
 
     def first(self, inner: float, outer: float) -> float:
         """Integral of the height along its axis, mm⁴."""
@@ -46,27 +46,20 @@ class RoundHole(NamedTuple):
 
     def inertia(self, inner: float, outer: float, about: Vector) -> float:
         """The volume's moment of inertia about an axis through the centre, mm⁵."""
-        (far, up), (less, below) = self._squares(outer), self._squares(inner)
+        (_, far, up), (_, less, below) = self._integrals(outer), self._integrals(inner)
         own, along = far - less, up - below
         square = dot(self.axis, about) ** 2
         return own * square + (0.5 * own + along) * (1.0 - square)
 
-    def _volume(self, R: float) -> float:
-        c, left = self._cosine(R)
-        return math.tau / 3.0 * R**3 * left * (1.0 + c + c * c)
-
-    def _squares(self, R: float) -> tuple[float, float]:
-        """Integrals of the squares of the distance from the axis and of the height."""
-        c, left = self._cosine(R)
-        off = left * left * (((3.0 * c + 6.0) * c + 4.0) * c + 2.0)
-        up = left * ((((c + 1.0) * c + 1.0) * c + 1.0) * c + 1.0)
-        return math.tau / 15.0 * R**5 * off, math.tau / 15.0 * R**5 * up
-
-    def _cosine(self, R: float) -> tuple[float, float]:
-        """c, and 1 - c without cancellation."""
+    def _integrals(self, R: float) -> tuple[float, float, float]:
+        """Integrals of 1, and of the squares of the distance from the axis and of the height."""
         square = (self.radius / R) ** 2
         c = math.sqrt(1.0 - square)
-        return c, square / (1.0 + c)
+        left = square / (1.0 + c)  # 1 - c without cancellation
+        volume = math.tau / 3.0 * R**3 * left * (1.0 + c + c * c)
+        off = left * left * (((3.0 * c + 6.0) * c + 4.0) * c + 2.0)
+        up = left * ((((c + 1.0) * c + 1.0) * c + 1.0) * c + 1.0)
+        return volume, math.tau / 15.0 * R**5 * off, math.tau / 15.0 * R**5 * up
 
 
 def least_wall(within: Region, holes: Sequence[RoundHole], sphere: float) -> float:
@@ -167,12 +160,12 @@ class CrossHole(NamedTuple):
 
 def drilled(shapes: Sequence[Shape], holes: Sequence[CrossHole]) -> tuple[Contour | Circle, ...]:
     """Return shapes with the circles that holes meet as two arcs, whose ends are off the holes."""
-    return tuple(_halved(shape, holes) for shape in shapes)
-
-
-def _halved(shape: Shape, holes: Sequence[CrossHole]) -> Contour | Circle:
-    if isinstance(shape, Circle):
-        for hole in holes:
-            if abs(hole.seen(shape.centre)[1]) < shape.radius + hole.radius:
-                return closed(shape.layer, two_arcs(shape, hole.turn + 0.5 * math.pi))
-    return shape
+    out = []
+    for shape in shapes:
+        if isinstance(shape, Circle):
+            at, radius = shape.centre, shape.radius
+            met = (h for h in holes if abs(h.seen(at)[1]) < radius + h.radius)
+            if hole := next(met, None):
+                shape = closed(shape.layer, two_arcs(shape, hole.turn + 0.5 * math.pi))
+        out.append(shape)
+    return tuple(out)

@@ -108,15 +108,8 @@ def joined(segments: Iterable[Segment]) -> tuple[Segment, ...]:
     """Segments end to end, each changed to start exactly at the end of the one before."""
     out: list[Segment] = []
     for segment in segments:
-        out.append(_from(out[-1].end, segment) if out else segment)
+        out.append(segment._replace(start=out[-1].end) if out else segment)
     return tuple(out)
-
-
-def _from(start: Point, segment: Segment) -> Segment:
-    """The segment with another start; most segments are arcs."""
-    if isinstance(segment, Arc):
-        return Arc(start, segment.end, segment.bulge)
-    return segment._replace(start=start)
 
 
 def closed(layer: Layer, segments: Iterable[Segment]) -> Contour:

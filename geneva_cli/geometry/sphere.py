@@ -6,13 +6,14 @@ Points are unit vectors (x, y, z). A region lies to the left of its boundary, se
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.quadrature import rule
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 
 Vector: TypeAlias = tuple[float, float, float]
 
@@ -36,9 +37,12 @@ class SphereArc(NamedTuple):
         """Angle about its axis, radians, above 0 and at most a whole turn."""
         if self.start == self.end:
             return math.tau
+        return self.turn_to(self.end)
+
+    def turn_to(self, point: Vector) -> float:
+        """Angle about its axis from the start to a point, radians, from 0 to a whole turn."""
         x, y = self._frame()
-        turn = math.atan2(dot(self.end, y), dot(self.end, x))
-        return turn % math.tau
+        return math.atan2(dot(point, y), dot(point, x)) % math.tau
 
     def at(self, turn: Array) -> tuple[Array, Array]:
         """Points and their derivatives, (n, 3), at angles about the axis from the start."""
@@ -59,7 +63,6 @@ class SphereArc(NamedTuple):
 
     def crossings(self, azimuth: float) -> list[float]:
         """Angles from z at which it crosses the half-plane of an azimuth about z."""
-        x, y = self._frame()
         a, b, c = self.axis
         ahead = a * math.cos(azimuth) + b * math.sin(azimuth)
         reach = math.cos(self.angle) / math.hypot(ahead, c)
@@ -68,9 +71,8 @@ class SphereArc(NamedTuple):
         middle, off = math.atan2(ahead, c), math.acos(reach)
         angles = []
         for polar in {(middle - off) % math.tau, (middle + off) % math.tau}:
-            at = place(polar, azimuth)
-            turn = math.atan2(dot(at, y), dot(at, x)) % math.tau
-            if 0.0 < polar < math.pi and turn <= self.sweep:
+            within = self.turn_to(place(polar, azimuth)) <= self.sweep
+            if 0.0 < polar < math.pi and within:
                 angles.append(polar)
         return angles
 
@@ -222,3 +224,79 @@ def axis_frame(axis: Vector) -> Rotation:
 def opposite(v: Vector) -> Vector:
     """The opposite vector."""
     return -v[0], -v[1], -v[2]
+
+
+class Cap(NamedTuple):
+    """All points within an angle of a point."""
+
+    middle: Vector
+    angle: float
+
+    @property
+    def region(self) -> Region:
+        """The cap as a region."""
+        sideways = square_to(self.middle)
+        rim = combined(self.middle, math.cos(self.angle), sideways, math.sin(self.angle))
+        return Region((SphereArc(self.middle, self.angle, rim, rim),), self.middle)
+
+
+def convex_hull(caps: Sequence[Cap]) -> Region:
+    """Convex hull of caps that lie within a quarter of the sphere from the first one's middle.
+
+    As on a plane (``hull``), it has arcs of the caps' rims, and great circles that touch two caps.
+
+    >>> two = convex_hull([Cap((0.0, 0.0, 1.0), 0.2), Cap(place(0.6, 0.0), 0.1)])
+    >>> [round(arc.angle, 3) for arc in two.boundary]
+    [1.571, 0.1, 1.571, 0.2]
+    """
+    leaving = [_tangents(i, caps) for i in range(len(caps))]
+    first = next((tangents[0] for tangents in leaving if tangents), None)
+    if first is None:  # one cap holds all others
+        return max(caps, key=lambda cap: cap.angle).region
+    boundary: list[SphereArc] = []
+    to, arc = first
+    while not boundary or arc is not first[1]:
+        boundary.append(arc)
+        rims = [SphereArc(*caps[to], arc.end, after.start) for _, after in leaving[to]]
+        k = min(range(len(rims)), key=lambda k: rims[k].sweep)
+        boundary.append(rims[k])
+        to, arc = leaving[to][k]
+    return Region(tuple(boundary), caps[0].middle)
+
+
+def _tangents(i: int, caps: Sequence[Cap]) -> list[tuple[int, SphereArc]]:
+    """Arcs of great circles from a cap to others, with all caps on their left."""
+    found: list[tuple[int, SphereArc]] = []
+    for j in range(len(caps)):
+        pole = _pole(caps[i], caps[j]) if j != i else None
+        if pole is None or any(dot(pole, c.middle) < math.sin(c.angle) - SAME_LENGTH for c in caps):
+            continue
+        ends = [unit(combined(caps[k].middle, 1.0, pole, -math.sin(caps[k].angle))) for k in (i, j)]
+        found.append((j, SphereArc(pole, 0.5 * math.pi, *ends)))
+    return [
+        (j, arc)
+        for j, arc in found
+        if not any(
+            dot(other.start, other.end) < dot(arc.start, arc.end)
+            and math.dist(arc.axis, other.axis) < SAME_LENGTH
+            for _, other in found
+        )
+    ]
+
+
+def _pole(one: Cap, other: Cap) -> Vector | None:
+    """Pole of the great circle from one cap to another that has both on its left, or None.
+
+    Its distance from each middle is a quarter of the sphere minus the cap's angle.
+    """
+    g = dot(one.middle, other.middle)
+    square = 1.0 - g * g
+    s, t = math.sin(one.angle), math.sin(other.angle)
+    if square <= 0.0:
+        return None
+    a, b = (s - g * t) / square, (t - g * s) / square
+    left = (1.0 - (a * s + b * t)) / square
+    if left <= SAME_LENGTH * SAME_LENGTH:
+        return None  # one cap holds the other
+    both = combined(one.middle, a, other.middle, b)
+    return unit(combined(both, 1.0, cross(one.middle, other.middle), math.sqrt(left)))

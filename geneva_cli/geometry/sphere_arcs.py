@@ -6,11 +6,14 @@ has a corner, or the points and the axes of both circles are on one great circle
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.sphere import SphereArc
+from geneva_cli.geometry.sphere import Region, SphereArc
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
@@ -30,7 +33,6 @@ class SphereArcs:
 
     If it is not closed, it is a part of a boundary and continues smoothly at its ends.
 
-    >>> import math
     >>> from geneva_cli.geometry.sphere import place
     >>> cap = SphereArcs([SphereArc((0.0, 0.0, 1.0), 0.5, place(0.5, 0.0), place(0.5, 0.0))])
     >>> away = cap.signed(np.array([place(0.7, 1.0), place(0.2, 2.0)]))
@@ -48,17 +50,14 @@ class SphereArcs:
         self.middle = self.at(np.arange(len(arcs)), 0.5 * self.sweep)
         half = np.sin(self.angle) * np.sin(0.25 * self.sweep)
         self.size = 2.0 * np.arcsin(np.minimum(half, 1.0))  # angle from its middle to its ends
-        self.first = self._turns(arcs)  # left turn of the boundary before each arc,
-        if not closed:
-            self.first[0] = 0.0
-        self.last = np.roll(self.first, -1)  # and after it
-
-    def _turns(self, arcs: Sequence[SphereArc]) -> Array:
-        """Left turns of the boundary before each arc."""
         back = np.roll([arc.travel(arc.end) for arc in arcs], 1, axis=0)
         on = np.array([arc.travel(arc.start) for arc in arcs])
         sideways = (np.cross(back, on) * self.start).sum(axis=1)
-        return np.arctan2(sideways, (back * on).sum(axis=1))
+        # left turn of the boundary before each arc,
+        self.first = np.arctan2(sideways, (back * on).sum(axis=1))
+        if not closed:
+            self.first[0] = 0.0
+        self.last = np.roll(self.first, -1)  # and after it
 
     def __len__(self) -> int:
         return len(self.angle)
@@ -87,11 +86,7 @@ class SphereArcs:
         return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
 
     def _nearest(self, points: Array) -> tuple[Array, Array, Array, Array]:
-        """How points (n, 3) are seen from the axes of the arcs: four arrays (n, k).
-
-        They are the angles off the arc's circle, past the arc's end (below 0 on the arc), and short
-        of its start, and the square of the half chord to the nearest point of the arc.
-        """
+        """Angles off circles, past the arcs' ends, short of their starts; half chords squared."""
         along, sideways = points @ self.x.T, points @ self.y.T
         across = np.hypot(along, sideways)
         off = np.arctan2(across, points @ self.axis.T) - self.angle
@@ -115,3 +110,73 @@ class SphereArcs:
             owner.append(on)
             points.append(self.at(which[on], at[on]))
         return np.concatenate(owner), np.concatenate(points)
+
+
+class Circle(NamedTuple):
+    """A circle on the sphere, ``angle`` radians from its axis; x, y and the axis are unit vectors.
+
+    Azimuths on it are from x towards y.
+    """
+
+    axis: Array
+    x: Array
+    y: Array
+    angle: float
+
+    def seen(self, points: Array) -> tuple[Array, Array]:
+        """Return the angles of points (n, 3) from the axis, and their azimuths, radians."""
+        along, sideways = points @ self.x, points @ self.y
+        polar = np.arctan2(np.hypot(along, sideways), points @ self.axis)
+        return polar, np.arctan2(sideways, along)
+
+    def at(self, azimuth: Array) -> Array:
+        """Return the points of the circle at azimuths, (n, 3)."""
+        c, s = np.cos(azimuth)[:, None], np.sin(azimuth)[:, None]
+        flat = math.sin(self.angle)
+        return math.cos(self.angle) * self.axis + flat * (c * self.x + s * self.y)
+
+
+def farthest(boundary: SphereArcs, points: Array) -> Array:
+    """Return the distance from each point, (n, 3), to the farthest point of each arc, (n, k).
+
+    That is nearest to the opposite point.
+    """
+    return math.pi - boundary.distances(-points)
+
+
+class FromCircle:
+    """Distances of arcs of one circle from a boundary, which they do not cross."""
+
+    def __init__(self, boundary: SphereArcs, circle: Circle) -> None:
+        self.boundary, self.circle = boundary, circle
+        # Two circles are nearest to each other on the great circle through both axes.
+        every = np.arange(len(boundary))
+        _, facing = boundary.facing(every, np.tile(circle.axis, (len(every), 1)))
+        points = np.concatenate((boundary.start, facing))
+        self.polar, self.azimuth = circle.seen(points)
+
+    def __call__(self, middle: Array, half: Array) -> Array:
+        """Return the least distances of arcs from azimuths ``middle - half`` to ``middle + half``.
+
+        They are at a corner of the boundary, or at one of its points that face the circle's axis,
+        or at an end of the arc.
+        """
+        away = np.remainder(self.azimuth - middle[:, None] + math.pi, math.tau) - math.pi
+        beyond = np.maximum(np.abs(away) - half[:, None], 0.0)
+        across = math.sin(self.circle.angle) * np.sin(self.polar)
+        square = half_chords(self.polar - self.circle.angle, across, beyond).min(axis=1)
+        from_points = 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
+        ends = [self.circle.at(end) for end in (middle - half, middle + half)]
+        from_ends = [self.boundary.distances(end).min(axis=1) for end in ends]
+        return np.minimum.reduce((from_points, *from_ends))
+
+
+def short_arcs(regions: Iterable[Region], step: float) -> SphereArcs:
+    """Return the boundaries of regions, cut into arcs that turn by at most ``step`` radians."""
+    pieces = []
+    for arc in (arc for region in regions for arc in region.boundary):
+        count = max(1, math.ceil(arc.sweep / step))
+        points, _ = arc.at(arc.sweep * np.arange(1, count) / count)
+        ends = [arc.start, *[(x, y, z) for x, y, z in points.tolist()], arc.end]
+        pieces += [SphereArc(arc.axis, arc.angle, *pair) for pair in pairwise(ends)]
+    return SphereArcs(pieces)

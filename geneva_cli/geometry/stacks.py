@@ -16,7 +16,7 @@ from geneva_cli.geometry.plates import Plate, Stack
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape, as_contour
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.edges import Edge
+    from geneva_cli.geometry.plates import Edge
 
 
 Side: TypeAlias = Line | Arc
@@ -80,24 +80,16 @@ def _level(lower: Contour | None, upper: Contour | None, z: float) -> Level:
     runs = [Run(side, True) for side in below if side not in common]
     runs += [Run(side, False) for side in above if side not in common]
     sizes = [area(one) if one else 0.0 for one in (lower, upper)]
-    loops = sorted(_loops(runs), key=_size, reverse=True)
-    return Level(z, tuple(loops), sizes[0] > sizes[1])
-
-
-def _loops(runs: list[Run]) -> list[tuple[Run, ...]]:
-    """Return edges end to end, as closed loops."""
     starting = {run.piece.start: run for run in runs}
     loops = []
-    while starting:
+    while starting:  # edges end to end
         loop = [starting.pop(next(iter(starting)))]
         while loop[-1].piece.end != loop[0].piece.start:
             loop.append(starting.pop(loop[-1].piece.end))
-        loops.append(tuple(loop))
-    return loops
-
-
-def _size(loop: tuple[Run, ...]) -> float:
-    return abs(area(Contour("", tuple(run.piece for run in loop))))
+        size = abs(area(Contour("", tuple(run.piece for run in loop))))
+        loops.append((size, tuple(loop)))
+    loops.sort(key=lambda each: each[0], reverse=True)
+    return Level(z, tuple(loop for _, loop in loops), sizes[0] > sizes[1])
 
 
 FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle

@@ -8,74 +8,38 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.loads.forces import Contact, contact_values
+import numpy as np
+
+from geneva_cli.loads.forces import Contact
 from geneva_cli.motion.engagement import Engagement, Vector
 from geneva_cli.numerics.arrays import all_true, choose, library
-from geneva_cli.numerics.jet import Array, Jet, Number, piecewise, sin_cos, sqrt
+from geneva_cli.numerics.jet import Jet, Number, sin_cos, sqrt
 
 NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
 
 
-def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
-    """The values of the contact at ascending input angles (k,), degrees from mid-motion.
-
-    Mirrored values are computed once, and closed forms are used.
-    """
-    if is_straight(engagement):
-        rates = Jet(engagement.motion.derivatives(input_deg, (1, 2)))
-        at = _moving(engagement, input_deg, 0, rates)
-    else:
-        at = contact(engagement, input_deg)
-    return contact_values(at)
-
-
 def contact(
-    engagement: Engagement,
-    input_deg: Number,
-    order: int = 0,
-    reactions: bool = True,
+    engagement: Engagement, input_deg: Number, order: int = 0, reactions: bool = True
 ) -> Contact[Jet]:
     """The contact at input angles, degrees from an engagement's mid-motion, one or an array.
 
     Without ``reactions`` those of the joints are None. At mid-motion of a curved slot only the
     values have a limit, that of entry: there ``order`` must be 0.
     """
-    if is_straight(engagement) or all_true(input_deg != 0.0):
-        return _moving(engagement, input_deg, order, reactions=reactions)
-
-    def moving(x: Number) -> Jet:
-        at = _moving(engagement, x, order, reactions=False)
-        return Jet([c for jet in at[:-2] for c in jet.c])
-
-    def middle(x: Number) -> Jet:
-        assert order == 0
-        return Jet([x * 0.0 + c for c in _middle(engagement)])
-
-    # one piece on each side of mid-motion, and mid-motion itself
-    every = piecewise(input_deg, (-5e-324, 0.0), (moving, middle, moving)).c
-    jets = [Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)]
+    if not engagement.slot.curved or all_true(input_deg != 0.0):
+        return _moving(engagement, input_deg, order, reactions)
+    assert order == 0
+    middle = input_deg == 0.0
+    near = choose(middle, NEAR_CUSP * engagement.entry_deg, input_deg)
+    both = zip(_middle(engagement), _moving(engagement, near, 0, False)[:-2], strict=True)
+    jets = [Jet((choose(middle, own, jet.c[0]),)) for own, jet in both]
     joints = _reactions(engagement, input_deg, jets[2], jets[3]) if reactions else None
     return Contact._make([*jets, joints, None])
 
 
-def is_straight(engagement: Engagement) -> bool:
-    """Return True if the engagement's slot is straight."""
-    return not engagement.slot.curved
-
-
-def _moving(
-    engagement: Engagement,
-    x: Number,
-    order: int,
-    rates: Jet | None = None,
-    reactions: bool = True,
-) -> Contact[Jet]:
-    """The contact where the pin moves in its slot, or where the slot is straight.
-
-    ``rates`` is the jet of the wheel's velocity, one order higher, if known.
-    """
-    if rates is None:
-        rates = engagement.motion.rate(x, order + 1)
+def _moving(engagement: Engagement, x: Number, order: int, reactions: bool) -> Contact[Jet]:
+    """The contact where the pin moves in its slot, or where the slot is straight."""
+    rates = engagement.motion.rate(x, order + 1)
     velocity, acceleration = _to_order(rates, order), rates.derivative()
     constant = Jet((velocity.c[0] * 0.0, *[0.0] * order))
     straight_axis = engagement.slot.axis(x, order)
@@ -150,8 +114,6 @@ def _middle(engagement: Engagement) -> list[Number]:
     back = retraces(engagement)
     if isinstance(back, bool):
         return _cusp(engagement) if back else _crossing(engagement)
-    import numpy as np
-
     with np.errstate(all="ignore"):  # each formula holds for its own designs
         both = zip(_cusp(engagement), _crossing(engagement), strict=True)
         return [choose(back, cusp, crossing) for cusp, crossing in both]
@@ -163,7 +125,7 @@ def _crossing(engagement: Engagement) -> list[Number]:
     The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
     """
     values, before = (
-        [jet.c[0] for jet in _moving(engagement, x, 0, reactions=False)[:-2]]
+        [jet.c[0] for jet in _moving(engagement, x, 0, False)[:-2]]
         for x in (0.0, NEAR_CUSP * engagement.entry_deg)
     )
     lever, along = (Contact._fields.index(name) for name in ("lever", "along"))
@@ -192,7 +154,7 @@ def _cusp(engagement: Engagement) -> list[Number]:
     curvature = choose(
         at.turning * at.turning > 1e-9 * 1e-9,
         m.copysign(math.inf, sense * at.turning),
-        _moving(engagement, NEAR_CUSP * engagement.entry_deg, 0, reactions=False).curvature.c[0],
+        _moving(engagement, NEAR_CUSP * engagement.entry_deg, 0, False).curvature.c[0],
     )
     return [v, a, sense * lever, offset, 0.0, curvature, body - v, 1.0, 1.0, crank]
 

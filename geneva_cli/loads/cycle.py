@@ -10,35 +10,39 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import TypeAlias
+from itertools import pairwise
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import contact, contacts
-from geneva_cli.loads.cycle_quantities import (
-    KINETIC,
-    known_quantities,
-    multiples,
-    plain_of,
-    sources,
-)
-from geneva_cli.loads.forces import Contact, LoadCase, is_loaded, wheel_torque
-from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads, values
+from geneva_cli.loads.contact import contact
+from geneva_cli.loads.cycle_quantities import multiples, plain_of
+from geneva_cli.loads.forces import LoadCase, contact_values
+from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadFunctions
-from geneva_cli.loads.load_peaks import search_loads, shown_deg, sums_of
-from geneva_cli.loads.load_summary import EngagementExtremes, LoadSummary, summaries_from
-from geneva_cli.loads.stretches import Stretch, refuse_noise, refuse_rounding, to_mid_motion, whole
-from geneva_cli.motion.engagement import Engagement, Peak
+from geneva_cli.loads.load_functions import LoadFunctions, on_breaks, refuse_noise, refuse_rounding
+from geneva_cli.loads.load_peaks import LoadSummary, reported_peaks, single_summaries
+from geneva_cli.loads.mid_motion import at_crossing
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import PeakArray
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Whole, array
-from geneva_cli.numerics.extremes import SearchResult, first_greatest
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
 Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
+
+
+class Stretch(NamedTuple):
+    """Input angles between which the loads are smooth, and the signs that they have there."""
+
+    start: float
+    end: float
+    drives: float  # sign of the wheel's torque
+    slides: float  # sign of the sliding
+    feeds: float  # sign of the input's torque: 1 if it drives the machine, -1 if it is driven
 
 
 class Cycle:
@@ -49,7 +53,7 @@ class Cycle:
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
-        self.mechanism = mechanism.under_load
+        self.machine, self.mechanism = mechanism, mechanism.under_load
         self.case: LoadCase = load_case(mechanism)
 
     @property
@@ -87,29 +91,21 @@ class Cycle:
 
     def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
-        from geneva_cli.loads.mid_motion import at_crossing
-
-        at = contacts(engagement, input_deg)
-        moving_values = bounded_loads(self.case, at, self._drives(engagement, input_deg, at))
-        middle = input_deg == 0.0
-        limits = at_crossing(engagement, self.case) if middle.any() else None
-        if limits is None:
-            return moving_values
-        every = dict[str, object](moving_values.quantities())
-        for name, limit in limits.items():
-            every[name] = np.where(middle, limit, getattr(moving_values, name))
-        return Instant.known(every)
-
-    def _drives(self, engagement: Engagement, input_deg: Array, at: Contact[Array]) -> Array:
-        """Signs of the wheel's torque; where it is 0, that before, or at entry that after."""
-        torque = array(wheel_torque(self.case, at))
+        at = contact_values(contact(engagement, input_deg))
+        torque = array(Instant(self.case, at).wheel_torque_Nm)
         drives = np.copysign(1.0, torque)
-        none = np.flatnonzero(~is_loaded(self.case, engagement, torque))
-        if len(none):
+        none = np.flatnonzero(~self.case.is_loaded(engagement, torque))
+        if len(none):  # where the torque is 0, its sign is that before, or at entry that after
             x, step = input_deg[none], 1e-6 * engagement.motion_deg
             near = np.where(x - step < engagement.entry_deg, x + step, x - step)
-            drives[none] = np.copysign(1.0, wheel_torque(self.case, contacts(engagement, near)))
-        return drives
+            beside = Instant(self.case, contact(engagement, near, reactions=False))
+            drives[none] = np.copysign(1.0, beside.wheel_torque_Nm.c[0])
+        out = bounded_loads(self.case, at, drives)
+        middle = input_deg == 0.0
+        limits = at_crossing(engagement, self.case) if middle.any() else None
+        for name, limit in (limits or {}).items():
+            vars(out)[name] = np.where(middle, limit, getattr(out, name))
+        return out
 
     def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of a stretch, degrees from its engagement's mid-motion.
@@ -117,8 +113,8 @@ class Cycle:
         The signs are the stretch's, so that its ends have the limits from inside.
         """
         with np.errstate(all="ignore"):
-            at = contacts(engagement, input_deg)
-            return bounded(Instant(self.case, at, stretch.drives, stretch.slides, stretch.feeds))
+            at = contact_values(contact(engagement, input_deg))
+        return bounded(Instant(self.case, at, stretch.drives, stretch.slides, stretch.feeds))
 
     def plain(self, states: Instant[Array], name: str) -> Array:
         """Return a quantity of ``known``, or a multiple of one, at states of the cycle."""
@@ -127,42 +123,12 @@ class Cycle:
         return plain_of(states, source) * factor
 
     @cached_property
-    def _searches(self) -> list[tuple[LoadFunctions, SearchResult]]:
-        """For each engagement, the search for the extremes of known quantities, and its cuts."""
-        refuse_rounding(self.mechanism.engagements)
-        names, out = [*known_quantities(self.mechanism), KINETIC], []
-        for engagement in self.mechanism.engagements:
-            load = LoadFunctions(engagement, self.case, names, more=("slides", "feeds"))
-            out.append((load, search_loads(load)))
-        return out
-
-    @cached_property
     def known(self) -> Mapping[str, LoadSummary[Array]]:
         """The summaries of all quantities that have a value, (1,) each."""
-        searched, known = known_quantities(self.mechanism), sources(self.mechanism)
-        names = [*searched, KINETIC, *known]
-        each = [
-            EngagementExtremes(
-                result.most,
-                shown_deg(self.mechanism, load.engagement, result.x),
-                sums_of(load, result, plain=True),
-            )
-            for load, result in self._searches
-        ]
-        refuse_noise([one.total for one in each])
-        every = summaries_from(self.mechanism, names, each, plain=True)
-        return {name: every[name] for name in (*known, KINETIC)}
-
-    @cached_property
-    def peaks(self) -> list[tuple[float, float, float]]:
-        """Each engagement's greatest velocity, acceleration and product of both, as invariants."""
-        w, out = self.case.speed_rad_s, []
-        for load, result in self._searches:
-            most = result.most.reshape(2, -1).max(axis=0)
-            places = [load.names.index(n) for n in ("omega_rad_s", "alpha_rad_s2", KINETIC)]
-            v, a, p = (float(most[place]) / w**k for k, place in enumerate(places, 1))
-            out.append((v, a, p))
-        return out
+        refuse_rounding(self.mechanism.engagements)
+        every = single_summaries(self.machine)
+        refuse_noise([one.rms for one in every.values()])
+        return every
 
     @cached_property
     def extremes(self) -> Mapping[str, LoadSummary[float]]:
@@ -171,6 +137,11 @@ class Cycle:
             name: LoadSummary._make(row if row is None else row.item() for row in one)
             for name, one in self.known.items()
         }
+
+    @property
+    def peaks(self) -> Mapping[str, PeakArray]:
+        """The greatest sizes of ``REPORTED_PEAKS``, (1,) each."""
+        return reported_peaks(self.machine)
 
     def integrals(self, *of: Integrand) -> list[float]:
         """The integral of each function over a period by the input angle in radians.
@@ -189,12 +160,11 @@ class Cycle:
                 engagement: Engagement = engagement,
                 signs: list[Array] = signs,
             ) -> Array:
-                at = contact(engagement, x)
-                here = values(Instant(self.case, at, *(sign[which, None] for sign in signs)))
+                at = contact_values(contact(engagement, x))
+                here = Instant(self.case, at, *(sign[which, None] for sign in signs))
                 return np.stack([np.broadcast_to(f(here), x.shape) for f in of])
 
-            one = np.zeros(len(pieces), dtype=int)
-            needed = np.full(total.shape, True)
+            one, needed = np.zeros(len(pieces), dtype=int), np.full(total.shape, True)
             with np.errstate(all="ignore"):
                 total += span_integrals(Integrands(rows, start, end, ends=True), one, needed)
         refuse_noise([total])
@@ -203,11 +173,21 @@ class Cycle:
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
         """The motions, divided at breaks and where torque, sliding or input torque change sign."""
+        refuse_rounding(self.mechanism.engagements)
         out = []
-        for load, result in self._searches:
-            engagement = load.engagement
-            pieces = to_mid_motion(engagement, result.stretches, 1)
-            out += [(engagement, one) for one in whole(engagement, self.case, load.kinds, pieces)]
+        for engagement in self.mechanism.engagements:
+            load = LoadFunctions(engagement, self.case, (), more=("slides", "feeds"))
+            found = load.stretches()
+            signs = dict(zip(load.kinds, np.where(found.positive, 1.0, -1.0), strict=True))
+            of = (signs.get(k, np.ones(found.x.shape[1])) for k in ("drives", "slides", "feeds"))
+            # where only signs that do not matter here differ, a stretch goes on
+            rows = np.array([found.span, *of])
+            first = np.append(True, (rows[:, 1:] != rows[:, :-1]).any(axis=0))
+            ends = on_breaks(found.x[1, np.append(first[1:], True)], engagement)
+            cuts = [engagement.entry_deg, *ends[:-1].tolist(), engagement.exit_deg]
+            for (start, end), own in zip(pairwise(cuts), rows[1:, first].T.tolist(), strict=True):
+                if start < end:
+                    out.append((engagement, Stretch(start, end, *own)))
         return out
 
 
@@ -215,21 +195,3 @@ class Cycle:
 def cycle_of(mechanism: Mechanism) -> Cycle:
     """The cycle of a machine, cached for its loads, strength and warnings."""
     return Cycle(mechanism)
-
-
-def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
-    """The greatest size of a quantity of the cycle, and its first input angle in degrees.
-
-    Without a load it is 0.
-    """
-    one = cycle_of(mechanism).extremes.get(name)
-    if one is None:
-        return Peak(0.0, 0.0)
-    first = mechanism.engagements[0]
-    whole = mechanism.under_load.whole_deg
-    start = first.mid_deg + first.entry_deg - 1e-9  # less the rounding of an input angle
-    ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
-    ends.sort(key=lambda end: (end[1] - start) % whole)
-    value, place = np.array(ends).T[..., None]
-    most, at_deg = first_greatest(value, place, np.zeros(1))
-    return Peak(float(most[0]), float(at_deg[0]))

@@ -18,8 +18,7 @@ from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.loads import load_tables
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import FORCE, WALL_FORCE, sources
-from geneva_cli.loads.load_peaks import load_summaries
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.loads.stages import MOTION_QUANTITIES, Stage, load_stages, motion_stages, pieces
 from geneva_cli.motion import peaks
 from geneva_cli.motion.mechanism import Mechanism
@@ -121,14 +120,11 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         names = requested if cycle.is_loaded else shown  # forces are not expected without a load
         lacking = [n for n in names if n not in has[design] and n not in outputs]
         left += [(design, line) for line in _left_out(cycle, lacking)]
-    return Figure(_title(machines), axis, panels, window, rests), left
-
-
-def _title(machines: Sequence[Mechanism]) -> str:
+    spec, noun = machines[0].spec, machines[0].output.noun
+    title = spec.title or spec.path or f"Geneva {noun} of {spec.wheel.z} slots"
     if len(machines) > 1:
-        return f"{len(machines)} designs over a cycle"
-    spec = machines[0].spec
-    return spec.title or spec.path or f"Geneva {machines[0].output.noun} of {spec.wheel.z} slots"
+        title = f"{len(machines)} designs over a cycle"
+    return Figure(title, axis, panels, window, rests), left
 
 
 def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
@@ -169,27 +165,21 @@ def _panel(axis: Axis, drawn: Mapping[str, MachineCurves]) -> Panel:
     name = axis.name
     curves: list[Curve] = []
     bounds: list[float] = []
-    for number, (design, machine_curves) in enumerate(drawn.items()):
-        if name in machine_curves.pieces:
-            marks = machine_curves.marks[name]
-            if len(drawn) > 1:  # one mark for each design: the greater in size
-                marks = tuple(sorted(marks, key=_size, reverse=True)[:1])
-            curves.append(Curve(number, design, tuple(machine_curves.pieces[name]), marks))
-            bounds += machine_curves.bounds.get(name, ())
+    for number, (design, own) in enumerate(drawn.items()):
+        if name in own.pieces:
+            marks = own.marks[name]
+            if len(drawn) > 1 and marks:  # one mark for each design: the greater in size
+                marks = (max(marks, key=lambda m: math.inf if m.y is None else abs(m.y)),)
+            curves.append(Curve(number, design, tuple(own.pieces[name]), marks))
+            bounds += own.bounds.get(name, ())
     return Panel(axis, tuple(curves), (min(bounds), max(bounds)) if bounds else None)
-
-
-def _size(mark: Mark) -> float:
-    return math.inf if mark.y is None else abs(mark.y)
 
 
 def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> MachineCurves:
     machine = cycle.mechanism
     column, per_radian = machine.output.column, machine.output.per_radian
-    moves, loads = (
-        [n for n in names if n in (column, *MOTION_QUANTITIES)],
-        [n for n in names if n not in (column, *MOTION_QUANTITIES)],
-    )
+    moves = [n for n in names if n in (column, *MOTION_QUANTITIES)]
+    loads = [n for n in names if n not in moves]
     step = sum(2.0 * e.half_step for e in machine.engagements) * per_radian
     out = MachineCurves({}, {}, {})
     if moves:
@@ -199,7 +189,10 @@ def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> M
         out.pieces.update(zip(moves, curves, strict=True))
         out.marks.update((n, _peak(machine, n, i, stages, window)) for i, n in enumerate(moves))
     if loads:
-        ends = {name: _signed(cycle, name) for name in loads}
+        ends = {name: cycle.extremes[name] for name in loads}
+        if FORCE in ends:  # drawn with the sign of the wall that bears
+            force = load_summaries(cycle.mechanism, [WALL_FORCE], ())[WALL_FORCE]
+            ends[FORCE] = LoadSummary(*(float(row[0]) for row in force[:4]))
         out.bounds.update(_bounds(cycle, ends))
         stages = list(load_stages(cycle, loads, out.bounds))
         curves = pieces(stages, machine.period_deg, window, [0.0] * len(loads))
@@ -233,14 +226,6 @@ def _peak(
     return (Mark("peak", _placed(machine, peak.at_deg, window), y),)
 
 
-def _signed(cycle: Cycle, name: str) -> LoadSummary[float]:
-    """The extremes of a load as it is drawn, with signs."""
-    if name != FORCE or name not in cycle.extremes:
-        return cycle.extremes[name]
-    one = load_summaries(cycle.mechanism, [WALL_FORCE], ())[WALL_FORCE]
-    return LoadSummary(*(float(row[0]) for row in one[:4]))
-
-
 def _ends(
     machine: Mechanism, ends: LoadSummary[float], window: tuple[float, float]
 ) -> Iterator[Mark]:
@@ -263,9 +248,10 @@ def _placed(machine: Mechanism, at_deg: float, window: tuple[float, float]) -> f
 
 def _bounds(cycle: Cycle, ends: Mapping[str, LoadSummary[float]]) -> dict[str, tuple[float, float]]:
     """The visible range of each unbounded load, from its sizes half-way between cuts."""
-    endless = [n for n, e in ends.items() if math.isinf(e.max) or math.isinf(e.min)]
     out = {}
-    for name in endless:
+    for name, (top, _, low, *_) in ends.items():
+        if math.isfinite(top) and math.isfinite(low):
+            continue
         sizes = []
         for engagement, stretch in cycle.stretches:
             middle = np.array([0.5 * (stretch.start + stretch.end)])
@@ -273,7 +259,6 @@ def _bounds(cycle: Cycle, ends: Mapping[str, LoadSummary[float]]) -> dict[str, t
             sizes.append(abs(float(here[0])))
         # an unbounded load is visible up to three times its typical size
         high = 3.0 * max((size for size in sizes if math.isfinite(size)), default=1.0)
-        low, top = ends[name].min, ends[name].max
         out[name] = -high if math.isinf(low) else low, high if math.isinf(top) else top
     return out
 

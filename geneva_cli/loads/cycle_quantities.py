@@ -8,7 +8,6 @@ import numpy as np
 
 from geneva_cli.loads.forces import QuantityValue
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.numerics.extremes import first_greatest
 
 if TYPE_CHECKING:
     from geneva_cli.loads.instant import Instant
@@ -21,7 +20,6 @@ WALL_FORCE = "wall_force_N"  # with that sign
 STRESS = "contact_stress_MPa"
 TORQUE = "input_torque_Nm"
 PV = "pv_W_m2"  # greatest Hertz pressure times the speed of sliding
-KINETIC = "kinetic_rad2_s3"  # speed times acceleration of the wheel: the power of a unit inertia
 PRESSED = (STRESS, PV)  # known only with a face width
 # Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
 SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")
@@ -58,13 +56,12 @@ QUANTITIES: dict[str, Quantity] = {
     "crank_bearing_N": lambda i: QuantityValue(i.crank_bearing_squared, i.grip),
     PV: lambda i: i.pressure_speed,
     "guide_force_N": lambda i: i.guide,
-    KINETIC: lambda i: QuantityValue(i.omega_rad_s * i.alpha_rad_s2),
 }
 
 
 def known_quantities(mechanism: Mechanism) -> list[str]:
     """The names of the quantities that have a value for this machine and load."""
-    missing = {KINETIC, WALL_FORCE}
+    missing = {WALL_FORCE}
     if load_case(mechanism).hertz is None:
         missing |= set(PRESSED)
     if not any(engagement.reactions for engagement in mechanism.engagements):
@@ -117,16 +114,3 @@ def plain_of(i: Instant[Array], name: str) -> Array:
 def plain_values(values: Array, name: str) -> Array:
     """Values of a quantity, from the values that are searched."""
     return np.sqrt(np.abs(values)) if name in SQUARED else values
-
-
-def outermost(each: Array) -> Array:
-    """The extremes over all engagements, from those of each, (engagements, 4, ...).
-
-    The first of equal extremes is taken.
-    """
-    most, most_at_deg, least, least_at_deg = np.moveaxis(each, 1, 0)
-    both = np.concatenate((most, least))
-    size = np.where(np.isfinite(both), np.abs(both), 0.0).max(axis=0)
-    sides = first_greatest(most, most_at_deg, size), first_greatest(-least, least_at_deg, size)
-    (most, most_at_deg), (least, least_at_deg) = sides
-    return np.stack((most, most_at_deg, -least, least_at_deg))

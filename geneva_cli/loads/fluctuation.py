@@ -19,19 +19,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.forces import LoadCase, QuantityValue
+from geneva_cli.loads.forces import QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import (
-    LoadFunctions,
-    LoadQuantity,
-)
-from geneva_cli.loads.stretches import spans_of, to_mid_motion
-from geneva_cli.motion.engagement import Engagement
+from geneva_cli.loads.load_functions import LoadFunctions, LoadQuantity
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Whole
-from geneva_cli.numerics.extremes import cuts
 from geneva_cli.numerics.jet import Array, Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
@@ -64,9 +58,10 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
     each, returned = [0.0 * mean], np.zeros(len(mean))
     for engagement in mechanism.engagements:
         if end is not None:
-            dwell = (engagement.mid_deg + engagement.entry_deg - end) * DEGREE
-            each.append(-mean * dwell)
-        works, back = _works(engagement, case, mean, bounded)
+            each.append(-mean * (engagement.mid_deg + engagement.entry_deg - end) * DEGREE)
+        own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
+        load = LoadFunctions(engagement, case, tuple(own), own, ("feeds", "wanted"))
+        works, back = _works(load, bounded)
         each.append(works)
         returned += back
         end = engagement.mid_deg + engagement.exit_deg
@@ -75,25 +70,10 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
     return Swings(np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf))
 
 
-def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
-    """Inertia that keeps the variation of a mean speed, rad/s, within a limit: dE / (Cs w²), kg m².
-
-    >>> round(flywheel_kgm2(15125.0, 0.02, 1200.0 * DEGREE), 2)  # 1200 degrees a second
-    1724.04
-    """
-    return energy_J / (speed_variation * w * w)
-
-
-def _works(
-    engagement: Engagement, case: LoadCase, mean: Array, bounded: Mask
-) -> tuple[Array, Array]:
+def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
     """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
-    n = len(mean)
-    own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
-    load = LoadFunctions(engagement, case, tuple(own), own, ("feeds", "wanted"))
-    whole = to_mid_motion(engagement, cuts(load, spans_of(engagement, n)), n)
-    design, _, (a, b), positive = whole
-    signs = np.where(positive, 1.0, -1.0)
+    design, _, (a, b), positive = load.stretches()
+    signs, n = np.where(positive, 1.0, -1.0), len(bounded)
 
     def rows(x: Array, which: Whole) -> Array:
         (here, *_), (uneven,) = load.at(x, design[which], 0, signs[:, which, None])
@@ -103,8 +83,7 @@ def _works(
     needed = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
         each = span_integrals(Integrands(rows, a, b, True), design, needed, apart=True) * DEGREE
-    first = np.searchsorted(design, np.arange(n))
-    number = np.arange(len(design)) - first[design]
+    number = np.arange(len(design)) - np.searchsorted(design, design)
     works = np.zeros((n, int(number.max()) + 1))
     works[design, number] = each[0]
     returned = np.zeros(n)

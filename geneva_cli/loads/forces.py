@@ -1,16 +1,4 @@
-"""Forces between roller and slot, as formulas for jets of one angle or of many.
-
-t is the unit tangent of the slot, away from the wheel's axis. The normal n = d i t points towards
-the wall that bears: d is 1 if the torque T drives the wheel, and -1 if it holds the wheel back. The
-contact point is C = M + r n. The wheel's balance about its axis is
-
-    |T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)]
-
-with M x t = 0 in a radial slot. s is the sign of v, the speed at which the roller, fixed to its
-body, rubs along the wall:
-
-    v = M' . t - d r (rate of that body - rate of the wheel).
-"""
+"""What the loads depend on: the contact of roller and slot, the load case, Hertz's pressure."""
 
 from __future__ import annotations
 
@@ -20,7 +8,7 @@ from typing import Generic, NamedTuple, Protocol
 import numpy as np
 
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import Mask, N, Truth, Whole, all_true, choose, designs_of, library
+from geneva_cli.numerics.arrays import Mask, N, Whole, all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 from geneva_cli.spec.workshops import Stock
 
@@ -109,6 +97,12 @@ class LoadCase(NamedTuple):
         """Return True if there is friction along the wall in any of the designs."""
         return not all_true(self.friction == 0.0)
 
+    def is_loaded(self, engagement: Engagement, torque: Number) -> Mask:
+        """Return True where a torque at the wheel is more than rounding."""
+        usual = self.inertia_Nm * engagement.usual_acceleration + self.resists_Nm
+        loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
+        return loaded
+
     @property
     def frictionless(self) -> LoadCase:
         """Return the case without friction."""
@@ -163,93 +157,6 @@ def value(quantity: V) -> Number:
     return quantity.c[0] if isinstance(quantity, Jet) else quantity
 
 
-def sliding(at: Contact[V], drives: Number, radius: float) -> V:
-    """Speed at which the roller rubs along the wall, over L, per input radian."""
-    return at.along - at.spin * (drives * radius)
-
-
-def wheel_torque(case: LoadCase, at: Contact[V]) -> V:
-    """The torque that the wheel needs for inertia and resistance, N m.
-
-    On a carrier, the centrifugal force of a body off the wheel's axis points away from the
-    carrier's axis. Its moment helps the wheel, times the sine of the body's angle from there.
-    """
-    torque = at.acceleration * case.inertia_Nm + case.resists_Nm
-    if at.heading is None:
-        return torque
-    _, across = _centrifugal_Nm(case, at.heading)
-    return torque - across
-
-
-def is_loaded(case: LoadCase, engagement: Engagement, torque: Number) -> Mask:
-    """Return True where a torque at the wheel is more than rounding."""
-    usual = case.inertia_Nm * engagement.usual_acceleration + case.resists_Nm
-    loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
-    return loaded
-
-
-def frame_torque(case: LoadCase, at: Contact[V]) -> V:
-    """The torque on the carrier that does not go through the wheel's slot, N m.
-
-    It speeds the wheel up against the ground. A body off the wheel's axis also moves away from the
-    carrier's axis and back (Coriolis).
-    """
-    torque = at.acceleration * (case.inertia_Nm * case.frame)
-    if at.heading is None:
-        return torque
-    towards, across = _centrifugal_Nm(case, at.heading)
-    turning = at.velocity * (at.velocity * case.frame + 2.0)
-    return torque + across * turning - towards * at.acceleration * case.frame
-
-
-def _centrifugal_Nm(case: LoadCase, heading: tuple[V, V]) -> tuple[V, V]:
-    """The unbalance times L w², towards the carrier's axis and across."""
-    sine, cosine = heading
-    return (
-        cosine * case.along_Nm - sine * case.across_Nm,
-        sine * case.along_Nm + cosine * case.across_Nm,
-    )
-
-
-def gain(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
-    """Ratio of the input torque to the wheel's, times ``grip``, so that it is always finite."""
-    lost = sliding(at, drives, case.radius) * at.touches * (case.friction * slides * drives)
-    return at.velocity * _slot_grip(case, at, drives, slides) + lost
-
-
-def wheel_grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
-    """Torque on the wheel over L times the pin force."""
-    grip = _slot_grip(case, at, drives, slides)
-    if not (case.guide and case.guided):
-        return grip
-    return grip - case.guide.drag(case, at, drives, slides) * drives
-
-
-def _slot_grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
-    """The grip without friction in a guide."""
-    if not case.rubs:
-        return at.lever
-    rub = at.touches * (case.friction * slides)
-    return at.lever + rub * (at.offset * drives - at.arm * case.radius)
-
-
-def feeding(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
-    """A value with the sign of the input torque: 1 where the input drives, -1 where it is driven.
-
-    The value is always finite, and smooth between changes of the other two signs.
-    """
-    ratio = gain(case, at, drives, slides)
-    if all_true(case.frame == 0.0):
-        return ratio * drives
-    own = frame_torque(case, at)
-    return wheel_torque(case, at) * ratio + own * wheel_grip(case, at, drives, slides)
-
-
-def stress_margin(friction: V | None, edge: V | None) -> V | None:
-    """The lesser of the known margins that bound the contact stress: of friction and of edges."""
-    return edge if friction is None or edge is None else lesser(friction, edge)
-
-
 def lesser(a: V, b: V) -> V:
     """The lesser of two jets, or of their values, element by element."""
     first = value(a) < value(b)
@@ -257,11 +164,3 @@ def lesser(a: V, b: V) -> V:
         out: V = choose(first, a, b)
         return out
     return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])
-
-
-def without(condition: Truth, a: V) -> V:
-    """A jet, or its values, with 0 where a condition holds, whatever the value there."""
-    if isinstance(a, Jet):
-        return type(a)([np.where(condition, 0.0, c) for c in a.c])
-    out: V = np.where(condition, 0.0, a)
-    return out

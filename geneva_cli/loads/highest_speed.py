@@ -1,6 +1,6 @@
 """The greatest loads and pressure angle of a machine, and the highest speed that keeps the limits.
 
-The formulas of loads are in ``forces``. Forces are in newtons, torques in newton metres.
+The formulas of loads are in ``instant``. Forces are in newtons, torques in newton metres.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2
-from geneva_cli.loads.cycle_quantities import FORCE, SQUARED, STRESS, TORQUE
+from geneva_cli.loads.cycle_quantities import FORCE, STRESS, TORQUE
 from geneva_cli.loads.forces import LoadCase, QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, LoadQuantity
-from geneva_cli.loads.load_peaks import load_peaks, search_loads, shown_deg
+from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray
@@ -43,11 +43,10 @@ def greatest_pressure(mechanism: Mechanism) -> PeakArray:
     """
     for engagement in mechanism.engagements:
         crosses = np.logical_not(retraces(engagement)) & engagement.slot.curved
-        middle = np.zeros((1, mechanism.designs))
-        if np.all(crosses):
-            return PeakArray(90.0 + middle[0], shown_deg(mechanism, engagement, middle)[0])
         if np.any(crosses):
-            return PeakArray(np.nan + middle[0], np.nan + middle[0])
+            at_deg = np.ravel(mechanism.shown_deg(engagement.mid_deg))
+            known = np.full(mechanism.designs, 0.0 if np.all(crosses) else np.nan)
+            return PeakArray(90.0 + known, at_deg + known)
     own: dict[str, LoadQuantity] = {"slope": slope_squared}
     case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0).frictionless
     peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
@@ -62,8 +61,8 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     Infinite if they hold at any speed or there are none; None if no speed keeps them.
     """
     mechanism, limited = mechanism.under_load, load_limits(mechanism.spec.limits)
-    own = omega(mechanism.spec.drive.n_rpm)
-    at_one = load_case(mechanism).at_speed(1.0 / own)  # at 1 rad/s
+    n_rpm = mechanism.spec.drive.n_rpm
+    at_one = load_case(mechanism).at_speed(1.0 / omega(n_rpm))  # at 1 rad/s
     at_one = at_one._replace(inertia_Nm=inertia_kgm2(mechanism.spec))  # with all its digits
     if at_one.hertz is None:
         limited.pop(STRESS, None)
@@ -73,8 +72,7 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     rpm = math.sqrt(1.0 / least) / omega(1.0) if least > 0.0 else math.inf
     # Lower speeds may break a limit where inertia helps against the resistance, and so may this
     # speed.
-    w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
-    tried = at_one.at_speed(w)
+    tried = at_one.at_speed(omega(n_rpm if math.isinf(rpm) else rpm))
     peaks = load_peaks(mechanism, tuple(limited), case=tried)
     # a limit that is reached at the highest speed may be exceeded by rounding
     kept = all(peaks[name].max[0] <= limit * (1.0 + 1e-9) for name, limit in limited.items())
@@ -88,15 +86,15 @@ class Slowness(NamedTuple):
     inertia is w² times that at 1 rad/s, q. So the limit holds up to w² = (limit - q1 M) / q.
     """
 
-    of: Callable[[Instant[Jet]], Jet]
+    of: Callable[[Instant[Jet]], Jet | None]
     limit: float
     case: LoadCase  # at 1 rad/s
 
     def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is unbounded where the place allows no speed."""
         unit = self.case.at_speed(0.0)._replace(resists_Nm=1.0)
-        factor = self.of(Instant(unit, i.at, i.drives, i.slides, i.feeds))
-        load = self.of(i)
+        factor, load = self.of(Instant(unit, i.at, i.drives, i.slides, i.feeds)), self.of(i)
+        assert factor is not None and load is not None  # there is a face width
         left = self.limit - factor * self.case.resists_Nm
         # Where the wheel is not driven, any speed keeps the limit. The margin is then that next to
         # it, as at rest the load's sign is rounding.
@@ -106,24 +104,17 @@ class Slowness(NamedTuple):
 
 def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float]) -> float:
     """The greatest of 1 / (highest speed that a place allows)²; infinite if one allows no speed."""
-
-    def square(i: Instant[Jet]) -> Jet:
-        assert i.stress_squared is not None  # there is a face width
-        return i.stress_squared
-
-    eta = case.efficiency
-    factors: dict[str, list[Callable[[Instant[Jet]], Jet]]] = {
-        FORCE: [lambda i: i.force_N],
-        TORQUE: [lambda i: i.lossless_torque_Nm * (1.0 / eta), lambda i: -i.lossless_torque_Nm],
-        STRESS: [square],
-    }
-    own: dict[str, LoadQuantity] = {}
+    own, eta = dict[str, LoadQuantity](), case.efficiency
     for name, limit in limits.items():
-        most = limit * limit if name in SQUARED else limit
-        for factor in factors[name]:
-            own[f"slowness {len(own)}"] = Slowness(factor, most, case)
+        if name == FORCE:
+            own[name] = Slowness(lambda i: i.force_N, limit, case)
+        elif name == STRESS:
+            own[name] = Slowness(lambda i: i.stress_squared, limit * limit, case)
+        else:
+            own[TORQUE] = Slowness(lambda i: i.lossless_torque_Nm * (1.0 / eta), limit, case)
+            own["driven"] = Slowness(lambda i: -i.lossless_torque_Nm, limit, case)
     still = case._replace(resists_Nm=0.0)
-    result = search_loads(LoadFunctions(engagement, still, tuple(own), own))
+    result = LoadFunctions(engagement, still, tuple(own), own).search()
     return max(0.0, float(result.most[: len(own)].max()))
 
 
@@ -133,11 +124,10 @@ def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
     It is I epsilon omega / eta, with the peak of epsilon omega as an invariant; on a carrier omega
     is that from the ground, and its peak is searched.
     """
-    spec = mechanism.spec
-    w = omega(spec.drive.n_rpm)
-    if mechanism.frame:
-        case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0).frictionless
-        torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
-        one = isinstance(power_invariant, float)
-        return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency
-    return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
+    spec, w = mechanism.spec, omega(mechanism.spec.drive.n_rpm)
+    if not mechanism.frame:
+        return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
+    case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0).frictionless
+    torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
+    one = isinstance(power_invariant, float)
+    return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency

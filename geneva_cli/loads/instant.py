@@ -1,30 +1,26 @@
 """Motion and loads at an input angle while the wheel moves, with signs and in units.
 
-They follow from the forces of ``forces``, and are the columns of the cycle's table and summary.
+t is the unit tangent of the slot, away from the wheel's axis. The normal n = d i t points towards
+the wall that bears: d is 1 if the torque T drives the wheel, and -1 if it holds the wheel back. The
+contact point is C = M + r n. The wheel's balance about its axis is
+
+    |T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)]
+
+with M x t = 0 in a radial slot. s is the sign of v, the speed at which the roller, fixed to its
+body, rubs along the wall:
+
+    v = M' . t - d r (rate of that body - rate of the wheel).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Generic
+from typing import Generic, Self
 
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.forces import (
-    Contact,
-    LoadCase,
-    QuantityValue,
-    contact_values,
-    feeding,
-    frame_torque,
-    sliding,
-    stress_margin,
-    value,
-    wheel_grip,
-    wheel_torque,
-    without,
-)
+from geneva_cli.loads.forces import Contact, LoadCase, QuantityValue, contact_values, lesser, value
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
 
@@ -78,6 +74,18 @@ class Instant(Generic[V]):
         """Each of ``INSTANT_QUANTITIES``; None for a quantity that the machine lacks."""
         return {name: getattr(self, name) for name in INSTANT_QUANTITIES}
 
+    def signed(self, drives: Array | None = None) -> Self:
+        """Set the signs to those of the values; ``drives`` is that of the torque, if known."""
+        self.drives = np.copysign(1.0, value(self.wheel_torque_Nm)) if drives is None else drives
+        self.slides = np.copysign(1.0, value(self.slip))
+        self.feeds = np.copysign(1.0, value(self.feeding))
+        return self
+
+    def values(self: Instant[Jet]) -> Instant[Array]:
+        """The instant with values in place of jets."""
+        signs = self.drives, self.slides, self.feeds
+        return Instant(self.case, contact_values(self.at), *signs)
+
     @cached_property
     def omega_rad_s(self) -> V:
         """The wheel's speed, rad/s."""
@@ -90,19 +98,77 @@ class Instant(Generic[V]):
         return self.at.acceleration * (w * w)
 
     @cached_property
+    def _centrifugal_Nm(self) -> tuple[V, V] | None:
+        """The unbalance times L w², towards the carrier's axis and across; None without any."""
+        if self.at.heading is None:
+            return None
+        (sine, cosine), case = self.at.heading, self.case
+        towards = cosine * case.along_Nm - sine * case.across_Nm
+        return towards, sine * case.along_Nm + cosine * case.across_Nm
+
+    @cached_property
     def wheel_torque_Nm(self) -> V:
-        """Torque at the wheel, N m: I alpha plus resistance."""
-        return wheel_torque(self.case, self.at)
+        """The torque that the wheel needs for inertia and resistance, N m.
+
+        On a carrier, the centrifugal force of a body off the wheel's axis points away from the
+        carrier's axis. Its moment helps the wheel, times the sine of the body's angle from there.
+        """
+        torque = self.at.acceleration * self.case.inertia_Nm + self.case.resists_Nm
+        return torque - self._centrifugal_Nm[1] if self._centrifugal_Nm else torque
+
+    @cached_property
+    def frame_torque_Nm(self) -> V:
+        """The torque on the carrier that does not go through the wheel's slot, N m.
+
+        It speeds the wheel up against the ground. A body off the wheel's axis also moves away from
+        the carrier's axis and back (Coriolis).
+        """
+        at, frame = self.at, self.case.frame
+        torque = at.acceleration * (self.case.inertia_Nm * frame)
+        if self._centrifugal_Nm is None:
+            return torque
+        towards, across = self._centrifugal_Nm
+        turning = at.velocity * (at.velocity * frame + 2.0)
+        return torque + across * turning - towards * at.acceleration * frame
 
     @cached_property
     def slip(self) -> V:
         """Speed at which the roller rubs along the wall, over L, per input radian."""
-        return sliding(self.at, self.drives, self.case.radius)
+        return self.at.along - self.at.spin * (self.drives * self.case.radius)
+
+    @cached_property
+    def _slot_grip(self) -> V:
+        """The grip without friction in a guide."""
+        at, case = self.at, self.case
+        if not case.rubs:
+            return at.lever
+        rub = at.touches * (case.friction * self.slides)
+        return at.lever + rub * (at.offset * self.drives - at.arm * case.radius)
 
     @cached_property
     def grip(self) -> V:
         """Torque on the wheel over L times the pin force, the margin of all forces."""
-        return wheel_grip(self.case, self.at, self.drives, self.slides)
+        if not (self.case.guide and self.case.guided):
+            return self._slot_grip
+        return self._slot_grip - self._drag * self.drives
+
+    @cached_property
+    def _drag(self) -> V:
+        """Friction in the guide over the pin's force."""
+        assert self.case.guide is not None  # known to be there
+        return self.case.guide.drag(self.case, self.at, self.drives, self.slides)
+
+    @cached_property
+    def feeding(self) -> V:
+        """A value with the sign of the input's torque: always finite, and smooth between its signs.
+
+        It is the ratio of the input's torque to the wheel's, times ``grip``.
+        """
+        lost = self.slip * self.at.touches * (self.case.friction * self.slides * self.drives)
+        gain = self.at.velocity * self._slot_grip + lost
+        if all_true(self.case.frame == 0.0):
+            return gain * self.drives
+        return self.wheel_torque_Nm * gain + self.frame_torque_Nm * self.grip
 
     @cached_property
     def force_N(self) -> V:
@@ -151,11 +217,15 @@ class Instant(Generic[V]):
         rub = self.at.touches * (self.case.friction * self.slides)
         torque = self.force_N * rub * self.slip * self.case.L
         if self.case.guide and self.case.guided:
-            drag = self.case.guide.drag(self.case, self.at, self.drives, self.slides)
-            torque = torque + self.force_N * drag * self.at.velocity * self.case.L
+            torque = torque + self.force_N * self._drag * self.at.velocity * self.case.L
         # designs of the batch without friction, whose force may be infinite
         free = self.case.all_friction == 0.0
-        return without(free, torque) if np.any(free) else torque
+        if not np.any(free):
+            return torque
+        if isinstance(torque, Jet):
+            return type(torque)([np.where(free, 0.0, c) for c in torque.c])
+        out: V = np.where(free, 0.0, torque)
+        return out
 
     @cached_property
     def slot_torque_Nm(self) -> V:
@@ -171,7 +241,7 @@ class Instant(Generic[V]):
         """
         if all_true(self.case.frame == 0.0):
             return self.slot_torque_Nm
-        return self.slot_torque_Nm + frame_torque(self.case, self.at)
+        return self.slot_torque_Nm + self.frame_torque_Nm
 
     @cached_property
     def input_torque_Nm(self) -> V:
@@ -205,9 +275,7 @@ class Instant(Generic[V]):
     @cached_property
     def crank_bearing_squared(self) -> V:
         """The square of the reaction on the shaft whose crank carries the roller or link, N²."""
-        if (
-            self.at.reactions is None
-        ):  # the crank is the roller's body, and its drive gives it a couple
+        if self.at.reactions is None:  # the crank is the roller's body, and its drive turns it
             return self.wheel_bearing_N * self.wheel_bearing_N
         return self._reaction(0)
 
@@ -237,14 +305,16 @@ class Instant(Generic[V]):
     @property
     def stress(self) -> QuantityValue[V]:
         """The square of the contact stress, MPa², and its margin."""
-        assert self.stress_squared is not None  # there is a face width
-        return QuantityValue(self.stress_squared, stress_margin(self.friction_margin, self.edge))
+        friction, edge = self.friction_margin, self.edge
+        assert self.stress_squared is not None and edge is not None  # there is a face width
+        margin = edge if friction is None else lesser(friction, edge)
+        return QuantityValue(self.stress_squared, margin)
 
     @property
     def pressure_speed(self) -> QuantityValue[V]:
         """The square of p v, greatest Hertz pressure times sliding, W²/m⁴, and its margin."""
-        pv = self.stress.value * (self.sliding_m_s * self.sliding_m_s * 1e12)
-        return QuantityValue(pv, stress_margin(self.friction_margin, self.edge))
+        stress = self.stress
+        return stress._replace(value=stress.value * (self.sliding_m_s * self.sliding_m_s * 1e12))
 
     @property
     def guide(self) -> QuantityValue[V]:
@@ -285,14 +355,21 @@ def _root(square: V) -> V:
     return sqrt(square) if isinstance(square, Jet) else np.sqrt(square)
 
 
-def signs(
-    case: LoadCase, at: Contact[V], drives: Array | None = None
-) -> tuple[Array, Array, Array]:
-    """Signs of the wheel's torque, unless known, of the sliding and of the input's torque."""
-    if drives is None:
-        drives = np.copysign(1.0, value(wheel_torque(case, at)))
-    slides = np.copysign(1.0, value(sliding(at, drives, case.radius)))
-    return drives, slides, np.copysign(1.0, value(feeding(case, at, drives, slides)))
+def bounded(here: Instant[Array]) -> Instant[Array]:
+    """Values with infinity where a force is unbounded, and 0 where no force is needed there."""
+    with np.errstate(all="ignore"):
+        out, is_held = here.quantities(), here.grip > 0.0
+        bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
+        endless = ["wheel_bearing_N", "crank_bearing_squared"]
+        endless += [] if here.guide_squared is None else ["guide_squared"]
+        if here.friction_margin is not None:
+            endless += ["input_torque_Nm", "power_W", "friction_W"]
+        out |= {name: np.where(is_held, getattr(here, name), bound) for name in endless}
+        out["pin_force_N"] = np.where(is_held, here.pin_force_N, bound * here.drives)
+        if here.edge is not None and here.stress_squared is not None:
+            is_pressed = is_held & (here.edge > 0.0)
+            out["stress_squared"] = np.where(is_pressed, here.stress_squared, bound)
+    return Instant.known(out)
 
 
 def bounded_loads(
@@ -303,26 +380,4 @@ def bounded_loads(
     ``drives`` is the sign of the wheel's torque, if known.
     """
     with np.errstate(all="ignore"):
-        return bounded(Instant(case, at, *signs(case, at, drives)))
-
-
-def values(instant: Instant[Jet]) -> Instant[Array]:
-    """The instant with values in place of jets."""
-    return Instant(
-        instant.case, contact_values(instant.at), instant.drives, instant.slides, instant.feeds
-    )
-
-
-def bounded(here: Instant[Array]) -> Instant[Array]:
-    """Values with infinity where a force is unbounded, and 0 where no force is needed there."""
-    is_held = here.grip > 0.0
-    bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
-    endless = ["wheel_bearing_N", "crank_bearing_squared"]
-    endless += [] if here.guide_squared is None else ["guide_squared"]
-    endless += [] if here.friction_margin is None else ["input_torque_Nm", "power_W", "friction_W"]
-    out = here.quantities()
-    out |= {name: np.where(is_held, getattr(here, name), bound) for name in endless}
-    out["pin_force_N"] = np.where(is_held, here.pin_force_N, bound * here.drives)
-    if here.edge is not None and here.stress_squared is not None:
-        out["stress_squared"] = np.where(is_held & (here.edge > 0.0), here.stress_squared, bound)
-    return Instant.known(out)
+        return bounded(Instant(case, at).signed(drives))

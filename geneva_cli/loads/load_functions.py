@@ -1,44 +1,48 @@
 """Loads of a batch of one engagement, as functions for searches and sums.
 
-The formulas are in ``contact``, ``forces`` and ``instant``. This file defines the wanted
-quantities, the signs that matter, and how widely samples are spread about mid-motion.
+They have a kink or a jump where a sign changes, and at breaks of the motion itself: where the
+roller bears on the other wall, where friction reverses, where the wheel drives the input.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
+from itertools import pairwise
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import contact
+from geneva_cli.loads.contact import NEAR_CUSP, contact
 from geneva_cli.loads.cycle_quantities import PV, QUANTITIES
-from geneva_cli.loads.forces import NEGLIGIBLE, Contact, LoadCase, QuantityValue, feeding
+from geneva_cli.loads.forces import NEGLIGIBLE, LoadCase, QuantityValue
 from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.mid_motion import at_mid_motion
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.peak_search import pole_deg
+from geneva_cli.motion.peak_search import motion_peaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Number, Which, all_true, array
+from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
 from geneva_cli.numerics.jet import Array, Jet
-
-if TYPE_CHECKING:
-    from geneva_cli.loads.mid_motion import MidMotionValues
 
 # The functions whose signs matter, in order: each is smooth while those before it keep their signs.
 SIGN_FUNCTIONS: dict[str, Callable[[Instant[Jet]], Jet | None]] = {
     "drives": lambda i: i.wheel_torque_Nm,
     "slides": lambda i: i.slip,
-    "feeds": lambda i: feeding(i.case, i.at, i.drives, i.slides),
+    "feeds": lambda i: i.feeding,
     "grip": lambda i: i.grip,
     "leans": lambda i: i.leaning,
     "edge": lambda i: i.edge,
     "along": lambda i: i.at.along,
 }
 MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is unbounded
+# The greatest fraction of the step between two adjacent angles: the loads then keep six digits.
+FEWEST_DIGITS = 1e-10
 
 
 class LoadQuantity(Protocol):
@@ -48,7 +52,7 @@ class LoadQuantity(Protocol):
     """
 
     def __call__(self, i: Instant[Jet], /) -> QuantityValue[Jet]:
-        """The quantity, and the margin that bounds it."""
+        """The quantity, and its margin."""
 
 
 NO_MORE: Mapping[str, LoadQuantity] = MappingProxyType({})  # no quantities besides the named ones
@@ -80,8 +84,16 @@ class LoadFunctions:
     ) -> None:
         self.engagement, self.case, self.names, self.n = engagement, case, names, case.designs
         self.quantities: list[LoadQuantity] = [own.get(name) or QUANTITIES[name] for name in names]
-        # p v is 0 where the sliding is, in a notch that may be near a pole
-        self.kinds = kinds(engagement, case, (*more, "slides") if PV in names else more)
+        matters = {
+            "drives": not all_true(case.inertia_Nm == 0.0),
+            # p v is 0 where the sliding is, in a notch that may be near a pole
+            "slides": case.rubs or PV in names,
+            "feeds": not all_true(case.efficiency == 1.0),
+            "grip": case.rubs or case.guided,
+            "leans": case.guided,
+            "edge": engagement.slot.curved and case.hertz is not None,
+        }
+        self.kinds = [k for k in (*SIGN_FUNCTIONS, "wanted") if matters.get(k) or k in more]
         self.signs, self.wanted = len(self.kinds), len(names)
         self.poled: Sequence[int] = [i for i, kind in enumerate(self.kinds) if kind == "edge"]
         # where links carry the roller, bearings and guide need the reactions of joints
@@ -91,8 +103,36 @@ class LoadFunctions:
 
     @cached_property
     def spread(self) -> Array:
-        """Width of the loads' features about mid-motion, from ``_spread_deg``: (n, 1)."""
-        return np.broadcast_to(_spread_deg(self.engagement, self.case), (self.n, 1))
+        """Approximate distance from mid-motion of the nearest pole of the loads, degrees: (n, 1).
+
+        It follows from their behaviour near mid-motion: a velocity as v / (1 + x²/w²), a wall's
+        lever as l sqrt(1 + x²/w²). Where friction holds a lever that vanishes there, w is the
+        distance from mid-motion at which it no longer does.
+        """
+        engagement = self.engagement
+        # not at mid-motion itself, where a curved slot may have no slopes
+        x = 0.01 * array(engagement.exit_deg)
+        _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False)
+        with np.errstate(all="ignore"):
+            w = np.fmin(pole_deg(at.velocity), math.sqrt(0.5) * pole_deg(lever))
+            if self.case.rubs:
+                grip = np.abs(lever.c[0]) + self.case.friction * np.abs(offset.c[0])
+                w = np.fmin(w, array(grip) / np.abs(lever.c[1]) / DEGREE)
+        # ten half motions: samples of a function without poles are not spread
+        w = np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)
+        return np.broadcast_to(w, (self.n, 1))
+
+    @property
+    def spans(self) -> list[tuple[Array, Array]]:
+        """Ends of the smooth parts of the motion, one after the other: (n, 1) each."""
+        engagement, out = self.engagement, []
+        motion, n = engagement.motion, self.n
+        for (a, b), (start, end) in zip(pairwise(motion.breaks(n)), spans(motion, n), strict=True):
+            if engagement.slot.curved:
+                start = np.where(a == 0.0, NEAR_CUSP * engagement.exit_deg, start)
+                end = np.where(b == 0.0, NEAR_CUSP * engagement.entry_deg, end)
+            out.append((start, end))
+        return out
 
     @property
     def repeats(self) -> bool:
@@ -109,27 +149,53 @@ class LoadFunctions:
         alone = alone and not (case.rubs or case.guided or self.reactions)
         return radial and engagement.mirrored and alone
 
-    def at_mid_motion(self) -> list[MidMotionValues]:
-        """The quantities at mid-motion, which no span of curved slots reaches."""
+    def search(self, sized: bool = False) -> SearchResult:
+        """The extremes of the quantities over the motion, and its stretches."""
+        spans, known = self.spans, []
+        if sized and self.repeats:
+            spans = spans[: len(spans) // 2]
+        if self.engagement.slot.curved:  # no span reaches mid-motion
+            known = at_mid_motion(self.engagement, self.case, self.quantities, self.n)
+        return search(self, spans, sized, known, self.spread)
+
+    def stretches(self, result: SearchResult | None = None) -> Stretches:
+        """The motion, divided where signs change: as in a search, or without one.
+
+        In curved slots, where searches stop short of mid-motion, they reach it.
+        """
+        pieces = result.stretches if result else cuts(self, self.spans)
         if not self.engagement.slot.curved:
-            return []
-        from geneva_cli.loads.mid_motion import at_mid_motion
-
-        def rows(
-            at: Contact[Jet], drives: Number, slides: Number, feeds: Number
-        ) -> list[QuantityValue[Jet]]:
-            instant = Instant(self.case, at, drives, slides, feeds)
-            return [quantity(instant) for quantity in self.quantities]
-
-        return at_mid_motion(self.engagement, self.case, rows, self.n)
+            return pieces
+        x = pieces.x
+        for end in (self.engagement.entry_deg, self.engagement.exit_deg):
+            near = np.broadcast_to(np.ravel(NEAR_CUSP * end), self.n)[pieces.design]
+            x = np.where(x == near, 0.0, x)
+        return pieces._replace(x=x)
 
     def at(
         self, x: Array, which: Which, order: int = 0, held: Array | None = None
     ) -> tuple[SignedInstant, list[LoadQuantity]]:
-        """The instants of some designs at places (m, k), degrees, and the quantities there."""
+        """The instants of some designs at places (m, k), degrees, and the quantities there.
+
+        Signs are known where ``held`` is not NaN.
+        """
         engagement, case, quantities = self._some(which)
-        at = contact(engagement, x, order, self.reactions)
-        return signed_instant(self.kinds, Instant(case, at), held, quantities[:1]), quantities
+        instant = Instant(case, contact(engagement, x, order, self.reactions))
+        out = SignedInstant(instant, [], [])
+        if "drives" not in self.kinds:
+            instant.drives = np.copysign(1.0, instant.wheel_torque_Nm.c[0])
+        for i, kind in enumerate(self.kinds):
+            known = SIGN_FUNCTIONS.get(kind)
+            jet = known(instant) if known else quantities[0](instant).value
+            assert jet is not None  # the kind is not among those that matter
+            sign = np.copysign(1.0, jet.c[0])
+            if held is not None:
+                sign = np.where(np.isnan(held[i]), sign, held[i])
+            if kind in ("drives", "slides", "feeds"):
+                setattr(instant, kind, sign)
+            out.signs.append(sign)
+            out.jets.append(jet)
+        return out, quantities
 
     def __call__(
         self,
@@ -142,24 +208,18 @@ class LoadFunctions:
         """Signs, and Taylor coefficients of the functions that have them and of the quantities."""
         signed, every = self.at(x, which, order, held)
         wanted = every if requested is None else [every[k] for k in requested]
+        rows = [QuantityValue(jet) for jet in signed.jets]
+        rows += [quantity(signed.instant) for quantity in wanted]
         # designs lie side by side in memory
-        shape = (self.signs + len(wanted), *x.shape[::-1])
+        shape = (len(rows), *x.shape[::-1])
         values = [np.empty(shape).swapaxes(1, 2) for _ in range(order + 1)]
-        rows = [*signed.jets]
-        lost: list[Mask | None] = [None] * self.signs
-        signs_of: list[Number] = [1.0] * self.signs
-        for quantity in wanted:
-            row = quantity(signed.instant)
-            rows.append(row.value)
-            lost.append(None if row.margin is None else self._lost(row.margin, signed))
-            signs_of.append(row.sign)
-        for i, jet in enumerate(rows):
+        for i, (jet, margin, sign) in enumerate(rows):
             for k, own in enumerate(values):
                 own[i] = jet.c[k] * DEGREE**k if k else jet.c[0]
-            unbounded = lost[i]
+            unbounded = None if margin is None else self._lost(margin, signed)
             if unbounded is not None and unbounded.any():
                 unbounded = np.broadcast_to(unbounded, x.shape)
-                values[0][i] = np.where(unbounded, np.inf * signs_of[i], values[0][i])
+                values[0][i] = np.where(unbounded, np.inf * sign, values[0][i])
                 for own in values[1:]:
                     own[i][unbounded] = 0.0
         positive = np.empty((self.signs, *x.shape[::-1]), dtype=bool).swapaxes(1, 2)
@@ -182,62 +242,48 @@ class LoadFunctions:
         return lost
 
 
-def kinds(engagement: Engagement, case: LoadCase, more: Sequence[str] = ()) -> list[str]:
-    """The signs that matter for these loads, and those requested in ``more``.
-
-    ``wanted`` is the sign of the first wanted quantity.
-    """
-    matters = {
-        "drives": not all_true(case.inertia_Nm == 0.0),
-        "slides": case.rubs,
-        "feeds": not all_true(case.efficiency == 1.0),
-        "grip": case.rubs or case.guided,
-        "leans": case.guided,
-        "edge": engagement.slot.curved and case.hertz is not None,
-    }
-    return [k for k in (*SIGN_FUNCTIONS, "wanted") if matters.get(k) or k in more]
+def on_breaks(x: Array, engagement: Engagement) -> Array:
+    """Places of designs, replaced by the breaks that they equal apart from rounding: (..., n)."""
+    near = NEGLIGIBLE * np.ravel(engagement.motion_deg)
+    for place in engagement.motion.breaks_deg:
+        at = np.ravel(place)
+        x = np.where(np.abs(x - at) <= near, at, x)
+    return x
 
 
-def signed_instant(
-    kinds: Sequence[str],
-    instant: Instant[Jet],
-    held: Array | None = None,
-    wanted: Sequence[LoadQuantity] = (),
-) -> SignedInstant:
-    """An instant with the signs of ``kinds``, which are known where ``held`` is not NaN.
-
-    ``wanted`` may have the quantity whose sign matters too.
-    """
-    out = SignedInstant(instant, [], [])
-    if "drives" not in kinds:
-        instant.drives = np.copysign(1.0, instant.wheel_torque_Nm.c[0])
-    for i, kind in enumerate(kinds):
-        jet = wanted[0](instant).value if kind == "wanted" else SIGN_FUNCTIONS[kind](instant)
-        assert jet is not None  # the kind is not among those that matter
-        sign = np.copysign(1.0, jet.c[0])
-        if held is not None:
-            sign = np.where(np.isnan(held[i]), sign, held[i])
-        if kind in ("drives", "slides", "feeds"):
-            setattr(instant, kind, sign)
-        out.signs.append(sign)
-        out.jets.append(jet)
-    return out
+def refuse_noise(integrals: Sequence[Array | None]) -> None:
+    """Raise GenevaError for integrals of noise, which ``span_integrals`` returns as NaN."""
+    if any(total is not None and np.isnan(total).any() for total in integrals):
+        raise GenevaError(
+            "the loads change within the last digits of the input angle, so that their means would "
+            "be rounding: make the drive more even",
+            ("drive", "kind"),
+        )
 
 
-def _spread_deg(engagement: Engagement, case: LoadCase) -> Array:
-    """Approximate distance from mid-motion of the nearest pole of velocity and forces, degrees.
+@lru_cache(maxsize=16)  # the cycle, the strength and the checks of a design need the same answer
+def refuse_rounding(engagements: tuple[Engagement, ...]) -> None:
+    """Raise GenevaError for a design that is too fast for the digits of its angles."""
+    for engagement in engagements:
+        (fastest,), (fraction,) = _digits(engagement)
+        if fraction > FEWEST_DIGITS:
+            raise GenevaError(
+                f"the wheel moves {fastest:.2g} times as fast as the input. The last digit of the "
+                f"input angle is {fraction:.1g} of its step, so the loads would be rounding. Make "
+                "the drive more even (elliptical gears: an eccentricity up to 0.999999)",
+                ("drive", "kind"),
+            )
 
-    It follows from their behaviour near mid-motion: a velocity as v / (1 + x²/w²), a wall's lever
-    as l sqrt(1 + x²/w²). Where friction holds a lever that vanishes there, w is the distance from
-    mid-motion at which it no longer does.
-    """
-    # not at mid-motion itself, where a curved slot may have no slopes
-    x = 0.01 * array(engagement.exit_deg)
-    _, _, lever, offset, *_ = at = contact(engagement, x, 2, reactions=False)
-    with np.errstate(all="ignore"):
-        w = np.fmin(pole_deg(at.velocity), math.sqrt(0.5) * pole_deg(lever))
-        if case.rubs:
-            grip = np.abs(lever.c[0]) + case.friction * np.abs(offset.c[0])
-            w = np.fmin(w, array(grip) / np.abs(lever.c[1]) / DEGREE)
-    # ten half motions: samples of a function without poles are not spread
-    return np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)
+
+def too_fast(engagements: Sequence[Engagement]) -> Mask:
+    """True for designs whose motion is too fast for the digits of its angles: (m,) or (1,)."""
+    fractions = [_digits(engagement)[1] for engagement in engagements]
+    return np.asarray(np.max(np.broadcast_arrays(*fractions), axis=0) > FEWEST_DIGITS)
+
+
+def _digits(engagement: Engagement) -> tuple[Array, Array]:
+    """The greatest velocity, and the step between two adjacent angles there over the whole step."""
+    fastest = motion_peaks(engagement.motion, ["velocity"])["velocity"].max
+    furthest = np.fmax(np.abs(engagement.entry_deg), np.abs(engagement.exit_deg))
+    step = np.ravel(np.spacing(furthest) * DEGREE / (2.0 * np.asarray(engagement.half_step)))
+    return fastest, fastest * step

@@ -15,32 +15,53 @@ designs are searched together, one block of designs after the other.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from typing import cast
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from functools import lru_cache
+from typing import Generic, NamedTuple, TypeVar, cast
 
 import numpy as np
 
 from geneva_cli.loads.contact import NEAR_CUSP
-from geneva_cli.loads.cycle_quantities import FORCE, SQUARED, STRESS, plain_values
+from geneva_cli.loads.cycle_quantities import (
+    FORCE,
+    NEVER_NEGATIVE,
+    PRESSED,
+    REPORTED_PEAKS,
+    SQUARED,
+    STRESS,
+    multiples,
+    plain_values,
+    sources,
+)
 from geneva_cli.loads.forces import LoadCase
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import NO_MORE, LoadFunctions, LoadQuantity
-from geneva_cli.loads.load_summary import (
-    EngagementExtremes,
-    LoadSummary,
-    sources_of,
-    summaries_from,
-)
-from geneva_cli.loads.stretches import on_breaks, spans_of
+from geneva_cli.loads.load_functions import NO_MORE, LoadFunctions, LoadQuantity, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Number, Which, Whole, array, matrix_product
+from geneva_cli.numerics.arrays import Which, Whole, array, matrix_product
 from geneva_cli.numerics.cuts import gathered, spread
-from geneva_cli.numerics.extremes import SearchResult, search
+from geneva_cli.numerics.extremes import SearchResult, first_greatest
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
+
+S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of a batch
+
+
+class LoadSummary(NamedTuple, Generic[S]):
+    """Greatest and least over the motions, mean and root mean square over a period.
+
+    Input angles are as shown; values are infinite if unbounded. Each is (m,) for m designs, or a
+    number of one; as it is printed, None for a value that is not known.
+    """
+
+    max: S
+    max_at_deg: S
+    min: S
+    min_at_deg: S
+    mean: S | None = None  # None if not requested
+    rms: S | None = None
 
 
 def load_peaks(
@@ -59,7 +80,7 @@ def load_peaks(
     source_of = {n: FORCE if flat and n == STRESS and case.hertz is not None else n for n in names}
     sought = list(dict.fromkeys(source_of.values()))
     for engagement in mechanism.engagements:
-        result = search_loads(LoadFunctions(engagement, case, sought, own), sized=True)
+        result = LoadFunctions(engagement, case, sought, own).search(sized=True)
         at_deg = shown_deg(mechanism, engagement, result.x)
         for name, *row in zip(sought, result.most, at_deg, strict=True):
             here = PeakArray(*row)
@@ -74,47 +95,152 @@ def load_peaks(
     return out
 
 
+def reported_peaks(
+    mechanism: Mechanism, names: Iterable[str] = REPORTED_PEAKS
+) -> Mapping[str, PeakArray]:
+    """The greatest sizes of those of ``REPORTED_PEAKS`` that a machine has, by their names there.
+
+    Those of a single design are all computed together, so that digits do not depend on ``names``.
+    """
+    single = isinstance(mechanism.design, int)
+    return _single_peaks(mechanism) if single else _reported(mechanism, names)
+
+
+@lru_cache(maxsize=16)
+def _single_peaks(mechanism: Mechanism) -> Mapping[str, PeakArray]:
+    return _reported(mechanism, REPORTED_PEAKS)
+
+
+def _reported(mechanism: Mechanism, names: Iterable[str]) -> dict[str, PeakArray]:
+    known = sources(mechanism)
+    factors = {name: known[own] for name in names if (own := REPORTED_PEAKS[name]) in known}
+    sought = [*dict.fromkeys(source for source, _ in factors.values())]
+    peaks = load_peaks(mechanism, sought) if sought else {}
+    return {
+        name: PeakArray(peaks[source].max * np.ravel(factor), peaks[source].at_deg)
+        for name, (source, factor) in factors.items()
+    }
+
+
 def load_summaries(
     mechanism: Mechanism, names: Sequence[str], requested: Collection[str] = ("mean", "rms")
-) -> dict[str, LoadSummary[Array]]:
+) -> Mapping[str, LoadSummary[Array]]:
     """The summaries of quantities over a period, by their names; signs kept.
 
     Extremes are exact to some units in the last place of a quantity's greatest size. Means and root
     mean squares are within 1e-12 of that size: quadrature errors of 2e-13 add up over stretches
     that may cancel. ``requested`` selects mean and rms; the other is None.
     """
-    mechanism = mechanism.under_load
-    _, sources = sources_of(mechanism, names)
-    case, each = load_case(mechanism), []
+    if isinstance(mechanism.design, int) and set(names) <= sources(mechanism).keys():
+        known_ones = single_summaries(mechanism)
+        return {name: known_ones[name] for name in names}
+    return _summaries(mechanism.under_load, names, requested)
+
+
+@lru_cache(maxsize=16)
+def single_summaries(mechanism: Mechanism) -> Mapping[str, LoadSummary[Array]]:
+    """The summaries of all quantities that a single design has, which are computed together."""
+    return _summaries(mechanism.under_load, [*sources(mechanism)], ("mean", "rms"))
+
+
+def _summaries(
+    mechanism: Mechanism, names: Sequence[str], requested: Collection[str]
+) -> dict[str, LoadSummary[Array]]:
+    known = multiples(mechanism)
+    every = {name: known.get(name, (name, 1.0, ""))[:2] for name in names}
+    sources = list(dict.fromkeys(source for source, _ in every.values()))
+    case, plain, ends, totals = load_case(mechanism), "mean" in requested, [], []
     for engagement in mechanism.engagements:
         load = LoadFunctions(engagement, case, sources)
-        result = search_loads(load)
-        total = sums_of(load, result, "mean" in requested) if requested else None
-        at_deg = shown_deg(mechanism, engagement, result.x)
-        each.append(EngagementExtremes(result.most, at_deg, total))
-    return summaries_from(mechanism, names, each, "mean" in requested)
+        result = load.search()
+        ends.append(np.stack((result.most, shown_deg(mechanism, engagement, result.x))))
+        if requested:
+            totals.append(_sums_of(load, result, plain))
+    means = _means(mechanism, sources, totals, plain) if requested else {}
+    best = {}
+    for i, name in enumerate(sources):
+        # the greatest values of the quantities' negatives follow
+        (most, most_at), (less, less_at) = (
+            np.stack([one[:, k] for one in ends], axis=1) for k in (i, i + len(sources))
+        )
+        size = np.where(np.isfinite(both := np.abs((most, less))), both, 0.0).max(axis=(0, 1))
+        (most, most_at), (less, less_at) = (
+            first_greatest(*side, size) for side in ((most, most_at), (less, less_at))
+        )
+        most, least = _ends_of(name, most, -less)
+        best[name] = LoadSummary(most, most_at, least, less_at, *means.get(name, (None, None)))
+    return {
+        name: _multiple(best[source], np.ravel(factor))
+        for name, (source, factor) in every.items()
+        if factor is not None
+    }
 
 
-def search_loads(load: LoadFunctions, sized: bool = False) -> SearchResult:
-    """The extremes of designs' loads over a motion, and its stretches."""
-    spans = spans_of(load.engagement, load.n)
-    if sized and load.repeats:
-        spans = spans[: len(spans) // 2]
-    return search(load, spans, sized, load.at_mid_motion(), load.spread)
+def _multiple(one: LoadSummary[Array], factor: Array) -> LoadSummary[Array]:
+    """The summary of a multiple of the quantity."""
+    mean, rms = (None if v is None else v * factor for v in one[4:])
+    return LoadSummary(
+        one.max * factor, one.max_at_deg, one.min * factor, one.min_at_deg, mean, rms
+    )
+
+
+def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
+    """Greatest and least of a quantity, from those of its square or of itself.
+
+    Where the torque changes sign, rounding may leave a size below 0. Either value is replaced by 0
+    if it is below 1e-14 of the other.
+    """
+    ends = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else x for x in (most, least)]
+    if name in SQUARED and name not in PRESSED:
+        ends = [np.sqrt(x) for x in ends]
+    level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in ends])
+    ends = [np.where(np.abs(x) > level, x, 0.0) for x in ends]
+    # the square of a stress goes with the force, and has its rounding
+    return [np.sqrt(x) for x in ends] if name in PRESSED else ends
+
+
+def _means(
+    mechanism: Mechanism, names: Sequence[str], each: Sequence[Array], plain: bool
+) -> dict[str, tuple[Array | None, Array]]:
+    """Mean and root mean square of quantities over a period, dwells included: (m,) each.
+
+    ``each`` are the results of ``_sums_of`` over each engagement. Of bearings they are the greatest
+    crank's, of wheels one wheel's: the cranks work in turn, and so do the wheels on a carrier.
+    Without ``plain`` the mean is None.
+    """
+    of_wheel = ("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N")
+    cranks, wheels = (
+        len(mechanism.spec.drive.cranks),
+        max(1, mechanism.spec.drive.wheels_on_carrier),
+    )
+    total: Array = np.sum(each, axis=0)
+    for i in range(len(total)):
+        if names[i % len(names)] in of_wheel:
+            total[i] /= wheels
+        if names[i % len(names)] == "crank_bearing_N" and cranks > 1:
+            own = [sum(one[i] for one in each[k::cranks]) for k in range(min(cranks, len(each)))]
+            total[i] = np.max(own, axis=0) * min(1.0, len(each) / cranks)
+    total /= np.ravel(mechanism.period_deg) * DEGREE
+    out: dict[str, tuple[Array | None, Array]] = {}
+    for i, name in enumerate(names):
+        square, mean = total[i], None
+        if plain:
+            mean = total[len(names) + i]
+            # a mean whose square is so small a fraction of the mean square is rounding
+            nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
+            mean = np.where(nought, 0.0, mean)
+        out[name] = mean, np.sqrt(square)
+    return out
 
 
 def shown_deg(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
     """Input angles of an engagement, (rows, m), as they are shown."""
     places = np.reshape(engagement.mid_deg, (-1, 1)) + on_breaks(x, engagement).T
-    rows = [_shown(mechanism, places[:, i : i + 1]) for i in range(len(x))]
-    return np.hstack([np.broadcast_to(row, (x.shape[1], 1)) for row in rows]).T
+    shown = [mechanism.shown_deg(cast("float", places[:, i : i + 1])) for i in range(len(x))]
+    return np.hstack([np.broadcast_to(row, (x.shape[1], 1)) for row in shown]).T
 
 
-def _shown(mechanism: Mechanism, places: Array) -> Number:
-    return mechanism.shown_deg(cast("float", places))
-
-
-def sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
+def _sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
     """The integrals by the angle in radians of the squares and, with ``plain``, of the quantities.
 
     They are over the stretches of a search, (names, n) for each, and infinite for quantities
@@ -133,35 +259,25 @@ def sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
         width = w[which, None]
         x, rate = gathered(u, width), np.hypot(1.0, np.sinh(u / width))
         x = np.clip(x, a[which, None], b[which, None])
-        return powers(load, x, design[which], signs[:, which, None], plain) * rate
+        return _powers(load, x, design[which], signs[:, which, None], plain) * rate
 
     rooted = plain and any(name in SQUARED for name in load.names)
     needed = np.tile(bounded, (2 if plain else 1, 1))
     with np.errstate(all="ignore"):
-        spans = Integrands(rows, spread(a, w), spread(b, w), rooted)
-        total = span_integrals(spans, design, needed)
+        total = span_integrals(Integrands(rows, spread(a, w), spread(b, w), rooted), design, needed)
         if load.engagement.slot.curved:
-            total += _to_mid_motion(load, plain)
+            # No stretch reaches mid-motion. The integral of a cubic from 0 to 1 follows from its
+            # values at 1, 2 and 3 (Adams and Bashforth).
+            places, weights = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
+            for end in (load.engagement.entry_deg, load.engagement.exit_deg):
+                near = np.broadcast_to(np.reshape(NEAR_CUSP * end, (-1, 1)), (n, 1))
+                values = _powers(load, near * places, slice(0, n), None, plain)
+                total = total + matrix_product(values, weights) * np.abs(near[:, 0])
     total[~needed] = np.inf
     return total * DEGREE
 
 
-def _to_mid_motion(load: LoadFunctions, plain: bool) -> Array:
-    """The integrals of ``sums_of`` next to mid-motion of curved slots, by the angle in degrees.
-
-    No stretch reaches there. The integral of a cubic from 0 to 1 follows from its values at 1, 2
-    and 3 (Adams and Bashforth).
-    """
-    places, weights = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
-    total = np.zeros(1)
-    for end in (load.engagement.entry_deg, load.engagement.exit_deg):
-        near = np.broadcast_to(np.reshape(NEAR_CUSP * end, (-1, 1)), (load.n, 1))
-        values = powers(load, near * places, slice(0, load.n), None, plain)
-        total = total + matrix_product(values, weights) * np.abs(near[:, 0])
-    return total
-
-
-def powers(load: LoadFunctions, x: Array, which: Which, signs: Array | None, plain: bool) -> Array:
+def _powers(load: LoadFunctions, x: Array, which: Which, signs: Array | None, plain: bool) -> Array:
     """The squares of the quantities and, with ``plain``, the quantities themselves after them."""
     (here, *_), wanted = load.at(x, which, 0, signs)
     count = len(load.names)

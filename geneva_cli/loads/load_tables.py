@@ -10,42 +10,24 @@ from typing import Any
 import numpy as np
 
 from geneva_cli.errors import Notice
-from geneva_cli.loads.cycle import Cycle, greatest
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import (
     PRESSED,
     PV,
-    REPORTED_PEAKS,
     STRESS,
     known_quantities,
     multiples,
-    plain_of,
     sources,
 )
-from geneva_cli.loads.load_summary import LoadSummary
-from geneva_cli.numerics.jet import Array
+from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
 SHOWN_QUANTITIES = (
-    "omega_rad_s",
-    "alpha_rad_s2",
-    "wheel_torque_Nm",
-    "pin_force_N",
-    STRESS,
-    "sliding_m_s",
-    "input_torque_Nm",
-    "power_W",
-    "wheel_bearing_N",
-    "crank_bearing_N",
+    *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N", STRESS, "sliding_m_s"),
+    *("input_torque_Nm", "power_W", "wheel_bearing_N", "crank_bearing_N"),
     # what only some machines have stands behind the columns that scripts count
-    PV,
-    "rack_speed_m_s",
-    "rack_acceleration_m_s2",
-    "rack_force_N",
-    "guide_force_N",
-    "wheel_near_bearing_N",
-    "wheel_far_bearing_N",
-    "crank_near_bearing_N",
-    "crank_far_bearing_N",
+    *(PV, "rack_speed_m_s", "rack_acceleration_m_s2", "rack_force_N", "guide_force_N"),
+    *("wheel_near_bearing_N", "wheel_far_bearing_N", "crank_near_bearing_N", "crank_far_bearing_N"),
 )
 
 
@@ -58,10 +40,10 @@ def summaries(cycle: Cycle) -> Mapping[str, LoadSummary[float | None]]:
     """
     known, none = cycle.extremes, [None] * len(LoadSummary._fields)
     out = {name: LoadSummary(*map(_finite, known.get(name, none))) for name in SHOWN_QUANTITIES}
-    for name in REPORTED_PEAKS:
-        if name in known and name in out:
-            peak = greatest(cycle.mechanism, name)
-            out[name] = out[name]._replace(max=_finite(peak.max), max_at_deg=peak.at_deg)
+    for name, (most, at_deg) in cycle.peaks.items():
+        if name in out:
+            one = {"max": _finite(most.item()), "max_at_deg": at_deg.item()}
+            out[name] = out[name]._replace(**one)
     return out
 
 
@@ -156,22 +138,17 @@ def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
 
     input_deg = inputs(cycle.mechanism, samples, begin, end)
     states = cycle.states(input_deg)
-    searched = {name: plain_of(states, name) for name in known_quantities(cycle.mechanism)}
-    columns = {
-        name: searched[source] * factor
-        for name, (source, factor) in sources(cycle.mechanism).items()
-    }
-    none = [None] * len(input_deg)
-    return [
+    known = sources(cycle.mechanism)
+    out = [
         times_s(cycle.mechanism, input_deg),
         input_deg,
         derivatives(cycle.mechanism, input_deg, (0,))[0] * cycle.mechanism.output.per_radian,
-        *[_cells(columns[name]) if name in columns else none for name in SHOWN_QUANTITIES],
     ]
-
-
-def _cells(values: Array) -> Any:
-    """A column of a table: None for unbounded values."""
-    if np.isfinite(values).all():
-        return values
-    return [x if math.isfinite(x) else None for x in values.tolist()]
+    for name in SHOWN_QUANTITIES:
+        column: Any = [None] * len(input_deg)
+        if name in known:
+            column = cycle.plain(states, name)
+            if not np.isfinite(column).all():
+                column = [x if math.isfinite(x) else None for x in column.tolist()]
+        out.append(column)
+    return out

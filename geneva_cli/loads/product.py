@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -62,68 +63,47 @@ def product_motion(mechanism: Mechanism) -> ProductMotion | None:
     >>> round(product_motion(dial).travel_mm.item(), 6)
     314.159265
     """
-    product, m = mechanism.spec.product, mechanism.designs
+    spec, product, m = mechanism.spec, mechanism.spec.product, mechanism.designs
     if not product.lies:
         return None
-    ratio = _each(mechanism.spec.support.gear_ratio, m)
-    w = _each(omega(mechanism.spec.drive.n_rpm), m)
-    radius_mm = _each(_radius_mm(mechanism), m)
-    scale = 1e-3 * radius_mm * ratio * w
-    straight = product.runs_straight
+    radius_mm = product.radius_mm
+    if radius_mm is None:
+        assert product.sprocket_teeth is not None and product.pitch_mm is not None
+        radius_mm = product.sprocket_teeth * product.pitch_mm / (2.0 * math.pi)
+    steps = [2.0 * one.half_step for one in mechanism.engagements]
+    ratio, w, r_mm, *each = (
+        np.broadcast_to(np.ravel(x), m)
+        for x in (spec.support.gear_ratio, omega(spec.drive.n_rpm), radius_mm, *steps)
+    )
+    step, scale = np.max(each, axis=0), 1e-3 * r_mm * ratio * w
     peaks = worst_peaks(mechanism, ["velocity", "acceleration", "jerk"])
     velocity, along, jerk = (peaks[name] for name in ("velocity", "acceleration", "jerk"))
     orbit = np.zeros(m)
-    if mechanism.frame:
-        velocity = _from_ground(mechanism, velocity)
-        orbit = _each(1e-3 * mechanism.center_distance_mm, m) * w
-    squared = np.zeros(m) if straight else ratio * velocity.max**2
-    inwards = PeakArray(squared, velocity.at_deg)
+    if mechanism.frame:  # from the ground the greatest velocity is at least that of the dwell, 1
+        orbit = 1e-3 * np.ravel(mechanism.center_distance_mm) * w
+        most, first = abs(mechanism.frame + velocity.max), mechanism.engagements[0]
+        entry = np.ravel(mechanism.shown_deg(first.mid_deg + first.entry_deg))
+        at_deg = np.where(most > 1.0, velocity.at_deg, entry)
+        velocity = PeakArray(np.maximum(most, 1.0), at_deg)
+    straight = product.runs_straight
+    inwards = PeakArray(np.zeros(m) if straight else ratio * velocity.max**2, velocity.at_deg)
     both = along if straight else _resultant(mechanism, ratio)
-    acceleration = _raised(_scaled(both, scale * w), orbit * w)
-    step = np.max(
-        [np.broadcast_to(np.ravel(2.0 * one.half_step), m) for one in mechanism.engagements], axis=0
-    )
-    lies_flat = mechanism.spec.support.axis == "vertical"
+
+    def scaled(peak: PeakArray, by: Array, more: Array | float = 0.0) -> PeakArray:
+        return PeakArray(np.broadcast_to(peak.max * by + more, m), peak.at_deg)
+
+    acceleration, none = scaled(both, scale * w, orbit * w), np.full(m, np.nan)
     return ProductMotion(
-        radius_mm * ratio * step,
-        np.full(m, np.nan) if straight else 2.0 * radius_mm * abs(np.sin(0.5 * ratio * step)),
-        _raised(_scaled(velocity, scale), orbit),
-        _scaled(along, scale * w),
-        _scaled(inwards, scale * w),
+        r_mm * ratio * step,
+        none if straight else 2.0 * r_mm * abs(np.sin(0.5 * ratio * step)),
+        scaled(velocity, scale, orbit),
+        scaled(along, scale * w),
+        scaled(inwards, scale * w),
         acceleration,
-        _scaled(jerk, scale * w * w),
-        acceleration.max / G if lies_flat else np.full(m, np.nan),
-        radius_mm * ratio * _swing(mechanism),
+        scaled(jerk, scale * w * w),
+        acceleration.max / G if spec.support.axis == "vertical" else none,
+        r_mm * ratio * _swing(mechanism),
     )
-
-
-def _radius_mm(mechanism: Mechanism) -> float:
-    """The product's distance from the axis; of a sprocket its chain's travel per radian."""
-    product = mechanism.spec.product
-    if product.radius_mm is not None:
-        return product.radius_mm
-    assert product.sprocket_teeth is not None and product.pitch_mm is not None
-    return product.sprocket_teeth * product.pitch_mm / (2.0 * math.pi)
-
-
-def _each(value: float | Array, m: int) -> Array:
-    return np.broadcast_to(np.ravel(value), m)
-
-
-def _scaled(peak: PeakArray, scale: Array) -> PeakArray:
-    return PeakArray(np.broadcast_to(peak.max * scale, len(scale)), peak.at_deg)
-
-
-def _raised(peak: PeakArray, by: Array) -> PeakArray:
-    return peak._replace(max=peak.max + by)
-
-
-def _from_ground(mechanism: Mechanism, velocity: PeakArray) -> PeakArray:
-    """The peak of a velocity from the ground, over the carrier's; at rest it is 1."""
-    most = abs(mechanism.frame + velocity.max)
-    first = mechanism.engagements[0]
-    entry = _each(mechanism.shown_deg(first.mid_deg + first.entry_deg), len(most))
-    return PeakArray(np.maximum(most, 1.0), np.where(most > 1.0, velocity.at_deg, entry))
 
 
 def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
@@ -131,27 +111,21 @@ def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
 
     On a carrier V is the velocity from the ground.
     """
-    best: PeakArray | None = None
-    for engagement in mechanism.engagements:
-        size, at_deg = _greatest_square(engagement, ratio, mechanism.frame)
-        place = engagement.mid_deg + parameter(at_deg[:, None])
-        here = PeakArray(np.sqrt(size), np.ravel(mechanism.shown_deg(place)))
-        best = here if best is None else greater(best, here)
-    assert best is not None  # a machine has an engagement
-    return best
 
+    def greatest(engagement: Engagement) -> PeakArray:
+        some = selection(engagement.motion)
 
-def _greatest_square(engagement: Engagement, ratio: Array, frame: float) -> tuple[Array, Array]:
-    motion, some = engagement.motion, selection(engagement.motion)
+        def square(x: Array, which: Which, order: int, _: Sequence[int]) -> list[tuple[Array, ...]]:
+            rate = some(which).rate(x, order + 1)
+            velocity, acceleration = rate.lower + mechanism.frame, rate.derivative()
+            turned = velocity * velocity * ratio[which][:, None]
+            return [(acceleration * acceleration + turned * turned).arrays()]
 
-    def square(x: Array, which: Which, order: int, _: Sequence[int]) -> list[tuple[Array, ...]]:
-        rate = some(which).rate(x, order + 1)
-        velocity, acceleration = rate.lower + frame, rate.derivative()
-        turned = velocity * velocity * ratio[which][:, None]
-        return [(acceleration * acceleration + turned * turned).arrays()]
+        most, x, _ = search_motion(engagement.motion, Smooth(square, unit=DEGREE))
+        place = engagement.mid_deg + parameter(x[0][:, None])
+        return PeakArray(np.sqrt(most[0]), np.ravel(mechanism.shown_deg(place)))
 
-    most, x, _ = search_motion(motion, Smooth(square, unit=DEGREE))
-    return most[0], x[0]
+    return reduce(greater, map(greatest, mechanism.engagements))
 
 
 def _swing(mechanism: Mechanism) -> Array:
@@ -165,8 +139,9 @@ def _swing(mechanism: Mechanism) -> Array:
     product, m = mechanism.spec.product, mechanism.designs
     if product.swing_Hz is None:
         return np.full(m, np.nan)
-    ratio = _each(timings(mechanism)[0].motion_s * product.swing_Hz, m)
+    periods = timings(mechanism)[0].motion_s * product.swing_Hz
+    ratio, zeta = (np.broadcast_to(np.ravel(x), m) for x in (periods, product.swing_damping))
     known = (ratio >= PERIOD_RATIO.low) & (ratio <= PERIOD_RATIO.high)
-    swing = Oscillator(np.where(known, ratio, 1.0), _each(product.swing_damping, m))
+    swing = Oscillator(np.where(known, ratio, 1.0), zeta)
     left_deg = Oscillators(mechanism, swing).residual_deg.max(axis=0)
     return np.where(known, np.radians(left_deg), np.nan)

@@ -13,31 +13,29 @@ array([26.8019, 28.3356])
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2, support_torque_Nm, working_torque_Nm
 from geneva_cli.loads.cycle_quantities import TORQUE
-from geneva_cli.loads.fluctuation import fluctuations, flywheel_kgm2
-from geneva_cli.loads.indexer_formula import IndexerFormula, ShaftLoad, indexer_formula
+from geneva_cli.loads.fluctuation import fluctuations
+from geneva_cli.loads.indexer_formula import ShaftLoad, indexer_formula
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_peaks import load_summaries
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
-from geneva_cli.motion.timing import CamFactors, cam_factors
-from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.motion.timing import cam_factors
+from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import Array, Number, choose_record, parameter
 
 if TYPE_CHECKING:
     from geneva_cli.loads.cycle import Cycle
 
-Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``FORMULA_PEAKS``
 CARRIED = ("inertia_kgm2", "motor_rpm")
 CAM_FACTORS = ("acceleration_rad_s2", "Am", "Vm", "Qm")
 KNOWN_UNLOADED = (*CARRIED, *CAM_FACTORS)  # known without a load
@@ -52,7 +50,6 @@ CYCLE_SUMS = (
     "motor_torque_rms_Nm",
 )
 EXTREMES = ("motor_torque_max_Nm", "input_torque_ratio")
-FORMULA_PEAKS = ("velocity", "acceleration", "power")  # of each motion, for the cam-indexer formula
 ROTOR = ("inertia_ratio", "coasting_speed_share")
 # all but the wheel's own inertia, which follows from its outline
 SIZING_NAMES = (*CARRIED, *CAM_FACTORS, *INDEXER_FORMULA, *CYCLE_SUMS, *EXTREMES, *ROTOR)
@@ -75,18 +72,21 @@ SHOWN_SIZING = (
 
 
 @lru_cache(maxsize=16)
-def sizing(cycle: Cycle) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
-    """The values of one design in the order shown, and the keys that missing values need."""
-    spec = cycle.mechanism.spec
-    names, torque = (
-        (SIZING_NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (KNOWN_UNLOADED, None)
-    )
-    rows = sizings(cycle.mechanism, names, torque, cycle.peaks)
-    lacks = cycle.mechanism.output.lacks
+def sizing(
+    cycle: Cycle, wheel_inertia_kgm2: float | None = None
+) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
+    """The values of one design in the order shown, and the keys that missing values need.
+
+    The wheel's own inertia is known from its parts.
+    """
+    spec, lacks = cycle.mechanism.spec, cycle.mechanism.output.lacks
+    torque = cycle.known[TORQUE] if cycle.is_loaded else None
+    rows = sizings(cycle.machine, SIZING_NAMES if torque else KNOWN_UNLOADED)
     values = {name: float(row[0]) for name, row in rows.items() if name not in lacks}
     out = {
         name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN_SIZING
     }
+    out[WHEEL_INERTIA] = wheel_inertia_kgm2
     if torque is None:
         return out, ()
     needs = []
@@ -102,17 +102,9 @@ def sizing(cycle: Cycle) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
         needs.append("inertia_ratio, coasting_speed_share: need inertia_kgm2 in [motor]")
     elif cycle.mechanism.unbalanced:
         needs.append("inertia_ratio, coasting_speed_share: need masses on the wheel's axis")
+    if wheel_inertia_kgm2 is None:
+        needs.append(f"{WHEEL_INERTIA}: {_unweighed(spec)}")
     return out, tuple(needs)
-
-
-def sizing_with_wheel(
-    cycle: Cycle, wheel_inertia_kgm2: float | None
-) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
-    """The sizing with the wheel's own inertia, which is known from its parts, and what it needs."""
-    values, needed = sizing(cycle)
-    if cycle.is_loaded and wheel_inertia_kgm2 is None:
-        needed = *needed, f"{WHEEL_INERTIA}: {_unweighed(cycle.mechanism.spec)}"
-    return {**values, WHEEL_INERTIA: wheel_inertia_kgm2}, needed
 
 
 def _unweighed(spec: Spec) -> str:
@@ -124,38 +116,26 @@ def _unweighed(spec: Spec) -> str:
     return "needs a wheel that can be cut; `geneva profile` shows why it cannot"
 
 
-def sizings(
-    mechanism: Mechanism,
-    requested: Collection[str] = SIZING_NAMES,
-    torque: LoadSummary[Array] | None = None,
-    peaks: Sequence[Peaks] | None = None,
-) -> dict[str, Array]:
+def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> dict[str, Array]:
     """Values of ``SIZING_NAMES``: (m,), or (1,) for values equal in all designs; NaN if undefined.
 
-    Names that are not ``requested`` may be included. ``torque`` is the summary of the
-    input's torque, and ``peaks`` are each engagement's greatest velocity, acceleration and power,
-    as invariants, if known already.
+    Names that are not ``requested`` may be included.
     """
-    mechanism = mechanism.under_load
-    spec, case, names = mechanism.spec, load_case(mechanism), set(requested)
+    whole, names = mechanism.under_load, set(requested)
+    spec, case = whole.spec, load_case(whole)
     loaded = np.ravel(case.inertia_Nm + case.resists_Nm > 0.0)
-    values: dict[str, Number] = {}
-    if names & set(CARRIED):
-        rpm = spec.drive.n_rpm * spec.motor.ratio
-        values |= {"inertia_kgm2": _some(inertia_kgm2(spec)), "motor_rpm": rpm}
-    by_formula = bool(names & {*CAM_FACTORS, *INDEXER_FORMULA, "input_torque_ratio"})
-    if peaks is None:
-        sought = FORMULA_PEAKS if by_formula else FORMULA_PEAKS[:1] if names & set(ROTOR) else ()
-        peaks = [_peaks(engagement, sought) for engagement in mechanism.engagements]
-    if by_formula:
-        values |= _by_formula(mechanism, peaks)
+    values: dict[str, Number] = {
+        "inertia_kgm2": _some(inertia_kgm2(spec)),
+        "motor_rpm": spec.drive.n_rpm * spec.motor.ratio,
+    }
+    if names & {*CAM_FACTORS, *INDEXER_FORMULA, "input_torque_ratio"}:
+        values |= _by_formula(whole)
     if names & {*CYCLE_SUMS, *EXTREMES}:
-        if torque is None:
-            means = ("mean", "rms") if names & set(CYCLE_SUMS) else ()
-            torque = load_summaries(mechanism, [TORQUE], means)[TORQUE]
-        values |= _exact(mechanism, torque, values.get("input_torque_Nm"))
+        means = ("mean", "rms") if names & set(CYCLE_SUMS) else ()
+        torque = load_summaries(mechanism, [TORQUE], means)[TORQUE]
+        values |= _exact(whole, torque, values.get("input_torque_Nm"))
     if names & set(ROTOR):
-        values |= _rotor(mechanism, [velocity for velocity, *_ in peaks])
+        values |= _rotor(whole)
     return {
         name: np.ravel(row) if name in KNOWN_UNLOADED else np.where(loaded, np.ravel(row), np.nan)
         for name, row in values.items()
@@ -167,25 +147,46 @@ def _some(x: Number) -> Array:
     return np.where(np.asarray(x) > 0.0, x, np.nan)
 
 
-def _peaks(engagement: Engagement, names: Sequence[str]) -> Peaks:
-    """The greatest values of these quantities, (m, 1) each."""
-    peaks = motion_peaks(engagement.motion, names) if names else {}
-    return tuple(parameter(peaks[name].max[:, None]) for name in names)
+def _peaks(engagement: Engagement, *names: str) -> list[float]:
+    """The greatest values of quantities of a motion, as invariants: (m, 1) each."""
+    peaks = motion_peaks(engagement.motion, names)
+    return [parameter(peaks[name].max[:, None]) for name in names]
 
 
-def _by_formula(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Number]:
+def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     """The cam-indexer formula, for the engagement with the greatest torque at the input."""
-    spec, w = mechanism.spec, load_case(mechanism).speed_rad_s
-    line, factors = greatest_formula(mechanism, peaks)
+    spec, best = mechanism.spec, None
+    load = ShaftLoad(
+        inertia_kgm2(spec),
+        support_torque_Nm(spec),
+        working_torque_Nm(spec),
+        spec.motor.service_factor,
+        mechanism.frame,
+    )
+    for number, engagement in enumerate(mechanism.engagements):
+        step, motion = mechanism.index_deg(number), engagement.motion_deg
+        velocity, acceleration, power = _peaks(engagement, "velocity", "acceleration", "power")
+        factors = cam_factors(velocity, acceleration, power, motion, step)
+        line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load)
+        if best is None:
+            best = line, factors
+            continue
+        first = best[0]
+        more = (line.Tc > first.Tc) | ((line.Tc == first.Tc) & (line.alpha > first.alpha))
+        best = choose_record(more, (line, factors), best)
+    assert best is not None  # a machine has an engagement
+    line, factors = best
     return {
         "acceleration_rad_s2": line.alpha,
         **factors._asdict(),
         "inertia_torque_Nm": _some(line.Ti),
-        "friction_torque_Nm": _some(support_torque_Nm(spec)),
+        "friction_torque_Nm": _some(load.friction),
         "total_torque_Nm": line.Tt,
         "design_torque_Nm": line.Te,
         "input_torque_Nm": line.Tc,
-        "power_W": w * line.Tc / (spec.load.efficiency * spec.motor.gear_efficiency),
+        "power_W": omega(spec.drive.n_rpm)
+        * line.Tc
+        / (spec.load.efficiency * spec.motor.gear_efficiency),
     }
 
 
@@ -195,9 +196,9 @@ def _exact(
     """Motor and flywheel from the exact cycle; NaN if the torque is unbounded.
 
     The reducer's losses count whether it drives or is driven. At constant speed the rotor's own
-    inertia takes no torque.
+    inertia takes no torque. A flywheel keeps the variation Cs of the mean speed: dE / (Cs w²).
     """
-    motor, w = mechanism.spec.motor, load_case(mechanism).speed_rad_s
+    motor, w = mechanism.spec.motor, omega(mechanism.spec.drive.n_rpm)
     eta, bounded = motor.gear_efficiency, np.isfinite(torque.max) & np.isfinite(torque.min)
     most, least = (np.where(bounded, x, np.nan)[:, None] for x in (torque.max, torque.min))
     driven = np.maximum(most / eta, -least * eta)
@@ -213,19 +214,19 @@ def _exact(
     swings = fluctuations(mechanism, mean)
     energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
     # the part of the mean square where the wheel drives the input
-    returned = (swings.returned / np.ravel(mechanism.under_load.period_deg * DEGREE))[:, None]
+    returned = (swings.returned / np.ravel(mechanism.period_deg * DEGREE))[:, None]
     spent = np.maximum(square[:, None] - returned, 0.0)
     out["energy_fluctuation_J"] = energy
     out["motor_torque_rms_Nm"] = np.sqrt(spent / eta**2 + returned * eta**2) / motor.ratio
     if motor.speed_variation is not None:
-        whole = flywheel_kgm2(parameter(energy), motor.speed_variation, w)
+        whole = energy / (motor.speed_variation * w * w)
         out["flywheel_kgm2"] = whole
         # the motor has some inertia of its own, at the input shaft
         out["flywheel_to_add_kgm2"] = np.maximum(whole - motor.inertia_kgm2 * motor.ratio**2, 0.0)
     return out
 
 
-def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Number]:
+def _rotor(mechanism: Mechanism) -> dict[str, Number]:
     """The values of ``ROTOR``; NaN for designs whose motor's own inertia is not known.
 
     They are the ratio of the wheel's inertia at its fastest to the motor's, and the coasting speed.
@@ -236,6 +237,7 @@ def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Numbe
     spec, frame = mechanism.spec, mechanism.frame
     own, motor = inertia_kgm2(spec), spec.motor.inertia_kgm2 * spec.motor.ratio**2
     others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
+    velocities = [_peaks(engagement, "velocity")[0] for engagement in mechanism.engagements]
     fastest = np.max(np.broadcast_arrays(*velocities), axis=0)
     with np.errstate(all="ignore"):
         still, mu = (
@@ -245,33 +247,3 @@ def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Numbe
     # a body off the wheel's axis stores and returns energy, which these do not count
     known = (np.asarray(spec.motor.inertia_kgm2) > 0.0) & (not mechanism.unbalanced)
     return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
-
-
-def greatest_formula(
-    mechanism: Mechanism, peaks: Sequence[Peaks]
-) -> tuple[IndexerFormula, CamFactors]:
-    """The cam-indexer formula with the greatest torque at the input, and its motion's factors.
-
-    ``peaks`` are each engagement's ``FORMULA_PEAKS``, as invariants.
-    """
-    spec = mechanism.spec
-    load = ShaftLoad(
-        inertia_kgm2(spec),
-        support_torque_Nm(spec),
-        working_torque_Nm(spec),
-        spec.motor.service_factor,
-        mechanism.frame,
-    )
-    every = []
-    for number, (engagement, peak) in enumerate(zip(mechanism.engagements, peaks, strict=True)):
-        step, motion = mechanism.index_deg(number), engagement.motion_deg
-        velocity, acceleration, power = peak
-        factors = cam_factors(velocity, acceleration, power, motion, step)
-        line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load)
-        every.append((line, factors))
-    best, *others = every
-    for other in others:
-        (one, _), (two, _) = best, other
-        more = (two.Tc > one.Tc) | ((two.Tc == one.Tc) & (two.alpha > one.alpha))
-        best = choose_record(more, other, best)
-    return best

@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.figure import Piece
-from geneva_cli.loads.contact import NEAR_CUSP, is_straight
-from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.stretches import Stretch, smooth_ranges
+from geneva_cli.loads.contact import NEAR_CUSP
+from geneva_cli.loads.cycle import Cycle, Stretch
 from geneva_cli.motion.engagement import Engagement, WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import spans
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, places, refined, thinned
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -50,9 +50,7 @@ def motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]
     for i, engagement in enumerate(mechanism.engagements):
         mid, motion = engagement.mid_deg, engagement.motion
         up = base + engagement.half_step
-        for (a, b), inside in zip(
-            pairwise(motion.breaks_deg), smooth_ranges(engagement), strict=True
-        ):
+        for (a, b), inside in zip(pairwise(motion.breaks_deg), _smooth(engagement), strict=True):
             yield Stage(mid + a, mid + b, partial(_moved, motion, quantities, mid, inside, up))
         base += 2.0 * engagement.half_step
         rest = [base * output.per_radian if n == output.column else 0.0 for n in names]
@@ -67,23 +65,14 @@ def load_stages(
         mid = engagement.mid_deg
         for owner, stretch in cycle.stretches:
             if owner is engagement:
-                inside = _clear_of_cusp(engagement, stretch)
-                of = partial(_loaded, cycle, engagement, names, inside, bounds)
+                of = partial(_loaded, cycle, engagement, stretch, names, bounds)
                 yield Stage(mid + stretch.start, mid + stretch.end, of)
         yield from _dwell(cycle.mechanism, i, [0.0] * len(names))
 
 
-def _clear_of_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
-    """The stretch clear of breaks; next to a cusp it ends before values are rounding."""
-    middle = 0.5 * (stretch.start + stretch.end)
-    smooth = ((a, b) for a, b in smooth_ranges(engagement) if a < middle < b)
-    a, b = next(smooth, (stretch.start, stretch.end))
-    start, end = max(stretch.start, a), min(stretch.end, b)
-    if not is_straight(engagement):
-        before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg
-        start = after if abs(start) < after else start
-        end = before if abs(end) < -before else end
-    return stretch._replace(start=start, end=end)
+def _smooth(engagement: Engagement) -> list[tuple[float, float]]:
+    """Ends of the smooth parts of a motion, clear of the breaks between them."""
+    return [(start.item(), end.item()) for start, end in spans(engagement.motion, 1)]
 
 
 def _moved(
@@ -101,23 +90,30 @@ def _moved(
 def _loaded(
     cycle: Cycle,
     engagement: Engagement,
+    stretch: Stretch,
     names: Sequence[str],
-    inside: Stretch,
     bounds: Mapping[str, tuple[float, float]],
     x: Array,
 ) -> Array:
-    local = np.clip(x - engagement.mid_deg, inside.start, inside.end)
-    here = cycle.along(engagement, inside, local)
+    """Loads clear of breaks; next to a cusp they end before values are rounding."""
+    start, end = stretch[:2]
+    for a, b in _smooth(engagement):
+        if a < 0.5 * (start + end) < b:
+            start, end = max(start, a), min(end, b)
+    if engagement.slot.curved:
+        before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg
+        start = after if abs(start) < after else start
+        end = before if abs(end) < -before else end
+    here = cycle.along(engagement, stretch, np.clip(x - engagement.mid_deg, start, end))
     rows = {name: cycle.plain(here, name) for name in names}
     return np.array([np.clip(row, *bounds[n]) if n in bounds else row for n, row in rows.items()])
 
 
 def _dwell(mechanism: Mechanism, i: int, values: Sequence[float]) -> Iterator[Stage]:
     """The dwell after an engagement, if there is one."""
-    here = mechanism.engagements[i]
-    end, dwell = here.mid_deg + here.exit_deg, mechanism.dwell_deg(i)
+    here, dwell = mechanism.engagements[i], mechanism.dwell_deg(i)
+    end, column = here.mid_deg + here.exit_deg, np.array(values)[:, None]
     if dwell:
-        column = np.array(values)[:, None]
         yield Stage(end, end + dwell, lambda x: column + 0.0 * x, flat=True)
 
 
@@ -133,29 +129,27 @@ def pieces(
     single point, at which the curve jumps.
     """
     placed = list(_repeated(stages, period, window))
-    risen = np.array(rise)[:, None]
+    ups = [shift / period * np.array(rise)[:, None] for _, shift, _, _ in placed]
     first = [
-        stage.of((places(a, b) if b > a else np.array([a])) - shift)
-        for stage, shift, a, b in placed
+        stage.of((places(a, b) if b > a else np.array([a])) - shift) + up
+        for (stage, shift, a, b), up in zip(placed, ups, strict=True)
     ]
-    rises = [shift / period * risen for _, shift, _, _ in placed]
-    every = np.concatenate([y + up for y, up in zip(first, rises, strict=True)], axis=1)
-    heights = np.ptp(every, axis=1)
+    heights = np.ptp(np.concatenate(first, axis=1), axis=1)
     heights[heights == 0.0] = 1.0
     width = window[1] - window[0]
     out: list[list[Piece]] = [[] for _ in rise]
-    for (stage, shift, a, b), up in zip(placed, rises, strict=True):
+    for (stage, shift, a, b), up in zip(placed, ups, strict=True):
+
+        def of(x: Array, stage: Stage = stage, shift: float = shift) -> Array:
+            return stage.of(x - shift)
+
         x = np.array([a, b] if b > a else [a])
         if not stage.flat and b > a:
-            x = refined(partial(_shifted, stage, shift), a, b, width, heights)
-        for curve, y, height in zip(out, stage.of(x - shift) + up, heights, strict=True):
+            x = refined(of, a, b, width, heights)
+        for curve, y, height in zip(out, of(x) + up, heights, strict=True):
             some = thinned(ASPECT / width * x, y / height, CHORD_ERROR / 4.0)
             curve.append((x[some].tolist(), (y[some] + 0.0).tolist()))
     return out
-
-
-def _shifted(stage: Stage, shift: float, x: Array) -> Array:
-    return stage.of(x - shift)
 
 
 def _repeated(
@@ -164,9 +158,8 @@ def _repeated(
     """The stages in a window, with their shifts, starts and ends there."""
     start, end = window
     tiny, last = ROUNDED * period, -math.inf
-    for number in range(
-        math.floor((start - stages[-1].end) / period), 2 + int((end - start) // period)
-    ):
+    first = math.floor((start - stages[-1].end) / period)
+    for number in range(first, 2 + int((end - start) // period)):
         shift = number * period
         for stage in stages:
             a, b = max(stage.start + shift, start), min(stage.end + shift, end)

@@ -24,15 +24,6 @@ WALLED = (
 )
 
 
-class PinHeading(NamedTuple):
-    """Pin position in the wheel, over L, and the pin's direction of travel."""
-
-    x: Number
-    y: Number
-    tangent_x: Number
-    tangent_y: Number
-
-
 class Pitch(NamedTuple):
     """The pitch curve M at one input angle or at an array of them.
 
@@ -86,14 +77,6 @@ def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
         (x1 * y2 - y1 * x2) / (speed * speed),
         m.atan2(size(x0 * y1 - y0 * x1), size(x0 * x1 + y0 * y1)),
     )
-
-
-def pin_heading(engagement: Engagement, input_deg: Number) -> PinHeading:
-    """Pin position and direction of travel, without the second derivatives that ``pitch`` needs."""
-    x, y = engagement.slot(input_deg, 1)
-    (x0, x1), (y0, y1) = x.derivatives(), y.derivatives()
-    speed = library(x0).hypot(x1, y1)
-    return PinHeading(x0, y0, x1 / speed, y1 / speed)
 
 
 def opposites(engagement: Engagement, input_deg: Array) -> Array:

@@ -196,8 +196,10 @@ class _Extremes:
         """Add samples of pieces; only those within each piece count."""
         (a, b), x, design = pieces.rows.x, pieces.x, pieces.rows.design
         sided = self._sided(pieces.value)
-        endless = (sided == np.inf).all(axis=2)
-        sided = np.where((x < a) | (x > b), -np.inf, sided)
+        outside = (x < a) | (x > b)
+        # from its begin on, where a margin changes its sign
+        endless = ((sided == np.inf) | outside).all(axis=2) & (sided == np.inf).any(axis=2)
+        sided = np.where(outside, -np.inf, sided)
         best = sided.argmax(axis=2)
         top = np.take_along_axis(sided, best[:, :, None], axis=2)[:, :, 0]
         top = np.where(endless, np.inf, top)
@@ -227,10 +229,11 @@ class _Extremes:
         # by how much an extreme between samples exceeds them, over their range
         more = np.where(open_, 1.0, 0.15) * (high - low) + UNFINISHED * left
         bars = self._bar(slice(None), np.arange(len(value))[:, None], design)
-        may = (~(np.stack((high, -low)) + more < bars) & (bars < np.inf)).any(axis=0)
+        low_reach, high_reach = _reach_at_poles(value, open_, low - more, high + more)
+        may = (~(np.stack((high_reach, -low_reach)) < bars) & (bars < np.inf)).any(axis=0)
         # a row of lower samples may have the peak whose flank another row's sample was on
-        best = self.at_sample[..., design]
-        may |= open_ & ((best >= a) & (best <= b)).any(axis=0)
+        best, bounded = self.at_sample[..., design], self.most[..., design] < np.inf
+        may |= open_ & ((best >= a) & (best <= b) & bounded).any(axis=0)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
         open_ &= ~(left <= TIE * TIE * self.size[:, design])
         miss = (may & open_).any(axis=0) & ~self.cutter.is_settled(pieces.rows)
@@ -332,6 +335,19 @@ class _Extremes:
             out[:, some] = [c[self.f.signs + own, np.arange(len(some)), 0] for c in jets]
         out[2] *= 2.0
         return out
+
+
+def _reach_at_poles(value: Array, open_: Mask, low: Array, high: Array) -> tuple[Array, Array]:
+    """Bounds of functions on rows; towards a pole, whose series has no end, the reciprocals'."""
+    number, row = np.nonzero(open_)
+    inverse = np.ascontiguousarray(1.0 / value[number, :, row].T)
+    left, least, most = chebyshev.remainder(inverse), inverse.min(axis=0), inverse.max(axis=0)
+    ended = left <= PRECISE * np.maximum(np.abs(least), np.abs(most))
+    more = 0.15 * (most - least) + UNFINISHED * left
+    for bound, own, end in ((low, least >= 0.0, most + more), (high, most <= 0.0, least - more)):
+        here = ended & own
+        bound[number[here], row[here]] = 1.0 / end[here]
+    return low, high
 
 
 def _raise(most: Array, index: tuple[Whole, ...], value: Array) -> None:

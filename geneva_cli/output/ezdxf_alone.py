@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from types import ModuleType
 from typing import Any
 
-__all__ = ["BaseLayout", "Document", "Modelspace", "earcut", "options"]
+__all__ = ["BaseLayout", "Document", "Modelspace", "options"]
 
 
 @contextmanager
@@ -84,6 +84,3 @@ with _alone(), _without_late():
     from ezdxf.document import Drawing as Document
     from ezdxf.layouts.base import BaseLayout
     from ezdxf.layouts.layout import Modelspace
-
-    # in Python: the compiled one may round differently on another processor
-    from ezdxf.math._mapbox_earcut import earcut

@@ -15,7 +15,11 @@ from types import FrameType
 from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output.file_locks import lock
+
+try:
+    import fcntl
+except ImportError:  # in a browser and on Windows
+    fcntl = None  # type: ignore[assignment]
 
 # Left behind only by kill -9 or a power failure, until the next run that writes this file.
 TEMPORARY = ".{name}.geneva-{number}.tmp"
@@ -55,9 +59,15 @@ def write_errors(path: str) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise GenevaError(
-            f"{cut(path, 300)}: cannot write: {error.strerror}{_advice(error, path)}"
-        ) from None
+        advice = "; give a file's name" if error.errno == errno.EISDIR else ""
+        if error.errno == errno.ENOENT:
+            folder = os.path.dirname(os.path.realpath(path))
+            made = os.path.isdir(folder)  # a folder of the system may take no new files
+            says = (
+                f"the folder {folder} takes no files" if made else f"make the folder {folder} first"
+            )
+            advice = f"; {says}"
+        raise GenevaError(f"{cut(path, 300)}: cannot write: {error.strerror}{advice}") from None
 
 
 def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | None]:
@@ -66,8 +76,9 @@ def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | 
     Raises GenevaError, or OSError, if it must not or cannot be written.
     """
     real = real_path(path)
-    old = _status(real)
-    if old is None:
+    try:
+        old = os.stat(real)
+    except FileNotFoundError:
         return real, None
     refuse_input(path, old, inputs)
     if stat.S_ISDIR(old.st_mode):
@@ -89,22 +100,33 @@ def real_path(path: str, what: str = "a file") -> str:
         raise GenevaError(f'-o "{path}": the current folder is gone; change to another') from None
 
 
-def _status(path: str) -> os.stat_result | None:
-    """The file's status, None if there is none yet; OSError for a place that has no files."""
-    try:
-        return os.stat(path)
-    except FileNotFoundError:
-        return None
+def refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:
+    """Refuse to replace a regular file that the run has read.
+
+    Terminals and devices may be both read and written.
+    """
+    stdin = "<stdin>"  # among the inputs, if the spec was read from standard input
+    for source in inputs if stat.S_ISREG(old.st_mode) else ():
+        try:
+            read = os.fstat(0) if source == stdin else os.stat(source)
+        except (OSError, ValueError):  # ValueError: a word with a NUL, which is not a file
+            continue
+        if os.path.samestat(read, old):
+            name = f"{path} (standard input)" if source == stdin else source
+            raise GenevaError(
+                f"{name}: this file is an input, and would be overwritten; give -o another name"
+            )
 
 
 @contextmanager
 def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
+    """Open a locked file beside ``path`` that takes its name at the end."""
     folder, name = os.path.split(path)
     # The temporary name holds 200 bytes of it: a file system allows 255 in all.
     name = name.encode(errors="surrogateescape")[:200].decode(errors="replace")
     _remove_stale(folder, name)
     number = os.getpid()
-    while os.path.lexists(temporary := _temporary(folder, name, number)):
+    while os.path.lexists(temporary := os.path.join(folder, _temporary(name, number))):
         number += 1  # another run's file, which must not be touched
     with stopping_cleanly():
         try:
@@ -120,6 +142,48 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
         finally:
             with suppress(FileNotFoundError):
                 os.unlink(temporary)
+
+
+def _temporary(name: str, number: int | str) -> str:
+    return TEMPORARY.format(name=name, number=number)
+
+
+def _remove_stale(folder: str, name: str) -> None:
+    """Remove temporary files of this file that killed runs have left: nobody holds their lock."""
+    left = re.compile(re.escape(_temporary(name, "0")).replace(r"\-0\.", r"\-\d{1,9}\."))
+    with suppress(OSError):  # a folder that can be written but not listed
+        for entry in filter(left.fullmatch, os.listdir(folder)):
+            _remove_unlocked(os.path.join(folder, entry))
+
+
+def _remove_unlocked(path: str) -> None:
+    with (
+        suppress(OSError),
+        open(os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)) as file,
+    ):
+        lock(file.fileno())
+        if stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            os.unlink(path)
+
+
+def lock(descriptor: int, alone: bool = False) -> None:
+    """Lock a file for this process and its workers, or for this process alone.
+
+    A worker may outlive a killed run for a moment, and would block the next run. Raises OSError if
+    another process has the lock, and where there are no locks.
+    """
+    if fcntl is None:
+        raise OSError(errno.ENOLCK, "no locks here")
+    (fcntl.lockf if alone else fcntl.flock)(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def lock_or_refuse(descriptor: int, says: str, alone: bool = False) -> None:
+    """Lock a file. Raises GenevaError with a message if another run has the lock."""
+    try:
+        lock(descriptor, alone)
+    except OSError as error:  # any other: a file system without locks
+        if error.errno in (errno.EAGAIN, errno.EACCES):
+            raise GenevaError(says) from None
 
 
 @contextmanager
@@ -141,16 +205,6 @@ def stopping_cleanly() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-@contextmanager
-def holding_signals() -> Iterator[None]:
-    """Let signals that end a run wait until the block has ended."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
 def _stop(number: int, frame: FrameType | None) -> None:
     for other in SIGNALS:
         if signal.getsignal(other) is _stop:
@@ -167,84 +221,9 @@ def take_after(descriptor: int, old: os.stat_result) -> None:
     os.fchmod(descriptor, stat.S_IMODE(old.st_mode))
 
 
-def _temporary(folder: str, name: str, number: int) -> str:
-    return os.path.join(folder, TEMPORARY.format(name=name, number=number))
-
-
-def _remove_stale(folder: str, name: str) -> None:
-    """Remove temporary files of this file that killed runs have left.
-
-    The name holds the process's number, and a running process holds a lock on the file. The number
-    alone may belong to another process by now, or to one on another machine that shares the folder.
-    """
-    before, after = (re.escape(x) for x in TEMPORARY.format(name=name, number="\0").split("\0"))
-    left = re.compile(rf"{before}(\d{{1,9}}){after}")
-    with suppress(OSError):  # a folder that can be written but not listed
-        for entry in os.listdir(folder):
-            stale = left.fullmatch(entry)
-            if stale and not _runs(int(stale[1])):
-                _remove_unlocked(os.path.join(folder, entry))
-
-
-def _runs(number: int) -> bool:
-    """Return True if another process with this number is running."""
-    if number == os.getpid():
-        return False
-    try:
-        os.kill(number, 0)
-    except ProcessLookupError:
-        return False
-    except OSError:  # another user's process
-        return True
-    return True
-
-
-def _remove_unlocked(path: str) -> None:
-    with suppress(OSError):
-        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
-        try:
-            lock(descriptor)
-            if stat.S_ISREG(os.fstat(descriptor).st_mode):
-                os.unlink(path)
-        finally:
-            os.close(descriptor)
-
-
 def digest_of(path: str) -> str:
     """The checksum of a file; empty for what is no file."""
     if not os.path.isfile(path):
         return ""
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:
-    """Refuse to replace a regular file that the run has read.
-
-    Terminals and devices may be both read and written.
-    """
-    if not stat.S_ISREG(old.st_mode):
-        return
-    stdin = "<stdin>"  # among the inputs, if the spec was read from standard input
-    for source in inputs:
-        try:
-            read = os.fstat(0) if source == stdin else os.stat(source)
-        except (OSError, ValueError):  # ValueError: a word with a NUL, which is not a file
-            continue
-        if os.path.samestat(read, old):
-            name = f"{path} (standard input)" if source == stdin else source
-            raise GenevaError(
-                f"{name}: this file is an input, and would be overwritten; give -o another name"
-            )
-
-
-def _advice(error: OSError, path: str) -> str:
-    if error.errno == errno.ENOENT:
-        folder = os.path.dirname(os.path.realpath(path))
-        made = os.path.isdir(folder)  # a folder of the system may take no new files
-        return (
-            f"; the folder {folder} takes no files" if made else f"; make the folder {folder} first"
-        )
-    if error.errno == errno.EISDIR:
-        return "; give a file's name"
-    return ""

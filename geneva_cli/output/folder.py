@@ -7,19 +7,19 @@ another digest, is a person's, and is never replaced or removed unless that is f
 from __future__ import annotations
 
 import csv
-import errno
 import io
 import os
 import shutil
+import signal
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, few
-from geneva_cli.output.file_locks import lock
 from geneva_cli.output.files import (
+    SIGNALS,
     digest_of,
-    holding_signals,
+    lock_or_refuse,
     place,
     real_path,
     stopping_cleanly,
@@ -50,6 +50,13 @@ class Row(NamedTuple):
     digest: str
 
 
+class Filling(NamedTuple):
+    """The folder for the new files, and the old files that were changed by a person and stay."""
+
+    new: str
+    kept: list[str]
+
+
 @contextmanager
 def filling_folder(
     path: str, entries: Iterable[Entry], inputs: Iterable[str] = (), force: bool = False
@@ -61,100 +68,85 @@ def filling_folder(
     is a person's, unless ``force`` is set, if one to replace or remove is among ``inputs``, or if
     ``path`` cannot be written.
     """
-    real = real_path(path, "a folder")
+    real, entries, inputs = real_path(path, "a folder"), list(entries), list(inputs)
     if os.path.lexists(real) and not os.path.isdir(real):
         raise GenevaError(f"{cut(path, 300)}: this is a file; give -o the name of a folder")
-    filling = Filling(path, real, list(entries), list(inputs), force)
-    with write_errors(path), stopping_cleanly(), _existing(real), _locked(path, real):
-        filling.require_own()  # before the work
-        if os.path.lexists(filling.new):
-            shutil.rmtree(filling.new)
+    filling = Filling(os.path.join(real, TEMPORARY), [])
+
+    def require_own() -> None:
+        """Raise GenevaError if a file that would be replaced is a person's, or an input."""
+        rows, files = _rows(real), [entry.file for entry in entries]
+        own = _own(real, rows or [])
+        for file in {*files, LIST, *own}:
+            shown = os.path.join(path, file)
+            with write_errors(shown):
+                place(shown, inputs)
+        others = [file for file in files if file not in own]
+        if rows is None:
+            others.insert(0, LIST)
+        others = [file for file in others if os.path.lexists(os.path.join(real, file))]
+        if others and not force:
+            raise GenevaError(
+                f"{cut(path, 300)}: not written by `geneva export`, or changed since: "
+                f"{few(others[0], others)}; --force replaces them, or give -o another folder"
+            )
+
+    with write_errors(path), stopping_cleanly(), _locked(path, real):
+        require_own()  # before the work
+        shutil.rmtree(filling.new, ignore_errors=True)
         try:
             os.mkdir(filling.new)
             yield filling
-            filling.require_own()  # a person may have changed a file meanwhile
-            with holding_signals():
-                filling.replace()
+            require_own()  # a person may have changed a file meanwhile
+            signals = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)  # they wait
+            try:
+                filling.kept.extend(_replace(real, filling.new, entries))
+            finally:
+                signal.pthread_sigmask(signal.SIG_SETMASK, signals)
         finally:
             shutil.rmtree(filling.new, ignore_errors=True)
 
 
-class Filling:
-    """A folder that is being filled: ``new`` is the folder for its new files.
+def _replace(real: str, new: str, entries: list[Entry]) -> list[str]:
+    """Move the new files to their places, and remove those of an earlier run; return the kept.
 
-    At the end ``kept`` has the files of an earlier run that would have been removed, but were
-    changed by a person.
+    Meanwhile the list has the old and the new digests, so that the next run knows the files of
+    a run that was killed here.
     """
 
-    def __init__(
-        self, path: str, real: str, entries: list[Entry], inputs: list[str], force: bool
-    ) -> None:
-        self.path, self.real = path, real
-        self.entries, self.inputs, self.force = entries, inputs, force
-        self.files = [entry.file for entry in entries]
-        self.new = os.path.join(real, TEMPORARY)
-        self.kept: list[str] = []
-
-    def require_own(self) -> None:
-        """Raise GenevaError if a file that would be replaced is a person's, or an input."""
-        rows = _rows(self._place(LIST))
-        own = self._own(rows or [])
-        for file in {*self.files, LIST, *own}:
-            shown = os.path.join(self.path, file)
-            with write_errors(shown):
-                place(shown, self.inputs)
-        others = [LIST] if self._exists(LIST) and rows is None else []
-        others += [file for file in self.files if self._exists(file) and file not in own]
-        if others and not self.force:
-            raise GenevaError(
-                f"{cut(self.path, 300)}: not written by `geneva export`, or changed since: "
-                f"{few(others[0], others)}; --force replaces them, or give -o another folder"
-            )
-
-    def replace(self) -> None:
-        """Move the new files to their places, and remove those of an earlier run.
-
-        Meanwhile the list has the old and the new digests, so that the next run knows the files of
-        a run that was killed here.
-        """
-        before = _rows(self._place(LIST)) or []
-        rows = [Row(*one, digest_of(os.path.join(self.new, one.file))) for one in self.entries]
-        own = self._own(before)
-        self._write_list([*before, *rows])
-        for file in self.files:
-            self._move(file)
-        earlier = {row.file for row in before if self._exists(row.file)} - {*self.files}
-        for file in earlier & own:
-            os.unlink(self._place(file))
-        self.kept = sorted(earlier - own)
-        self._write_list(rows)
-
-    def _own(self, rows: list[Row]) -> set[str]:
-        """The listed files that nobody has changed."""
-        return {r.file for r in rows if r.digest and _digest(self._place(r.file)) == r.digest}
-
-    def _exists(self, file: str) -> bool:
-        return os.path.lexists(self._place(file))
-
-    def _place(self, file: str) -> str:
-        return os.path.join(self.real, file)
-
-    def _write_list(self, rows: list[Row]) -> None:
-        write(os.path.join(self.new, LIST), [_text(rows)])
-        self._move(LIST)
-
-    def _move(self, file: str) -> None:
-        """Move a new file to its place; it takes the owner and permissions of the old one."""
-        source, target = os.path.join(self.new, file), self._place(file)
-        if self._exists(file):
+    def move(file: str) -> None:
+        source, target = os.path.join(new, file), os.path.join(real, file)
+        if os.path.lexists(target):
             with open(source, "rb") as opened:
                 take_after(opened.fileno(), os.lstat(target))
         os.replace(source, target)
 
+    def move_list(rows: list[Row]) -> None:
+        write(os.path.join(new, LIST), [_text(rows)])
+        move(LIST)
 
-def _digest(path: str) -> str:
-    """The digest of a file; empty for what ``filling_folder`` does not write, such as a link."""
-    return "" if os.path.islink(path) else digest_of(path)
+    before = _rows(real) or []
+    rows = [Row(*one, digest_of(os.path.join(new, one.file))) for one in entries]
+    own = _own(real, before)
+    move_list([*before, *rows])
+    for one in entries:
+        move(one.file)
+    listed = {row.file for row in before if os.path.lexists(os.path.join(real, row.file))}
+    earlier = listed - {one.file for one in entries}
+    for file in earlier & own:
+        os.unlink(os.path.join(real, file))
+    move_list(rows)
+    return sorted(earlier - own)
+
+
+def _own(real: str, rows: list[Row]) -> set[str]:
+    """The listed files that nobody has changed; a link is a person's."""
+    places = {row: os.path.join(real, row.file) for row in rows if row.digest}
+    return {
+        row.file
+        for row, file in places.items()
+        if not os.path.islink(file) and digest_of(file) == row.digest
+    }
 
 
 def _text(rows: list[Row]) -> str:
@@ -163,10 +155,10 @@ def _text(rows: list[Row]) -> str:
     return text.getvalue()
 
 
-def _rows(path: str) -> list[Row] | None:
+def _rows(real: str) -> list[Row] | None:
     """The rows of a folder's list; None if there is none, or if the file is something else."""
     with suppress(OSError, ValueError, TypeError, csv.Error):
-        with open(path, encoding="utf-8", newline="") as file:
+        with open(os.path.join(real, LIST), encoding="utf-8", newline="") as file:
             text = file.read()
         _, *lines = csv.reader(io.StringIO(text))
         rows = [Row(*line) for line in lines]
@@ -177,32 +169,21 @@ def _rows(path: str) -> list[Row] | None:
 
 
 @contextmanager
-def _existing(real: str) -> Iterator[None]:
-    """Make the folder if there is none, and remove it again if nothing was written into it."""
+def _locked(path: str, real: str) -> Iterator[None]:
+    """Hold the folder's lock. A folder that is made for it is removed if nothing is written."""
     is_new = not os.path.isdir(real)
     if is_new:
         os.mkdir(real)
-    try:
-        yield
-    finally:
-        if is_new:
-            with suppress(OSError):  # it has files now
-                os.rmdir(real)
-
-
-@contextmanager
-def _locked(path: str, real: str) -> Iterator[None]:
-    """Hold the folder's lock. Raises GenevaError if another run has it."""
     descriptor = os.open(real, os.O_RDONLY)
     try:
-        try:
-            lock(descriptor)
-        except OSError as error:  # else a file system without locks
-            if error.errno in (errno.EAGAIN, errno.EACCES):
-                raise GenevaError(
-                    f"{cut(path, 300)}: another run is writing into this folder; wait until it "
-                    "ends, or give -o another folder"
-                ) from None
+        lock_or_refuse(
+            descriptor,
+            f"{cut(path, 300)}: another run is writing into this folder; wait until it ends, or "
+            "give -o another folder",
+        )
         yield
     finally:
         os.close(descriptor)
+        if is_new:
+            with suppress(OSError):  # it has files now
+                os.rmdir(real)

@@ -1,12 +1,17 @@
 """A file that grows for hours: a stopped run keeps its rows, and can be continued.
 
-The rows go to the state file ``FILE.geneva``; ``FILE`` is replaced at the end, in one step. A run
-that may be repeated (``resume``) keeps the state file, which then records that ``FILE`` is whole.
+The rows go to the state file ``FILE.geneva``; ``FILE`` is replaced at the end, in one step. The
+state's first line names the program and the request. Each block of rows follows a line with its
+numbers of rows and bytes and a digest. The digest covers the first line and all blocks so far, so
+that a changed, lost or repeated block is noticed. A run that may be repeated (``resume``) keeps the
+state: a line with the digest of the whole file then replaces the blocks.
 """
 
 from __future__ import annotations
 
+import hashlib
 import os
+import re
 import stat
 import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
@@ -16,9 +21,19 @@ from typing import Any, BinaryIO
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import refuse_columns, refuse_inches
 from geneva_cli.output.delimited import one_line
-from geneva_cli.output.files import digest_of, place, replacing, write_errors
+from geneva_cli.output.files import (
+    digest_of,
+    lock_or_refuse,
+    place,
+    refuse_input,
+    replacing,
+    write_errors,
+)
 from geneva_cli.output.finite import refuse_nonsense
-from geneva_cli.output.state import SUFFIX, StateFile
+
+SUFFIX = ".geneva"
+TITLE = b"geneva sweep state 1 "
+LINE_MAX = 1000  # bytes of a line of ours; a foreign file may have one of gigabytes
 
 
 class GrowingFile:
@@ -41,46 +56,96 @@ class GrowingFile:
                 raise GenevaError(
                     f"{path}: not a file that can grow; print to it with -o - instead"
                 )
-            self.state = StateFile(self.real + SUFFIX, self.inputs)
+            self.state = self.real + SUFFIX
+            self.file = _open_locked(self.state, self.inputs)
             try:
+                self.first = self.file.readline(LINE_MAX)
+                if self.first and not (self.first.startswith(TITLE) and self.first.endswith(b"\n")):
+                    raise _not_ours(self.state)
                 if not (resume and self._continue(key)):
-                    self.state.begin(key)
+                    self._begin(TITLE + key.encode() + b"\n")
                     if header:
-                        self.state.append(0, header.encode())
+                        self._append(0, header.encode())
             except BaseException:
-                self.state.close()
+                self.file.close()
                 raise
+
+    def _begin(self, first: bytes) -> None:
+        """Write the first line, and nothing else."""
+        self.first, self.end, self.digest = first, len(first), hashlib.sha256(first)
+        self.file.seek(0)
+        self.file.truncate()
+        self.file.write(first)
+        self.file.flush()
 
     def _continue(self, key: str) -> bool:
         """Return True if the file is whole, or if there are rows to continue."""
         name = cut(os.path.basename(self.real))
-        digest = self.state.whole_digest()
-        if self.state.request == key and digest == digest_of(self.real):
+        same = self.first == TITLE + key.encode() + b"\n"
+        whole = re.fullmatch(rb"whole ([0-9a-f]{64})\n", self.file.readline(LINE_MAX))
+        if same and whole and whole[1].decode() == digest_of(self.real):
             self.is_whole = True
             self.message = f"--resume: {name} is whole already"
             return True
-        if self.state.request is None or digest is not None:
+        if not self.first or whole:
             self.message = f"--resume: there is nothing to continue for {name}; from the first row"
             return False
-        if self.state.request != key:
+        if not same:
             raise GenevaError(
                 f"--resume: {name}{SUFFIX} has the rows of another run "
                 "(another spec, other options or another version); start without --resume"
             )
-        blocks = [rows for rows, _ in self.state.blocks()]
+        blocks = [rows for rows, _ in self._blocks()]
         self.done = sum(blocks)
-        if self.state.is_damaged:
+        if os.fstat(self.file.fileno()).st_size > self.end:
             self.message = (
                 f"--resume: {name}{SUFFIX} is incomplete or damaged after row {self.done}; "
                 "continues there"
             )
         return bool(blocks)
 
+    def _blocks(self) -> Iterator[tuple[int, bytes]]:
+        """Yield the number of rows and the bytes of each block, up to the first damaged one.
+
+        What is appended next follows the last block that was read.
+        """
+        size = os.fstat(self.file.fileno()).st_size
+        self.file.seek(0)
+        self.digest = hashlib.sha256(self.file.read(len(self.first)))
+        self.end = len(self.first)
+        head = re.compile(rb"block (\d{1,18}) (\d{1,18}) ([0-9a-f]{64})\n")
+        while line := head.fullmatch(self.file.readline(LINE_MAX)):
+            rows, length = int(line[1]), int(line[2])
+            if length > size - self.file.tell():
+                return
+            data = self.file.read(length)
+            digest = self._digest_with(rows, data)
+            if digest.hexdigest().encode() != line[3]:
+                return
+            self.digest, self.end = digest, self.file.tell()
+            yield rows, data
+
+    def _digest_with(self, rows: int, data: bytes) -> hashlib._Hash:
+        digest = self.digest.copy()
+        digest.update(b"%d %d\n" % (rows, len(data)))
+        digest.update(data)
+        return digest
+
     def append(self, text: str) -> None:
         """Add whole lines, and hand them to the system before the next are computed."""
+        rows = text.count("\n")
         with write_errors(self.path):
-            self.state.append(text.count("\n"), text.encode())
-        self.done += text.count("\n")
+            self._append(rows, text.encode())
+        self.done += rows
+
+    def _append(self, rows: int, data: bytes) -> None:
+        self.digest = self._digest_with(rows, data)
+        self.file.seek(self.end)
+        self.file.truncate()
+        self.file.write(b"block %d %d %b\n" % (rows, len(data), self.digest.hexdigest().encode()))
+        self.file.write(data)
+        self.file.flush()
+        self.end = self.file.tell()
 
     def finish(self, fill: Callable[[Iterator[bytes], BinaryIO], None] | None = None) -> None:
         """Replace the file by the lines, or by the output of ``fill`` for them, in one step."""
@@ -91,15 +156,15 @@ class GrowingFile:
                 else:
                     file.writelines(self._lines())
             if self.resume:
-                self.state.mark_whole(digest_of(self.real))
+                self._begin(self.first + f"whole {digest_of(self.real)}\n".encode())
             else:
-                self.state.remove()
+                os.unlink(self.state)
             self.close()
 
     def _lines(self) -> Iterator[bytes]:
         """Yield the lines, block by block. Raises GenevaError if somebody has changed them."""
         rows = 0
-        for count, data in self.state.blocks():
+        for count, data in self._blocks():
             rows += count
             yield data
         if rows != self.done:
@@ -109,8 +174,41 @@ class GrowingFile:
             )
 
     def close(self) -> None:
-        """Close the state file, which remains to be continued."""
-        self.state.close()
+        """Close the state file, which remains to be continued, and end its lock."""
+        self.file.close()
+
+
+def _open_locked(path: str, inputs: Iterable[str]) -> BinaryIO:
+    """Open or create a state file without following a link, and lock it."""
+    if os.path.lexists(path):
+        status = os.lstat(path)
+        if not stat.S_ISREG(status.st_mode):
+            raise _not_ours(path)
+        refuse_input(path, status, inputs)
+    # A link or a pipe that somebody puts there now is neither followed nor waited for.
+    flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK
+    file = os.fdopen(os.open(path, flags, 0o666), "r+b")
+    try:
+        name = cut(os.path.basename(path.removesuffix(SUFFIX)))
+        busy = (
+            f"{name}: another run is writing this file; wait until it ends, or give -o another name"
+        )
+        # Without locks the digests reveal mixed rows of two runs.
+        lock_or_refuse(file.fileno(), busy, alone=True)
+        if not os.fstat(file.fileno()).st_nlink:  # the run with the lock has just removed it
+            raise GenevaError(busy)
+    except BaseException:
+        file.close()
+        raise
+    return file
+
+
+def _not_ours(path: str) -> GenevaError:
+    name = cut(os.path.basename(path))
+    return GenevaError(
+        f"{name}: a sweep keeps its state under this name, but something else has it; "
+        "rename it, or give -o another name"
+    )
 
 
 class GrowingTable:
@@ -131,8 +229,7 @@ class GrowingTable:
     ) -> None:
         refuse_columns()
         refuse_inches("csv and parquet are for programs, and in SI units")
-        self.names, self.output, self.done = names, output, 0
-        self.is_whole, self.message = False, ""
+        self.names, self.done, self.is_whole, self.message = names, 0, False, ""
         self.file: GrowingFile | None = None
         self.parquet = output.endswith(".parquet")
         if output != "-" and not output.endswith((".csv", ".parquet")):
@@ -141,8 +238,8 @@ class GrowingTable:
             from geneva_cli.output.parquet import refuse_without
 
             refuse_without()
-            header = True  # a shard is a file of its own
-        first = one_line(names) if header else ""
+        # a shard in parquet is a file of its own
+        first = one_line(names) if header or self.parquet else ""
         if output != "-":
             self.file = GrowingFile(output, first, key, resume, inputs)
             self.done = self.file.done
@@ -163,14 +260,12 @@ class GrowingTable:
 
     def finish(self, texts: Collection[str] = ()) -> None:
         """Give the complete file its name; ``texts`` are columns that hold no numbers."""
-        if not self.file:
-            return
-        if not self.parquet:
-            self.file.finish()
-            return
-        from geneva_cli.output.parquet import convert
+        if self.file and self.parquet:
+            from geneva_cli.output.parquet import convert
 
-        self.file.finish(partial(convert, texts=texts))
+            self.file.finish(partial(convert, texts=texts))
+        elif self.file:
+            self.file.finish()
 
     def close(self) -> None:
         """Close the file; an unfinished one can be continued."""

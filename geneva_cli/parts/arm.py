@@ -1,10 +1,8 @@
 """The crank arm, the plate that carries the rollers' pins, and the crank's solids.
 
-Its frame is the crank's, as for the locking disc, which lies on the arm. Its outline is the convex
-hull of circles: a hub about the crank's shaft, and an eye about each pin and each bolt. With one
-roller it is an arm with two eyes, with several a plate that joins all. The shaft of an internal
-wheel's crank ends in the arm, below the wheel. That crank is overhung, and its hub is a disc that
-carries the locking sectors.
+Its frame is the crank's. Its outline is the convex hull of circles: a hub about the crank's shaft,
+and an eye about each pin and each bolt. An internal wheel's shaft ends in the arm, and its hub is a
+disc that carries the locking sectors.
 """
 
 from __future__ import annotations
@@ -48,52 +46,71 @@ def crank_arm(parts: Outlines) -> CrankArm:
     Raises GenevaError, naming the key, where the rollers are on no crank, or the sizes leave no arm
     around the holes.
     """
-    spec = parts.assembly.full.spec
-    if not spec.drive.ONE_ARM:
+    assembly, sizes, drive = parts.assembly, parts.sizes, parts.assembly.full.spec.drive
+    size, radius, wall = assembly.full.spec.size, sizes.arm_bore, sizes.wall_min
+    if not drive.ONE_ARM:
         raise GenevaError(
-            f'--part arm: kind = "{spec.drive.NAME}" carries its roller on no crank arm; '
+            f'--part arm: kind = "{drive.NAME}" carries its roller on no crank arm; '
             "--part parts lists its links",
             ("drive", "kind"),
         )
-    assembly, sizes = parts.assembly, parts.sizes
-    centres, hole = roller_centres(assembly), pin_hole(spec.size, sizes.pin)
+    centres, hole = roller_centres(assembly), pin_hole(size, sizes.pin)
     away = [math.hypot(*c) for c in centres]
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
     passing = sizes.passing_eye(assembly.L - max(away))
-    free = 0.0 if spec.size.has_hub("wheel") else max(sizes.wheel_hub - sizes.wheel_bore, 0.0)
+    free = 0.0 if size.has_hub("wheel") else max(sizes.wheel_hub - sizes.wheel_bore, 0.0)
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
-    radius, wall = sizes.arm_bore, sizes.wall_min
-    form = bore_of(spec.size, "crank", radius)
-    hub, eye = hub_and_eye(spec.size, wall, hole, radius, passing, standing)
+    form = bore_of(size, "crank", radius)
+    hub, eye = hub_and_eye(size, wall, hole, radius, passing, standing)
     if form.reach + hole >= min(away):
         raise GenevaError(
             f"arm_bore_mm = {2.0 * radius:g}: the bore cuts the pin's hole; with its keyway it "
             f"must be below {2.0 * (min(away) - hole):.6g}",
             ("size", "arm_bore_mm"),
         )
-    pins, screwed = [Circle("BORE", c, hole) for c in centres], bolts(parts)
+    screwed, bolted = bolts(parts), wall_of_bolts(size, wall)
     about = [Circle("ARM", (0.0, 0.0), hub), *(Circle("ARM", c, eye) for c in centres)]
-    bolted = wall_of_bolts(spec.size, wall)
     about += [Circle("ARM", c.centre, eye_about(c.radius, bolted)) for c in screwed]
-    bored = form.shape("BORE", keyway_direction(assembly))
-    threads = [tapped(hole) for hole in screwed]
-    return CrankArm(convex_hull("ARM", about), bored, pins, threads, hub, eye, passing + free - eye)
+    return CrankArm(
+        convex_hull("ARM", about),
+        form.shape("BORE", keyway_direction(assembly)),
+        [Circle("BORE", c, hole) for c in centres],
+        [tapped(one) for one in screwed],
+        hub,
+        eye,
+        passing + free - eye,
+    )
 
 
 def bolts(parts: Outlines) -> list[Circle]:
     """Return the holes of bolts that fix the locking disc to the arm, evenly in each sector.
 
-    By default there are as many as leave walls, up to two in each, unless a key, a flat or a
-    hexagon holds both. Raises GenevaError where there is no disc to fix.
+    By default there are as many as leave walls in disc and arm, up to two in each sector, where the
+    arm passes the wheel's hub, unless a key, a flat or a hexagon holds both. Raises GenevaError
+    where there is no disc to fix.
     """
-    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
+    assembly, sizes = parts.assembly, parts.sizes
+    size = assembly.mechanism.spec.size
     if size.lock_bolts is not None:
         return _bolts(parts, size.lock_bolts)
     held = has_shape(size, "crank") and sizes.crank_bore > 0.0
     if held or not (parts.crank and parts.has_arm):
         return []
-    fitting = (_bolts(parts, count) for count in (2, 1))
-    return next((some for some in fitting if some and _leave_walls(parts, some)), [])
+    wall = wall_of_bolts(size, sizes.wall_min)
+    pins = [Circle("BORE", c, pin_hole(size, sizes.pin)) for c in roller_centres(assembly)]
+    shaft = Circle("BORE", (0.0, 0.0), bore_of(size, "crank", sizes.arm_bore).reach)
+    for count in (2, 1):
+        screwed = _bolts(parts, count)
+        reach = max(
+            (math.hypot(*c.centre) + eye_about(c.radius, wall) for c in screwed), default=0.0
+        )
+        passing = (
+            assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) >= reach or assembly.sign < 0.0
+        )
+        apart = bool(screwed) and least_wall([shaft, *pins, *screwed]) >= wall
+        if passing and apart and least_wall(screwed, parts.crank) >= wall:
+            return screwed
+    return []
 
 
 def _bolts(parts: Outlines, count: int) -> list[Circle]:
@@ -113,29 +130,15 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
     ]
 
 
-def _leave_walls(parts: Outlines, screwed: list[Circle]) -> bool:
-    """Return True if bolts leave walls in disc and arm, and the arm passes the wheel's hub."""
-    assembly, sizes = parts.assembly, parts.sizes
-    size = assembly.mechanism.spec.size
-    wall = wall_of_bolts(size, sizes.wall_min)
-    pins = [Circle("BORE", c, pin_hole(size, sizes.pin)) for c in roller_centres(assembly)]
-    shaft = Circle("BORE", (0.0, 0.0), bore_of(size, "crank", sizes.arm_bore).reach)
-    eye = max(math.hypot(*c.centre) + eye_about(c.radius, wall) for c in screwed)
-    passing = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) >= eye or assembly.sign < 0.0
-    apart = least_wall([shaft, *pins, *screwed]) >= wall
-    return passing and apart and least_wall(screwed, parts.crank) >= wall
-
-
 def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
     """Return the radius at which bolts in some directions leave the widest walls in the disc.
 
     The second number is the least distance of their axes from the walls, 0 or more.
     """
-    count = 400  # radii; their spacing is far below a wall
     own = parts.assembly.mechanism.spec.size.lock_bolt_circle_mm
-    radii = np.linspace(0.0, parts.sizes.lock, count) if own is None else np.array([0.5 * own])
-    a = np.asarray(at)
-    points = [np.outer(radii, f(a)).ravel() for f in (np.cos, np.sin)]
+    # 400 radii: their spacing is far below a wall
+    radii = np.linspace(0.0, parts.sizes.lock, 400) if own is None else np.array([0.5 * own])
+    points = [np.outer(radii, f(np.asarray(at))).ravel() for f in (np.cos, np.sin)]
     walls = -Polyarc(parts.crank).signed(np.column_stack(points)).reshape(len(radii), len(at))
     inner = parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
     nearest = np.minimum(walls, radii[:, None] - inner).min(axis=1)
@@ -166,10 +169,7 @@ def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:
 
 
 def locking_plates(parts: Outlines) -> list[Plate]:
-    """Return the crank's locking disc, or its sectors, with bolts and bore.
-
-    A bore is omitted where the disc has nothing left about the axis: the arm has it.
-    """
+    """Return the crank's locking disc, or its sectors, with bolts and bore."""
     assembly, sizes = parts.assembly, parts.sizes
     low = -assembly.mechanism.spec.size.allowances.pin_gap_mm  # the disc stands on the arm
     high = low + sizes.lock_thickness

@@ -1,9 +1,8 @@
-"""The assembly of a machine: positions of wheel, crank and rollers through a whole turn.
+"""The positions of wheel, crank and rollers through a whole turn, in mm and radians.
 
-Outlines are drawn in it, and the full turn is checked with it. Lengths are in millimetres, angles
-in radians. The wheel's axis is the origin, and the crank's axis is at (L, 0). A drive in front of
-the crank changes when the crank reaches a position, but not which positions it goes through. So
-such a machine is turned by its crank, like a plain one.
+The wheel's axis is the origin, and the crank's axis is at (L, 0). A drive in front of the crank
+changes when the crank reaches a position, but not which positions it goes through. So such a
+machine is turned by its crank, like a plain one.
 """
 
 from __future__ import annotations

@@ -1,23 +1,15 @@
 """The first of two wheels in series with its crank, as a machine in front of the second one.
 
-The first wheel is fixed on the second's crank shaft, in the plane below the crank arm. Its locking
-disc lies in that plane on the first crank, which is a link. All other sizes are those of the
-second.
+It is fixed on the second's crank shaft, in the plane below the crank arm, and its crank is a link.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.parts.arm import locking_plates
-from geneva_cli.parts.links.links import Links, drawn_links
+from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import wheel_plate
 from geneva_cli.parts.projection import titled
 from geneva_cli.parts.shafts.bores import has_shape, round_bore
 from geneva_cli.parts.sized_by_load import first_spec
@@ -25,10 +17,7 @@ from geneva_cli.spec.least_wall import wall_min
 
 
 def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
-    """Return the first wheel and its crank as a machine, for the ``outlines`` of the second pair.
-
-    Raises GenevaError for a machine without a first wheel.
-    """
+    """Return the first wheel and its crank as a machine, for the second pair's ``outlines``."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     first = mechanism.first_wheel
     if first is None:
@@ -63,23 +52,3 @@ def first_pair(mechanism: Mechanism, outlines: Outlines | None) -> Mechanism:
             arm_eye_mm=2.0 * link.roller_eye,
         )
     return build(alone.replace(size=size, title=f"{titled(mechanism)}, first pair"))
-
-
-def in_front(first: Outlines, bars: Links, L: float) -> Iterator[Member]:
-    """Yield the first wheel and its locking disc as plates at input angle 0.
-
-    ``first`` are their outlines, and ``bars`` the links of both wheels. The first wheel's axis is
-    at the distance L from the second's.
-    """
-    assert bars.sizes is not None  # the first crank is a link
-    # the first wheel lies two planes below the wheel
-    low, high = bars.sizes.span(2)
-
-    def placed(plate: Plate, x: float, turn: float) -> Member:
-        own = plate._replace(name=f"first {plate.name}", low=low, high=high)
-        return Member(own, (x, 0.0), turn)
-
-    # at mid-motion the first slot of the first wheel's frame points at the first crank
-    yield placed(wheel_plate(first.assembly, first.sizes, first.wheel), L, 0.0)
-    for plate in locking_plates(first):
-        yield placed(plate, L + first.assembly.L, math.pi)

@@ -14,31 +14,40 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate
-from geneva_cli.geometry.shapes import Contour, Point
+from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.edged_parts import EdgedParts
+from geneva_cli.parts.arm import (
+    CrankArm,
+    arm_plate,
+    bolts,
+    crank_arm,
+    locking_plates,
+    roller_plates,
+)
 from geneva_cli.parts.links.link_shafts import links_to_fix
+from geneva_cli.parts.links.link_sizes import roller_pins
+from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.outlines.wheel_circles import dial_bolts, wheel_part, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
-from geneva_cli.parts.parts import NamedBuilds
+from geneva_cli.parts.parts import EdgedParts, NamedBuilds
+from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
+from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.arm import CrankArm
     from geneva_cli.parts.gears.gear_blanks import Gear
-    from geneva_cli.parts.links.links import Links
     from geneva_cli.parts.mounted_plate import FrameAndShafts
     from geneva_cli.parts.projection import NamedParts
-    from geneva_cli.parts.shafts.screws import Screws
     from geneva_cli.parts.turn.bounds import FlatPairs
     from geneva_cli.parts.turn.gaps import Gaps
 
@@ -73,7 +82,7 @@ class FlatParts(EdgedParts):
     @property
     def drawn(self) -> Outlines | None:
         """The outlines of wheel and crank; None for a wheel that is not drawn."""
-        return self.outlines if self.mechanism.spec.is_flat else None
+        return self._shape if self.mechanism.spec.is_flat else None
 
     @property
     def built(self) -> Self:
@@ -90,7 +99,7 @@ class FlatParts(EdgedParts):
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-        from geneva_cli.geometry.hull import farthest
+        from geneva_cli.geometry.distance import farthest
         from geneva_cli.parts.turn.bounds import FlatPairs
 
         gaps, axis = cast("Gaps", self.outlines.gaps), np.zeros((1, 2))
@@ -114,11 +123,8 @@ class FlatParts(EdgedParts):
     @cached_property
     def wheel(self) -> Member:
         """The wheel, with its hub below it if the spec has one."""
-        from geneva_cli.parts.outlines.wheel_circles import wheel_part
-
         parts = self.outlines
-        walls = {slot: self.walls(slot) for slot in parts.slots}
-        contour = parts.wheel
+        contour, walls = parts.wheel, {slot: self.walls(slot) for slot in parts.slots}
         if walls != parts.slots:
             stopped = self.mechanism.spec.wheel.stopped
             contour = wheel_contour(parts.assembly, parts.sizes, walls, stopped)
@@ -135,30 +141,22 @@ class FlatParts(EdgedParts):
     @cached_property
     def links(self) -> Links:
         """The links of the drive, with the pins and rollers between them, and round gears."""
-        from geneva_cli.parts.links.links import drawn_links
-
         links = drawn_links(self.mechanism, self.drawn)
         return links._replace(cut=self._edged(links.cut), joined=self._edged(links.joined))
 
     @cached_property
     def arm(self) -> CrankArm | None:
         """The crank arm; None without a crank, or without pins for the rollers."""
-        from geneva_cli.parts.arm import crank_arm
-
         return crank_arm(self.outlines) if self.outlines.has_arm else None
 
     @cached_property
     def arm_plate(self) -> Plate | None:
         """The crank arm as a plate."""
-        from geneva_cli.parts.arm import arm_plate
-
         return self._plate(arm_plate(self.outlines, self.arm)) if self.arm else None
 
     @cached_property
     def locking(self) -> tuple[Plate, ...]:
         """The locking disc, or its sectors."""
-        from geneva_cli.parts.arm import locking_plates
-
         return tuple(map(self._plate, locking_plates(self.outlines)))
 
     @cached_property
@@ -167,49 +165,36 @@ class FlatParts(EdgedParts):
 
         They are in the crank's frame. Of a wheel that is not drawn, they are those on links.
         """
-        from geneva_cli.parts.arm import roller_plates
-
-        mechanism, low = self.mechanism, self.links.pin_low
+        mechanism, low, drawn = self.mechanism, self.links.pin_low, self.drawn
         size, r = mechanism.spec.size, mechanism.roller_radius_mm
-        sizes = self.drawn.sizes if self.drawn else None
+        sizes = drawn.sizes if drawn else None
         thick = drawn_thicknesses(size, mechanism.center_distance_mm, sizes)
         if low is None:
-            low = -size.allowances.pin_gap_mm - (
-                thick.arm if self.drawn and self.drawn.has_arm else 0.0
-            )
-        plates = roller_plates(
-            r, pin_radius(size, r, sizes), low, thick.wheel, size.allowances.shaft_fit_mm
-        )
-        centres = roller_centres(self.drawn.assembly) if self.drawn else self._on_links()
+            low = -size.allowances.pin_gap_mm - (thick.arm if drawn and drawn.has_arm else 0.0)
+        pin = pin_radius(size, r, sizes)
+        plates = roller_plates(r, pin, low, thick.wheel, size.allowances.shaft_fit_mm)
+        if drawn:
+            centres = roller_centres(drawn.assembly)
+        else:
+            centres = tuple(at for link, at in roller_pins(mechanism) if link.plane == 1)
         return self._edged(Member(plate, centre) for centre in centres for plate in plates)
-
-    def _on_links(self) -> tuple[Point, ...]:
-        """Return the centres of rollers on links in the plane below the wheel."""
-        from geneva_cli.parts.links.link_sizes import roller_pins
-
-        return tuple(at for link, at in roller_pins(self.mechanism) if link.plane == 1)
 
     @cached_property
     def crank_hub(self) -> Plate | None:
         """The crank's hub above the disc or the arm, if the spec has one."""
-        from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
-
         hub = crank_hub(self.outlines)
         return self._plate(hub) if hub else None
 
     @property
     def horn_mm(self) -> float | None:
         """Thickness of the horns between slots and recesses; None without a lock."""
-        return self.outlines.sizes.horn if self.outlines.crank else None
+        return self.sizes.horn if self.outlines.crank else None
 
     def hub_radii(self, part: str) -> tuple[float, float]:
         """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
-        sizes = self.outlines.sizes
-        radii = {
-            "wheel": (sizes.wheel_bore, sizes.wheel_hub),
-            "crank": (sizes.crank_bore, sizes.crank_hub),
-        }
-        return radii[part]
+        sizes = self.sizes
+        wheel, crank = (sizes.wheel_bore, sizes.wheel_hub), (sizes.crank_bore, sizes.crank_hub)
+        return wheel if part == "wheel" else crank
 
     def axle_radius(self, part: str) -> float:
         """Return the radius of a part's shaft, or of its hub if the spec has one, mm; 0 if none."""
@@ -226,28 +211,27 @@ class FlatParts(EdgedParts):
         """The crank as it lies in the wheel's plane."""
         return self._crank(None)
 
-    def about_wheel(self, crank: Member) -> tuple[Member, ...]:
-        """Return the first crank, or a part of it, and its copies on all cranks about the wheel."""
-        places = self.mechanism.crank_places
-        before = np.array([-place.behind_deg for place in places])
-        turns = self.outlines.assembly.crank(before) - self.outlines.assembly.crank(np.zeros(1))
-        return tuple(
-            crank._replace(at=place.at, turn=crank.turn + place.turn + float(turn))
-            if place.number > 1
-            else crank
-            for place, turn in zip(places, turns, strict=True)
-        )
-
-    @cached_property
-    def cranks(self) -> tuple[Member, ...]:
-        """All cranks about the wheel."""
-        return self.about_wheel(self.crank)
-
     def _crank(self, arm: Plate | None) -> Member:
         hub, assembly = self.crank_hub, self.outlines.assembly
         below = (Member(plate) for plate in (*self.locking, *([arm] if arm else [])))
         group = Group("crank", (*below, *self.rollers, *([Member(hub)] if hub else [])))
         return Member(group, (assembly.L, 0.0), float(assembly.crank(np.zeros(1))[0]))
+
+    def about_wheel(self, crank: Member) -> tuple[Member, ...]:
+        """Return the first crank, or a part of it, and its copies on all cranks about the wheel."""
+        first, *others = self.mechanism.crank_places
+        before = np.array([-place.behind_deg for place in (first, *others)])
+        _, *turns = self.outlines.assembly.crank(before) - self.outlines.assembly.crank(np.zeros(1))
+        copies = (
+            crank._replace(at=place.at, turn=crank.turn + place.turn + float(turn))
+            for place, turn in zip(others, turns, strict=True)
+        )
+        return (crank, *copies)
+
+    @cached_property
+    def cranks(self) -> tuple[Member, ...]:
+        """All cranks about the wheel."""
+        return self.about_wheel(self.crank)
 
     @cached_property
     def front(self) -> FlatParts:
@@ -266,10 +250,17 @@ class FlatParts(EdgedParts):
         """Of two wheels in series, the first and its locking disc."""
         if not self.in_front:
             return ()
-        from geneva_cli.parts.first_pair import in_front
-
-        L = self.mechanism.center_distance_mm
-        return self._edged(in_front(self.front.outlines, self.links, L))
+        first, L = self.front.outlines, self.mechanism.center_distance_mm
+        assert self.links.sizes is not None  # the first crank is a link
+        # the first wheel lies two planes below the wheel
+        low, high = self.links.sizes.span(2)
+        # at mid-motion the first slot of the first wheel's frame points at the first crank
+        wheel = wheel_plate(first.assembly, first.sizes, first.wheel), L, 0.0
+        discs = ((plate, L + first.assembly.L, math.pi) for plate in locking_plates(first))
+        return self._edged(
+            Member(plate._replace(name=f"first {plate.name}", low=low, high=high), (x, 0.0), turn)
+            for plate, x, turn in (wheel, *discs)
+        )
 
     @cached_property
     def toothed(self) -> tuple[Gear, ...]:
@@ -284,7 +275,7 @@ class FlatParts(EdgedParts):
     @property
     def tooth_dimensions(self) -> tuple[Dimension, ...]:
         """Dimensions of the gears' teeth; none without teeth."""
-        from geneva_cli.parts.gears.pair_teeth import pair_teeth
+        from geneva_cli.parts.gears.gear_curves import pair_teeth
 
         teeth = pair_teeth(self.mechanism.spec.gears, self.mechanism.spec.size)
         meshes = (teeth, self.links.mesh)
@@ -303,14 +294,14 @@ class FlatParts(EdgedParts):
     def _base(self) -> Plate | None:
         if self.drawn is None or self.drawn.assembly.rollers[0][0].groove is None:
             return None
-        from geneva_cli.parts.slots.groove_plate import groove_base
+        from geneva_cli.parts.slots.groove import groove_base
 
         return groove_base(self.drawn, self.links)
 
     @cached_property
     def groove(self) -> tuple[Contour, Contour, Contour]:
         """The flanks of a cam's groove and its pitch curve; raises GenevaError without a groove."""
-        from geneva_cli.parts.slots.groove_plate import groove_lines
+        from geneva_cli.parts.slots.groove import groove_lines
 
         return groove_lines(self.outlines, self.tolerance, self.curves)
 
@@ -319,7 +310,7 @@ class FlatParts(EdgedParts):
         """The plates with a cam's groove: base, ring and island."""
         if self._base is None:
             return ()
-        from geneva_cli.parts.slots.groove_plate import groove_stack
+        from geneva_cli.parts.slots.groove import groove_stack
 
         stack = groove_stack(self._base, self.links, self.groove[:2])
         return self._edged(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
@@ -353,20 +344,17 @@ class FlatParts(EdgedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of dial, locking disc, and what is fixed to the frame."""
-        framed = self.frame_screws
-        if not self.drawn:
+        framed, drawn = self.frame_screws, self.drawn
+        if not drawn:
             return framed
-        from geneva_cli.parts.arm import bolts
-        from geneva_cli.parts.outlines.wheel_circles import dial_bolts
-        from geneva_cli.parts.shafts.screws import Screws
-
-        own = []
-        for fixed, holes, thread in (
-            ("dial", dial_bolts(self.drawn.assembly, self.drawn.sizes), "the dial"),
-            (self.locking[0].name, bolts(self.drawn), "the arm") if self.locking else ("", [], ""),
-        ):
-            if holes:
-                own.append(Screws(fixed, len(holes), 2.0 * holes[0].radius, thread))
+        holes = {"dial": (dial_bolts(drawn.assembly, drawn.sizes), "the dial")}
+        if self.locking:
+            holes[self.locking[0].name] = bolts(drawn), "the arm"
+        own = (
+            Screws(fixed, len(some), 2.0 * some[0].radius, thread)
+            for fixed, (some, thread) in holes.items()
+            if some
+        )
         return (*own, *framed)
 
     @property
@@ -386,20 +374,15 @@ class FlatParts(EdgedParts):
     @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        links = {plate.name: [plate.name] for plate in self.links.plates}
-        named = {**links, "crank": [*links.get("crank", []), *self._on_crank_shaft()]}
+        named = {plate.name: [plate.name] for plate in self.links.plates}
+        on_crank = named.setdefault("crank", [])
+        if self.drawn and self.arm:
+            on_crank.append("arm")
+        bolted = bool(self.drawn and self.arm and self.arm.bolts)  # the disc to the arm
+        bored = self.drawn and self.sizes.crank_bore > 0.0 and is_whole(self.assembly, self.sizes)
+        if bored and self.locking and not bolted:
+            on_crank.append("locking disc")
         return tuple(one for name in self._framed.to_fix for one in named.get(name, [name]))
-
-    def _on_crank_shaft(self) -> Iterator[str]:
-        """Yield the names of the crank's parts about its shaft; bolts fix the disc to the arm."""
-        if self.drawn is None:
-            return
-        if self.arm:
-            yield "arm"
-        sizes = self.outlines.sizes
-        bored = sizes.crank_bore > 0.0 and is_whole(self.outlines.assembly, sizes)
-        if self.locking and bored and not (self.arm and self.arm.bolts):
-            yield "locking disc"
 
     @property
     def linked(self) -> tuple[Member, ...]:
@@ -408,17 +391,20 @@ class FlatParts(EdgedParts):
         return own if self.drawn else (*own, *self.rollers)
 
     @property
+    def _in_front(self) -> tuple[Member, ...]:
+        return (*self.linked, *self.round_gears, *self.gear_pair)
+
+    @property
     def members(self) -> tuple[Member, ...]:
         """All parts."""
         turning = (self.wheel, *self.orbiting, *self.cranks) if self.drawn else ()
-        moved = *turning, *self.linked, *self.round_gears, *self.gear_pair, *self.first
-        return (*moved, *self.shafts, *self.standing)
+        return (*turning, *self._in_front, *self.first, *self.shafts, *self.standing)
 
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""
         if self.mechanism.spec.is_flat:
-            yield "wheel", lambda: [one.part for one in (self.wheel, *self.orbiting)]
             each = len(self.mechanism.crank_places)
+            yield "wheel", lambda: [one.part for one in (self.wheel, *self.orbiting)]
             yield "locking disc", lambda: each * self.locking
             yield "arm", lambda: each * [self.arm_plate] if self.arm_plate else []
             yield "rollers", lambda: each * [one.part for one in self.rollers]
@@ -462,7 +448,7 @@ class FrontParts(FlatParts):
     @property
     def members(self) -> tuple[Member, ...]:
         """Links and gears."""
-        return (*self.linked, *self.round_gears, *self.gear_pair)
+        return self._in_front
 
     def by_name(self) -> Iterator[NamedParts]:
         """Yield links and gears in the order of a list, as names and functions that build them."""

@@ -1,33 +1,29 @@
 """The frame: one plate with a hole for every shaft that reaches it, and four mounting holes.
 
-External wheels that orbit have a carrier instead, without mounting holes: it turns on the finger's
-shaft, and has eyes for all wheels.
-
-It lies below all moving parts. A shaft that ends above it, such as an internal wheel's, has its
-bearing elsewhere. The wheel's axis is the origin, and the crank's is on the x axis. Holes are as
-wide as the bores on their shafts. Turned shafts have a ball bearing in the frame, which is at least
-as thick.
+It lies below all moving parts. External wheels that orbit have a carrier instead, which turns on
+the finger's shaft. A shaft that ends above the frame has its bearing elsewhere: an internal
+wheel's, or a side-crank's, whose input crank turns over the axis of the crank's shaft. That one is
+borne by a bridge over the crank, on two posts beside all that turns about the crank's axis.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TypeAlias
 
 import numpy as np
 
+from geneva_cli.geometry.distance import Polyarc, farthest
 from geneva_cli.geometry.hull import convex_hull
-from geneva_cli.geometry.plates import Member, Plate, Stack
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
+from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import AxisPlace
+from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.bearing_bridge import bearing_bridge
-from geneva_cli.parts.links.link_planes import crank_stop
-from geneva_cli.parts.links.link_positions import same
-from geneva_cli.parts.links.link_shafts import carried, link_shafts, outside_links
+from geneva_cli.parts.links.link_positions import is_bridged, links_at, same, turn_deg
+from geneva_cli.parts.links.link_shafts import carried, crank_stop, link_shafts, outside_links
+from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
     FrameAndShafts,
@@ -37,20 +33,24 @@ from geneva_cli.parts.mounted_plate import (
     hole_without_shaft,
     mounted_plate,
     require_walls,
-    shaft_hole,
+    shaft_holes,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub
-from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.hub_and_shafts import crank_shaft_radius, shafts, wheel_shaft_radius
-from geneva_cli.parts.shafts.screws import tapped
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, seat_of
-from geneva_cli.parts.shafts.turned_shafts import built_shafts
-from geneva_cli.parts.sizes import drawn_thicknesses
+from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, tapped
+from geneva_cli.parts.shafts.shaft import (
+    Ends,
+    Seat,
+    Shaft,
+    built_shafts,
+    seat_of,
+    shoulder_length,
+    shoulder_mm,
+)
+from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
-
-Fixed: TypeAlias = tuple[Circle, Plate]  # a screw's clearance hole, and the part that it fixes
 
 
 def framed(
@@ -68,48 +68,48 @@ def framed(
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     others = (*first, *([Member(base)] if base else []))
-    adjacent = list(passing(mechanism, outlines, bars, others))
+    adjacent = list(_passing(mechanism, outlines, bars, others))
     free = _lowest(mechanism, outlines, adjacent) - size.washer_mm
     top = free - shoulder_length(size, L)
     thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
-    own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
+    own = list(_all_shafts(mechanism, outlines, bars, top - thick, first))
     hanging = [one for one in own if one.turns and one.low >= top]
     crank = next((one for one in hanging if same(one.at, mechanism.crank_shaft.at, L)), None)
     bridge = None
     if outlines and crank:
-        bridge = bearing_bridge(mechanism, outlines, bars, crank, thick)
+        bridge = _bridge(mechanism, outlines, bars, crank, thick)
     if bridge and crank:
         own[own.index(crank)] = crank._replace(high=bridge.high)
         hanging.remove(crank)
     if size.shafts == "turned" and outlines:
-        adjacent += passing_arm(outlines, own)
+        adjacent += _passing_arm(outlines, own)
     axles, bottom = built_shafts(size, own, adjacent, (top - thick, top, free))
-    places = list(_standing(mechanism, bars))
-    drilled = list(_drilled(mechanism, axles, places, top))
+    standing = list(_standing(mechanism, bars))
+    drilled = list(_drilled(mechanism, axles, standing, top))
     require_walls(drilled, wall_min(size, L), axles)
-    mounted = (_mounted(plate, L) for plate in (base, bridge) if plate)
-    fixed = [*_fixed(bars), *(screwed for one in mounted for screwed in one)]
+    fixed = list(_fixed(bars))
+    for plate in (base, bridge):
+        if plate:  # about the crank's axis
+            screwed = placed_holes(Member(plate, (L, 0.0)))
+            fixed += [(hole, plate) for hole in screwed if not same(hole.centre, (L, 0.0), L)]
     holes = [*drilled, *(tapped(hole) for hole, _ in fixed)]
-    near = SAME_LENGTH * L
-    spacers = [_spacer(hole, part, top) for hole, part in fixed if part.low - top > near]
+    spacers = [_spacer(hole, part, top) for hole, part in fixed if part.low - top > SAME_LENGTH * L]
     eye = corner_radius(size, L)
     if mechanism.frame > 0.0:
         reach = max((c.radius for c in holes), default=0.0) + eye
-        eyes = [Circle("FRAME", at, reach) for at in places]
+        eyes = [Circle("FRAME", at, reach) for at in standing]
         plate = Plate("carrier", "FRAME", convex_hull("FRAME", eyes), tuple(holes), bottom, top)
     else:
         # a frame contains every axis, drilled or not
-        within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *places))]
+        within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
         plate = mounted_plate(holes, within, eye, (bottom, top))
-    screwed = tuple(Screwed(hole, part.name) for hole, part in fixed)
     whole = {name for axis in bars.axes for name in axis.one_piece}
     to_fix = (name for one in own for name in one.to_fix(size) if name not in whole)
-    shafts = tuple(outside_links(axles, bars, L))
     return FrameAndShafts(
         plate,
-        shafts,
+        tuple(outside_links(axles, bars, L)),
         tuple(spacers),
-        screwed,
+        tuple(Screwed(hole, part.name) for hole, part in fixed),
         tuple(dict.fromkeys(to_fix)),
         Member(bridge, (L, 0.0)) if bridge else None,
         tuple(Unborne(one.name, _why_above(one, size, bars, top)) for one in hanging),
@@ -128,21 +128,52 @@ def _why_above(shaft: Shaft, size: Size, bars: Links, top: float) -> str:
     return f"{ends}, because the {' and the '.join(below)} passes below it"
 
 
-def _drilled(
-    mechanism: Mechanism, shafts_: Sequence[Member], places: Sequence[Point], top: float
-) -> Iterator[Circle]:
-    """Yield the holes of the shafts that reach below the frame's upper face.
+def _bridge(
+    mechanism: Mechanism, parts: Outlines, bars: Links, shaft: Shaft, thick: float
+) -> Plate | None:
+    """Return the bridge about the crank's axis; None where there is no place for one."""
+    if not (parts.sizes.crank_bore and is_bridged(mechanism)):
+        return None
+    size, L = mechanism.spec.size, mechanism.center_distance_mm
+    wall = wall_min(size, L)
+    bore = shaft.bore.around + 0.5 * size.allowances.shaft_fit_mm
+    half = max(rounded_radius(HUB * bore), bore + wall)
+    # also a machine that is too small for screws has those of the bridge
+    screw = bolt_radius(None, L, half) or 0.5 * SCREWS[0].through
+    away = _swept_mm(mechanism, parts, bars) + wall + max(half, 2.0 * screw)
+    away = 0.5 * math.ceil(2.0 * away)  # mm: to half a millimetre, for the drill
+    ends = (0.0, -away), (0.0, away)
+    outline = convex_hull("FRAME", [Circle("FRAME", at, half) for at in ends])
+    holes = Circle("BORE", ORIGIN, bore), *(Circle("BORE", at, screw) for at in ends)
+    low = bridge_low(size, parts.sizes)
+    return Plate("bearing bridge", "FRAME", outline, holes, low, low + thick)
 
-    They are as wide as bores for these shafts, or as the bearings on them.
-    A wheel or a crank without a bore is one piece with its shaft, whose diameter is in [shaft].
-    """
+
+def _swept_mm(mechanism: Mechanism, parts: Outlines, bars: Links) -> float:
+    """Return a radius about the crank's axis that no part of crank and drive turns beyond."""
+    L, sizes = mechanism.center_distance_mm, parts.sizes
+    far = [sizes.lock, sizes.crank_hub]
+    if parts.has_arm:
+        arm = crank_arm(parts)
+        eye = max(arm.eye, sizes.roller)
+        far += [arm.hub, *(math.hypot(*pin.centre) + eye for pin in arm.pins)]
+    links = {link.name: link for link in links_at(mechanism, turn_deg(mechanism))}
+    for plate in bars.plates:
+        if plate.name in links:  # a block stays in its link
+            reach = float(farthest(Polyarc([as_contour(plate.outline)]), 0.0, 0.0).max())
+            far.append(float(np.abs(places(links[plate.name])[0] - L).max()) + reach)
+    return max(far)
+
+
+def _drilled(
+    mechanism: Mechanism, axles: Sequence[Member], standing: Sequence[Point], top: float
+) -> Iterator[Circle]:
+    """Yield the holes of the shafts that reach below the frame's upper face."""
     L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
     cranks = [one.at for one in mechanism.crank_places]
-    for at in places:
-        here = [one.part for one in shafts_ if same(one.at, at, L)]
-        for one in here:
-            if isinstance(one, Plate | Stack) and one.low < top:
-                yield shaft_hole(one, at, top, mechanism.spec.size.allowances.shaft_fit_mm)
+    for at in standing:
+        here = [one._replace(at=at) for one in axles if same(one.at, at, L)]
+        yield from shaft_holes(mechanism.spec.size, here, top)
         if not here:
             diameter = shaft.crank_diameter_mm if at in cranks else shaft.wheel_diameter_mm
             yield hole_without_shaft(diameter, at, L)
@@ -166,8 +197,8 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
             yield axis.at
 
 
-def _fixed(bars: Links) -> Iterator[Fixed]:
-    """Yield the screws of parts that are fixed to the frame, such as a guide or a gear."""
+def _fixed(bars: Links) -> Iterator[tuple[Circle, Plate]]:
+    """Yield the screws' holes of a guide or a gear that is fixed to the frame, with that part."""
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             yield from ((hole, member.part) for hole in placed_holes(member))
@@ -177,17 +208,8 @@ def _fixed(bars: Links) -> Iterator[Fixed]:
             yield Circle("BORE", (x + u, y + v), hole.radius), gear.plate
 
 
-def _mounted(base: Plate, L: float) -> Iterator[Fixed]:
-    """Yield the screws of a plate about the crank's axis."""
-    holes = placed_holes(Member(base, (L, 0.0)))
-    yield from ((hole, base) for hole in holes if not same(hole.centre, (L, 0.0), L))
-
-
 def _spacer(screw: Circle, part: Plate, top: float) -> Member:
-    """Return the ring about a screw, twice as wide, between the frame and the fixed part.
-
-    It is turned from a rod: often it is higher than wide.
-    """
+    """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
     outline, bore = Circle("SHAFT", ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
     plate = Plate(f"spacer of the {part.name}", "SHAFT", outline, (bore,), top, part.low)
     return Member(plate, screw.centre)
@@ -201,7 +223,7 @@ def _lowest(mechanism: Mechanism, parts: Outlines | None, others: Sequence[Seat]
     return min([stands - arm, *([hub.low] if hub else []), *(one.low for one in others)])
 
 
-def all_shafts(
+def _all_shafts(
     mechanism: Mechanism,
     outlines: Outlines | None,
     bars: Links,
@@ -225,17 +247,21 @@ def all_shafts(
     if outlines:
         stop = crank_stop(outlines, bars)
         has_one = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
-        _, *others = mechanism.wheel_places
+        _, *wheels = mechanism.wheel_places
         _, *cranks = mechanism.crank_places
         half = mechanism.engagements[0].half_step
         for one in shafts(outlines, lowest, stop, on):
             yield one
             if same(one.at, (0.0, 0.0), L):
-                yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in others)
-            else:
-                yield from (_of_crank(one, it, outlines) for it in cranks)
-    size, drawn = mechanism.spec.size, outlines.sizes if outlines else None
-    top = drawn_thicknesses(size, L, drawn).wheel
+                yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in wheels)
+                continue
+            for place in cranks:
+                turn = 0.0
+                if not one.bore.is_plain:  # a plain one has no direction
+                    crank = outlines.assembly.crank(np.array([-place.behind_deg, 0.0]))
+                    turn = one.turn + place.turn + float(crank[0] - crank[1])
+                yield one._replace(at=place.at, turn=turn)
+    top = drawn_thicknesses(mechanism.spec.size, L, outlines.sizes if outlines else None).wheel
     ends = Ends(lowest, top, stop, *has_one)
     yield from link_shafts(mechanism, bars, ends, on)
     if mechanism.spec.gears:
@@ -244,15 +270,7 @@ def all_shafts(
         yield from gear_shafts(mechanism, outlines, ends)
 
 
-def _of_crank(first: Shaft, place: AxisPlace, outlines: Outlines) -> Shaft:
-    """Return the shaft of a crank that follows the first; a plain one has no direction."""
-    if first.bore.is_plain:
-        return first._replace(at=place.at)
-    later, now = outlines.assembly.crank(np.array([-place.behind_deg, 0.0]))
-    return first._replace(at=place.at, turn=first.turn + place.turn + float(later - now))
-
-
-def passing(
+def _passing(
     mechanism: Mechanism, outlines: Outlines | None, bars: Links, others: Iterable[Member]
 ) -> Iterator[Seat]:
     """Yield links, gears and other parts: their names, lower and upper faces."""
@@ -264,10 +282,8 @@ def passing(
         yield from gear_seats(mechanism, outlines)
 
 
-def passing_arm(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
+def _passing_arm(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
     """Yield the faces of an arm whose end passes a wheel's shaft nearer than its shoulder."""
-    from geneva_cli.parts.shafts.turned_shafts import shoulder_mm
-
     if not outlines.has_arm:
         return
     arm, L = crank_arm(outlines), outlines.assembly.L

@@ -79,14 +79,14 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
 
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
-    usual, _ = usual_sizes(assembly, known or roller_paths(assembly))
-    refuse_sizes(assembly, usual)
+    usual, _ = _usual_sizes(assembly, known or roller_paths(assembly))
+    _refuse(assembly, usual)
     return usual
 
 
 def unloaded(assembly: Assembly) -> Unloaded:
     """Return the parts of a machine without its load; raises GenevaError as ``sizes`` does."""
-    usual, space = usual_sizes(assembly, roller_paths(assembly))
+    usual, space = _usual_sizes(assembly, roller_paths(assembly))
     return Unloaded(assembly, usual, space, cut_lock(assembly, usual) if usual.lock else None)
 
 
@@ -99,7 +99,7 @@ def loaded(of: Unloaded, loads: PartLoads, horn_MPa: float | None = None) -> Siz
 
     first = first_sizes(of.assembly.full, sized) if of.assembly.full.first_wheel else None
     out = load_sizes(of, loads, horn_MPa, first)._replace(first=first)
-    refuse_sizes(of.assembly, out)
+    _refuse(of.assembly, out)
     return out
 
 
@@ -109,31 +109,23 @@ def built(mechanism: Mechanism) -> Size:
     Without flat parts only centre distance, roller and clearances are added.
     """
     size = mechanism.spec.size
+    allowed = ("slot_clearance", "lock_clearance", "press_fit", "shaft_fit", "pin_gap")
     known: dict[str, float] = {
         "center_distance_mm": mechanism.center_distance_mm,
         "roller_radius_mm": mechanism.roller_radius_mm,
-        "slot_clearance_mm": size.allowances.slot_clearance_mm,
-        "lock_clearance_mm": size.allowances.lock_clearance_mm,
-        "press_fit_mm": size.allowances.press_fit_mm,
-        "shaft_fit_mm": size.allowances.shaft_fit_mm,
-        "pin_gap_mm": size.allowances.pin_gap_mm,
+        **{f"{name}_mm": getattr(size.allowances, f"{name}_mm") for name in allowed},
     }
     if flat := sized(mechanism):
-        _, own = flat
+        own = flat[1]
+        radii = ("wheel_bore", "wheel_hub", "crank_bore", "crank_hub", "pin")
+        thick = ("wheel_thickness", "lock_thickness", "arm_thickness")
         known |= {
             "wheel_radius_mm": own.rim,
             "slot_bottom_clearance_mm": own.slot_bottom,
             "lock_radius_mm": own.lock,
             "relief_clearance_mm": own.relief,
-            "wall_min_mm": own.wall_min,
-            "wheel_bore_mm": 2.0 * own.wheel_bore,
-            "wheel_hub_mm": 2.0 * own.wheel_hub,
-            "crank_bore_mm": 2.0 * own.crank_bore,
-            "crank_hub_mm": 2.0 * own.crank_hub,
-            "pin_mm": 2.0 * own.pin,
-            "wheel_thickness_mm": own.wheel_thickness,
-            "lock_thickness_mm": own.lock_thickness,
-            "arm_thickness_mm": own.arm_thickness,
+            **{f"{name}_mm": getattr(own, name) for name in ("wall_min", *thick)},
+            **{f"{name}_mm": 2.0 * getattr(own, name) for name in radii},
         }
         known |= {"wheel_outer_radius_mm": own.outer} if own.outer else {}
     values = size.as_dict()
@@ -147,38 +139,38 @@ def drawn_pin_radius(mechanism: Mechanism) -> float:
     return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm, parts)
 
 
-def usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
+def _usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
     """Return the sizes without a load, and the radius about the crank's axis inside the relief."""
-    spec, L, kinds = assembly.mechanism.spec, assembly.L, assembly.kinds
-    size, r = spec.size, assembly.mechanism.roller_radius_mm
-    allowed = size.allowances
+    spec, full, L, kinds = assembly.mechanism.spec, assembly.full.spec, assembly.L, assembly.kinds
+    size, r, sign = spec.size, assembly.mechanism.roller_radius_mm, assembly.sign
+    allowed, outside = size.allowances, sign > 0.0
     w = r + allowed.slot_clearance_mm
-    outside = assembly.sign > 0.0
     rim = value_or(size.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
     bottom = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
-    gaps = [0.0 if s.slot.curved else bottom for s in kinds]
-    ends = (
-        assembly.sign * _bottom(deepest, L * s.through.slot.offset, assembly.sign * gap)
-        for s, deepest, gap in zip(kinds, path.ends, gaps, strict=True)
-    )
-    end = (min(ends) - w) * assembly.sign
-    arm = path.arm
+    ends = []
+    for s, deepest in zip(kinds, path.ends, strict=True):
+        # the gap below the deepest roller is along the slot, whose axis may miss the wheel's
+        offset = L * s.through.slot.offset
+        along = math.sqrt(max(deepest * deepest - offset * offset, 0.0))
+        along -= 0.0 if s.slot.curved else sign * bottom
+        # beyond the wheel's axis the distance is negative
+        ends.append(sign * math.copysign(math.hypot(along, offset), along))
+    end, arm, depth = (min(ends) - w) * sign, path.arm, abs(L - rim)
     lock = _lock(assembly, arm, w, rim)
-    depth = abs(L - rim)
     relief = value_or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     if any(s.apart for s in kinds):  # gears between rollers widen the relief
         space = min(space, arc_floor(assembly, lock)) if has_arcs(assembly, lock) else math.inf
     within = min(space, depth - relief)
-    bore = _crank_bore(assembly.full.spec, within, L) if spec.drive.LOCKS else 0.0
+    bore = _crank_bore(full, within, L) if spec.drive.LOCKS else 0.0
     wall = wall_min(size, L)
-    axle = wheel_bore(assembly.full.spec, end, wall, L) if outside or size.wheel_bore_mm else 0.0
+    axle = wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
     wheel_reach, wheel_hub = wheel_reach_and_hub(size, axle, wall, end)
     crank_reach, crank_hub = crank_reach_and_hub(size, bore, wall)
     thick, pin, reaches = drawn_thicknesses(size, L), pin_radius(size, r), roller_reaches(assembly)
     armed = 0.0
-    if assembly.full.spec.drive.ONE_ARM and pin:  # without pins there is no arm
-        armed = arm_bore(assembly.full.spec, bore, L, min(reaches) - hole_radius(size, pin))
+    if full.drive.ONE_ARM and pin:  # without pins there is no arm
+        armed = arm_bore(full, bore, L, min(reaches) - hole_radius(size, pin))
     usual = Sizes(
         roller=r,
         half_width=w,
@@ -209,11 +201,7 @@ def usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
 
 
 def _crank_bore(spec: Spec, space: float, L: float) -> float:
-    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``space``.
-
-    It is 0 where ``space``, the radius inside the relief, is too small. Then the shaft ends in the
-    arm.
-    """
+    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``space``."""
     size = spec.size
     if size.crank_bore_mm is not None:
         return 0.5 * size.crank_bore_mm
@@ -228,10 +216,7 @@ def _crank_bore(spec: Spec, space: float, L: float) -> float:
 
 
 def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
-    """Return the locking disc's radius: it leaves a horn as thick as the roller's radius.
-
-    The horn is at most a fifth of the available radius. 0 for no disc; linkages have none.
-    """
+    """Return the locking disc's radius: it leaves a horn as thick as the roller's radius."""
     spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
     if not spec.has_lock:
         return 0.0
@@ -252,7 +237,10 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
 
 
 def lock_between(least: float, limit: float, roller: float) -> float:
-    """Return the default reach of a lock: into the rim, and a horn's thickness off the slot."""
+    """Return the default reach of a lock: into the rim, and a horn's thickness off the slot.
+
+    The horn is as thick as the roller's radius, and at most a fifth of the available radius.
+    """
     return max(limit - min(roller, limit / 5.0), 0.5 * (limit + least))
 
 
@@ -266,24 +254,9 @@ def require_lock_between(lock_radius_mm: float, least: float, limit: float) -> N
         )
 
 
-def _bottom(deepest: float, offset: float, gap: float) -> float:
-    """Return the distance of the centre of a slot's round end from the wheel's axis, mm.
-
-    The gap between it and the deepest roller is along the slot, whose axis may be offset from the
-    wheel's. Beyond the wheel's axis the distance is negative.
-    """
-    along = math.sqrt(max(deepest * deepest - offset * offset, 0.0)) - gap
-    return math.copysign(math.hypot(along, offset), along)
-
-
-def refuse_sizes(assembly: Assembly, sizes: Sizes) -> None:
+def _refuse(assembly: Assembly, sizes: Sizes) -> None:
     """Raise GenevaError, naming the key, where a size leaves no wheel or no lock."""
-    _refuse_plates(assembly, sizes)
-    _refuse_hubs(assembly.mechanism.spec.size, sizes)
-
-
-def _refuse_plates(assembly: Assembly, sizes: Sizes) -> None:
-    outside = assembly.sign > 0.0
+    size, outside = assembly.mechanism.spec.size, assembly.sign > 0.0
     if sizes.lock and not abs(assembly.L - sizes.rim) < sizes.recess:
         raise GenevaError(
             f"wheel_radius_mm = {sizes.rim:g}: the rim lies beyond the locking disc's reach; it "
@@ -303,29 +276,42 @@ def _refuse_plates(assembly: Assembly, sizes: Sizes) -> None:
             ("size", "wheel_bore_mm"),
         )
     if assembly.full.spec.drive.ONE_ARM:
-        refuse_stepped_shaft(assembly.mechanism.spec.size, sizes.crank_bore, assembly.L)
+        refuse_stepped_shaft(size, sizes.crank_bore, assembly.L)
     if sizes.lock and sizes.crank_bore >= sizes.lock:
         raise GenevaError(
             f"crank_bore_mm = {2.0 * sizes.crank_bore:g}: it must be below the locking disc's "
             f"{2.0 * sizes.lock:.6g}",
             ("size", "crank_bore_mm"),
         )
-    refuse_edges(
-        assembly.mechanism.spec.size,
-        min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness),
-    )
-    refuse_wide_pin(assembly.mechanism.spec.size, sizes.pin, sizes.roller)
+    refuse_edges(size, min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness))
+    refuse_wide_pin(size, sizes.pin, sizes.roller)
+    _refuse_axles(assembly, sizes)
+
+
+def _refuse_axles(assembly: Assembly, sizes: Sizes) -> None:
+    """Raise GenevaError for a wheel that ends within its slots, and for hubs cut through."""
+    size, outside = assembly.mechanism.spec.size, assembly.sign > 0.0
     if not outside and sizes.outer <= max(sizes.slot_end, assembly.L + sizes.recess):
         raise GenevaError(
             f"wheel_outer_radius_mm = {sizes.outer:g}: it must be larger: the slots reach "
             f"{sizes.slot_end:.6g} mm",
             ("size", "wheel_outer_radius_mm"),
         )
-    if outside and assembly.mechanism.spec.size.wheel_outer_radius_mm is not None:
+    if outside and size.wheel_outer_radius_mm is not None:
         raise GenevaError(
             "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm",
             ("size", "wheel_outer_radius_mm"),
         )
+    shaft = "wheel_shaft_low_mm", "wheel_shaft_high_mm"
+    axle = "wheel_bore_mm", "wheel_hub_mm", "wheel_hub_length_mm", *shaft
+    on_axis = [key for key in axle if vars(size)[key]]
+    if sizes.outer and on_axis:
+        raise GenevaError(
+            f"{on_axis[0]}: an internal wheel is open in the middle; remove it",
+            ("size", on_axis[0]),
+        )
+    refuse_thin_hub("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
+    refuse_thin_hub("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)
 
 
 def refuse_edges(size: Size, thin: float) -> None:
@@ -344,17 +330,3 @@ def refuse_edges(size: Size, thin: float) -> None:
             "plate",
             ("size", key),
         )
-
-
-def _refuse_hubs(size: Size, sizes: Sizes) -> None:
-    """Raise GenevaError, naming the key, for parts on an open wheel, and for hubs cut through."""
-    shaft = "wheel_shaft_low_mm", "wheel_shaft_high_mm"
-    axle = "wheel_bore_mm", "wheel_hub_mm", "wheel_hub_length_mm", *shaft
-    on_axis = [key for key in axle if vars(size)[key]]
-    if sizes.outer and on_axis:
-        raise GenevaError(
-            f"{on_axis[0]}: an internal wheel is open in the middle; remove it",
-            ("size", on_axis[0]),
-        )
-    refuse_thin_hub("wheel", sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)
-    refuse_thin_hub("crank", sizes.crank_hub, sizes.crank_reach, sizes.crank_bore)

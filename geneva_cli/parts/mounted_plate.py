@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
@@ -13,9 +13,9 @@ from geneva_cli.geometry.plates import Member, Plate, Stack
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point
 from geneva_cli.geometry.stacks import apart
 from geneva_cli.numerics.preferred import bore_radius
-from geneva_cli.parts.shafts.bearings import SERIES_60
 from geneva_cli.parts.shafts.bores import around
 from geneva_cli.parts.shafts.screws import Screws, screw_through, tapped
+from geneva_cli.parts.shafts.shaft import SERIES_60
 from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
@@ -61,27 +61,24 @@ def corner_radius(size: Size, L: float) -> float:
     return max(L / 20.0, 3.0 * wall_min(size, L))
 
 
-def shaft_hole(shaft: Plate | Stack, at: Point, top: float, fit_mm: float) -> Circle:
-    """Return the hole of a shaft in a frame with the upper face ``top``.
+def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> Iterator[Circle]:
+    """Yield the holes of a frame for the shafts that reach below its upper face ``top``.
 
-    It is as wide as the bearing on a turned shaft, or as a bore for a plain one.
+    They are as wide as the bearings on turned shafts, or as bores for plain ones.
     """
-    if isinstance(shaft, Stack):
-        # both are exactly the numbers of which the steps were made
-        seat = next(step for step in shaft.plates if step.high == top)
-        bearing = next(one for one in SERIES_60 if one.bore == 2.0 * around(seat.outline))
-        return Circle("BORE", at, 0.5 * bearing.outside)
-    return Circle("BORE", at, around(shaft.outline) + 0.5 * fit_mm)
-
-
-def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:
-    """Return the holes of a frame for the shafts that reach below its upper face."""
-    holes = []
-    for one in axles:
-        assert isinstance(one.part, Plate | Stack)
-        if one.part.low < top:
-            holes.append(shaft_hole(one.part, one.at, top, size.allowances.shaft_fit_mm))
-    return holes
+    for axle in axles:
+        shaft, at = axle.part, axle.at
+        assert isinstance(shaft, Plate | Stack)
+        if shaft.low >= top:
+            continue
+        if isinstance(shaft, Stack):
+            # both are exactly the numbers of which the steps were made
+            seat = next(step for step in shaft.plates if step.high == top)
+            bearing = next(one for one in SERIES_60 if one.bore == 2.0 * around(seat.outline))
+            yield Circle("BORE", at, 0.5 * bearing.outside)
+        else:
+            radius = around(shaft.outline) + 0.5 * size.allowances.shaft_fit_mm
+            yield Circle("BORE", at, radius)
 
 
 def hole_without_shaft(diameter_mm: float | None, at: Point, L: float) -> Circle:

@@ -6,108 +6,81 @@ its first use: most runs need few of the parts.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, ClassVar, Self, TypeAlias
 
+from geneva_cli.geometry.plates import Edge, Member, Plate, edged, plates
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import named, parts_class, thing
-from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.assembly import Assembly, input_of
-from geneva_cli.parts.turn.machine_parts import CONTACT, Lengths, Shape, WorkLimit
-from geneva_cli.parts.turn.pairs import Clearances
+from geneva_cli.parts.assembly import input_of
+from geneva_cli.parts.turn.pairs import TurnedParts, WorkLimit
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.plates import Member
+    from geneva_cli.geometry.gear_teeth import Writer
+    from geneva_cli.geometry.shapes import Circle
     from geneva_cli.motion.pivots import Dimension
-    from geneva_cli.numerics.arrays import Array
     from geneva_cli.parts.gears.gear_blanks import Gear
-    from geneva_cli.parts.mounted_plate import Unborne
+    from geneva_cli.parts.mounted_plate import FrameAndShafts, Unborne
     from geneva_cli.parts.outlines.outlines import Outlines
     from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.shafts.screws import Screws
     from geneva_cli.parts.turn.full_turn import FullTurn
-    from geneva_cli.parts.turn.pairs import Pairs
 
 NamedBuilds: TypeAlias = "list[tuple[str, Callable[[], Parts]]]"
 
 
-class Parts(ABC):
-    """The parts of one machine at their positions, at input angle 0, and their full turn.
-
-    Curved outlines are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance
-    they are as accurate as the checks need them. Without ``advice`` an error does not name the
-    roller that fits, which takes long to find.
-    """
+class Parts(TurnedParts):
+    """The parts of one machine at their positions, at input angle 0, and their full turn."""
 
     # parts that are bent of sheet, and cut by outlines laid flat
     LAID_FLAT: ClassVar[tuple[str, ...]] = ()
 
-    def __init__(
-        self,
-        mechanism: Mechanism,
-        advice: bool = True,
-        tolerance: float | None = None,
-        curves: str = "arcs",
-    ) -> None:
-        self.mechanism, self.advice = mechanism, advice
-        self.tolerance, self.curves = tolerance, curves
+    @property
+    def gear_pair(self) -> tuple[Member, ...]:
+        """The noncircular gears before the crank; none without."""
+        return ()
 
     @property
-    @abstractmethod
-    def _shape(self) -> Shape:
-        """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
+    def toothed(self) -> tuple[Gear, ...]:
+        """Gears with round pitch circles, with teeth if they have a module; none without."""
+        return ()
 
     @property
-    def assembly(self) -> Assembly:
-        """The positions of the parts at any input angle."""
-        return self._shape.assembly
+    def screws(self) -> tuple[Screws, ...]:
+        """The screws between the parts; none without."""
+        return ()
 
     @property
-    def sizes(self) -> Lengths:
-        """The lengths of the parts."""
-        return self._shape.sizes
+    def to_fix(self) -> tuple[str, ...]:
+        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
+        return ()
 
     @property
-    def gaps(self) -> Clearances:
-        """The clearances between the parts."""
-        return self._shape.gaps
+    def unborne(self) -> tuple[Unborne, ...]:
+        """The shafts that turn and have no bearing."""
+        return ()
 
     @property
-    def locked(self) -> bool:
-        """True if the crank has locking surfaces."""
-        return len(self._shape.crank) > 0
+    def outside_mm(self) -> float | None:
+        """Radius of the outer face from which heights count inwards; None in the plane."""
+        return None
 
     @property
-    def close(self) -> float:
-        """The overlap, mm, that counts as rounding or as the walls' tolerance."""
-        return SAME_LENGTH * self.assembly.L
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return None
 
     @property
-    def contact(self) -> float:
-        """The overlap, mm, up to which parts count as touching."""
-        return CONTACT * self.assembly.L
+    def tooth_dimensions(self) -> tuple[Dimension, ...]:
+        """Dimensions of the gears' teeth; none without teeth."""
+        return ()
 
     @property
     def outlines(self) -> Outlines:
         """The outlines of wheel and crank. Raises GenevaError where they are not flat."""
         return self.flat.outlines
-
-    @abstractmethod
-    def pairs(self, target: float) -> Pairs:
-        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
-
-    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame at input angles (n,), mm.
-
-        It is an array (n, 2), or on a sphere (n, 3). The wheel is turned on by ``lead`` radians.
-        """
-        return self.assembly.in_wheel(motion, at, lead)
-
-    @abstractmethod
-    def past_mouth(self, motion: int, at: Array) -> Array:
-        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
 
     @property
     def turn(self) -> FullTurn:
@@ -126,12 +99,6 @@ class Parts(ABC):
         except WorkLimit as error:
             return error
 
-    def over(self, assembly: Assembly) -> Self:
-        """Return the parts of a machine whose wheel and crank are equal, at its own positions."""
-        other = type(self)(assembly.full, self.advice)
-        vars(other)["_shape"] = self._shape._replace(assembly=assembly)
-        return other
-
     def of(self, mechanism: Mechanism) -> Self:
         """Return the parts of a machine whose wheel, crank and positions are equal."""
         return self.over(self.assembly._replace(full=mechanism, to_input=input_of(mechanism)))
@@ -142,20 +109,17 @@ class Parts(ABC):
         They are equal if wheel, drive, motion and ``[size]`` are, but for the speed, and all sizes
         that follow from the load.
         """
+        own, other = (
+            (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
+            for spec in (self.mechanism.spec, mechanism.spec)
+        )
         computed = vars(self)
-        if "_shape" not in computed or not self._has_shape_of(mechanism):
+        if not ("_shape" in computed and own == other and self._has_sizes_of(mechanism)):
             return parts_of(mechanism)
         parts = self.of(mechanism)
         if "_turn" in computed:
             vars(parts)["_turn"] = computed["_turn"]
         return parts
-
-    def _has_shape_of(self, mechanism: Mechanism) -> bool:
-        own, other = (
-            (spec.wheel, spec.drive.replace(n_rpm=1.0), spec.motion, spec.size)
-            for spec in (self.mechanism.spec, mechanism.spec)
-        )
-        return own == other and self._has_sizes_of(mechanism)
 
     def _has_sizes_of(self, mechanism: Mechanism) -> bool:
         """Return True if the sizes of a machine with an equal spec, but for its load, are equal."""
@@ -210,50 +174,93 @@ class Parts(ABC):
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""
 
-    @property
-    def gear_pair(self) -> tuple[Member, ...]:
-        """The noncircular gears before the crank; none without."""
-        return ()
-
-    @property
-    def toothed(self) -> tuple[Gear, ...]:
-        """Gears with round pitch circles, with teeth if they have a module; none without."""
-        return ()
-
     @cached_property
     def round_gears(self) -> tuple[Member, ...]:
-        """Those gears in the machine."""
+        """The ``toothed`` gears in the machine."""
         return tuple(gear.member for gear in self.toothed)
 
+
+class EdgedParts(Parts):
+    """Parts of wheels and racks: plates with the edges of ``[size]``, frame and shafts."""
+
+    def writer(self, fine: float) -> Writer:
+        """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
+        from geneva_cli.geometry import fit
+
+        if self.tolerance is None:
+            return lambda curve, a, b: fit.cubics(curve, a, b, fine)
+        kind, tolerance = fit.KINDS[self.curves], self.tolerance
+        return lambda curve, a, b: kind(curve, a, b, tolerance)
+
     @property
-    def screws(self) -> tuple[Screws, ...]:
-        """The screws between the parts; none without."""
-        return ()
+    @abstractmethod
+    def wheel(self) -> Member:
+        """The wheel or the rack."""
+
+    @property
+    @abstractmethod
+    def crank_without_arm(self) -> Member:
+        """The crank as it lies in the plane of the wheel or the rack."""
+
+    @property
+    @abstractmethod
+    def _framed(self) -> FrameAndShafts:
+        """The frame and the shafts with sharp edges, computed once."""
+
+    @cached_property
+    def shafts(self) -> tuple[Member, ...]:
+        """All shafts, whether they reach the frame or not."""
+        return self._edged(self._framed.shafts)
+
+    @cached_property
+    def frame(self) -> Member:
+        """The frame, which holds the shafts."""
+        return self._edged([Member(self._framed.plate)])[0]
+
+    @property
+    def frame_threads(self) -> tuple[Circle, ...]:
+        """The tapped holes of the frame."""
+        return self._framed.threads
+
+    @property
+    def frame_screws(self) -> tuple[Screws, ...]:
+        """The screws that fix parts to the frame, and those of its mounting holes."""
+        return self._framed.screws
 
     @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        return ()
+        return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
 
     @property
     def unborne(self) -> tuple[Unborne, ...]:
         """The shafts that turn and have no bearing."""
-        return ()
+        return self._framed.unborne
 
     @property
-    def outside_mm(self) -> float | None:
-        """Radius of the outer face from which heights count inwards; None in the plane."""
-        return None
+    def required(self) -> tuple[Member, ...]:
+        """The parts without which the machine is not built."""
+        return self.members
+
+    def require(self) -> None:
+        """Raise GenevaError for a part that cannot be built."""
+        from geneva_cli.geometry.stacks import require_faces
+
+        for member in self.required:
+            for plate in plates(member.part):
+                require_faces(plate)
 
     @property
-    def horn_mm(self) -> float | None:
-        """Thickness of the horns between slots and recesses; None without a lock."""
-        return None
+    def _edge(self) -> Edge:
+        """The edges of all plates but gears, whose edges are teeth."""
+        size = self.mechanism.spec.size
+        return Edge(size.edge_mm, rounded=size.edge_chamfer_mm is None)
 
-    @property
-    def tooth_dimensions(self) -> tuple[Dimension, ...]:
-        """Dimensions of the gears' teeth; none without teeth."""
-        return ()
+    def _plate(self, plate: Plate) -> Plate:
+        return plate._replace(edge=self._edge)
+
+    def _edged(self, members: Iterable[Member]) -> tuple[Member, ...]:
+        return tuple(edged(one, self._edge) for one in members)
 
 
 def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:

@@ -7,7 +7,7 @@ from typing import NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Part, Plate, Shell, Solid, in_place, solids
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point, Shape
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.mechanism import Mechanism
 
@@ -88,17 +88,18 @@ def titled(mechanism: Mechanism, part: str = "") -> str:
 
 def outlines_of(part: Part) -> tuple[Shape, ...]:
     """Return the outlines and holes of a part in its own frame, each once, layer by layer."""
-    return tuple(sorted(once(shapes([Member(part)])), key=_order))
+    # layer by layer, and contours before circles
+    return tuple(
+        sorted(
+            once(shapes([Member(part)])),
+            key=lambda shape: (LAYERS.index(shape.layer), isinstance(shape, Circle)),
+        )
+    )
 
 
 def drawing_of(mechanism: Mechanism, part: str, solid: Part) -> Drawing:
     """Return the drawing of a part in its own frame, under its name."""
     return Drawing(titled(mechanism, part), outlines_of(solid), solid=solid)
-
-
-def _order(shape: Shape) -> tuple[int, bool]:
-    """Return the place of a shape among others: by layer, and contours before circles."""
-    return LAYERS.index(shape.layer), isinstance(shape, Circle)
 
 
 def shapes(members: Iterable[Member]) -> Iterator[Shape]:
@@ -119,25 +120,25 @@ def with_frame(moving: Iterable[Member], standing: Iterable[Member]) -> tuple[Sh
 
 def uncovered(standing: Iterable[Member], drawn: Iterable[Shape]) -> Iterator[Shape]:
     """Yield the outlines of parts that stand, without holes where a circle is drawn already."""
-    seen = {circle_key(shape) for shape in drawn if isinstance(shape, Circle)}
-    for shape in shapes(standing):
-        if not (isinstance(shape, Circle) and circle_key(shape) in seen):
-            yield shape
+    seen = {_key(shape) for shape in drawn if isinstance(shape, Circle)}
+    yield from (shape for shape in shapes(standing) if _key(shape) not in seen)
 
 
 def once(shapes: Iterable[Shape]) -> Iterator[Shape]:
     """Yield shapes without those of one layer that coincide; circles coincide to 1e-6 mm."""
     seen = set()
     for shape in shapes:
-        key = circle_key(shape) if isinstance(shape, Circle) else shape
-        if (shape.layer, key) not in seen:
-            seen.add((shape.layer, key))
+        key = shape.layer, _key(shape)
+        if key not in seen:
+            seen.add(key)
             yield shape
 
 
-def circle_key(circle: Circle) -> tuple[float, ...]:
-    """Return the centre and radius of a circle, rounded to 1e-6 mm."""
-    return tuple(round(value, 6) for value in (*circle.centre, circle.radius))
+def _key(shape: Shape) -> Shape | tuple[float, ...]:
+    """Return what equal shapes share: of circles centre and radius, rounded to 1e-6 mm."""
+    if not isinstance(shape, Circle):
+        return shape
+    return tuple(round(value, 6) for value in (*shape.centre, shape.radius))
 
 
 def with_centre_marks(drawing: Drawing) -> Drawing:
@@ -148,34 +149,24 @@ def with_centre_marks(drawing: Drawing) -> Drawing:
     >>> [mark.segments[0].end for mark in marked.shapes[2:]]
     [(5.0, 0.0), (0.0, 5.0)]
     """
-    least: dict[tuple[float, float], Circle] = {}
-    for circle in _circles(drawing.shapes):
-        known = least.get(circle.centre, circle)
-        least[circle.centre] = min(known, circle, key=lambda one: one.radius)
-    return drawing._replace(shapes=(*drawing.shapes, *centre_marks(least.values())))
-
-
-def _circles(shapes: Iterable[Shape]) -> Iterator[Circle]:
-    """Yield circles, and round holes with a keyway as circles."""
-    for shape in shapes:
+    least: dict[Point, float] = {}
+    for shape in drawing.shapes:
         if shape.layer == "PITCH":  # lines that are not cut
             continue
         if isinstance(shape, Circle):
-            yield shape
-        elif shape.layer == "BORE":
+            at, radius = shape.centre, shape.radius
+        else:
             arcs = [piece for piece in shape.segments if isinstance(piece, Arc)]
-            for arc in sorted(arcs, key=lambda one: -one.radius)[:1]:  # dog bones are smaller
-                x, y = (round(v, 9) + 0.0 for v in arc.centre)  # mm; removes rounding errors
-                yield Circle(shape.layer, (x, y), arc.radius)
-
-
-def centre_marks(holes: Iterable[Circle]) -> Iterator[Contour]:
-    """Yield two lines across each hole, horizontal and vertical.
-
-    >>> [mark.segments[0].end for mark in centre_marks([Circle("BORE", (10.0, 0.0), 4.0)])]
-    [(15.0, 0.0), (10.0, 5.0)]
-    """
-    for hole in holes:
-        (x, y), reach = hole.centre, 1.25 * hole.radius  # half the length of a cross
+            if shape.layer != "BORE" or not arcs:
+                continue
+            widest = max(arcs, key=lambda arc: arc.radius)  # dog bones are smaller
+            x, y = (round(v, 9) + 0.0 for v in widest.centre)  # mm; removes rounding errors
+            at, radius = (x, y), widest.radius
+        least[at] = min(least.get(at, radius), radius)
+    marks = []
+    for (x, y), radius in least.items():
+        reach = 1.25 * radius  # half the length of a cross
         for dx, dy in ((reach, 0.0), (0.0, reach)):
-            yield Contour("CENTER", (Line((x - dx, y - dy), (x + dx, y + dy)),), closed=False)
+            line = Line((x - dx, y - dy), (x + dx, y + dy))
+            marks.append(Contour("CENTER", (line,), closed=False))
+    return drawing._replace(shapes=(*drawing.shapes, *marks))

@@ -1,17 +1,13 @@
 """Default sizes under a load: thicknesses, pin, bores and hubs as large as the load needs.
 
-The loads follow from the motion, the roller and what the wheel turns, never from these sizes, but
-that a stiffer pin is struck harder where the roller changes sides. With friction on the pin all
-loads depend on its diameter: then it stays the usual one. The sizes are
-computed one after the other. The wheel's thickness follows from its horns, then the pin from that.
-For one thickness of the arm after the other there are shafts, until the arm holds.
+The loads never depend on these sizes, but that a stiffer pin is struck harder where the roller
+changes sides; with friction on the pin it stays the usual one. The sizes are computed one after the
+other: the wheel's thickness from its horns, then the pin, then for each thickness of the arm the
+shafts, until the arm holds. Each is the first preferred number that keeps the allowable stress,
+from the usual size on. If there is none, it is the largest that fits, and a check fails.
 
-Each size is the first preferred number that keeps the allowable stress, from the usual size on.
-If there is none, it is the largest that fits, and a check fails.
-
-The first of two wheels in series carries the second's crank. Its load is taken to be constant: the
-greatest torque in the shaft of that crank, so that no place of the roller is loaded less than it
-is. Then it is a machine of its own, sized as any other.
+The first of two wheels in series carries the second's crank. Its load is the greatest torque in the
+shaft of that crank. Then it is a machine of its own, sized as any other.
 """
 
 from __future__ import annotations
@@ -98,11 +94,12 @@ def load_sizes(
         wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)
     )
     if by and spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
-        if bent_MPa is None:
-            bent_MPa = float(horn_MPa(machine, sizes.half_width, by)[0])
+        bent = bent_MPa
+        if bent is None:
+            bent = float(horn_MPa(machine, sizes.half_width, by)[0])
         # a thicker wheel bends its pins more than its horns
         trials = rounded_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
-        allowed, bent = wheel_material(spec).allowed_MPa, bent_MPa
+        allowed = wheel_material(spec).allowed_MPa
         wheel = first_that(trials, lambda b: keeps(bent / b, "at most", allowed))
         sizes = _thick(assembly, sizes, wheel=wheel)
     eye = math.inf
@@ -111,17 +108,15 @@ def load_sizes(
         eye = assembly.L - sizes.reaches[1] - hub - sizes.wall_min
     wide = sizes.wheel_thickness
     sizes = sizes._replace(pin=pin_that_holds(machine, sizes.pin, wide, sizes.roller, eye, loads))
+
+    def trial(keyed: bool, arm: float | None) -> Sizes:
+        thick = _thick(assembly, sizes, arm=arm) if arm else sizes
+        bored = _wheel_bored(assembly, thick, loads)
+        return _crank_bored(assembly, bored, loads, space, keyed)
+
     has_arm = sizes.arm_bore > 0.0 and sizes.pin > 0.0
-
-    def bored(sizes: Sizes, keyed: bool = True) -> Sizes:
-        return _crank_bored(assembly, _wheel_bored(assembly, sizes, loads), loads, space, keyed)
-
     if not has_arm or spec.size.arm_thickness_mm is not None:
-        return bored(sizes)
-
-    def trial(keyed: bool, arm: float) -> Sizes:
-        return bored(_thick(assembly, sizes, arm=arm), keyed)
-
+        return trial(True, None)
     return arm_that_holds(spec, wide, trial, lambda one: stressed(assembly, one), loads)
 
 
@@ -145,10 +140,9 @@ def arm_that_holds(
         key = key_holds(spec, parts.crank_key, loads.crank_Nm)
         return key and keeps(stress, "at most", wheel_material(spec).allowed_MPa)
 
-    keyed = (False, True) if spec.size.crank_keyway else (True,)
     thick = rounded_from(wheel, 2.0 * wheel)
-    trials = (trial(key, one) for key in keyed for one in thick)
-    return first_that(trials, holds)
+    keyed = (False, True) if spec.size.crank_keyway else (True,)
+    return first_that((trial(key, one) for key in keyed for one in thick), holds)
 
 
 def _thick(
@@ -160,14 +154,11 @@ def _thick(
         **({"arm_thickness_mm": arm} if arm else {}),
     )
     thick = drawn_thicknesses(size, assembly.L)
-    # a first wheel's own thickness stays
-    link = sizes.link_thickness if assembly.full.first_wheel else thick.link
-    return sizes._replace(
-        wheel_thickness=thick.wheel,
-        lock_thickness=thick.lock,
-        arm_thickness=thick.arm,
-        link_thickness=link,
+    out = sizes._replace(
+        wheel_thickness=thick.wheel, lock_thickness=thick.lock, arm_thickness=thick.arm
     )
+    # a first wheel's own thickness stays
+    return out if assembly.full.first_wheel else out._replace(link_thickness=thick.link)
 
 
 def horn_MPa(
@@ -214,11 +205,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
 def _crank_bored(
     assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float, keyed: bool
 ) -> Sizes:
-    """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
-
-    Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
-    Unless ``keyed``, the bore is not sized by its key.
-    """
+    """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there."""
     spec = assembly.full.spec
     size = spec.size
     own = (size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm)
@@ -339,11 +326,7 @@ def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
 def first_sizes(
     mechanism: Mechanism, sized: Callable[[Mechanism, PartLoads], tuple[Assembly, Sizes] | None]
 ) -> FirstSizes | None:
-    """Return what the load needs of a first wheel and its crank; None without load or first wheel.
-
-    ``sized`` sizes a machine by its load, for that of the second wheel asks for the first one's.
-    The crank is a link, with the bore of a link: larger ones are tried until its shaft holds.
-    """
+    """Return what the load needs of a first wheel and its crank; None without either."""
     first = mechanism.first_wheel
     spec = None if first is None else first_spec(mechanism, first)
     if spec is None or not spec.is_loaded:

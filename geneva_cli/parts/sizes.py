@@ -15,6 +15,8 @@ from geneva_cli.spec.default_sizes import Thicknesses, half_or, value_or
 from geneva_cli.spec.least_wall import eye_about
 from geneva_cli.spec.tables import Size
 
+HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
+
 
 class FirstSizes(NamedTuple):
     """What a load needs of the first wheel's parts, mm."""
@@ -39,18 +41,19 @@ class Sizes(NamedTuple):
     recess: float  # in the wheel: lock and clearance
     relief: float  # clearance between wheel and relief
     wall_min: float
-    wheel_bore: float
-    wheel_reach: float  # of the bore with its keyway, from the axis
-    wheel_hub: float
-    crank_bore: float
-    crank_reach: float
-    crank_hub: float
-    pin: float
-    arm_bore: float  # of the shaft in the arm, also where it ends there
-    wheel_thickness: float  # along the axis, of the rollers too
-    lock_thickness: float
-    arm_thickness: float
-    link_thickness: float
+    # a load may change those below
+    wheel_bore: float = 0.0
+    wheel_reach: float = 0.0  # of the bore with its keyway, from the axis
+    wheel_hub: float = 0.0
+    crank_bore: float = 0.0
+    crank_reach: float = 0.0
+    crank_hub: float = 0.0
+    pin: float = 0.0
+    arm_bore: float = 0.0  # of the shaft in the arm, also where it ends there
+    wheel_thickness: float = 0.0  # along the axis, of the rollers too
+    lock_thickness: float = 0.0
+    arm_thickness: float = 0.0
+    link_thickness: float = 0.0
     first: FirstSizes | None = None  # of a first wheel in front, under a load
 
     @property
@@ -65,21 +68,9 @@ class Sizes(NamedTuple):
     @property
     def outline(self) -> Sizes:
         """The sizes of the outlines of wheel and crank: 0 for those that a load may change."""
-        return self._replace(
-            wheel_bore=0.0,
-            wheel_reach=0.0,
-            wheel_hub=0.0,
-            crank_bore=0.0,
-            crank_reach=0.0,
-            crank_hub=0.0,
-            pin=0.0,
-            arm_bore=0.0,
-            wheel_thickness=0.0,
-            lock_thickness=0.0,
-            arm_thickness=0.0,
-            link_thickness=0.0,
-            first=None,
-        )
+        keys = Sizes._fields[Sizes._fields.index("wheel_bore") : -1]
+        none: dict[str, float] = dict.fromkeys(keys, 0.0)
+        return self._replace(**none, first=None)  # type: ignore[arg-type]
 
 
 def drawn_thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thicknesses:
@@ -98,11 +89,7 @@ def pin_radius(size: Size, r: float, parts: Sizes | None = None) -> float:
 def plane_span(
     plane: int, gap: float, first: float, link: float, washer: float
 ) -> tuple[float, float]:
-    """Return lower and upper end, along the axis, of parts in a plane below the wheel's, mm.
-
-    The first plane is ``gap`` mm below the wheel and ``first`` mm thick. Those below it are
-    ``link`` mm thick, with washers between.
-    """
+    """Return lower and upper end, along the axis, of parts in a plane below the wheel's, mm."""
     high = -gap
     if plane > 1:
         high -= first + washer + (plane - 2) * (link + washer)
@@ -114,9 +101,6 @@ def bridge_low(size: Size, sizes: Sizes) -> float:
     gap = size.allowances.pin_gap_mm
     on_arm = max(sizes.lock_thickness, value_or(size.crank_hub_length_mm, 0.0)) - gap
     return max(sizes.wheel_thickness, on_arm) + gap + size.washer_mm
-
-
-HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
 
 
 def hub_and_eye(
@@ -236,20 +220,20 @@ def refuse_thin_hub(part: str, hub: float, bored: float, bore: float) -> None:
         )
 
 
-def wheel_reach_and_hub(size: Size, bore: float, wall: float, end: float) -> tuple[float, float]:
-    """Return how far the wheel's bore reaches with its shape, and the radius of its hub.
-
-    ``end`` is the distance of the slots' ends from the axis.
-    """
-    return _reach_and_hub(size, "wheel", bore, wall, min(HUB * bore, largest_hub(end)))
-
-
 def largest_hub(end: float) -> float:
     """Return the radius of a wheel's largest default hub, for slots that end at the radius ``end``.
 
     A quarter of the wheel up to its slots stays free.
     """
     return 0.75 * end
+
+
+def wheel_reach_and_hub(size: Size, bore: float, wall: float, end: float) -> tuple[float, float]:
+    """Return how far the wheel's bore reaches with its shape, and the radius of its hub.
+
+    ``end`` is the distance of the slots' ends from the axis.
+    """
+    return _reach_and_hub(size, "wheel", bore, wall, min(HUB * bore, largest_hub(end)))
 
 
 def crank_reach_and_hub(size: Size, bore: float, wall: float) -> tuple[float, float]:
@@ -267,11 +251,7 @@ def _reach_and_hub(
 
 
 def wall_of_bolts(size: Size, wall: float) -> float:
-    """Return the wall about the bolts of the lock that is left between chamfered or round edges.
-
-    >>> wall_of_bolts(Size(edge_chamfer_mm=1.0), 0.5)
-    2.5
-    """
+    """Return the wall about the bolts of the lock that is left between chamfered or round edges."""
     return wall + 2.0 * size.edge_mm
 
 
@@ -288,5 +268,4 @@ def lock_bolt_directions(sectors: Iterable[tuple[float, float]], count: int) -> 
         raise GenevaError(
             "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")
         )
-
     return directions if count else []

@@ -8,7 +8,6 @@ the spec has one.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -16,12 +15,11 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
 from geneva_cli.loads.strength.key_strength import NO_KEY, KeyDimensions
-from geneva_cli.loads.tolerance.locking import Lock, loosest
+from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.links.link_positions import gear_plane, is_bridged, links_at
-from geneva_cli.parts.outlines.reliefs import Mouths, Relief, is_whole, reliefs, sectors, widened
+from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import (
     Sizes,
@@ -30,7 +28,6 @@ from geneva_cli.parts.sizes import (
     hole_radius,
     plane_span,
 )
-from geneva_cli.parts.slots.roller_paths import mouth_corners
 from geneva_cli.spec.default_sizes import half_or, value_or
 from geneva_cli.spec.keyways import key
 from geneva_cli.spec.least_wall import eye_about
@@ -103,7 +100,7 @@ def shaft_of(
     size, table = spec.size, vars(spec.shaft)
     diameter, overhang = 2.0 * bore or math.nan, to_frame + 0.5 * thick
     if size.shafts == "turned":
-        from geneva_cli.parts.shafts.bearings import bearing_within, shoulder_length
+        from geneva_cli.parts.shafts.shaft import bearing_within, shoulder_length
 
         if bearing := bearing_within(diameter):
             diameter = bearing.bore
@@ -113,11 +110,7 @@ def shaft_of(
 
 
 def _to_frame(assembly: Assembly, sizes: Sizes, hub_mm: float) -> float:
-    """Return the distance of the frame's upper face from the middle of the wheel's thickness.
-
-    The frame lies a washer below the lowest of the wheel's hub, which is ``hub_mm`` long, the arm,
-    links, gears, and the base of a groove's plate.
-    """
+    """Return the distance of the frame's upper face from the middle of the wheel's thickness."""
     machine, spec = assembly.full, assembly.full.spec
     gap, arm, washer = spec.size.allowances.pin_gap_mm, sizes.arm_thickness, spec.size.washer_mm
     first = arm if spec.drive.ONE_ARM else sizes.link_thickness
@@ -149,32 +142,6 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
     offset = 0.5 * (contact + sizes.arm_thickness) + size.allowances.pin_gap_mm
     rows = length, hub, eye, bored, hole, sizes.arm_thickness, offset
     return ArmDimensions(*rows)
-
-
-def lock_of(where: Assembly, size: Sizes, cut: Sequence[float] = ()) -> Lock:
-    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs.
-
-    Its corner is that of the mouth that leaves the most play. ``cut`` has half the angles of the
-    crank's locking arcs, radians, if they are known and may be narrower.
-    """
-    mouths = mouth_corners(where, size.roller, size.recess, size.rim)
-    locking = sectors(_reliefs(where, size, mouths))
-    half = min((*(0.5 * (end - start) for start, end in locking), *cut), default=math.nan)
-    edge = where.full.spec.size.lock_edge_mm or 0.0
-    lock = Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
-    corners = [radius for mouth in mouths.values() for radius in mouth]
-    if max(corners) - min(corners) < SAME_LENGTH * where.L:
-        return lock
-    near, far = abs(where.L - size.recess), where.L + size.recess
-    tried = [lock._replace(corner=r) for r in sorted(corners) if near < r < far]
-    return loosest(tried) if tried else lock
-
-
-def _reliefs(where: Assembly, size: Sizes, mouths: Mouths) -> list[Relief]:
-    """Return the reliefs as they are cut: arcs end where the motions do."""
-    if not is_whole(where, size) or where.mechanism.spec.size.relief == "arc":
-        return reliefs(where)
-    return widened(where, size, mouths)
 
 
 def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:

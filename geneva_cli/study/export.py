@@ -19,7 +19,7 @@ from geneva_cli.output.formats import curve_tolerance, usual_curves
 from geneva_cli.parts.projection import Missing
 from geneva_cli.spec.schema import Points, SpecTable, fields
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.verdict.parts_warnings import gears_without_teeth
+from geneva_cli.verdict.warnings import gears_without_teeth
 
 T = TypeVar("T", bound=SpecTable)
 

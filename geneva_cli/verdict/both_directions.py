@@ -17,6 +17,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import worst
 from geneva_cli.table import rows_table
 from geneva_cli.verdict import checks
+from geneva_cli.verdict.checks.all_checks import BEFORE_TURN, OF_TURN
 from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
@@ -34,10 +35,30 @@ def worst_checks(
     return rows
 
 
-def passes_both_ways(parts: Parts) -> bool:
-    """Return True if no check of a machine fails in any direction, up to the first that does."""
+def values_before_turn(parts: Parts) -> Values:
+    """The value of each check but those of the turn."""
+    rows = worst_checks(parts.mechanism, parts, turned=False)
+    return {c.name: c.value for c in rows if c.name in BEFORE_TURN}
+
+
+def check_values(parts: Parts) -> Values:
+    """The value of each check of the turn, and whether all checks pass."""
+    rows = worst_checks(parts.mechanism, parts)
+    failed = [c.name for c in rows if c.passes is False]
+    values: Values = {c.name: c.value for c in rows if c.name in OF_TURN}
+    return values | {"passes": not failed, "failed": " ".join(failed) or None}
+
+
+def passes(parts: Parts) -> Values:
+    """Whether no check fails in any direction, computed until the first that does."""
     own = parts.mechanism
-    return checks.passes(own, parts) and all(map(checks.passes, _others(own)))
+    every = checks.passes(own, parts) and all(map(checks.passes, _others(own)))
+    return {"passes": every}
+
+
+def proved(parts: Parts) -> Values:
+    """The gap that is proved."""
+    return {c.name: c.value for c in checks.proofs(parts)}
 
 
 def all_warnings(parts: Parts) -> list[Notice]:

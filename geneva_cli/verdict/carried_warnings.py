@@ -141,50 +141,38 @@ def _keys_without_effect(spec: Spec) -> Iterator[Notice]:
         )
 
 
-def unlikely_warnings(mechanism: Mechanism) -> list[Notice]:
+def unlikely_warnings(mechanism: Mechanism) -> Iterator[Notice]:
     """Warnings about a length, an inertia or a speed that may be in another unit."""
-    turning = (*_heavy(mechanism), *_fast(mechanism)) if mechanism.output.turns else ()
-    return [*_tiny(mechanism), *turning]
-
-
-def _tiny(mechanism: Mechanism) -> Iterator[Notice]:
-    L, least_mm = mechanism.center_distance_mm, 5.0  # the smallest watches have stops of some mm
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    least_mm = 5.0  # the smallest watches have stops of some mm
     if not least_mm <= L:
-        name = mechanism.spec.wheel.DISTANCE
         yield Notice(
             "tiny-machine",
-            f"the {name} of {L:.4g} mm is below {least_mm:g} mm: check that it is in mm. If it is "
-            f"in metres, write {1e3 * L:.4g}; if it is in inches, {25.4 * L:.4g}",
+            f"the {spec.wheel.DISTANCE} of {L:.4g} mm is below {least_mm:g} mm: check that it is "
+            f"in mm. If it is in metres, write {1e3 * L:.4g}; if it is in inches, {25.4 * L:.4g}",
         )
-
-
-def _heavy(mechanism: Mechanism) -> Iterator[Notice]:
-    L, inertia = mechanism.center_distance_mm / 1000.0, inertia_kgm2(mechanism.spec)
+    if not mechanism.output.turns:
+        return
+    inertia = inertia_kgm2(spec)
     # The largest table expected is solid steel, 6 L across and L/2 thick; J = pi rho h D^4 / 32. A
     # larger inertia is nearly always meant in kg cm2.
-    diameter, thickness, density = 6.0 * L, 0.5 * L, 7850.0  # m, m, kg/m3
+    diameter, thickness, density = 6e-3 * L, 0.5e-3 * L, 7850.0  # m, m, kg/m3
     most = math.pi * density * thickness * diameter**4 / 32.0
-    if not inertia > most:
-        return
-    yield Notice(
-        "heavy-inertia",
-        f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {1e3 * L:.4g} "
-        f"mm. A solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
-        f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
-    )
-
-
-def _fast(mechanism: Mechanism) -> Iterator[Notice]:
-    engagement = mechanism.engagements[0]
+    if inertia > most:
+        yield Notice(
+            "heavy-inertia",
+            f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {L:.4g} "
+            f"mm. A solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
+            f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
+        )
+    engagement, n = mechanism.engagements[0], spec.drive.n_rpm
     x, y = engagement.path(engagement.entry_deg, 0)
-    rim = math.hypot(x.c[0], y.c[0]) * mechanism.center_distance_mm / 1000.0
-    n = mechanism.spec.drive.n_rpm
+    rim = 1e-3 * math.hypot(x.c[0], y.c[0]) * L
     speed = rim * worst_of(mechanism, "velocity").max * omega(n)
     sound_m_s = 343.0
-    if not speed > sound_m_s:
-        return
-    yield Notice(
-        "faster-than-sound",
-        f"the wheel's rim moves at up to {speed:.4g} m/s, faster than sound ({sound_m_s:g} "
-        f"m/s): check n_rpm = {n:g}, the input's turns a minute",
-    )
+    if speed > sound_m_s:
+        yield Notice(
+            "faster-than-sound",
+            f"the wheel's rim moves at up to {speed:.4g} m/s, faster than sound ({sound_m_s:g} "
+            f"m/s): check n_rpm = {n:g}, the input's turns a minute",
+        )

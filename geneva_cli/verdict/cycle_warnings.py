@@ -11,11 +11,10 @@ from geneva_cli.loads.carried import weight_kg
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, STRESS
-from geneva_cli.loads.forces import wheel_grip
 from geneva_cli.loads.impacts.arrival import arrival
-from geneva_cli.loads.load_summary import LoadSummary
-from geneva_cli.loads.stretches import Stretch
-from geneva_cli.motion.engagement import Engagement
+from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_peaks import LoadSummary
+from geneva_cli.loads.load_tables import summaries
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import braking
 from geneva_cli.motion.peaks import worst
@@ -24,14 +23,17 @@ from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.load_limits import limits_by_key, load_limits
 
 
-def cycle_warnings(
-    cycle: Cycle, summaries: Mapping[str, LoadSummary[float | None]]
-) -> list[Notice]:
-    """Warnings about a wheel that drives the motor, lags or is not balanced."""
+def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
+    """Warnings about a loaded machine: loads without a bound, a wheel that drives or lags."""
+    cycle = cycle_of(mechanism)
+    sums = summaries(cycle)
     return [
-        *_back_driven(cycle, summaries),
-        *_lags(cycle.mechanism),
-        *_unbalanced(cycle, summaries),
+        *_jammed(cycle),
+        *_on_an_edge(cycle),
+        *_no_speed(cycle),
+        *_back_driven(cycle, sums),
+        *_lags(mechanism),
+        *_unbalanced(cycle, sums),
     ]
 
 
@@ -43,7 +45,10 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
         a, b = (engagement.mid_deg + x for x in stretch[:2])
         # Over less than 1e-4 of a motion, next to a rest, the sign is rounding.
         driven = stretch.feeds < 0.0 and b - a > 1e-4 * engagement.motion_deg
-        driven = driven and not _held(cycle, engagement, stretch)
+        if driven:  # where friction alone holds the wheel, it drives nothing
+            at = contact(engagement, 0.5 * (stretch.start + stretch.end), 1, reactions=False)
+            grip = Instant(cycle.case, at, stretch.drives, stretch.slides).grip
+            driven = grip.scalars()[0] > 0.0
         if driven and last == a:
             out[-1] = out[-1][0], shown(b)
         elif driven:
@@ -52,18 +57,10 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     return out
 
 
-def _held(cycle: Cycle, engagement: Engagement, stretch: Stretch) -> bool:
-    """True if friction alone holds the wheel in a stretch, so that it drives nothing."""
-    at = contact(engagement, 0.5 * (stretch.start + stretch.end), 1, reactions=False)
-    return wheel_grip(cycle.case, at, stretch.drives, stretch.slides).scalars()[0] <= 0.0
-
-
-def _back_driven(
-    cycle: Cycle, summaries: Mapping[str, LoadSummary[float | None]]
-) -> Iterator[Notice]:
-    torque, noun = summaries["input_torque_Nm"], cycle.mechanism.output.noun
+def _back_driven(cycle: Cycle, sums: Mapping[str, LoadSummary[float | None]]) -> Iterator[Notice]:
+    torque, noun = sums["input_torque_Nm"], cycle.mechanism.output.noun
     # a torque without a bound is no measure of the rounding of another
-    largest = summaries["wheel_torque_Nm"].max if torque.max is None else torque.max
+    largest = sums["wheel_torque_Nm"].max if torque.max is None else torque.max
     least = torque.min
     if least is None or not least < -ROUNDED * abs(largest or least):
         return
@@ -74,8 +71,12 @@ def _back_driven(
     more = len(each) - 6  # a line or two; a carousel may have many
     where = ", ".join(each if more <= 0 else each[:6])
     rest = f" and in {more} other intervals" if more > 0 else ""
-    helps = f"or add a drag to the {noun} (with {resistance(cycle)} in all, the input always "
-    helps += "drives)"
+    # what brakes the wheel alone at its greatest deceleration
+    braked_Nm = max(cycle.case.inertia_Nm * braking(one) for one in cycle.mechanism.engagements)
+    brake = f"a resisting torque of {braked_Nm:.4g} N m"
+    if not cycle.mechanism.output.turns:
+        brake = f"a resisting force of {braked_Nm / cycle.case.L:.4g} N"
+    helps = f"or add a drag to the {noun} (with {brake} in all, the input always drives)"
     if arrival(cycle.mechanism):
         helps = "but no drag on the wheel, which would take it off the roller that stops it"
     if cycle.case.frame:
@@ -86,15 +87,6 @@ def _back_driven(
         "the input. There the play of slot and reducer changes sides, and a self-locking worm "
         f"jams: use a brake or a motor that brakes, {helps}",
     )
-
-
-def resistance(cycle: Cycle) -> str:
-    """The resistance that brakes the wheel alone at its greatest deceleration, in words."""
-    case, output = cycle.case, cycle.mechanism.output
-    braked_Nm = max(cycle.case.inertia_Nm * braking(one) for one in cycle.mechanism.engagements)
-    if output.turns:
-        return f"a resisting torque of {braked_Nm:.4g} N m"
-    return f"a resisting force of {braked_Nm / case.L:.4g} N"
 
 
 def _lags(mechanism: Mechanism) -> Iterator[Notice]:
@@ -112,9 +104,7 @@ def _lags(mechanism: Mechanism) -> Iterator[Notice]:
     )
 
 
-def _unbalanced(
-    cycle: Cycle, summaries: Mapping[str, LoadSummary[float | None]]
-) -> Iterator[Notice]:
+def _unbalanced(cycle: Cycle, sums: Mapping[str, LoadSummary[float | None]]) -> Iterator[Notice]:
     """A warning about single bodies off the wheel's axis, whose force its shaft bears.
 
     On a carrier the loads count that force; behind gears another shaft bears it.
@@ -127,7 +117,7 @@ def _unbalanced(
     # at most: the peaks need not coincide, nor the bodies stand on one side
     most = omega(spec.drive.n_rpm) ** 2 * math.hypot(peaks.velocity.max**2, peaks.acceleration.max)
     force = most * sum(weight_kg(one) * one.radius_mm * 1e-3 for one in bodies)
-    bearing = summaries["wheel_bearing_N"].max
+    bearing = sums["wheel_bearing_N"].max
     if bearing is None or force < 0.01 * bearing:
         return
     names = " and ".join(one.name or one.shape for one in bodies)
@@ -138,25 +128,6 @@ def _unbalanced(
         f"to {force:.4g} N for that, which is not counted: balance it with another body "
         "(count = 2)",
     )
-
-
-def load_warnings(mechanism: Mechanism) -> list[Notice]:
-    """The warnings that need the loads, of a machine with a load."""
-    cycle = cycle_of(mechanism)
-    out = [*_jammed(cycle), *_on_an_edge(cycle)]
-    # the search for a speed is needed only if the present one breaks a limit
-    if not _keeps_limits(cycle) and highest_speed.fastest_rpm(mechanism) is None:
-        out.append(_no_speed(mechanism))
-    return out
-
-
-def _keeps_limits(cycle: Cycle) -> bool:
-    """Return True if the limits on loads are kept at the present speed."""
-    bounds = load_limits(cycle.mechanism.spec.limits)
-    if not bounds.keys() <= cycle.extremes.keys():
-        return False
-    extremes = [(cycle.extremes[name], limit) for name, limit in bounds.items()]
-    return all(max(one.max, -one.min) <= limit for one, limit in extremes)
 
 
 def _jammed(cycle: Cycle) -> Iterator[Notice]:
@@ -196,12 +167,21 @@ def _on_an_edge(cycle: Cycle) -> Iterator[Notice]:
     )
 
 
-def _no_speed(mechanism: Mechanism) -> Notice:
-    limits = limits_by_key(mechanism.spec.limits)
-    broken = " and ".join(f"{key} = {limit:g}" for key, limit in limits.items())
-    resisting = "torque" if mechanism.output.turns else "force"
-    key = "torque_Nm" if mechanism.output.turns else "force_N"
-    return Notice(
+def _no_speed(cycle: Cycle) -> Iterator[Notice]:
+    """A warning if no speed keeps the limits on loads."""
+    mechanism, limits = cycle.mechanism, cycle.mechanism.spec.limits
+    bounds = load_limits(limits)
+    keeps = bounds.keys() <= cycle.extremes.keys() and all(
+        max(cycle.extremes[name].max, -cycle.extremes[name].min) <= limit
+        for name, limit in bounds.items()
+    )
+    # the search for a speed is needed only if the present one breaks a limit
+    if keeps or highest_speed.fastest_rpm(mechanism) is not None:
+        return
+    broken = " and ".join(f"{key} = {limit:g}" for key, limit in limits_by_key(limits).items())
+    turns = mechanism.output.turns
+    resisting, key = ("torque", "torque_Nm") if turns else ("force", "force_N")
+    yield Notice(
         "no-speed",
         f"no speed keeps {broken}, so there is no shortest motion: the resisting {resisting} "
         f"alone exceeds it, or nothing bounds the load. Use a larger machine or less {key}",

@@ -22,19 +22,12 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.gears.gear_curves import pair_teeth
 from geneva_cli.parts.gears.gear_pair import gear_seats, pitch_radii
-from geneva_cli.parts.gears.pair_teeth import pair_teeth
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.verdict.checks.check import ShaftGap as ShaftGap
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
-
-
-class ShaftGap(NamedTuple):
-    """The least gap, mm, between a hub or shaft and a part that passes it."""
-
-    gap: float  # negative where they overlap
-    shaft: str
-    part: str
 
 
 class Ring(NamedTuple):

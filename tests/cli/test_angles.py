@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 import repo
+from load_states import greatest
 
 from geneva_cli import Design, design
-from geneva_cli.loads.cycle import greatest
 from geneva_cli.table import Table
 
 pytestmark = pytest.mark.usefixtures("made_once", "read_once")

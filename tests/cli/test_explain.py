@@ -43,7 +43,7 @@ from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, STANDING, TURNING
 from geneva_cli.verdict.checks.all_checks import PROOFS as PROVED
 from geneva_cli.verdict.quantities import groups
-from geneva_cli.verdict.tolerance.tolerance_tables import ANGLES
+from geneva_cli.verdict.tolerance.study import ANGLES
 
 WORDLESS = {"word", "yes or no", "list", "table", "text", "number"}  # not worked out by a formula
 PACKAGE = repo.ROOT / "geneva_cli"

@@ -9,11 +9,11 @@ from drawing_witness import POINT, contours, length, vertices
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from sampling import some
-from shapely.geometry import LineString, Point, Polygon
+from shapely.geometry import LineString, Polygon
 
 from geneva_cli.geometry.measure import at, bounds, fraction_at, segment_length
 from geneva_cli.geometry.moments import area
-from geneva_cli.geometry.shapes import Arc, Contour, Line, about
+from geneva_cli.geometry.shapes import Arc, Contour, about
 
 FINE = 1e-5  # mm, of the witnesses' polygons
 # Few examples: the whole file stays within seconds, and each is compared in several ways.
@@ -25,13 +25,6 @@ def winding_area(points):
     x, y = np.array(points).T
     x, y = x - x[0], y - y[0]
     return 0.5 * math.fsum(x[:-1] * y[1:] - x[1:] * y[:-1])
-
-
-def on_circle(arc, share):
-    """The point on an arc by its centre and radius, a way that ``at`` does not go."""
-    (x, y), r = arc.centre, arc.radius
-    start = math.atan2(arc.start[1] - y, arc.start[0] - x) + share * arc.sweep
-    return x + r * math.cos(start), y + r * math.sin(start)
 
 
 @QUICK
@@ -102,24 +95,3 @@ def test_areas_and_lengths_are_those_of_fine_polygons(contour):
     box, seen = bounds(contour), line.bounds
     for found, known, outward in zip(box, seen, (-1, -1, 1, 1), strict=True):
         assert -1e-9 < outward * (found - known) < FINE + 1e-9
-
-
-@QUICK
-@given(contours(), st.sampled_from([1.0, 0.1, 0.01]))
-def test_vertices_stay_within_the_tolerance(contour, tolerance):
-    points = vertices(contour, tolerance)
-    assert points[0] == points[-1] == contour.segments[0].start
-    assert {s.end for s in contour.segments} <= set(points)
-    line = LineString(points)
-    for segment in contour.segments:
-        for share in (0.11, 0.37, 0.5, 0.83):
-            if isinstance(segment, Arc):
-                point = on_circle(segment, share)
-            elif isinstance(segment, Line):
-                point = at(segment, share)
-            else:
-                weights = [(1 - share) ** 3, 3 * share * (1 - share) ** 2]
-                weights += [3 * share * share * (1 - share), share**3]
-                point = tuple(np.dot(weights, segment))
-                assert at(segment, share) == pytest.approx(point, abs=1e-11)
-            assert line.distance(Point(point)) < tolerance * (1.0 + 1e-9) + 1e-9

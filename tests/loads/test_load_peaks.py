@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from load_states import state
+from load_states import greatest, state
 from sampling import some
 from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel
@@ -14,14 +14,14 @@ from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads import highest_speed, load_functions
 from geneva_cli.loads.contact import contact
-from geneva_cli.loads.cycle import Cycle, greatest
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import worst
 from geneva_cli.spec.tables import Limits, Load, Size
-from geneva_cli.verdict.cycle_warnings import load_warnings
+from geneva_cli.verdict.cycle_warnings import cycle_warnings
 
 OMEGA = 2.0 * math.pi
 BOTH = Load(0.02, 3.0, friction=0.1)
@@ -186,7 +186,7 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
     first, second = mp.diff(pitch, at), mp.diff(pitch, at, 2)
     radius = abs(first) ** 3 / abs((mp.conj(first) * second).imag)
     assert float(radius) == pytest.approx(20.0 / 441.89, rel=1e-11)
-    assert any("no bound" in text for text in load_warnings(mechanism))
+    assert any("no bound" in text for text in cycle_warnings(mechanism))
 
 
 @pytest.mark.sampled(4)
@@ -241,7 +241,7 @@ def test_a_limit_that_no_speed_keeps():
     """The resistance alone takes 100 N at mid-motion."""
     mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=20.0)))
     assert highest_speed.fastest_rpm(mechanism) is None
-    assert any("no speed keeps pin_force_max_N = 20" in t for t in load_warnings(mechanism))
+    assert any("no speed keeps pin_force_max_N = 20" in t for t in cycle_warnings(mechanism))
     table = Design.of(mechanism.spec).report.table
     row = dict(zip(table.names, table.columns, strict=True))
     assert list(row["timing.shortest_motion_s"]) == [None]
@@ -256,7 +256,7 @@ def test_off_the_mid_condition_no_speed_keeps_a_force():
 def test_limits_that_any_speed_keeps():
     mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=200.0)))
     assert math.isinf(highest_speed.fastest_rpm(mechanism))
-    assert not load_warnings(mechanism)
+    assert not cycle_warnings(mechanism)
 
 
 def test_friction_that_holds_the_wheel():
@@ -269,7 +269,7 @@ def test_friction_that_holds_the_wheel():
     places = np.linspace(engagement.entry_deg, found.at_deg - 1e-6, 50)
     assert np.isfinite(state(mechanism, engagement, places).pin_force_N).all()
     assert state(mechanism, engagement, found.at_deg + 1e-6).pin_force_N == math.inf
-    assert any("friction of 3 holds the wheel" in text for text in load_warnings(mechanism))
+    assert any("friction of 3 holds the wheel" in text for text in cycle_warnings(mechanism))
 
 
 def test_a_setting_knows_no_stress_without_a_width():

@@ -4,10 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from load_states import state
+from load_states import greatest, state
 from words import Drive, Motion, Spec, Wheel
 
-from geneva_cli.loads.cycle import greatest
 from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Size

@@ -10,7 +10,7 @@ from words import law, load
 
 from geneva_cli import Design, External, Motion, Tuned
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.vibration.shape import law_shape
+from geneva_cli.loads.vibration.panels import law_shape
 
 mp = mpmath.mp.clone()
 mp.dps = 50

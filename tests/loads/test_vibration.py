@@ -11,7 +11,7 @@ from swings import shares
 from words import law
 
 from geneva_cli import External
-from geneva_cli.loads.vibration.shape import law_shape, shape
+from geneva_cli.loads.vibration.panels import law_shape, shape
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 

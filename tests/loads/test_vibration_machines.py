@@ -13,9 +13,9 @@ from words import load, points
 
 from geneva_cli import Crank, Design, External, Shaft, SideCrank
 from geneva_cli.drives.noncircular_gears import NoncircularGears
-from geneva_cli.loads.vibration.lobes import lobes
+from geneva_cli.loads.vibration.maxima import lobes
 from geneva_cli.loads.vibration.oscillator import Oscillator
-from geneva_cli.loads.vibration.shape import law_shape, shape
+from geneva_cli.loads.vibration.panels import law_shape, shape
 from geneva_cli.loads.vibration.vibration import oscillators_of, speeds_to_avoid
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec

@@ -14,11 +14,10 @@ from step_witness import File
 
 from geneva_cli import Design, External, Internal, Size
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.edges import Edge
 from geneva_cli.geometry.inset import inset, lines_and_arcs
 from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.moments import with_material_left
-from geneva_cli.geometry.plates import Plate, plates
+from geneva_cli.geometry.plates import Edge, Plate, plates
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, as_contour, closed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.mesh.solids import bodies

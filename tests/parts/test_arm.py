@@ -8,7 +8,7 @@ from drawing_witness import polygon
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely.geometry import Point
-from words import Drive, Motion, Spec, Wheel
+from words import Drive, Spec, Wheel
 
 from geneva_cli.design import Design
 from geneva_cli.geometry.hull import convex_hull
@@ -16,8 +16,6 @@ from geneva_cli.geometry.measure import segment_length
 from geneva_cli.geometry.shapes import Arc, Circle
 from geneva_cli.parts.arm import crank_arm, walls
 from geneva_cli.spec.tables import Size
-
-LAW = Motion("modified-sine", ratio="matched")
 
 
 def of(wheel, motion=None, drive=None, **size):
@@ -80,41 +78,6 @@ def test_defaults_work(z, gearing, rollers):
         assert found.assembly.L - reach - found.sizes.wheel_bore == pytest.approx(made.hub_gap)
         assert made.hub_gap > -1e-9
         assert outline.distance(axis) > found.sizes.wheel_hub - 1e-9
-
-
-@pytest.mark.parametrize(
-    ("z", "gearing", "motion"), [(6, "external", LAW), (8, "internal", None), (3, "external", None)]
-)
-def test_pins_are_pressed_in(z, gearing, motion):
-    """Each hole is the pin less the fit, where the crank's drawing has the pin."""
-    design = of(Wheel(z, gearing), motion, press_fit_mm=0.03, pin_mm=3.0, lock_bolts=0)
-    arm, crank = design.drawing("arm"), design.drawing("crank")
-    pins = {s.centre for s in crank.shapes if s.layer == "ROLLER" and s.radius == 1.5}
-    holes = [s for s in arm.shapes if isinstance(s, Circle) and s.centre != (0.0, 0.0)]
-    assert {s.centre for s in holes} == pins and pins
-    assert {round(2.0 * s.radius, 12) for s in holes} == {2.97}
-    assert arm.layers == ("ARM", "BORE")
-    assert {c.name for c in design.checks} >= {"arm_wall_mm"}
-    assert all(c.passes for c in design.checks if c.name.startswith("arm_"))
-
-
-def test_the_disc_is_fixed_to_the_arm():
-    """Two screws in each sector: holes of 3 mm, which M2.5 passes, and below them its thread."""
-    design = of(Wheel(4), drive=Drive(rollers=3), lock_bolts=2, lock_bolt_mm=3.0)
-    crank, arm = design.drawing("crank"), design.drawing("arm")
-    threads = {s for s in arm.shapes if isinstance(s, Circle) and s.radius == 0.5 * (2.5 - 0.45)}
-    assert len(threads) == 6
-    bolts = {s._replace(radius=1.5) for s in threads}
-    assert bolts <= set(crank.shapes)
-    (disc,) = [polygon(s) for s in crank.shapes if s.layer == "CRANK"]
-    plate = polygon(arm.shapes[0])
-    for bolt in bolts:
-        hole = polygon(bolt)
-        for part in (disc, plate):
-            assert part.contains(hole) and hole.distance(part.exterior) > 0.5
-    (check,) = [c for c in design.checks if c.name == "arm_wall_mm"]
-    inside = min(polygon(b).distance(disc.exterior) for b in bolts)
-    assert check.passes and check.value <= inside + 1e-3
 
 
 def test_an_arm_that_meets_the_hub_is_told():

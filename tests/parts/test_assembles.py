@@ -316,14 +316,3 @@ def require_space(design):
         assert holes in ([], [pytest.approx(pin.radius - 0.5 * allowed.press_fit_mm)])
     if parts.drawn and parts.arm_plate:
         assert -parts.arm_plate.high == pytest.approx(allowed.pin_gap_mm, abs=1e-12)
-
-
-def bores(design, name):
-    (one,) = (one for one in solids(design.parts) if one.name == name)
-    return [2.0 * radius for _, radius in one.bores]
-
-
-def of(tmp_path, text, *given):
-    spec = tmp_path / "spec.toml"
-    spec.write_text(text)
-    return load(str(spec), given)

@@ -16,17 +16,15 @@ from hypothesis import strategies as st
 from other_shape import with_shape
 from sampling import some
 from shapely import affinity
-from shapely.geometry import Point
-from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, turned
+from test_outline import STRAIGHT, L, disc, made, name, turned
 from words import LAWS, Motion
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Contour, Line, about, closed
 from geneva_cli.parts.outlines.reliefs import reliefs
-from geneva_cli.parts.parts import Parts, parts_of
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.machine_parts import WorkLimit
 
 
 def overlaps(found: Parts, count: int = 60) -> Iterator[float]:
@@ -108,16 +106,6 @@ def test_straight_slots_turn_with_their_clearances(case: dict) -> None:
     assert not list(overlaps(found))
 
 
-@pytest.mark.parametrize("case", [CURVED_SLOTS[i] for i in (7, 11)], ids=name)
-def test_curved_slots_turn(case: dict) -> None:
-    """The slot's gap is its clearance, to the walls' tolerance."""
-    found = made(**case)
-    turn = full_turn(found)
-    assert turn.smallest.mm >= -found.close
-    assert turn.driving.mm == pytest.approx(case.get("slot_clearance_mm", 0.0), abs=found.close)
-    assert not list(overlaps(found))
-
-
 def opening(rim: float, radius: float) -> float:
     """Half the angle over which a circle about the crank's axis opens the rim."""
     return math.acos((L * L + rim * rim - radius * radius) / (2.0 * L * rim))
@@ -145,33 +133,6 @@ def test_play_in_the_dwell_of_an_internal_wheel() -> None:
     wanted = math.degrees(0.1 / (L * math.sin(half)))
     # the next order: the play's way over the sector's width
     assert full_turn(found).dwell.deg == pytest.approx(wanted, rel=0.1 / found.sizes.lock)
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("case", [STRAIGHT[1], STRAIGHT[3], CURVED_SLOTS[4]], ids=name)
-def test_play_against_polygons(case: dict) -> None:
-    """Turned by its play less a little the wheel is free, by a little more it is not: parts smaller
-    by the overlap that counts as none, and by what polygons stray, do not meet, then do. Where
-    roller and lock change over the disc's edge comes to the recess at a small angle: there it takes
-    up to 0.01 degrees more."""
-    found = made(**case)
-    assembly, play = found.assembly, full_turn(found).play
-    flat = 1e-7 * L
-    less = found.close + 2.0 * flat
-    wheel = polygon(found.outlines.wheel, flat)
-    crank = polygon(found.outlines.crank[0], flat).buffer(-less)
-    roller = Point(0.0, 0.0).buffer(found.sizes.roller - less, quad_segs=2000)
-    for i in np.flatnonzero(play.resting)[::5]:
-        at = play.input_deg[i : i + 1]
-        parts = [affinity.translate(turned(crank, float(assembly.crank(at)[0])), L)]
-        parts += [affinity.translate(roller, *assembly.pin(0, at)[0])]
-        for way, edge in ((-1.0, play.back[i]), (1.0, play.on[i])):
-            for lead, meets in (
-                (max(0.999 * edge - 3e-4, 0.0), False),
-                (1.001 * edge + 0.01, True),
-            ):
-                turn = float(assembly.wheel(at)[0]) + way * math.radians(lead)
-                assert any(wheel.intersects(turned(p, -turn)) for p in parts) == meets
 
 
 # --- random machines
@@ -297,19 +258,3 @@ def test_a_thin_horn_is_not_stepped_over() -> None:
     assert turn.lock.at_deg == pytest.approx(phi, abs=0.3)
     assert wrong.gaps.locking(wrong.gaps.pose(np.arange(-60.0, 300.0))).min() >= -found.close
     assert passes(found, full_turn(found))
-
-
-def test_a_turn_that_is_not_proved_is_not_tried_again(monkeypatch):
-    """A report asks for it after the checks; it may take seconds."""
-    tries = []
-
-    def unproved(found):
-        tries.append(found)
-        raise WorkLimit("not within the budget")
-
-    monkeypatch.setattr("geneva_cli.parts.turn.full_turn.full_turn", unproved)
-    one = parts_of(made(6).assembly.mechanism)
-    for _ in range(2):
-        with pytest.raises(WorkLimit):
-            _ = one.turn
-    assert len(tries) == 1

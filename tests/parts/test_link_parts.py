@@ -1,7 +1,5 @@
 """Links as plates: their holes are where the machine's joints are, and blocks stay in slots."""
 
-import csv
-import io
 import math
 
 import numpy as np
@@ -37,14 +35,6 @@ def made(request):
     design = load(str(repo.DESIGNS / f"{request.param}.toml"))
     found = design.parts.outlines if design.spec.is_flat else None
     return request.param, design, drawn_links(design.mechanism, found)
-
-
-def shown(name, part):
-    run = CliRunner().invoke(
-        app, ["profile", str(repo.DESIGNS / f"{name}.toml"), "--part", part, "--format", "csv"]
-    )
-    assert run.exit_code == 0, run.output
-    return list(csv.DictReader(io.StringIO(run.stdout)))
 
 
 def holes(plate):
@@ -95,49 +85,6 @@ def test_blocks_stay_in_their_slots(made):
                 assert room.contains(affinity.translate(own, at.real, at.imag))
             # and the slot is no longer than it must be, by a hole's width
             assert abs(ends[0][0] - ends[1][0]) < np.ptp(way) + 4.0 * half
-
-
-LENGTHS = {
-    "four-bar-z4": {
-        ("crank", 0, 1): "crank a",
-        ("coupler", 0, 1): "coupler b",
-        ("coupler", 0, 2): "roller from A",
-        ("rocker", 0, 1): "rocker c",
-    },
-    "slider-crank": {
-        ("crank", 0, 1): "crank a",
-        ("rod", 0, 1): "rod b",
-        ("rod", 0, 2): "roller from A",
-    },
-    "side-crank-z6": {("input crank", 0, 1): "input crank r"},
-    "epicyclic-z4": {("carrier", 0, 1): "carrier R0"},
-    "geneva-pair": {("first crank", 0, 1): "first crank radius"},
-}
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("name", LENGTHS)
-def test_the_drawing_has_the_lengths_of_the_list(name):
-    """The circles that ``--part links`` writes, against the dimensions that ``--part parts`` does,
-    from which test_parts_list.py rebuilds the wheel's angle.
-    """
-    rows = shown(name, "parts")
-    numbers = {r["name"]: r["value"] for r in rows if r["row"] == "dimension"}
-    pieces = shown(name, "links")
-    links = [r["name"] for r in rows if r["row"] == "part" and r["name"] in NAMES[name]]
-    contours, of = {}, -1
-    for piece in pieces:
-        if piece["layer"] == "LINK":
-            of = max(of, int(piece["contour"]))
-        elif piece["kind"] == "circle":
-            centre = complex(float(piece["center_x_mm"]), float(piece["center_y_mm"]))
-            contours.setdefault(of, []).append(centre)
-    drawn = dict(zip(links, contours.values(), strict=True))
-    for (link, i, j), dimension in LENGTHS[name].items():
-        bores = drawn[link]
-        # a shaft's bore is listed after the pins'
-        length = sorted(abs(a - b) for k, a in enumerate(bores) for b in bores[:k])
-        assert min(abs(x - float(numbers[dimension])) for x in length) < 1e-9, (link, i, j)
 
 
 def test_kerf_and_solids(tmp_path):

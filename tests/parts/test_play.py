@@ -171,19 +171,6 @@ def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     assert row.passes == held
 
 
-def test_play_in_the_dwell_is_not_capped(tmp_path: Path) -> None:
-    """The recess's corner comes to the disc, wherever that is: the opening of the rim for the
-    recess less that for the disc."""
-    found = machine(tmp_path, "[wheel]\nz=6\n[size]\nroller_radius_mm=15\nlock_clearance_mm=18\n")
-    L, size = found.assembly.L, found.sizes
-    rest = [
-        math.acos((L * L + size.rim**2 - radius**2) / (2.0 * L * size.rim))
-        for radius in (size.recess, size.lock)
-    ]
-    assert full_turn(found).dwell.deg == pytest.approx(math.degrees(rest[0] - rest[1]), rel=1e-6)
-    assert full_turn(found).dwell.deg == pytest.approx(13.6, abs=0.05)
-
-
 @pytest.mark.parametrize("c", [0.1, 5.0])
 def test_play_in_the_motion(tmp_path: Path, c: float) -> None:
     """At mid-motion the roller, on the slot's axis, is L - R from the wheel's axis, and the wall

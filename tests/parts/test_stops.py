@@ -15,8 +15,7 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.pairs import smallest_clearance
-from geneva_cli.parts.turn.play import free_angles, search_deg, windows
+from geneva_cli.parts.turn.play import free_angles, search_deg, smallest_clearance, windows
 
 BARE = ("turret", "internal-z6", "four-bar-z4", "press-curved", "three-rollers-z4", "spherical-z6")
 LOOSE = (

@@ -3,7 +3,6 @@
 import math
 
 import pytest
-from drawing_witness import polygon
 
 from geneva_cli import Design, External, Internal, Size, load
 from geneva_cli.geometry.plates import Group, Plate, Stack, solids
@@ -12,7 +11,7 @@ from geneva_cli.motion import registry
 from geneva_cli.parts.links.links import placed_holes
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.shafts.bearings import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
+from geneva_cli.parts.shafts.shaft import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
 from geneva_cli.parts.stressed import stressed
 from geneva_cli.specfile.template import template
 
@@ -38,10 +37,6 @@ def steps(stack):
         (p.name, 2.0 * p.outline.radius if isinstance(p.outline, Circle) else None, p.low, p.high)
         for p in stack.plates
     ]
-
-
-def _parts(solid):
-    return [solid] if isinstance(solid, Plate) else solid.plates
 
 
 def test_tables():
@@ -93,41 +88,6 @@ def test_an_overhung_crank_has_no_circlip_above_its_arm():
     assert names[-2:] == ["shoulder", "seat of crank"]
     inside = Design(Internal(6), size=Size(shafts="turned", arm_bore_mm=10.0))
     assert [s.name for s in every(inside) if isinstance(s, Stack)] == ["crank's shaft"]
-
-
-SHAPES = [
-    {},
-    {"wheel_keyway": "DIN 6885-1", "crank_keyway": "DIN 6885-1"},
-    {"wheel_bore": "D", "crank_bore": "D"},
-    {"wheel_bore": "hex", "crank_bore": "hex"},
-]
-
-
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize("keys", SHAPES)
-@pytest.mark.parametrize("process", [None, "print"])
-@pytest.mark.parametrize("shafts", ["plain", "turned"])
-def test_a_shaft_fits_its_bores(keys, process, shafts):
-    """By polygons: it is inside each hole, and half the fit from its wall.
-
-    A key goes into both keyways. A key is as high as both are deep less some play.
-    """
-    if keys.get("crank_keyway"):
-        keys = keys | {"crank_bore_mm": 12.0}
-    design = of(process=process, shafts=shafts, **keys)
-    fit = design.spec.size.allowances.shaft_fit_mm
-    found = every(design)
-    for name, among in (("wheel", ["wheel"]), ("crank", ["arm", "locking disc"])):
-        whole = shaft(design, name)
-        for plate in [p for p in found if p.name in among]:
-            sections = [p for p in _parts(whole) if min(p.high, plate.high) > max(p.low, plate.low)]
-            sections = [p for p in sections if "groove" not in p.name and p.name != "end"]
-            bore = min((polygon(h, 1e-5) for h in plate.holes), key=lambda p: p.centroid.x**2)
-            for section in sections:
-                body = polygon(section.outline, 1e-5)
-                assert bore.buffer(1e-4).contains(body)
-                gap = body.exterior.distance(bore.exterior)
-                assert gap == pytest.approx(0.5 * fit, abs=2e-4)
 
 
 KINDS = [kind for kind in registry.DRIVES if kind != "crank"]

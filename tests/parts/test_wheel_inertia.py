@@ -83,8 +83,8 @@ def test_lengths_in_metres_are_said(gearing):
     assert said.name == "tiny-machine"
     assert "in metres, write 250;" in said
     assert f"in inches, {0.25 * 25.4:.4g}" in said
-    assert unlikely_warnings(build(Spec(wheel, size=Size(4.99))))
-    assert not unlikely_warnings(build(Spec(wheel, size=Size(5.0))))
+    assert list(unlikely_warnings(build(Spec(wheel, size=Size(4.99)))))
+    assert not list(unlikely_warnings(build(Spec(wheel, size=Size(5.0)))))
 
 
 def test_a_weight_to_one_side_of_a_horizontal_axis():

@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 import ezdxf
 import numpy as np
 from fuzz_machines import machine_text
+from load_states import greatest
 from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, overlaps
 
 from geneva_cli import design
@@ -22,7 +23,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.extras.certify.certificate import certificate
 from geneva_cli.extras.certify.certified_loads import LOADS, not_proved
 from geneva_cli.geometry.pieces import pieces_table
-from geneva_cli.loads.cycle import greatest
 from geneva_cli.motion.motion_table import motion_table
 from geneva_cli.motion.peaks import QUANTITIES, peaks_table, worst
 from geneva_cli.motion.registry import DRIVES

@@ -15,8 +15,7 @@ from words import Motion
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.pairs import smallest_clearance
-from geneva_cli.parts.turn.play import free_angles, search_deg, windows
+from geneva_cli.parts.turn.play import free_angles, search_deg, smallest_clearance, windows
 
 LAWS = ("modified-sine", "cycloidal", "modified-trapezoid", "3-4-5", "harmonic")
 PLACES, DENSE = 80, 1500  # positions of the wheel in each motion and dwell

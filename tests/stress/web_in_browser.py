@@ -30,7 +30,7 @@ BAD = {
     "[wheel]\nz = 6\nnn = 3\n": "spec.toml:3:",
     "[wheel]\nz = 60 rpm\n": "spec.toml:2:",
 }
-FILES = ("wheel.dxf", "assembly.step", "plate.stl", "sheet.pdf", "report.html")
+FILES = ("wheel.dxf", "assembly.step", "plate.step", "sheet.pdf", "report.html")
 CATCH = """
 window.saved = {}; URL.createObjectURL = blob => { window.blob = blob; return "#"; };
 HTMLAnchorElement.prototype.click = function () { window.saved[this.download] = window.blob; };

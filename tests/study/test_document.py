@@ -40,7 +40,7 @@ VOID = {"meta", "br", "img", "link"}
 def few_samples() -> Iterator[None]:
     """What is shown of tolerances does not depend on how many machines are drawn at random."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("geneva_cli.verdict.report.load_report.SAMPLES", 64)
+        patch.setattr("geneva_cli.verdict.report_sections.SAMPLES", 64)
         yield
 
 

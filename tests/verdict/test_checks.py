@@ -19,7 +19,7 @@ from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.all_checks import standing_checks
 from geneva_cli.verdict.motion_warnings import motion_warnings
-from geneva_cli.verdict.parts_warnings import turn_warnings
+from geneva_cli.verdict.warnings import turn_warnings
 
 DESIGNS = repo.DESIGNS
 
@@ -95,9 +95,7 @@ def test_what_is_not_proved_is_said() -> None:
 @pytest.mark.parametrize(
     ("value", "must_be", "limit", "kept"),
     [
-        (0.4999999999999787, "at least", 0.5, True),  # a horn, of issue 9
-        (0.49999, "at least", 0.5, False),
-        (40.00000001, "at most", 40.0, True),
+        (0.4999999999999787, "at least", 0.5, True),
         (40.001, "at most", 40.0, False),
         (0.0, "above", 0.0, False),
         (-1e-12, "at least", 0.0, False),
@@ -140,10 +138,9 @@ def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
     assert not rows["outer_wall_mm"].passes
 
 
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("radius", "most"),  # ISO 286: (2 IT11 + c) / 2 of H11/c11, in um, for the roller's diameter
-    [(2.0, (150 + 70) / 2), (12.0, (260 + 110) / 2), (20.0, (320 + 130) / 2)],
+    [(12.0, (260 + 110) / 2)],
 )
 def test_a_fit_looser_than_any_is_said(radius: float, most: float) -> None:
     def said(**keys: object) -> list[str]:
@@ -200,22 +197,6 @@ def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
     assert run.exit_code == 1
     assert "not written: the crank's bore breaks through the relief by" in run.stderr
     assert not out.exists()
-
-
-@pytest.mark.usefixtures("no_advice")
-def test_a_roller_that_meets_the_rim_is_not_written(tmp_path: Path) -> None:
-    """z 6, L 100, r 5, clearances of 1 mm: no parts overlap, and the hand-over has 80.9 deg."""
-    path, out = tmp_path / "loose.toml", tmp_path / "wheel.svg"
-    path.write_text("[wheel]\nz = 6\n[size]\nslot_clearance_mm = 1\nlock_clearance_mm = 1\n")
-    export = ["profile", str(path), "--part", "wheel", "-o", str(out)]
-    run = CliRunner().invoke(app, export)
-    assert run.exit_code == 1
-    assert "the roller meets the wheel" in run.stderr
-    assert not out.exists()
-    run = CliRunner().invoke(app, [*export, "--force"])
-    assert run.exit_code == 0
-    assert "warning: " in run.stderr
-    assert out.exists()
 
 
 def test_a_slot_that_drives_from_one_wall_leaves_the_wheel_free() -> None:

@@ -86,10 +86,10 @@ def test_a_sound_design_passes_both(tmp_path: Path) -> None:
 
 
 def test_a_program_finds_the_same_names_for_every_machine() -> None:
-    """Toothed, two unlike engagements and a plain one; `make stress`: a sphere, a linkage."""
+    """Two unlike engagements and a plain one; `make stress`: toothed, a sphere, a linkage."""
     trees = {}
-    few = ("gear-sector", "two-rollers-side-crank", "projector")
-    for name in some((*few, "spherical-z6", "four-bar-z4"), few):
+    few = ("two-rollers-side-crank", "projector")
+    for name in some((*few, "gear-sector", "spherical-z6", "four-bar-z4"), few):
         found = run("report", str(DESIGNS / f"{name}.toml"), "--format", "json")
         assert found.exit_code == 0
         trees[name] = json.loads(found.stdout)
@@ -117,8 +117,8 @@ def test_tolerances_say_what_is_not_known(tmp_path: Path) -> None:
     assert said in page.read_text()
 
 
-@pytest.mark.parametrize("format", ["table", "csv", "json", "md"])
-def test_what_is_not_proved_shows_in_every_format(format: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("format", ["table", "json"])
+def test_what_is_not_proved_shows(format: str, tmp_path: Path) -> None:
     spec = written(tmp_path, "[wheel]\nz = 400\n")
     for command in ("report", "check"):
         found = run(command, spec, "--format", format)
@@ -154,15 +154,14 @@ def test_values_that_are_none_or_have_no_bound_are_words(tmp_path: Path) -> None
         ([spec], "arm_wall_mm is not computed: arm_eye_mm = 1: the eye must be above 5"),
         (endless, "contact_stress_max_MPa = no bound at -1.36826°, must be at most 500"),
     ):
-        for format in some(("table", "csv", "json", "md", "html"), ("table", "json")):
+        for format in some(("csv", "json", "md", "html"), ("json",)):
             found = run("report", *words, "--format", format)
             assert found.exit_code == 1 and isinstance(found.exception, SystemExit), format
             text = json.dumps(said)[1:-1] if format == "json" else said
-            assert text in found.stdout or format == "table"
+            assert text in found.stdout
             text = found.stdout.replace(spec, "")
             assert not re.search(r"\b(nan|inf)\b", text, re.IGNORECASE), format
-    for shown in ("table", "md"):
-        assert "no bound" in run("check", *endless, "--format", shown).stdout
+    assert "no bound" in run("check", *endless).stdout
     warned = run("profile", spec, "--part", "wheel", "--format", "svg").stderr
     assert "arm_wall_mm is not computed: arm_eye_mm = 1" in warned
     assert "arm_wall_mm is 0" not in warned and "above 5, the pin's hole would" not in warned

@@ -29,7 +29,7 @@ from geneva_cli.parts.machine_sizes import built
 from geneva_cli.study.summary.load_lines import load_lines
 from geneva_cli.verdict.checks import single_check
 from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.disturbances import entry, reversal
+from geneva_cli.verdict.quantities.load_quantities import entry, reversal
 
 LOOSE = Size(face_width_mm=18.0, slot_clearance_mm=0.02)
 WIDE = Tolerance(crank_radius_mm=0.02, center_distance_mm=0.03, slot_width_mm=0.02)

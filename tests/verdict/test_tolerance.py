@@ -22,7 +22,7 @@ from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.verdict.checks.all_checks import turn_checks
-from geneva_cli.verdict.tolerance.lock_tolerances import flat_locks
+from geneva_cli.verdict.tolerance.needed import flat_locks
 from tests.repo import ROOT
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -216,9 +216,7 @@ def test_mean_jump_of_a_million(wheel, key, s):
     "design",
     [
         Design(External(3)),
-        Design(Internal(4)),
         Design(External(6), SideCrank(A=-0.4)),
-        Design(External(6, offset_mm=8.0)),
         Design(Spherical(5)),
         "four-bar-z4",
     ],
@@ -324,9 +322,7 @@ def test_what_does_not_apply_is_null_and_said():
     [
         (Design(External(6)), {}, "set one or more of center_distance_mm, crank_radius_mm"),
         (MACHINES[0], {"samples": 0}, "--samples 0: it must be from 1 to 10000000"),
-        (MACHINES[0], {"samples": 10**12}, "--samples 1000000000000: it must be"),
         (MACHINES[0], {"seed": -1}, "--seed -1"),
-        (MACHINES[0], {"radius_mm": math.nan}, "--radius nan"),
         (MACHINES[0], {"radius_mm": -3.0}, "--radius -3"),
     ],
 )

@@ -14,8 +14,8 @@ from geneva_cli.geometry.shapes import Arc, Circle, Contour, Shape
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.gears.gear_blanks import Gear
+from geneva_cli.parts.gears.gear_curves import PairTeeth
 from geneva_cli.parts.gears.gear_mesh import ToothedGear
-from geneva_cli.parts.gears.pair_teeth import PairTeeth
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.shafts.bores import radius_of
 from geneva_cli.spec.tables import Size

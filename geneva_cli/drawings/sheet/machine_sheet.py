@@ -29,9 +29,8 @@ from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
-from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.parts import Parts
+from geneva_cli.parts.parts import EdgedParts, Parts
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.written import length, quantity
@@ -170,7 +169,7 @@ def geared(begin: Begin, parts: EdgedParts) -> Iterator[View]:
     """Yield the view of noncircular gears in mesh, if there are any."""
     if parts.gear_pair:
         from geneva_cli.drawings.sheet.gears import draw_gears
-        from geneva_cli.parts.gears.pair_teeth import pair_teeth
+        from geneva_cli.parts.gears.gear_curves import pair_teeth
 
         names = [member.part.name for member in parts.gear_pair]
         view, to_fix = begin(*names), set(names).intersection(parts.to_fix)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias, cast
 
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle_quantities import FORCE, QUANTITIES, TORQUE
-from geneva_cli.loads.forces import Contact, LoadCase, feeding, sliding, wheel_torque
+from geneva_cli.loads.forces import Contact, LoadCase
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.numerics.arrays import Undecided, enclosed
@@ -66,11 +66,11 @@ def load_formula(mechanism: Mechanism, engagement: Engagement, quantity: str) ->
 
 def _signs(case: LoadCase, at: Contact[Jet]) -> Iterator[Signs]:
     """Yield the signs that are possible; signs that no quantity depends on are 1."""
-    for drives in _signs_of(wheel_torque(case, at)):
-        rubs = _signs_of(sliding(at, drives, case.radius)) if case.rubs else (1.0,)
+    for drives in _signs_of(Instant(case, at).wheel_torque_Nm):
+        rubs = _signs_of(Instant(case, at, drives).slip) if case.rubs else (1.0,)
         for slides in rubs:
             lossless = case.efficiency == 1.0
-            feeds = (1.0,) if lossless else _signs_of(feeding(case, at, drives, slides))
+            feeds = (1.0,) if lossless else _signs_of(Instant(case, at, drives, slides).feeding)
             yield from ((drives, slides, fed) for fed in feeds)
 
 

@@ -10,31 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from geneva_cli.geometry.fit.arcs import fitted_arcs
-from geneva_cli.geometry.fit.cubics import fitted_cubics
-from geneva_cli.geometry.fit.path import Curve, CurvePath
-from geneva_cli.geometry.shapes import Arc, Cubic, Line, Segment
-
-
-def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]:
-    """Arcs within ``tolerance`` mm of the curve, and lines where it is straight.
-
-    Adjacent pieces share their tangent, and the first and last have the curve's own.
-
-    Raises GenevaError for a tolerance that double precision cannot show.
-    """
-    return fitted_arcs(CurvePath(curve, a, b, tolerance))
-
-
-def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
-    """Cubic Béziers within ``tolerance`` mm of the curve.
-
-    They meet on the curve and have its tangents there.
-
-    Raises GenevaError for a tolerance that double precision cannot show.
-    """
-    return fitted_cubics(CurvePath(curve, a, b, tolerance))
-
+from geneva_cli.geometry.fit.arcs import arcs as arcs
+from geneva_cli.geometry.fit.cubics import cubics as cubics
+from geneva_cli.geometry.fit.path import Curve
+from geneva_cli.geometry.shapes import Segment
 
 # the kinds of pieces that a curve can be written in
 KINDS: dict[str, Callable[[Curve, float, float, float], Sequence[Segment]]]

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.fit.path import CurvePath, fewest, points_of
+from geneva_cli.geometry.fit.path import Curve, CurvePath, fewest, points_of
 from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.numerics.arrays import Array
 
@@ -26,10 +26,15 @@ class Arcs(NamedTuple):
     half: Array  # (n,) half the sweeps, radians
 
 
-def fitted_arcs(path: CurvePath) -> list[Arc | Line]:
-    """Arcs with common tangents along a path; the end tangents are the curve's."""
-    # a biarc has 2 arcs
-    return _joined(fewest(path, _biarcs, 3.0, 2), path.rounding)
+def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]:
+    """Arcs within ``tolerance`` mm of the curve, and lines where it is straight.
+
+    Adjacent pieces share their tangent, and the first and last have the curve's own.
+
+    Raises GenevaError for a tolerance that double precision cannot show.
+    """
+    path = CurvePath(curve, a, b, tolerance)
+    return _joined(fewest(path, _biarcs, 3.0, 2), path.rounding)  # a biarc has 2 arcs
 
 
 @np.errstate(divide="ignore", invalid="ignore")  # where a biarc's ends are one point
@@ -60,11 +65,8 @@ def _biarcs(path: CurvePath, places: Array) -> tuple[Arcs, Array]:
 
 
 def _errors(arcs: Arcs, points: Array, tangents: Array) -> Array:
-    """Greatest distance from samples of the curve (n, samples + 1) to each arc, mm.
-
-    If the curve runs against the arc, it is the curve's length. Otherwise the nearest points of the
-    samples run along the arc from end to end, and no place on it is farther from the curve.
-    """
+    """Greatest distance from samples of the curve (n, samples + 1) to each arc, mm."""
+    # if the nearest points of the samples run along the arc, no place on it is farther away
     chord = arcs.end - arcs.start
     size = np.abs(chord)
     curvature = (2.0 * np.sin(arcs.half) / size)[:, None]

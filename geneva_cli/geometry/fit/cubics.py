@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.fit.path import CurvePath, fewest, points_of
+from geneva_cli.geometry.fit.path import Curve, CurvePath, fewest, points_of
 from geneva_cli.geometry.shapes import Cubic
 from geneva_cli.numerics.arrays import Array
 
@@ -27,26 +27,14 @@ class FitTargets(NamedTuple):
     behind: Array
 
 
-class FitState(NamedTuple):
-    """Handles in lengths of the piece, the samples' places on the cubics, and the squared error."""
+def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
+    """Cubic Béziers within ``tolerance`` mm of the curve.
 
-    handles: Array  # (n, 2)
-    v: Array  # (n, samples + 1)
-    left: Array  # (n,) squared error
+    They meet on the curve and have its tangents there.
 
-    def better(self, other: FitState) -> FitState:
-        """Select in each row the state with the smaller error."""
-        mine = (self.left < other.left)[:, None]
-        return FitState(
-            np.where(mine, self.handles, other.handles),
-            np.where(mine, self.v, other.v),
-            np.minimum(self.left, other.left),
-        )
-
-
-def fitted_cubics(path: CurvePath) -> list[Cubic]:
-    """Cubics with common tangents along a path; the end tangents are the curve's."""
-    corners = fewest(path, _cubics, 6.0)
+    Raises GenevaError for a tolerance that double precision cannot show.
+    """
+    corners = fewest(CurvePath(curve, a, b, tolerance), _cubics, 6.0)
     return [Cubic(*row) for row in zip(*map(points_of, corners), strict=True)]
 
 
@@ -65,23 +53,28 @@ def _cubics(path: CurvePath, places: Array) -> tuple[tuple[Array, Array, Array, 
 
 
 def _handles(wanted: FitTargets) -> Array:
-    """Handles of the nearest cubics.
-
-    Least squares in two unknowns per piece (Levenberg and Marquardt).
-    """
+    """Handles of the nearest cubics, (n, 2), in lengths of the piece."""
     # At a cusp, and elsewhere, the place w is nearly proportional to the cubic's own parameter.
-    even = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
-    state = _state(wanted, _first_handles(wanted, even), even)
+    v = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
+    u = 1.0 - v
+    fixed = wanted.points - v * v * (3.0 - 2.0 * v) * wanted.points[:, -1:]
+    first, second = 3.0 * v * u * u * wanted.ahead, -3.0 * v * v * u * wanted.behind
+    handles = np.clip(_least_squares(first, second, fixed, 0.0), 0.05, 0.8)
+    v, left = _near(wanted, handles, v)
     # the first step in the handles' difference is damped by 1e-3
-    damping = np.full(len(even), 1e-3)
+    damping = np.full(len(v), 1e-3)
     # 6 steps of least squares
     for _ in range(6):
-        trial = _state(wanted, _improved(wanted, state, damping), state.v)
+        trial = _improved(wanted, handles, v, damping)
+        at, error = _near(wanted, trial, v)
         # a damping of 1e9 leaves their difference as it is
-        trial = _state(wanted, _improved(wanted, trial, 1e9), trial.v)
-        damping *= np.where(trial.left < state.left, 0.02, 10.0)
-        state = trial.better(state)
-    return state.handles
+        trial = _improved(wanted, trial, at, 1e9)
+        at, error = _near(wanted, trial, at)
+        better = error < left
+        damping *= np.where(better, 0.02, 10.0)
+        handles, v = (np.where(better[:, None], *pair) for pair in ((trial, handles), (at, v)))
+        left = np.minimum(error, left)
+    return handles
 
 
 def _misses(wanted: FitTargets, handles: Array) -> Array:
@@ -109,19 +102,8 @@ def _bezier(wanted: FitTargets, handles: Array, v: Array) -> tuple[Array, Array,
     )
 
 
-def _first_handles(wanted: FitTargets, v: Array) -> Array:
-    """Handles of the cubics that are nearest to the samples at fixed parameters."""
-    u = 1.0 - v
-    fixed = wanted.points - v * v * (3.0 - 2.0 * v) * wanted.points[:, -1:]
-    first, second = 3.0 * v * u * u * wanted.ahead, -3.0 * v * v * u * wanted.behind
-    return np.clip(_least_squares(first, second, fixed, 0.0), 0.05, 0.8)
-
-
 def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | float) -> Array:
-    """Real factors of two columns that come nearest to the target, in each row.
-
-    The damping restrains the second one.
-    """
+    """Real factors of two columns that come nearest to the target, in each row."""
     a, d = (np.abs(first) ** 2).sum(axis=1), (np.abs(second) ** 2).sum(axis=1)
     b = (first * second.conj()).real.sum(axis=1)
     a, d = a + 1e-30, d * (1.0 + damping) + 1e-30
@@ -130,11 +112,7 @@ def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | 
 
 
 def _projected(wanted: FitTargets, handles: Array, v: Array) -> Array:
-    """Places on the cubics nearest to the samples, after one more step of Newton's method.
-
-    ``find_roots`` would be slower: a few steps are enough while the handles still move.
-    Each step must reduce the distance from any start.
-    """
+    """Places on the cubics nearest to the samples, after one more step of Newton's method."""
     point, rate, bend = _bezier(wanted, handles, v)
     off = wanted.points - point
     slope = np.abs(rate) ** 2
@@ -143,26 +121,26 @@ def _projected(wanted: FitTargets, handles: Array, v: Array) -> Array:
     return np.clip(v + (off * rate.conj()).real / np.maximum(steep, 1e-300), 0.0, 1.0)
 
 
-def _state(wanted: FitTargets, handles: Array, v: Array) -> FitState:
-    """State of cubics with these handles; the samples' places start from those on other cubics."""
+def _near(wanted: FitTargets, handles: Array, v: Array) -> tuple[Array, Array]:
+    """Places of the samples on cubics with these handles, from those on others; squared errors."""
     for _ in range(2):
         v = _projected(wanted, handles, v)
     off = wanted.points - _bezier(wanted, handles, v)[0]
-    return FitState(handles, v, (np.abs(off) ** 2).sum(axis=1))
+    return v, (np.abs(off) ** 2).sum(axis=1)
 
 
-def _improved(wanted: FitTargets, state: FitState, damping: Array | float) -> Array:
+def _improved(wanted: FitTargets, handles: Array, v: Array, damping: Array | float) -> Array:
     """Handles with smaller squared distances along the normals.
 
     On a short piece both handles bow it in the same direction, and their difference matters much
     less. The valley of the error is narrow and bent. So only the difference is damped.
     """
-    v, u = state.v, 1.0 - state.v
-    point, rate, _ = _bezier(wanted, state.handles, v)
+    u = 1.0 - v
+    point, rate, _ = _bezier(wanted, handles, v)
     turned = -1j * rate.conj() / np.maximum(np.abs(rate), 1e-300)
     off = ((wanted.points - point) * turned).real
     first = 3.0 * v * u * u * (wanted.ahead * turned).real
     second = -3.0 * v * v * u * (wanted.behind * turned).real
     both, apart = _least_squares(first + second, first - second, off, damping).T
     step = np.stack((both + apart, both - apart), axis=1)
-    return np.clip(state.handles + step, SHORTEST, LONGEST)
+    return np.clip(handles + step, SHORTEST, LONGEST)

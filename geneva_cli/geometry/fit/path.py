@@ -6,8 +6,7 @@ Points and tangents are complex numbers here, so that a product rotates one.
 from __future__ import annotations
 
 from collections.abc import Callable
-from copy import copy
-from typing import Self, TypeAlias, TypeVar
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 
@@ -43,7 +42,7 @@ class CurvePath:
         spacing = float(np.spacing(np.abs(points).max()))
         # a tolerance below 64 last digits of the coordinates cannot be shown
         if not tolerance > 64 * spacing:
-            raise self.too_fine()
+            raise _too_fine(tolerance)
         self.rounding = 4.0 * spacing
         step = np.abs(np.diff(points))
         if self._leaps(points, step):
@@ -57,21 +56,8 @@ class CurvePath:
         self.w = np.round(np.concatenate(([0.0], w)) / (w[-1] * PLACE)) * PLACE
         self.kind: type[np.complexfloating] = np.complex128
 
-    @property
-    def long(self) -> Self:
-        """This path with points in the longest floating-point numbers of the processor.
-
-        Their products are the same on all processors of a family, after rounding to doubles.
-        """
-        path = copy(self)
-        path.kind = np.clongdouble
-        return path
-
     def _leaps(self, points: Array, step: Array) -> bool:
-        """True if the ends of a cell stay more than a tolerance apart after any number of halvings.
-
-        Only a cell that is much longer than both of its neighbours is halved.
-        """
+        """True if the ends of a cell stay more than a tolerance apart after all halvings."""
         padded = np.pad(step, 1)
         # in a cell 4 times as long as its neighbours the curve may leap
         i = np.flatnonzero(step > 4.0 * np.maximum(padded[:-2], padded[2:]) + self.tolerance)
@@ -84,13 +70,6 @@ class CurvePath:
             t0, p0 = np.where(first, t0, t), np.where(first, p0, p)
             t1, p1 = np.where(first, t, t1), np.where(first, p, p1)
         return bool((np.abs(p1 - p0) > self.tolerance).any())
-
-    def too_fine(self) -> GenevaError:
-        """Error for a tolerance that double precision cannot show."""
-        return GenevaError(
-            f"a tolerance of {self.tolerance:g} mm is finer than double precision can show "
-            "at this size"
-        )
 
     def inside(self, places: Array, count: int) -> tuple[Array, Array]:
         """Points and unit tangents at ``count`` + 1 even places in each interval: (n, count + 1).
@@ -121,8 +100,7 @@ def fewest(
     They are computed in long numbers at the end. ``fit`` returns the pieces between places on the
     path, and the error of each in mm. The number of pieces is a multiple of ``unit``. An error is
     proportional to the length of the piece to the power of ``order``. Its root over that of the
-    tolerance is the piece's weight, and the sum of the weights predicts the number of pieces. As
-    this is a whole number, no root finder of ``numerics.roots`` applies.
+    tolerance is the piece's weight, and the sum of the weights predicts the number of pieces.
 
     Raises GenevaError if no number of pieces is enough.
     """
@@ -148,10 +126,17 @@ def fewest(
         # a hundredth of the pieces is not worth another attempt
         step = unit * (1 + int(0.01 * count / unit))
         if best is not None and enough - too_few <= step:
-            return fit(path.long, best)[0]
+            # products of long numbers are the same on all processors of a family, as doubles
+            path.kind = np.clongdouble
+            return fit(path, best)[0]
         need = unit * int(np.ceil(min(weights.sum(), PIECES_MAX) / unit))
         count = min(max(need, too_few + step), enough - unit)
-    raise path.too_fine()
+    raise _too_fine(path.tolerance)
+
+
+def _too_fine(tolerance: float) -> GenevaError:
+    text = f"a tolerance of {tolerance:g} mm is finer than double precision can show at this size"
+    return GenevaError(text)
 
 
 def _respread(places: Array, weights: Array, count: int) -> Array:

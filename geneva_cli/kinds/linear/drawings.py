@@ -9,10 +9,9 @@ from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import Group
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
-from geneva_cli.kinds.linear.arm import rack_arm
 from geneva_cli.kinds.linear.frame import rack_dimensions
 from geneva_cli.kinds.linear.parts import RackParts
-from geneva_cli.kinds.linear.rack import rack_sizes, slot_walls
+from geneva_cli.kinds.linear.rack import rack_arm, rack_sizes, slot_walls
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.output.scene import Body, Box, Track
 from geneva_cli.parts.projection import (

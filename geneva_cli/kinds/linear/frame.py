@@ -19,8 +19,16 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import rectangle
-from geneva_cli.kinds.linear.arm import rack_bore
-from geneva_cli.kinds.linear.rack import RackSizes, rack_ends, rack_sizes, slot_places
+from geneva_cli.kinds.linear.rack import (
+    RackSizes,
+    crank_arm,
+    rack_bore,
+    rack_ends,
+    rack_sizes,
+    slot_places,
+)
+from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
+from geneva_cli.loads.strength.key_strength import NO_KEY
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.parts.gears.gear_pair import gear_seats, gear_shafts
@@ -33,12 +41,20 @@ from geneva_cli.parts.mounted_plate import (
     require_walls,
     shaft_holes,
 )
-from geneva_cli.parts.shafts.bearings import bearing_up_to, shoulder_length
-from geneva_cli.parts.shafts.bores import bore_of
+from geneva_cli.parts.shafts.bores import bore_of, reach_or_bore
 from geneva_cli.parts.shafts.screws import bolt_radius, tapped
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
-from geneva_cli.parts.shafts.turned_shafts import built_shafts
+from geneva_cli.parts.shafts.shaft import (
+    Ends,
+    Seat,
+    Shaft,
+    bearing_up_to,
+    built_shafts,
+    shaft_ends,
+    shoulder_length,
+)
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
+from geneva_cli.parts.stressed import ShaftSize, Stressed, key_of, shaft_of
+from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import wall_min
 
 
@@ -61,20 +77,10 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
     arm = -gap - thick.arm
     low = gear_seats(mechanism, None)[0].low if mechanism.spec.gears else arm
     top = low - size.washer_mm
-    if has_arm(mechanism) or mechanism.spec.gears:
+    if rack_bore(mechanism) or mechanism.spec.gears:
         top -= shoulder_length(size, 2.0 * R)  # as on a wheel of 6 slots, whose L is 2 R
     stands = 0.0 - gap  # no -0.0
     return RackFrame(top - thick.arm, top, low, arm, stands, thick.wheel, thick.arm)
-
-
-def has_arm(mechanism: Mechanism) -> bool:
-    """Return True if the roller has a pin, which an arm carries."""
-    return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm) > 0.0
-
-
-def shaft_radius(mechanism: Mechanism) -> float:
-    """Return the radius of the crank's shaft in the arm; 0 without an arm."""
-    return rack_bore(mechanism) if has_arm(mechanism) else 0.0
 
 
 def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
@@ -87,9 +93,9 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     span = heights.plain, heights.top, heights.top
     own = list(_shafts(mechanism, heights))
     axles, bottom = built_shafts(size, own, [], span)
-    bored = shaft_holes(size, axles, heights.top)
+    bored = list(shaft_holes(size, axles, heights.top))
     require_walls(bored, wall_min(size, sizes.arm), axles)
-    if not has_arm(mechanism):
+    if not rack_bore(mechanism):
         diameter = mechanism.spec.shaft.crank_diameter_mm
         bored.insert(0, hole_without_shaft(diameter, mechanism.crank_shaft.at, L))
     rows = zip(("guide rail", "guide wall"), _rows(sizes), strict=True)
@@ -102,13 +108,10 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
 
 
 def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
-    """Yield the crank's shaft, up to the arm's upper face, and that of a driver gear.
-
-    There is no crank's shaft without an arm, as the crank is one piece with its shaft then.
-    """
+    """Yield the crank's shaft, up to the arm's upper face, and that of a driver gear."""
     size, geared = mechanism.spec.size, mechanism.spec.gears is not None
-    if has_arm(mechanism):
-        radius, axis = rack_bore(mechanism), mechanism.crank_shaft.at
+    radius, axis = rack_bore(mechanism), mechanism.crank_shaft.at
+    if radius:
         if size.shafts == "turned":  # a rack's crank has its bore in the arm: errors name that key
             bearing_up_to(2.0 * radius, "crank's shaft", "arm_bore_mm")
         driven = gear_seats(mechanism, None)[:1] if geared else []
@@ -119,7 +122,7 @@ def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
         yield Shaft("crank's shaft", "crank", bore, seats, low, high, axis, math.pi, math.pi)
     if geared:
         ends = Ends(heights.plain, heights.rack, crank_has_one=True)
-        yield from gear_shafts(mechanism, None, ends, shaft_radius(mechanism))
+        yield from gear_shafts(mechanism, None, ends, radius)
 
 
 def guide_bar(mechanism: Mechanism, count: int) -> Plate:
@@ -191,10 +194,7 @@ def _rows(sizes: RackSizes) -> tuple[float, float]:
 
 
 def _row(sizes: RackSizes, x: float) -> Iterator[Circle]:
-    """Yield three screws' holes along the guide, half a bar's width from its ends.
-
-    They have no width where no screw is so thin.
-    """
+    """Yield three screws' holes along the guide, half a bar's width from its ends."""
     far = sizes.guide.half - 0.5 * sizes.guide.bar
     for y in (-far, 0.0, far):
         yield Circle("BORE", (x, y), _bolt(sizes))
@@ -202,3 +202,38 @@ def _row(sizes: RackSizes, x: float) -> Iterator[Circle]:
 
 def _bolt(sizes: RackSizes) -> float:
     return bolt_radius(None, 2.0 * sizes.arm, 0.5 * sizes.guide.bar)
+
+
+def rack_stressed(mechanism: Mechanism) -> Stressed:
+    """Return the dimensions of the parts of a machine that their strength depends on.
+
+    The rack has no shaft and no key. The crank's overhang is the distance of its bearing in the
+    frame from the middle of the rack's thickness. Raises GenevaError where the parts do not fit.
+    """
+    spec, heights, bore = mechanism.spec, rack_frame(mechanism), rack_bore(mechanism)
+    size, R = spec.size, mechanism.center_distance_mm
+    contact, thick = value_or(size.face_width_mm, heights.rack), heights.stands - heights.arm
+    bend = NO_ARM
+    if bore:
+        arm, bored = crank_arm(mechanism), reach_or_bore(size, "crank", bore)
+        offset = 0.5 * (contact + thick) - heights.stands
+        bend = ArmDimensions(R, arm.hub, arm.eye, bored, arm.pins[0].radius, thick, offset)
+    to_frame = 0.5 * heights.rack - (heights.low - size.washer_mm)
+    return Stressed(
+        contact,
+        2.0 * pin_radius(size, mechanism.roller_radius_mm),
+        ShaftSize(math.nan, math.nan),
+        shaft_of(spec, "crank", bore, to_frame, thick, 2.0 * R),  # shoulders as on L = 2 R
+        bend,
+        NO_KEY,
+        key_of(size.crank_keyway, bore, thick),
+    )
+
+
+def horn_sizes(mechanism: Mechanism) -> tuple[float, float]:
+    """Return half the slot's width and the recess's radius, NaN for a rack that cannot be cut."""
+    try:
+        sizes = rack_sizes(mechanism)
+    except GenevaError:  # the check of the parts reports the error
+        return math.nan, math.nan
+    return sizes.half_width, sizes.recess

@@ -16,8 +16,16 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
-from geneva_cli.parts.turn.stops import Branches, Stops, cut, masked, merged
-from geneva_cli.parts.turn.turning_stops import TurningStops, inset_ends, rotated
+from geneva_cli.parts.turn.stops import (
+    Branches,
+    Stops,
+    TurningStops,
+    cut,
+    inset_ends,
+    masked,
+    merged,
+    rotated,
+)
 
 
 class SlidingStops(TurningStops):
@@ -126,11 +134,7 @@ class RackGaps(Gaps):
         return gap
 
     def _depth(self, axis: Array, crank: Array) -> Array:
-        """Return how deep recesses lie in the ring next to its ends, at most, mm (n,).
-
-        ``axis`` is the ring's centre in the rack's frame, ``crank`` its angle. A point is as deep
-        as it is from the nearer of the ring's outside and its end: the deepest, from both.
-        """
+        """Return how deep recesses lie in the ring next to its ends, at most, mm (n,)."""
         size, recesses = self.sizes, np.flatnonzero(self.wheel.radius == self.sizes.recess)
         cx, cy = self.wheel.cx[recesses][:, None, None], self.wheel.cy[recesses][:, None, None]
         ax, ay = axis.T

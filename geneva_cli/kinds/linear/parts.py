@@ -16,22 +16,26 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.linear.arm import lock_bolts, rack_arm, rack_crank
 from geneva_cli.kinds.linear.frame import (
     bar_bolts,
     guide,
     guide_bar,
-    has_arm,
-    shaft_radius,
     shafts_and_frame,
 )
 from geneva_cli.kinds.linear.outlines import RackOutlines, turned_rack
-from geneva_cli.kinds.linear.rack import RackSizes, rack_contour, rack_sizes
+from geneva_cli.kinds.linear.rack import (
+    RackSizes,
+    lock_bolts,
+    rack_arm,
+    rack_bore,
+    rack_contour,
+    rack_crank,
+    rack_sizes,
+)
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.assembly import assembled
-from geneva_cli.parts.edged_parts import EdgedParts
 from geneva_cli.parts.gears.gear_pair import gear_pair
-from geneva_cli.parts.parts import NamedBuilds
+from geneva_cli.parts.parts import EdgedParts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses
@@ -96,7 +100,7 @@ class RackParts(EdgedParts):
     @cached_property
     def arm(self) -> Plate | None:
         """The crank's arm; None without a pin for the roller."""
-        if not has_arm(self.mechanism):
+        if not rack_bore(self.mechanism):
             return None
         return self._plate(rack_arm(self.mechanism))
 
@@ -119,7 +123,7 @@ class RackParts(EdgedParts):
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears that turn the crank, with teeth or up to their pitch curves."""
-        return gear_pair(self.mechanism, None, self.writer, shaft_radius(self.mechanism))
+        return gear_pair(self.mechanism, None, self.writer, rack_bore(self.mechanism))
 
     @cached_property
     def guide(self) -> tuple[Member, ...]:

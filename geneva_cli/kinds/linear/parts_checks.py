@@ -14,20 +14,42 @@ from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sizes import drawn_thicknesses
 from geneva_cli.verdict.checks.check import Check, gap
-from geneva_cli.verdict.checks.process import cut_width, plate_thickness
+from geneva_cli.verdict.checks.clearances import cut_width, plate_thickness
 from geneva_cli.verdict.shaft_gap import Ring, ShaftGap, gear_rings, least_gap, rings_of
 
 
 def passing_shafts(name: str, parts: RackParts) -> Check | None:
-    """The least gap between shafts and a rack, of a crank's shaft that ends above the arm."""
+    """The least gap between shafts and a rack, of a crank's shaft that ends above the arm.
+
+    The rack slides along y, and covers everything up to its edge.
+    """
     if not parts.mechanism.spec.has_parts:
         return None  # without a frame there are no shafts
-    return gap(name, lambda: rack_shaft_gap(parts), parts.mechanism.center_distance_mm)
+    L = parts.mechanism.center_distance_mm
+
+    def least() -> ShaftGap | None:
+        (rack,) = plates(parts.wheel.part)
+        edge = bounds(rack.outline).x1
+        gaps = (
+            ShaftGap(shaft.axis[0] - shaft.outer - edge, shaft.name, rack.name)
+            for shaft in rings_of(parts.shafts)
+            if shaft.high - rack.low > SAME_LENGTH * L
+        )
+        return min(gaps, default=None)
+
+    return gap(name, least, L)
 
 
 def passing_gears(name: str, parts: RackParts) -> Check | None:
     """The least gap of gears before a rack's crank to its guide and to shafts."""
-    return gap(name, lambda: rack_gear_gap(parts), parts.mechanism.center_distance_mm)
+
+    def least() -> ShaftGap | None:
+        rings = list(gear_rings(parts.mechanism, None))
+        to_shafts = least_gap(parts.mechanism, [], rings, parts.shafts)
+        gaps = [*_guide_gaps(parts, rings), *([to_shafts] if to_shafts else [])]
+        return min(gaps, default=None)
+
+    return gap(name, least, parts.mechanism.center_distance_mm)
 
 
 def thickest_plate(name: str, parts: RackParts) -> Check | None:
@@ -43,37 +65,6 @@ def slot_width(name: str, parts: RackParts) -> Check | None:
     """The width of a rack's slots, where the process cuts none that is narrow for its plate."""
     thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm).wheel
     return cut_width(name, parts.mechanism, 2.0 * parts.sizes.half_width, thick)
-
-
-def rack_gear_gap(parts: RackParts) -> ShaftGap | None:
-    """Return the least gap of the gears before a rack's crank to shafts and guide; None without.
-
-    Raises GenevaError for sizes that leave no parts.
-    """
-    rings = list(gear_rings(parts.mechanism, None))
-    to_shafts = least_gap(parts.mechanism, [], rings, parts.shafts)
-    gaps = [*_guide_gaps(parts, rings), *([to_shafts] if to_shafts else [])]
-    return min(gaps, default=None)
-
-
-def rack_shaft_gap(parts: RackParts) -> ShaftGap | None:
-    """Return the least gap of a shaft to the rack; None where none reaches the rack's heights.
-
-    The rack slides along y, and covers everything up to its edge.
-
-    Raises GenevaError for sizes that leave no parts.
-    """
-    near = SAME_LENGTH * parts.mechanism.center_distance_mm
-    (rack,) = plates(parts.wheel.part)
-    edge = bounds(rack.outline).x1
-    return min(
-        (
-            ShaftGap(shaft.axis[0] - shaft.outer - edge, shaft.name, rack.name)
-            for shaft in rings_of(parts.shafts)
-            if shaft.high - rack.low > near
-        ),
-        default=None,
-    )
 
 
 def _guide_gaps(parts: RackParts, rings: list[Ring]) -> Iterator[ShaftGap]:

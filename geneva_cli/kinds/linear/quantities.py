@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinds.linear.guide_forces import guide_force, locks_at_friction
+from geneva_cli.kinds.linear.guide import guide_force, locks_at_friction
 from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.kinds.linear.rack import rack_sizes
 from geneva_cli.motion.mechanism import Mechanism

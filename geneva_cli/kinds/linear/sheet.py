@@ -23,10 +23,9 @@ from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour
 from geneva_cli.geometry.sheet import HIDDEN, OUTLINE, Sheet
-from geneva_cli.kinds.linear.arm import crank_arm
 from geneva_cli.kinds.linear.drawings import assembly
 from geneva_cli.kinds.linear.parts import RackParts
-from geneva_cli.kinds.linear.rack import slot_places
+from geneva_cli.kinds.linear.rack import crank_arm, slot_places
 from geneva_cli.parts.shafts.screws import NO_SCREW
 from geneva_cli.spec.written import length
 

@@ -1,9 +1,10 @@
-"""The crank arm of a spherical machine: a cap outside the wheel that carries the whole crank.
+"""The round holes and hubs of a spherical machine: its crank arm, and a dial's bolts in its wheel.
 
-Every part that turns about an axis through the centre keeps its distance from the centre. So a
-shell outside the wheel's shell never meets the wheel. The arm's boundary is the convex hull of its
-hub, the locking sectors on its inner face, and an eye about each pin and bolt. Pins and bolts point
-at the centre. The hub has flat faces and the bore; it sits in a round hole about the crank's axis.
+The arm is a cap outside the wheel that carries the whole crank. Every part that turns about an axis
+through the centre keeps its distance from the centre. So a shell outside the wheel's shell never
+meets the wheel. The arm's boundary is the convex hull of its hub, the locking sectors on its inner
+face, and an eye about each pin and bolt. Pins and bolts point at the centre. The hub has flat faces
+and the bore; it sits in a round hole about the crank's axis.
 """
 
 from __future__ import annotations
@@ -14,12 +15,11 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.round_holes import RoundHole, least_wall
-from geneva_cli.geometry.sphere import POLE, Region, dot, place
-from geneva_cli.geometry.sphere_hull import Cap, convex_hull
+from geneva_cli.geometry.sphere import POLE, Cap, Region, convex_hull, dot, place
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
-from geneva_cli.kinds.spherical.crank import locked
+from geneva_cli.kinds.spherical.regions import locked, web_angle
 from geneva_cli.parts.shafts.bores import Bore, bore_of
-from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw
+from geneva_cli.parts.shafts.screws import bolt_circle, bolt_radius, refuse_no_screw
 from geneva_cli.parts.sizes import (
     hub_and_eye,
     lock_bolt_directions,
@@ -55,11 +55,6 @@ class CapArm(NamedTuple):
         return self.bolts[sector * each : (sector + 1) * each]
 
 
-def has_arm(ball: Ball) -> bool:
-    """Return True if the machine has an arm: a crank with rollers on pins."""
-    return ball.arm_bore_mm > 0.0
-
-
 def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
     """Return the arm of a machine, with the locking sectors that it carries.
 
@@ -83,84 +78,104 @@ def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
 
 def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> CapArm:
     """Return the arm with so many bolts in each locking sector."""
-    if not has_arm(ball):
+    if not ball.arm_bore_mm:
         raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
-    wall, under = wall_min(size, ball.radius_mm), ball.arm_span_mm[0]
+    L, wall, (under, over) = ball.radius_mm, wall_min(size, ball.radius_mm), ball.arm_span_mm
     hole = pin_hole(size, ball.pin_mm)
     hub, eye = hub_and_eye(size, wall, hole, ball.arm_bore_mm, ball.passing_mm(ball.opening_mm))
-    _refuse(ball, size, hub, hole, eye)
+    refuse_wide("arm_hub_mm", hub, under, over)
+    if ball.arm + eye / L >= 0.5 * math.pi:
+        raise GenevaError(
+            f"arm_eye_mm = {2.0 * eye:g}: the arm would cover more than half of the sphere; "
+            f"it must be below {2.0 * L * (0.5 * math.pi - ball.arm):.6g}",
+            ("size", "arm_eye_mm"),
+        )
+    limit = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
+    if hub >= limit:
+        raise GenevaError(
+            f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm in diameter, cuts the pin's "
+            f"hole; it must be below {2.0 * limit:.6g}",
+            ("size", "arm_hub_mm" if size.arm_hub_mm else "arm_bore_mm"),
+        )
     form = bore_of(size, "crank", ball.arm_bore_mm)
-    around = hub - form.reach  # the hub's wall
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
-    screwed = _bolts(ball, sectors, size, bolts_each)
-    cap, eye = ball.cap(hub, form.reach, wall), eye / ball.radius_mm
-    caps = [Cap(POLE, cap)]
-    caps += [Cap(pin.axis, eye) for pin in pins]
-    bolted = wall_of_bolts(size, wall)
-    caps += [Cap(b.axis, eye_about(b.radius, bolted) / under) for b in screwed]
-    middle = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
-    arm = CapArm(
-        boundary=convex_hull(caps),
+    bolts = _bolts(ball, sectors, size, bolts_each)
+    cap, eye, bolted = ball.cap(hub, form.reach, wall), eye / L, wall_of_bolts(size, wall)
+    caps = [Cap(POLE, cap), *(Cap(pin.axis, eye) for pin in pins)]
+    caps += [Cap(b.axis, eye_about(b.radius, bolted) / under) for b in bolts]
+    boundary, holes = convex_hull(caps), (RoundHole(POLE, hub), *pins, *bolts)
+    walls = [hub - form.reach, least_wall(boundary, holes, under)]
+    for k, sector in enumerate(sectors if bolts else []):
+        of_sector = bolts[k * bolts_each : (k + 1) * bolts_each]
+        walls.append(least_wall(sector, of_sector, ball.lock_span_mm[0]))
+    return CapArm(
+        boundary=boundary,
         bore=form,
-        keyway=middle,
+        keyway=next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi),
         hub=hub,
         pins=pins,
-        bolts=screwed,
+        bolts=bolts,
         cap=cap,
         eye=eye,
         reach=max(math.acos(dot(one.middle, POLE)) + one.angle for one in caps),
-        wall=0.0,
+        wall=min(walls),
     )
-    return arm._replace(wall=min(around, _walls(arm, ball, sectors)))
 
 
 def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:
-    """Return the holes of so many bolts in each locking sector, evenly spaced and of one size.
-
-    Raises GenevaError where there are no sectors to fix.
-    """
+    """Return the holes of so many bolts in each locking sector, evenly spaced and of one size."""
     L, own = ball.radius_mm, size.lock_bolt_circle_mm
     rings = [(math.pi - s.boundary[2].angle, s.boundary[0].angle) for s in sectors]
     rims = [sector.boundary[0] for sector in sectors]
     widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
     narrow = min((0.5 * L * (high - low) for low, high in rings), default=0.0)
     directions = lock_bolt_directions(widths, count)
-    r, holes = bolt_radius(size.lock_bolt_mm, L, narrow), []
+    r = bolt_radius(size.lock_bolt_mm, L, narrow)
     if directions:
         refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
+    if not r:
+        return ()
+    holes = []
     for ring, at in zip(rings, directions, strict=False):
         far = 0.5 * sum(ring) if own is None else math.asin(min(1.0, 0.5 * own / L))
-        holes += [RoundHole(place(far, azimuth), r) for azimuth in at if r]
+        holes += [RoundHole(place(far, azimuth), r) for azimuth in at]
     return tuple(holes)
 
 
-def _refuse(ball: Ball, size: Size, hub: float, hole: float, eye: float) -> None:
-    """Raise GenevaError, naming the key, for an arm that does not fit on its sphere."""
-    under, over = ball.arm_span_mm
-    refuse_wide("arm_hub_mm", hub, under, over)
-    if ball.arm + eye / ball.radius_mm >= 0.5 * math.pi:
-        raise GenevaError(
-            f"arm_eye_mm = {2.0 * eye:g}: the arm would cover more than half of the sphere; "
-            f"it must be below {2.0 * ball.radius_mm * (0.5 * math.pi - ball.arm):.6g}",
-            ("size", "arm_eye_mm"),
-        )
-    limit = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
-    if hub >= limit:
-        name = "arm_hub_mm" if size.arm_hub_mm else "arm_bore_mm"
-        raise GenevaError(
-            f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm in diameter, cuts the pin's "
-            f"hole; it must be below {2.0 * limit:.6g}",
-            ("size", name),
-        )
+def dial_holes(size: Size, ball: Ball) -> tuple[RoundHole, ...]:
+    """Return the holes of the dial's bolts, evenly spaced and pointing at the centre.
 
-
-def _walls(arm: CapArm, ball: Ball, sectors: Sequence[Region]) -> float:
-    """Return the least wall on the inner faces of the arm and of the bolted sectors.
-
-    It is negative where holes overlap, or cut the boundary of their part.
+    The first lies in the middle between two slots. Raises GenevaError where the wheel is open about
+    its axis, or the holes do not fit.
     """
-    least = least_wall(arm.boundary, arm.holes, ball.arm_span_mm[0])
-    for k, sector in enumerate(sectors if arm.bolts else []):
-        own = arm.bolts_of(k, len(sectors))
-        least = min(least, least_wall(sector, own, ball.lock_span_mm[0]))
-    return least
+    if not size.dial_bolts:
+        return ()
+    if not ball.opening_mm:
+        raise GenevaError(
+            "dial_bolts: the wheel is open about its axis, so the bolts have no material around "
+            "them; set wheel_bore_mm, or remove dial_bolts",
+            ("size", "dial_bolts"),
+        )
+    L, inside, high = ball.radius_mm, ball.span_mm[0], web_angle(ball)
+    low = RoundHole(POLE, ball.opening_mm).angle(inside)
+    bolts = bolt_circle(size, "dial", L, (L * low, L * high), ball.half_step)
+    far, r = bolts.radius / L, bolts.hole
+    if size.dial_bolt_circle_mm is not None:  # a diameter, not an arc as the ring's
+        far = math.asin(min(1.0, far))
+    holes = tuple(RoundHole(place(far, azimuth), r) for azimuth in bolts.turns)
+    all_holes = RoundHole(POLE, ball.opening_mm), *holes
+    if least_wall(Cap(POLE, high).region, all_holes, inside) <= 0.0:
+        circles = [f"{2.0 * L * math.sin(angle):.6g}" for angle in (far, low, high)]
+        raise GenevaError(
+            f"dial_bolts: {2.0 * r:.6g} mm holes on a {circles[0]} mm circle overlap, or cut hub "
+            f"or slots; they must lie between circles of {circles[1]} and {circles[2]} mm",
+            ("size", "dial_bolts"),
+        )
+    return holes
+
+
+def dial_wall(size: Size, ball: Ball) -> float:
+    """Return the least wall between the dial's holes, the hub and the slots' ends, mm."""
+    ends = Cap(POLE, min(ball.bottom - ball.half_width, 0.5 * math.pi)).region
+    holes = RoundHole(POLE, ball.opening_mm), *dial_holes(size, ball)
+    return least_wall(ends, holes, ball.span_mm[0])

@@ -6,7 +6,6 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.sphere import Vector, place
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.sizes import crank_reach_and_hub, wheel_bore, wheel_reach_and_hub
 from geneva_cli.spec.least_wall import wall_min
@@ -56,6 +55,34 @@ class Ball(NamedTuple):
         """The radius of the round hole about the wheel's axis; 0 where its ring stays open."""
         return max(self.bore_mm, self.hub_mm)
 
+    @property
+    def slot_end(self) -> float:
+        """The polar angle up to which the slots reach inwards."""
+        return self.bottom - self.half_width
+
+    @property
+    def between_slots(self) -> float:
+        """The polar angle of the wheel's edge on the meridian between two slots."""
+        return self.axes - self.recess if self.recess else self.rim
+
+    @property
+    def wall_mouth(self) -> float:
+        """The polar angle at which a slot's middle leaves the rim."""
+        return math.acos(math.cos(self.rim) / math.cos(self.half_width))
+
+    @property
+    def corner(self) -> float:
+        """The azimuth of the slot's corner at the rim, from the slot's middle."""
+        return math.asin(math.sin(self.half_width) / math.sin(self.rim))
+
+    @property
+    def opened(self) -> float:
+        """Half the azimuth over which a recess opens the rim, 0 without a recess."""
+        if not self.recess:
+            return 0.0
+        c = math.cos(self.recess) - math.cos(self.rim) * math.cos(self.axes)
+        return math.acos(c / (math.sin(self.rim) * math.sin(self.axes)))
+
     def passing_mm(self, opening_mm: float) -> float:
         """Return the radius of the largest eye that passes the wheel's hub, mm on the sphere."""
         opening = math.asin(min(1.0, opening_mm / self.arm_span_mm[0]))
@@ -80,31 +107,6 @@ class Ball(NamedTuple):
         length = size.wheel_hub_length_mm
         return (self.arm_span_mm[1] if length is None else outside + length) - inside
 
-    @property
-    def slot_end(self) -> float:
-        """The polar angle up to which the slots reach inwards."""
-        return self.bottom - self.half_width
-
-    @property
-    def slot_width_deg(self) -> float:
-        """The angle between the walls of a slot at the sphere's centre."""
-        return math.degrees(2.0 * self.half_width)
-
-    def corner(self) -> float:
-        """Return the azimuth of the slot's corner at the rim, from the slot's middle."""
-        return math.asin(math.sin(self.half_width) / math.sin(self.rim))
-
-    def opened(self) -> float:
-        """Return half the azimuth over which a recess opens the rim, 0 without a recess."""
-        if not self.recess:
-            return 0.0
-        c = math.cos(self.recess) - math.cos(self.rim) * math.cos(self.axes)
-        return math.acos(c / (math.sin(self.rim) * math.sin(self.axes)))
-
-    def crank_axis(self, azimuth: float) -> Vector:
-        """Return the crank's axis when it is at an azimuth about the wheel's axis."""
-        return place(self.axes, azimuth)
-
 
 def inner_edge(slot_end: float, roller: float, hole: float) -> float:
     """Return the polar angle where the slotted ring ends, between its slots and a hole."""
@@ -118,9 +120,8 @@ def wheel_axle(spec: Spec, L: float, inside: float, slot_end: float) -> tuple[fl
     the ends of its slots. Raises GenevaError, naming the key, where one of them cuts the slots.
     """
     end = inside * math.sin(min(slot_end, 0.5 * math.pi))
-    size = spec.size
-    bore = wheel_bore(spec, end, wall_min(size, L), L)
-    hub = hub_about(size, L, bore, end)
+    bore = wheel_bore(spec, end, wall_min(spec.size, L), L)
+    hub = hub_about(spec.size, L, bore, end)
     for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
         if radius >= end:
             raise GenevaError(
@@ -141,26 +142,21 @@ def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
 
 
-def about_crank(size: Size, L: float) -> float:
-    """Return the greater radius of the crank's bore and hub inside the arm, mm, 0 for none."""
-    return max(0.5 * (size.crank_bore_mm or 0.0), crank_hub(size, L))
-
-
 def crank_hub(size: Size, L: float) -> float:
     """Return the radius of the crank's hub inside the arm, mm; 0 unless the spec has one."""
-    bore = 0.5 * (size.crank_bore_mm or 0.0)
     if not size.has_hub("crank"):
         return 0.0
+    bore = 0.5 * (size.crank_bore_mm or 0.0)
     _, hub = crank_reach_and_hub(size, bore, wall_min(size, L))
     return hub if hub > bore else 0.0
 
 
-def refuse_wide(key_: str, radius: float, inner: float, outer: float) -> None:
+def refuse_wide(key: str, radius: float, inner: float, outer: float) -> None:
     """Raise GenevaError for a hub with flat faces that is too wide for its curved shell."""
     flat = math.sqrt((outer - inner) * (outer + inner))
     if radius >= flat:
         raise GenevaError(
-            f"{key_} = {2.0 * radius:g}: a hub with flat faces this wide misses its shell, which "
+            f"{key} = {2.0 * radius:g}: a hub with flat faces this wide misses its shell, which "
             f"is {outer - inner:g} mm thick; it must be below {2.0 * flat:.6g}",
-            ("size", key_),
+            ("size", key),
         )

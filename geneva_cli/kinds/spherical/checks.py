@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from itertools import product
+from typing import NamedTuple
 
+import numpy as np
+
+from geneva_cli.geometry.plates import Plate, plates, steps_of
 from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.geometry.sphere import POLE
-from geneva_cli.kinds.spherical.dial import dial_wall
+from geneva_cli.kinds.spherical.arm import dial_wall
 from geneva_cli.kinds.spherical.parts import SphereParts
-from geneva_cli.kinds.spherical.shaft_gap import shaft_gap
-from geneva_cli.parts.shafts.bores import reach_or_bore
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.shafts.bores import around, reach_or_bore
 from geneva_cli.parts.sizes import refuse_thin_hub
-from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
-from geneva_cli.verdict.checks.process import built, cut_width, plate_thickness
+from geneva_cli.verdict.checks.check import Check, ShaftGap, at_least, compared, gap
+from geneva_cli.verdict.checks.clearances import built, cut_width, plate_thickness
+from geneva_cli.verdict.shaft_gap import ring_gap
 
 
 def between_slots(name: str, parts: SphereParts) -> Check:
@@ -21,9 +29,9 @@ def between_slots(name: str, parts: SphereParts) -> Check:
     apart = 2.0 * math.asin(math.sin(ball.bottom) * math.sin(ball.half_step))
     wall = apart - 2.0 * ball.half_width
     if ball.rim > 0.5 * math.pi:
-        corners = math.sin(ball.rim) * math.sin(ball.half_step - ball.corner())
+        corners = math.sin(ball.rim) * math.sin(ball.half_step - ball.corner)
         wall = min(wall, 2.0 * math.asin(corners))
-    return _wall(name, wall, parts)
+    return compared(name, wall * ball.radius_mm, "at least", parts.shells.sizes.wall_min)
 
 
 def horn(name: str, parts: SphereParts) -> Check | None:
@@ -50,10 +58,7 @@ def crank_bore(name: str, parts: SphereParts) -> Check | None:
 
 
 def _in_hub(part: str, parts: SphereParts) -> float | None:
-    """Return the wall of a hub around its bore and keyway, mm; None without hub or bore.
-
-    Raises GenevaError, naming the key, for a hub that its keyway cuts through.
-    """
+    """Return the wall of a hub around its bore and keyway, mm; None without hub or bore."""
     bore, hub = parts.hub_radii(part)
     if not 0.0 < bore < hub:
         return None
@@ -95,7 +100,7 @@ def passing_parts(name: str, parts: SphereParts) -> Check | None:
     walls = [check(name, parts) for check in (arm_wall, dial)]
     if any(row and row.value is None for row in walls):
         return None
-    return gap(name, lambda: shaft_gap(parts), parts.ball.radius_mm)
+    return gap(name, lambda: _shaft_gap(parts), parts.ball.radius_mm)
 
 
 def thickest(name: str, parts: SphereParts) -> Check | None:
@@ -117,5 +122,83 @@ def solids_built(name: str, parts: SphereParts) -> Check | None:
     return built(name, lambda: parts.members)
 
 
-def _wall(name: str, angle: float, parts: SphereParts) -> Check:
-    return compared(name, angle * parts.ball.radius_mm, "at least", parts.shells.sizes.wall_min)
+class _Sweep(NamedTuple):
+    """The region that a part sweeps in a whole turn: between two angles and two spheres."""
+
+    # A round part begins at the sphere that touches its flat end, which limits it on larger ones.
+
+    name: str
+    back: bool  # on the far side of the centre
+    low: float
+    high: float
+    inner: float
+    outer: float
+    wide: float = 0.0  # radius of a round part, mm
+
+    def angle(self, sphere: Array) -> Array:
+        """Return the greatest angle from the axis on spheres (n,), radians."""
+        if not self.wide:
+            return np.full_like(sphere, self.high)
+        end = np.arccos(np.minimum(1.0, self.inner / sphere))
+        return np.minimum(np.arcsin(np.minimum(1.0, self.wide / sphere)), end)
+
+
+def _shaft_gap(parts: SphereParts) -> ShaftGap | None:
+    """Return the least gap of hubs and shafts to parts about the other axis, mm along a sphere."""
+    ball = parts.ball
+    shafts = [(step, m.frame is not None) for m in parts.shafts for step in steps_of(m.part)]
+    on_wheel, on_crank = (
+        [p for p in plates(one.part) if p.layer != "ROLLER"]
+        + [p for p, of_crank in shafts if of_crank is crank]
+        for crank, one in ((False, parts.wheel), (True, parts.crank))
+    )
+    wheel, crank = ([s for p in some for s in _round(p)] for some in (on_wheel, on_crank))
+    pairs = [*product(wheel, [*crank, *_crank_rings(parts)])]
+    inner = 0.0 if ball.opening_mm else ball.inner
+    ring = _Sweep("wheel", False, inner, ball.rim, *ball.span_mm)
+    pairs += [(one, ring) for one in crank]
+    near = SAME_LENGTH * ball.radius_mm
+    return min(
+        (
+            ShaftGap(_gap(one, other, ball.axes), one.name, other.name)
+            for one, other in pairs
+            if min(one.outer, other.outer) - max(one.inner, other.inner) > near
+        ),
+        default=None,
+    )
+
+
+def _round(plate: Plate) -> Iterator[_Sweep]:
+    """Yield the region that a round plate sweeps on each side of the centre: the plate itself."""
+    wide = around(plate.outline)
+    for back, low, high in ((False, plate.low, plate.high), (True, -plate.high, -plate.low)):
+        if high > 0.0:
+            flat = max(low, 0.0)
+            yield _Sweep(plate.name, back, 0.0, 0.0, flat, math.hypot(high, wide), wide)
+
+
+def _crank_rings(parts: SphereParts) -> Iterator[_Sweep]:
+    """Yield the regions that arm, locking sectors and rollers sweep about the crank's axis."""
+    ball, arm, sectors = parts.ball, parts.arm, parts.shells.crank
+    out = ball.span_mm[1]
+    if arm:
+        out = ball.arm_span_mm[1]
+        yield _Sweep("arm", False, 0.0, arm.reach, *ball.arm_span_mm)
+    if sectors:
+        low = min(math.pi - sector.boundary[2].angle for sector in sectors)
+        yield _Sweep("locking sector", False, low, ball.lock, *ball.lock_span_mm)
+    low, high = ball.arm - ball.roller, ball.arm + ball.roller
+    yield _Sweep("roller", False, low, high, ball.span_mm[0], out)
+
+
+def _gap(one: _Sweep, other: _Sweep, axes: float) -> float:
+    """Return the least gap of a round part to a round part or ring about the other axis."""
+    low, high = max(one.inner, other.inner), min(one.outer, other.outer)
+    # beyond these spheres both angles only shrink, and an arc that is a gap grows with its sphere
+    grow = (math.hypot(each.inner, each.wide) for each in (one, other) if each.wide)
+    high = min(high, max((low, *grow)))
+    sphere = np.linspace(low, high, 257)
+    sphere = sphere[sphere > 0.0]  # both may be at the centre
+    apart = axes if one.back is other.back else math.pi - axes
+    gaps = sphere * ring_gap(apart, other.low, other.angle(sphere), one.angle(sphere))
+    return float(gaps.min())

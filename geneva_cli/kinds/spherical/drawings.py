@@ -1,4 +1,9 @@
-"""Drawings of a spherical wheel and crank laid flat, and their solids.
+"""Drawings of a spherical machine: its parts laid flat, and their solids.
+
+A shell is projected from the centre on a tangent cone and unrolled. All walls lead to the centre.
+So a sheet that is cut by this outline and rolled up to the cone lets the roller pass as the shell
+does. On the flat sheet a point keeps the distance from the apex that it has on the cone. The cone's
+sector is 2 pi cos(polar) wide; at 90 degrees it is a cylinder.
 
 Layers: WHEEL and CRANK are cut; ROLLER is the hole of a roller; PITCH is the rollers' path.
 """
@@ -6,46 +11,194 @@ Layers: WHEEL and CRANK are cut; ROLLER is the hole of a roller; PITCH is the ro
 from __future__ import annotations
 
 import math
+from functools import partial
+from itertools import chain
+from typing import NamedTuple
 
+import numpy as np
+
+from geneva_cli.geometry import fit
 from geneva_cli.geometry.measure import bounds, mapped
 from geneva_cli.geometry.plates import Group, Member, Part, Plate
-from geneva_cli.geometry.shapes import Contour, Line, Point, Segment, Shape, closed, joined
+from geneva_cli.geometry.shapes import (
+    Arc,
+    Contour,
+    Layer,
+    Line,
+    Point,
+    Segment,
+    Shape,
+    closed,
+    joined,
+)
 from geneva_cli.geometry.sheet import Annotations, Drawing
-from geneva_cli.geometry.sphere import Region, SphereArc, place
-from geneva_cli.geometry.sphere_hull import Cap
+from geneva_cli.geometry.sphere import Cap, Region, SphereArc, Vector, place
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.kinds.spherical.crank import locked, rollers
-from geneva_cli.kinds.spherical.laid_flat import Cone, crank_cone, flat_region, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts, arm_solids
-from geneva_cli.kinds.spherical.wheel import edge
+from geneva_cli.kinds.spherical.regions import edge, locked, rollers
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.projection import titled
+from geneva_cli.spec.written import length, unit
+
+
+class Cone(NamedTuple):
+    """The cone about z that touches the sphere all round at a polar angle, radians.
+
+    Laid flat and seen from outside, its origin is the point of contact at azimuth 0. x points away
+    from the pole, and y towards rising azimuths.
+
+    >>> cone = Cone(100.0, math.radians(60.0))
+    >>> round(cone.apex_mm, 9), round(cone.sector_deg, 9)
+    (173.205080757, 180.0)
+    >>> x, y = cone.point(math.radians(60.0), math.radians(180.0))
+    >>> round(x, 9), round(y, 9)  # a quarter of a turn about the apex
+    (-173.205080757, 173.205080757)
+    """
+
+    radius_mm: float  # of the sphere
+    polar: float
+    # of curves that are neither lines nor arcs: the greatest distance from them, mm, and "arcs" or
+    # "cubics"
+    tolerance_mm: float = 0.0
+    curves: str = "arcs"
+
+    @property
+    def apex_mm(self) -> float:
+        """Distance from the apex to the circle of contact; negative for an apex on the far side."""
+        return self.radius_mm * math.tan(self.polar)
+
+    @property
+    def sector_deg(self) -> float:
+        """The angle of the whole cone, laid flat."""
+        return 360.0 * abs(math.cos(self.polar))
+
+    def point(self, polar: float, azimuth: float) -> Point:
+        """Return the point of the flat cone, mm, that a point of the sphere is projected to."""
+        points, _ = self._flat(*(np.array([v]) for v in (polar, azimuth, 0.0, 0.0)))
+        return float(points[0, 0]), float(points[0, 1])
+
+    def turned(self, at: Point, azimuth: float) -> Point:
+        """Return a point of the flat cone after the sphere is turned about z."""
+        x, y = at
+        turn = azimuth * math.cos(self.polar)
+        moved = self.point(self.polar, azimuth)
+        c, s = math.cos(turn), math.sin(turn)
+        return moved[0] + x * c - y * s, moved[1] + x * s + y * c
+
+    def region(self, layer: Layer, region: Region, about: float) -> Contour:
+        """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
+        return closed(layer, chain(*(self.segments(arc, about) for arc in region.boundary)))
+
+    def segments(self, arc: SphereArc, about: float) -> list[Segment]:
+        """Return an arc of the sphere on the flat cone.
+
+        Azimuths are unwrapped to within half a turn of ``about``. Circles about z become arcs and
+        meridians lines; the rest becomes curves.
+        """
+        ends = [self._at(p, about) for p in (arc.start, arc.end)]
+        # a meridian: a great circle is at 90 degrees from its axis
+        if not arc.axis[2] and abs(math.cos(arc.angle)) < 1e-12:
+            return [Line(*ends)]
+        if not arc.axis[0] and not arc.axis[1]:
+            return [self.level(ends[0], ends[1], math.copysign(arc.sweep, arc.axis[2]))]
+
+        def curve(turn: Array) -> tuple[Array, Array]:
+            (x, y, z), (dx, dy, dz) = (v.T for v in arc.at(turn))
+            across = np.hypot(x, y)
+            azimuth = about + np.remainder(np.arctan2(y, x) - about + math.pi, math.tau) - math.pi
+            d_polar = z * (x * dx + y * dy) / across - across * dz
+            d_azimuth = (x * dy - y * dx) / (across * across)
+            points, rates = self._flat(np.arctan2(across, z), azimuth, d_polar, d_azimuth)
+            return points, rates / np.hypot(*rates.T)[:, None]
+
+        return [*fit.KINDS[self.curves](curve, 0.0, arc.sweep, self.tolerance_mm)]
+
+    def level(self, start: Point, end: Point, azimuth: float) -> Segment:
+        """Return the arc about the apex between two points, over an azimuth."""
+        bulge = math.tan(0.25 * azimuth * math.cos(self.polar))
+        return Arc(start, end, bulge) if abs(bulge) > SAME_ANGLE else Line(start, end)
+
+    def described(self, whose: str) -> str:
+        """Return a description of the cone's shape and position for the workshop."""
+        polar = math.degrees(self.polar)
+        sphere = f"the {length(self.radius_mm)} {unit()} sphere"
+        at = f"touches {sphere} {polar:.6g} deg from the {whose}'s axis"
+        if abs(math.cos(self.polar)) < SAME_ANGLE:
+            return f"cylinder that {at}"
+        return (
+            f"cone that {at}, {length(abs(self.apex_mm))} {unit()} from its apex; sector "
+            f"{self.sector_deg:.6g} deg"
+        )
+
+    def _at(self, at: Vector, about: float) -> Point:
+        x, y, z = at
+        azimuth = about + math.remainder(math.atan2(y, x) - about, math.tau)
+        return self.point(math.atan2(math.hypot(x, y), z), azimuth)
+
+    def _flat(
+        self, polar: Array, azimuth: Array, d_polar: Array, d_azimuth: Array
+    ) -> tuple[Array, Array]:
+        """Return points and their derivatives, (n, 2)."""
+        ratio = math.cos(self.polar)
+        off = polar - self.polar
+        beyond = self.radius_mm * np.tan(off)  # along the cone, from the circle of contact
+        turn, wide = ratio * azimuth, self.radius_mm * math.sin(self.polar)
+        c, s = np.cos(turn), np.sin(turn)
+        # (1 - cos)/ratio and sin/ratio, which are 0 and the azimuth on a cylinder
+        x = beyond * c - wide * azimuth * np.sin(0.5 * turn) * np.sinc(0.5 * turn / math.pi)
+        y = beyond * s + wide * azimuth * np.sinc(turn / math.pi)
+        along, across = self.radius_mm / np.cos(off) ** 2 * d_polar, wide + ratio * beyond
+        across = across * d_azimuth
+        return (
+            np.column_stack((x, y)),
+            np.column_stack((along * c - across * s, along * s + across * c)),
+        )
+
+
+def wheel_cone(ball: Ball) -> Cone:
+    """Return the cone that touches the sphere in the middle of the slots' length."""
+    return Cone(ball.radius_mm, 0.5 * (ball.bottom + ball.wall_mouth))
+
+
+def crank_cone(ball: Ball) -> Cone:
+    """Return the cone that touches the sphere at the rollers."""
+    return Cone(ball.radius_mm, ball.arm)
+
+
+def arm_cone(ball: Ball) -> Cone:
+    """Return the cone that touches the middle of the arm's thickness at the pins."""
+    return Cone(0.5 * sum(ball.arm_span_mm), ball.arm)
+
+
+def _fine(parts: SphereParts, cone: Cone) -> Cone:
+    """Return a cone with the accuracy of the parts."""
+    return cone._replace(tolerance_mm=parts.tolerance or 0.0, curves=parts.curves)
 
 
 def wheel(parts: SphereParts) -> Drawing:
     """Return the wheel's cone, cut open between two slots; x is along the first slot."""
-    cone = wheel_cone(parts.ball)
-    title = titled(parts.mechanism, f"wheel, flat: {cone.described('wheel')}")
-    return _drawing(parts, title, wheel_flat(parts, cone), parts.wheel.part)
+    title = titled(parts.mechanism, f"wheel, flat: {wheel_cone(parts.ball).described('wheel')}")
+    return _drawing(parts, title, wheel_flat(parts), parts.wheel.part)
 
 
 def crank(parts: SphereParts) -> Drawing:
     """Return the crank's cone: locking sectors, and the rollers where they pass through it."""
-    cone = crank_cone(parts.ball)
-    title = titled(parts.mechanism, f"crank, flat: {cone.described('crank')}")
-    return _drawing(parts, title, crank_flat(parts, cone), parts.crank.part)
+    title = titled(parts.mechanism, f"crank, flat: {crank_cone(parts.ball).described('crank')}")
+    return _drawing(parts, title, crank_flat(parts), parts.crank.part)
 
 
 def assembly(parts: SphereParts) -> Drawing:
     """Return both laid flat, side by side; the solid is the machine at input angle 0."""
     ball, title = parts.ball, titled(parts.mechanism)
-    left, right = wheel_flat(parts, wheel_cone(ball)), crank_flat(parts, crank_cone(ball))
+    left, right = wheel_flat(parts), crank_flat(parts)
     # wheel and crank are 0.1 of the sphere's radius apart
     shift = 0.1 * ball.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
     moved = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
     whole = Group(title, parts.members)
-    return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations((), ()))
+    return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations())
 
 
 def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) -> Drawing:
@@ -59,23 +212,18 @@ def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) 
     return Drawing(title, tuple(shapes), solid=Group(title, tuple(plates)), shells=shells)
 
 
-def wheel_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
+def wheel_flat(parts: SphereParts) -> list[Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
-    ball = parts.ball
-    b = ball.half_step
-    slot = slot_flat(ball, cone, parts.tolerance or 0.0, parts.curves)
-    mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
-    ends = [cone.point(polar, 0.0) for polar in (mouth, ball.bottom)]
-    path = Contour("PITCH", (Line(*ends),), closed=False)
+    ball, cone = parts.ball, _fine(parts, wheel_cone(parts.ball))
+    b, slot = ball.half_step, slot_flat(ball, cone)
+    path = Line(*(cone.point(polar, 0.0) for polar in (ball.wall_mouth, ball.bottom)))
+    both = Contour("PITCH", (*slot.segments, path), closed=False)
     outer: list[Segment] = []
     pitch: list[Shape] = []
     for k in range(ball.z):
-
-        def to(p: Point, k: int = k) -> Point:
-            return cone.turned(p, 2 * k * b)
-
-        outer += mapped(slot, to).segments
-        pitch.append(mapped(path, to))
+        *walls, axis = mapped(both, partial(cone.turned, azimuth=2 * k * b)).segments
+        outer += walls
+        pitch.append(Contour("PITCH", (axis,), closed=False))
     inner = [cone.point(ball.inner, (2 * k - 1) * b) for k in range(ball.z + 1)][::-1]
     back = [cone.level(p, q, -2.0 * b) for p, q in zip(inner, inner[1:], strict=False)]
     first, last = outer[0].start, outer[-1].end
@@ -83,22 +231,19 @@ def wheel_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
     return [rim, *pitch]
 
 
-def slot_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> Contour:
+def slot_flat(ball: Ball, cone: Cone) -> Contour:
     """Return the edge about the first slot, half-way to the adjacent slots on either side."""
-    one: list[Segment] = []
-    for arc in edge(ball):
-        one += cone.segments(arc, 0.0, tolerance, curves)
-    return Contour("WHEEL", joined(one), closed=False)
+    each = (cone.segments(arc, 0.0) for arc in edge(ball))
+    return Contour("WHEEL", joined(chain(*each)), closed=False)
 
 
-def crank_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
+def crank_flat(parts: SphereParts) -> list[Shape]:
     """Return locking sectors, rollers and the rollers' circle on the crank's flat cone."""
-    ball, accuracy = parts.ball, (parts.tolerance, parts.curves)
-    shapes: list[Shape] = []
-    for region, (a, b) in zip(parts.shells.crank, locked(ball), strict=True):
-        shapes.append(flat_region("CRANK", region, cone, 0.5 * (a + b), *accuracy))
-    for region, about in zip(rollers(ball), ball.rollers, strict=True):
-        shapes.append(flat_region("ROLLER", region, cone, about, *accuracy))
+    ball, cone = parts.ball, _fine(parts, crank_cone(parts.ball))
+    locking = zip(parts.shells.crank, locked(ball), strict=True)
+    shapes: list[Shape] = [cone.region("CRANK", one, 0.5 * (a + b)) for one, (a, b) in locking]
+    rolling = zip(rollers(ball), ball.rollers, strict=True)
+    shapes += [cone.region("ROLLER", one, about) for one, about in rolling]
     ends = cone.point(ball.arm, 0.0), cone.point(ball.arm, math.tau)
     shapes.append(Contour("PITCH", (cone.level(*ends, math.tau),), closed=False))
     return shapes
@@ -111,8 +256,7 @@ def arm(parts: SphereParts) -> Drawing:
     """
     ball = parts.ball
     # the error says why there is no arm
-    size = parts.mechanism.spec.size
-    cap_arm = parts.arm or crank_arm(parts.ball, parts.shells.crank, size)
+    cap_arm = parts.arm or crank_arm(ball, parts.shells.crank, parts.mechanism.spec.size)
     shapes = arm_flat(parts, cap_arm)
     low, high = ball.arm_span_mm
     plate = Plate("arm", "ARM", shapes[0], tuple(shapes[1:]), 0.0, high - low)
@@ -121,17 +265,12 @@ def arm(parts: SphereParts) -> Drawing:
     return Drawing(title, tuple(shapes), solid=plate, shells=solid)
 
 
-def arm_cone(ball: Ball) -> Cone:
-    """Return the cone that touches the middle of the arm's thickness at the pins."""
-    return Cone(0.5 * sum(ball.arm_span_mm), ball.arm)
-
-
 def arm_flat(parts: SphereParts, arm: CapArm) -> list[Contour]:
     """Return the arm's boundary, cut open between its holes, and the holes.
 
     About the crank's axis the opening is as wide as the hub.
     """
-    cone = arm_cone(parts.ball)
+    cone = _fine(parts, arm_cone(parts.ball))
     hub, *others = arm.holes
     azimuths = [math.atan2(hole.axis[1], hole.axis[0]) for hole in others]
     cut = _widest_gap(azimuths) - math.tau  # azimuths rise from here by a whole turn, past 0
@@ -139,7 +278,7 @@ def arm_flat(parts: SphereParts, arm: CapArm) -> list[Contour]:
     edge: list[Segment] = []
     # each arc's azimuths are unwrapped around a value near them
     for arc, about in ((head, 0.5), *((arc, 1.0) for arc in between), (tail, 1.5)):
-        edge += cone.segments(arc, cut + about * math.pi, parts.tolerance or 0.0, parts.curves)
+        edge += cone.segments(arc, cut + about * math.pi)
     angle = hub.angle(cone.radius_mm)
     far, near = (cone.point(angle, cut + turn) for turn in (math.tau, 0.0))
     back = cone.level(far, near, -math.tau)
@@ -148,7 +287,7 @@ def arm_flat(parts: SphereParts, arm: CapArm) -> list[Contour]:
     for hole, azimuth in zip(others, azimuths, strict=True):
         region = Cap(hole.axis, hole.angle(cone.radius_mm)).region
         about = cut + (azimuth - cut) % math.tau
-        holes.append(flat_region("BORE", region, cone, about, parts.tolerance, parts.curves))
+        holes.append(cone.region("BORE", region, about))
     return [closed("ARM", outline), *holes]
 
 

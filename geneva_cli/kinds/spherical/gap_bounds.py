@@ -15,11 +15,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.geometry.sphere import POLE, Region
-from geneva_cli.geometry.sphere_arcs import SphereArcs
-from geneva_cli.geometry.sphere_hull import Circle, FromCircle, farthest, short_arcs
+from geneva_cli.geometry.sphere_arcs import Circle, FromCircle, SphereArcs, farthest, short_arcs
 from geneva_cli.kept import cached_property
+from geneva_cli.kinds.spherical.regions import QUARTER
 from geneva_cli.kinds.spherical.stops import about, polar
-from geneva_cli.kinds.spherical.wheel import QUARTER
 from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.parts.turn.pairs import Bounds, Intervals, Pose, Window, raised
 
@@ -103,11 +102,7 @@ class SpherePairs:
         return math.sin(self.ball.arm) * on.crank
 
     def _along(self, circle: Circle, centre: Array, half: Array, gap: Array) -> Array:
-        """Return the gap of a roller whose centre moves along a circle, mm.
-
-        In the middle of an interval it is at ``centre`` and has the gap ``gap``. On either side it
-        moves by the azimuth ``half``.
-        """
+        """Return the gap of a roller whose centre moves along a circle, mm."""
         off, middle = circle.seen(centre)
         aside = np.abs(off - circle.angle)
         from_wheel = self.ball.roller + gap / self.ball.radius_mm

@@ -11,10 +11,9 @@ import numpy as np
 from geneva_cli.geometry.sphere import Region, opposite, place
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.kinds.spherical.crank import at_mid_motion
+from geneva_cli.kinds.spherical.regions import at_mid_motion, edge
 from geneva_cli.kinds.spherical.stops import SphereStops, about, polar
-from geneva_cli.kinds.spherical.wheel import edge
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.pairs import Pose, Stop
@@ -37,9 +36,7 @@ class BallGaps:
         self._stops = SphereStops(
             self.around, 2.0 * ball.half_step, self.sectors, self._out_each, ball.roller
         )
-        self.crank_frame = np.array(
-            at_mid_motion(ball)
-        )  # rows: the crank's axes in the wheel's frame
+        self.crank_frame = np.array(at_mid_motion(ball))  # rows: the crank's axes, in the wheel's
         self._rollers = np.array([place(ball.arm, azimuth) for azimuth in ball.rollers])
         corners = [
             one.at(np.arange(len(one)), fraction * one.sweep)
@@ -100,11 +97,8 @@ class BallGaps:
         far = np.arccos(np.clip(axis @ self.wheel.middle.T, -1.0, 1.0)) - self.wheel.size
         # an angle computed from its cosine is wrong by up to 1e-7 radians
         owner, piece = np.nonzero(far <= self.ball.lock + least[0] + 1e-7)
-        owners: list[Whole] = []
-        points: list[Array] = []
-        for fraction in ARC_SAMPLES:
-            owners.append(owner)
-            points.append(self.wheel.at(piece, fraction * self.wheel.sweep[piece]))
+        owners, sweep = [owner] * len(ARC_SAMPLES), self.wheel.sweep[piece]
+        points = [self.wheel.at(piece, fraction * sweep) for fraction in ARC_SAMPLES]
         for one in self._facing:
             towards = about(self._out(one, pose.crank[owner]), -turn[owner])
             which, at = self.wheel.facing(piece, towards)
@@ -143,11 +137,8 @@ class BallGaps:
         return self.around.signed(about(points, -back))
 
     def _out(self, of_crank: Array, turn: Array) -> Array:
-        """Return directions (n, 3) of the crank's frame in the wheel's frame, at crank angles.
-
-        ``of_crank`` is one direction or n of them. The crank turns clockwise about its axis where
-        the wheel turns counterclockwise.
-        """
+        """Return one or n directions of the crank's frame in the wheel's, at n crank angles."""
+        # the crank turns clockwise about its axis where the wheel turns counterclockwise
         return about(np.broadcast_to(of_crank, (len(turn), 3)), -turn) @ self.crank_frame
 
     def _out_each(self, of_crank: Array, turn: Array) -> Array:

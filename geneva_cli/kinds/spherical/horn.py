@@ -73,12 +73,10 @@ class SphereHorn(NamedTuple):
         L, w, b = (np.atleast_2d(one)[..., None] for one in every)
         h = thick[:, None]
         with np.errstate(all="ignore"):
-            at, push = _at(t0, w), _across(t0, w)
-            force = push + rub[..., None] * _along(t0)
+            at, push, towards = _axes(t0, w)
+            force = push + rub[..., None] * towards
             middle = self.half_width + 0.5 * thick / self.radius_mm
-            q, across, along = (
-                v[:, :, None] for v in (_at(t, middle), _across(t, middle), _along(t))
-            )
+            q, across, along = (v[:, :, None] for v in _axes(t, middle))
             arm = L * (at - q)
             bent, moment = (
                 np.cross(arm, np.broadcast_to(of, arm.shape), axis=0) for of in (push, force)
@@ -109,19 +107,12 @@ class SphereHorn(NamedTuple):
         return np.atleast_2d(self.at.engagement.slot(squeezed(input_deg), 0)[0].c[0])
 
 
-def _at(t: Array, x: Array | float) -> Array:
-    """Points of the unit sphere, (3, ...)."""
-    return np.stack(np.broadcast_arrays(np.cos(x) * np.sin(t), np.sin(x), np.cos(x) * np.cos(t)))
-
-
-def _across(t: Array, x: Array | float) -> Array:
-    """Directions of sections there, away from the slot."""
-    return np.stack(np.broadcast_arrays(-np.sin(x) * np.sin(t), np.cos(x), -np.sin(x) * np.cos(t)))
-
-
-def _along(t: Array) -> Array:
-    """Directions of the horn there, towards its mouth."""
-    return np.stack((np.cos(t), 0.0 * t, -np.sin(t)))
+def _axes(t: Array, x: Array | float) -> tuple[Array, Array, Array]:
+    """Points of the unit sphere, (3, ...); directions away from the slot, and to the mouth."""
+    c, s, up, flat = np.cos(x), np.sin(x), np.cos(t), np.sin(t)
+    rows = (c * flat, s, c * up), (-s * flat, c, -s * up), (up, 0.0 * t, -flat)
+    at, across, along = (np.stack(np.broadcast_arrays(*row)) for row in rows)
+    return at, across, along
 
 
 def sphere_horns(

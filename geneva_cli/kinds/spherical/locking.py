@@ -27,15 +27,14 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.kinds.spherical.parts import SphereParts
-from geneva_cli.kinds.spherical.shells import Shells
+from geneva_cli.kinds.spherical.parts import Shells, SphereParts
 from geneva_cli.loads.tolerance.dimensions import Deviations
 from geneva_cli.loads.tolerance.locking import ROUNDING, LockPlay, positive_root
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import array, choose
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.tolerance.lock_tolerances import SAME, Corners, CutParts
+from geneva_cli.verdict.tolerance.needed import SAME, Corners, CutParts
 
 
 class SphereLock(NamedTuple):
@@ -60,16 +59,14 @@ class SphereLock(NamedTuple):
     def reach(self) -> float:
         """Half of the recess, as an angle about the crank's axis."""
         S, rho = self.axes, self.recess
-        cosine = (math.cos(self.corner) - math.cos(S) * math.cos(rho)) / (
-            math.sin(S) * math.sin(rho)
-        )
-        return math.acos(max(-1.0, min(1.0, cosine)))
+        cosine = math.cos(self.corner) - math.cos(S) * math.cos(rho)
+        return math.acos(max(-1.0, min(1.0, cosine / (math.sin(S) * math.sin(rho)))))
 
     def __call__(self, by: Deviations) -> LockPlay:
         """Play of the wheel to one side."""
         lock = by.lock_radius_mm / self.radius_mm + math.sin(self.lock)
         recess = by.recess_radius_mm / self.radius_mm + math.sin(self.recess)
-        lock_cosine, recess_cosine = _cosine(lock), _cosine(recess)
+        lock_cosine, recess_cosine = (positive_root(1.0 - a * a) for a in (lock, recess))
         if self.reach <= self.half:
             near, high = math.cos(self.corner), math.sin(self.corner)
             still = 0.0 * lock
@@ -91,11 +88,6 @@ class SphereLock(NamedTuple):
         across = sine * math.sin(self.axes)
         along = from_crank - cosine * math.cos(self.axes)
         return atan2(positive_root(across * across - along * along), along)
-
-
-def _cosine(sine: Jet) -> Jet:
-    """Cosine of an angle below 90 degrees, from its sine."""
-    return positive_root(1.0 - sine * sine)
 
 
 class CutShells(CutParts):
@@ -130,13 +122,9 @@ class CutShells(CutParts):
                 lock_radius_mm=disc,
             )
             if ball.lock:
-                recess = (
-                    ball.recess
-                    + _arc_increase_mm(ball.recess, sign * sizes["recess_radius_mm"], L) / L
-                )
-                changed = changed.replace(
-                    lock_clearance_mm=max(L * (recess - math.asin(disc / L)), 0.0)
-                )
+                grown = _arc_increase_mm(ball.recess, sign * sizes["recess_radius_mm"], L)
+                clear = L * (ball.recess - math.asin(disc / L)) + grown
+                changed = changed.replace(lock_clearance_mm=max(clear, 0.0))
             return spec.replace(size=changed)
 
         return least if ball.lock else None, corner

@@ -7,8 +7,9 @@ are projections of them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -16,30 +17,53 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import MM, MassProperties, added, mass_properties
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell, inwards
 from geneva_cli.geometry.round_holes import RoundHole
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Shape
-from geneva_cli.geometry.sphere import POLE, Rotation, axis_frame, place
-from geneva_cli.geometry.sphere_hull import Cap
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour
+from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, axis_frame, place
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, has_arm
+from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, dial_holes
 from geneva_cli.kinds.spherical.ball import Ball, crank_hub, refuse_wide
-from geneva_cli.kinds.spherical.crank import at_mid_motion
-from geneva_cli.kinds.spherical.dial import dial_holes
 from geneva_cli.kinds.spherical.gap_bounds import SpherePairs
-from geneva_cli.kinds.spherical.shells import BallLengths, Shells, shells
-from geneva_cli.kinds.spherical.sizes import ball
-from geneva_cli.kinds.spherical.wheel import web_angle, web_region, wheel_regions
+from geneva_cli.kinds.spherical.gaps import BallGaps
+from geneva_cli.kinds.spherical.regions import (
+    at_mid_motion,
+    web_angle,
+    web_region,
+    wheel_regions,
+)
+from geneva_cli.kinds.spherical.sizes import ball, fitted
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
+from geneva_cli.parts.assembly import Assembly, assembled
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
-from geneva_cli.parts.shafts.bearings import shoulder_length
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.held_hubs import held_hub
-from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends
-from geneva_cli.parts.shafts.turned_shafts import turned_shaft
+from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends, shoulder_length, turned_shaft
 from geneva_cli.parts.sizes import refuse_thin_hub
+from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.materials import wheel_material
 from geneva_cli.spec.tables import Size
+
+
+class BallLengths(NamedTuple):
+    """Arc lengths on the sphere, mm; ``rim`` is a distance from the wheel's axis."""
+
+    roller: float
+    half_width: float
+    rim: float
+    arm: float
+    horn: float
+    wall_min: float
+
+
+class Shells(NamedTuple):
+    """Wheel and crank on a sphere, and the gaps between them."""
+
+    assembly: Assembly
+    ball: Ball
+    sizes: BallLengths
+    crank: list[Region]
+    gaps: BallGaps
 
 
 class SphereParts(Parts):
@@ -52,7 +76,17 @@ class SphereParts(Parts):
 
     @cached_property
     def _shape(self) -> Shells:
-        return shells(self.mechanism, self.advice)
+        ball, locks = fitted(self.mechanism, self.advice)
+        L, assembly = ball.radius_mm, assembled(self.mechanism)
+        lengths = BallLengths(
+            roller=L * ball.roller,
+            half_width=L * ball.half_width,
+            rim=L * math.sin(ball.rim),
+            arm=L * math.sin(ball.arm),
+            horn=L * (ball.arm - ball.half_width - ball.recess),
+            wall_min=wall_min(self.mechanism.spec.size, L),
+        )
+        return Shells(assembly, ball, lengths, locks, BallGaps(assembly, ball, locks))
 
     @property
     def shells(self) -> Shells:
@@ -63,11 +97,6 @@ class SphereParts(Parts):
     def ball(self) -> Ball:
         """The sizes, as angles on the sphere and radii."""
         return self._shape.ball
-
-    @property
-    def sizes(self) -> BallLengths:
-        """The lengths of the parts."""
-        return self._shape.sizes
 
     def pairs(self, target: float) -> SpherePairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
@@ -96,19 +125,85 @@ class SphereParts(Parts):
     @cached_property
     def arm(self) -> CapArm | None:
         """The crank arm; None without pins for the rollers."""
-        if not has_arm(self.ball):
+        if not self.ball.arm_bore_mm:
             return None
         return crank_arm(self.ball, self.shells.crank, self.mechanism.spec.size)
 
     @cached_property
     def crank(self) -> Member:
         """The crank: locking sectors, arm, rollers on their pins, hub."""
-        return Member(crank_group(self.shells, self.arm), frame=at_mid_motion(self.ball))
+        ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
+        members = []
+        for k, region in enumerate(self.shells.crank):
+            screwed = arm.bolts_of(k, len(self.shells.crank)) if arm else ()
+            sector = Shell("locking sector", "CRANK", (region,), *ball.lock_span_mm, screwed)
+            members.append(Member(sector))
+        members += map(Member, arm_solids(ball, arm) if arm else ())
+        bored = ball.pin_mm + 0.5 * size.allowances.shaft_fit_mm
+        hole = (RoundHole(POLE, bored),) if arm else ()
+        roller = Shell("roller", "ROLLER", (Cap(POLE, ball.roller).region,), *ball.span_mm, hole)
+        across = Circle("ROLLER", ORIGIN, ball.pin_mm)
+        pin = Plate("pin", "ROLLER", across, (), ball.span_mm[0], ball.arm_span_mm[1])
+        for azimuth in ball.rollers:
+            frame = axis_frame(place(ball.arm, azimuth))
+            members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
+        hub = held_hub(size, "crank", self._inner_hub, arm.keyway if arm else 0.0)
+        members += [Member(hub)] if hub else []
+        return Member(Group("crank", tuple(members)), frame=at_mid_motion(ball))
+
+    @property
+    def _inner_hub(self) -> Plate | None:
+        """The crank's hub on the arm's inner face; None unless the spec has one."""
+        size, ball, arm = self.mechanism.spec.size, self.ball, self.arm
+        radius = crank_hub(size, ball.radius_mm)
+        if not (radius and arm):
+            return None
+        long, high = size.crank_hub_length_mm, ball.arm_span_mm[0]
+        low = ball.span_mm[0] if long is None else high - long
+        bored: tuple[Circle | Contour, ...] = ()
+        if size.crank_bore_mm:
+            form = bore_of(size, "crank", 0.5 * size.crank_bore_mm)
+            refuse_thin_hub("crank", radius, form.reach, form.radius)
+            bored = (form.shape("BORE", arm.keyway),)
+        return Plate("crank's hub", "HUB", Circle("HUB", ORIGIN, radius), bored, low, high)
 
     @cached_property
     def shafts(self) -> tuple[Member, ...]:
-        """The shafts of wheel and crank."""
-        return tuple(_shafts(self.shells, self.arm))
+        """The shafts of wheel and crank: as wide as the bores, and as long as on a plane.
+
+        There is no frame. Shafts end the arm's thickness beyond the parts that they carry, turned
+        ones at the circlip of a bearing there.
+        """
+        ball, size = self.ball, self.mechanism.spec.size
+        outside, (under, over) = ball.span_mm[1], ball.arm_span_mm
+        face = outside - ball.shafts_end_mm(size)
+        lowest = face - (over - under)
+        members = []
+        for one, frame in self._axles(lowest):
+            turned = size.shafts == "turned" and one.low <= lowest
+            bearing = face - shoulder_length(size, ball.radius_mm)
+            part = (turned_shaft(size, one, bearing) if turned else one.plain()).part
+            members.append(Member(inwards(part, outside), frame=frame))
+        return tuple(members)
+
+    def _axles(self, lowest: float) -> Iterator[tuple[Shaft, Rotation | None]]:
+        """Yield the shafts and the frames of their axes."""
+        ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
+        (inside, outside), (under, over) = ball.span_mm, ball.arm_span_mm
+        if ball.bore_mm:
+            hub = ball.hub_mm > ball.bore_mm
+            bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
+            seat = Seat("wheel", high - ball.hub_length_mm(size) if hub else 0.0, high)
+            low, high = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
+            one = Shaft("wheel's shaft", "wheel", bore, (seat,), low, high, ORIGIN, ball.half_step)
+            yield one._replace(ends_here=False), None
+        if arm:
+            through, inner = bool(size.crank_bore_mm), self._inner_hub
+            end = (inner.low if inner else ball.lock_span_mm[0]) if through else under
+            seat = Seat("crank", outside - over, outside - end)
+            low, high = shaft_ends(size, "crank", lowest, outside - end)
+            one = Shaft("crank's shaft", "crank", arm.bore, (seat,), low, high, ORIGIN, arm.keyway)
+            yield one._replace(ends_here=not through), at_mid_motion(ball)
 
     @property
     def to_fix(self) -> tuple[str, ...]:
@@ -116,8 +211,7 @@ class SphereParts(Parts):
         size, ball = self.mechanism.spec.size, self.ball
         wheel = "wheel's hub" if ball.hub_mm > ball.bore_mm else "wheel"
         names = {"wheel": wheel, "crank": "arm's hub"}
-        axles = (shaft for shaft, _ in _axles(self.shells, self.arm, 0.0))
-        return tuple(names[name] for shaft in axles for name in shaft.to_fix(size))
+        return tuple(names[name] for shaft, _ in self._axles(0.0) for name in shaft.to_fix(size))
 
     @property
     def outside_mm(self) -> float | None:
@@ -167,10 +261,6 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
 
     Raises GenevaError, naming the key, where it cannot be made.
     """
-    return held_hub(size, "wheel", _wheel_hub(size, ball), ball.half_step)
-
-
-def _wheel_hub(size: Size, ball: Ball) -> Plate | None:
     wide = ball.hub_mm > ball.bore_mm
     if has_shape(size, "wheel") and not (wide and ball.bore_mm):
         name = "wheel_bore" if size.wheel_keyway is None else "wheel_keyway"
@@ -179,15 +269,16 @@ def _wheel_hub(size: Size, ball: Ball) -> Plate | None:
             f"wheel_bore_mm and wheel_hub_mm, or remove {name}",
             ("size", name),
         )
-    if not wide:
-        return None
-    inside, outside = ball.span_mm
-    refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
-    form = bore_of(size, "wheel", ball.bore_mm)
-    refuse_thin_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
-    long = inside + ball.hub_length_mm(size)
-    bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
-    return Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, inside, long)
+    hub = None
+    if wide:
+        inside, outside = ball.span_mm
+        refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
+        form = bore_of(size, "wheel", ball.bore_mm)
+        refuse_thin_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
+        bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
+        span = inside, inside + ball.hub_length_mm(size)
+        hub = Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, *span)
+    return held_hub(size, "wheel", hub, ball.half_step)
 
 
 def shell_body(mechanism: Mechanism) -> MassProperties:
@@ -203,28 +294,6 @@ def shell_body(mechanism: Mechanism) -> MassProperties:
     return added(rim, mass_properties(hub, density)) if hub else rim
 
 
-def crank_group(parts: Shells, arm: CapArm | None) -> Group:
-    """Return the parts that the crank carries, in its frame, and its arm, if there is one."""
-    ball, size = parts.ball, parts.assembly.full.spec.size
-    members = []
-    for k, region in enumerate(parts.crank):
-        screwed = arm.bolts_of(k, len(parts.crank)) if arm else ()
-        sector = Shell("locking sector", "CRANK", (region,), *ball.lock_span_mm, screwed)
-        members.append(Member(sector))
-    members += [Member(one) for one in (arm_solids(ball, arm) if arm else ())]
-    inner, outer = ball.span_mm
-    bored = ball.pin_mm + 0.5 * size.allowances.shaft_fit_mm
-    hole = (RoundHole(POLE, bored),) if arm else ()
-    roller = Shell("roller", "ROLLER", (Cap(POLE, ball.roller).region,), inner, outer, hole)
-    long = Circle("ROLLER", ORIGIN, ball.pin_mm)
-    pin = Plate("pin", "ROLLER", long, (), inner, ball.arm_span_mm[1])
-    for azimuth in ball.rollers:
-        frame = axis_frame(place(ball.arm, azimuth))
-        members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
-    hub = held_hub(size, "crank", _inner_hub(size, ball, arm), arm.keyway if arm else 0.0)
-    return Group("crank", (*members, *([Member(hub)] if hub else [])))
-
-
 def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
     """Return the arm's cap and its hub, which has flat faces and the bore."""
     cap = Shell("arm", "ARM", (arm.boundary,), *ball.arm_span_mm, arm.holes)
@@ -232,62 +301,3 @@ def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
     return cap, Plate(
         "arm's hub", "ARM", Circle("ARM", ORIGIN, arm.hub), (bored,), *ball.arm_span_mm
     )
-
-
-def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
-    """Return the crank's hub on the arm's inner face; None unless the spec has one."""
-    radius = crank_hub(size, ball.radius_mm)
-    if not (radius and arm):
-        return None
-    long = size.crank_hub_length_mm
-    high = ball.arm_span_mm[0]
-    low = ball.span_mm[0] if long is None else high - long
-    bored: tuple[Shape, ...] = ()
-    if size.crank_bore_mm:
-        form = bore_of(size, "crank", 0.5 * size.crank_bore_mm)
-        refuse_thin_hub("crank", radius, form.reach, form.radius)
-        bored = (form.shape("BORE", arm.keyway),)
-    return Plate("crank's hub", "HUB", Circle("HUB", ORIGIN, radius), bored, low, high)
-
-
-def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
-    """Yield the shafts of wheel and crank: as wide as the bores, and as long as on a plane.
-
-    There is no frame. Shafts end the arm's thickness beyond the parts that they carry, turned ones
-    at the circlip of a bearing there.
-    """
-    ball, size = parts.ball, parts.assembly.full.spec.size
-    outside, (under, over) = ball.span_mm[1], ball.arm_span_mm
-    face = outside - ball.shafts_end_mm(size)
-    lowest = face - (over - under)
-    for one, frame in _axles(parts, arm, lowest):
-        turned = size.shafts == "turned" and one.low <= lowest
-        bearing = face - shoulder_length(size, ball.radius_mm)
-        part = (turned_shaft(size, one, bearing) if turned else one.plain()).part
-        yield Member(inwards(part, outside), frame=frame)
-
-
-def _axles(
-    parts: Shells, arm: CapArm | None, lowest: float
-) -> Iterator[tuple[Shaft, Rotation | None]]:
-    """Yield the shafts and the frames of their axes; heights count inwards from the outer sphere.
-
-    ``lowest`` is the height of their outer ends.
-    """
-    ball, size = parts.ball, parts.assembly.full.spec.size
-    (inside, outside), (under, over), at = ball.span_mm, ball.arm_span_mm, (0.0, 0.0)
-    if ball.bore_mm:
-        hub = ball.hub_mm > ball.bore_mm
-        bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
-        seat = Seat("wheel", outside - inside - ball.hub_length_mm(size) if hub else 0.0, high)
-        low, high = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
-        one = Shaft("wheel's shaft", "wheel", bore, (seat,), low, high, at, ball.half_step)
-        yield one._replace(ends_here=False), None
-    if arm:
-        inner = _inner_hub(size, ball, arm)
-        through = bool(size.crank_bore_mm)
-        end = (inner.low if inner else ball.lock_span_mm[0]) if through else under
-        seat = Seat("crank", outside - over, outside - end)
-        low, high = shaft_ends(size, "crank", lowest, outside - end)
-        one = Shaft("crank's shaft", "crank", arm.bore, (seat,), low, high, at, arm.keyway)
-        yield one._replace(ends_here=not through), at_mid_motion(ball)

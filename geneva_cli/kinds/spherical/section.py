@@ -13,12 +13,12 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.plates import Plate, plates, steps_of
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, about, closed, polygon
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Line, about, closed, polygon
 from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE, polar
 from geneva_cli.kinds.spherical.arm import CapArm
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts
-from geneva_cli.kinds.spherical.wheel import QUARTER
+from geneva_cli.kinds.spherical.regions import QUARTER
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.bores import around, radius_of
 from geneva_cli.spec.written import degrees
@@ -34,15 +34,14 @@ def section(parts: SphereParts, scale: float, items: Mapping[str, int]) -> View:
     """
     ball, view = parts.ball, View("section through both shafts", scale)
     inner, outer = ball.span_mm
-    end = ball.bottom - ball.half_width
+    end = ball.slot_end
     # opposite, across the wheel's axis, there is a slot too, or the edge between two slots
-    between = ball.axes - ball.recess if ball.recess else ball.rim
-    back = between if ball.z % 2 else end
-    opening = parallel(0.0, ball.opening_mm) if ball.opening_mm else radial(ball.inner)
-    closing = parallel(0.0, -ball.opening_mm) if ball.opening_mm else radial(-ball.inner)
-    cut: dict[str, list[Contour]] = {"wheel": []}
-    for low, high in ((opening, radial(end)), (radial(-back), closing)):
-        cut["wheel"].append(_ring(inner, outer, low, high))
+    back = ball.between_slots if ball.z % 2 else end
+    sides = [radial(ball.inner), radial(-ball.inner)]
+    if ball.opening_mm:
+        sides = [parallel(0.0, ball.opening_mm), parallel(0.0, -ball.opening_mm)]
+    cut = {"wheel": [_ring(inner, outer, sides[0], radial(end))]}
+    cut["wheel"].append(_ring(inner, outer, radial(-back), sides[1]))
     for name, ring in _crank(parts):
         cut.setdefault(name, []).append(ring)
     for plate, angle in _plates(parts):
@@ -53,7 +52,8 @@ def section(parts: SphereParts, scale: float, items: Mapping[str, int]) -> View:
     middle = ball.axes - ball.arm
     far = max([outer, *(step.high for one in parts.shafts for step in steps_of(one.part))])
     for angle in (0.0, ball.axes, middle):
-        view.centre_line((0.0, 0.0), _at(far + 0.1 * ball.radius_mm, angle))
+        tip = polar(ORIGIN, far + 0.1 * ball.radius_mm, QUARTER - angle)
+        view.centre_line(ORIGIN, tip)
     locked = Contour("", (_arc(ball.radius_mm, -back, ball.axes + ball.lock),), closed=False)
     view.draw(locked, CENTRE)
     for radius in (inner, outer):
@@ -63,23 +63,27 @@ def section(parts: SphereParts, scale: float, items: Mapping[str, int]) -> View:
         for radius in ball.arm_span_mm:
             arc = _arc(radius, start - 0.5 * parts.arm.cap, start)
             view.of_arcs([arc], sized.plain(radius, "SR "))
-    _dimension_angles(view, ball, end, middle, _reach(parts), far)
+    _dimension_angles(view, parts, far)
     for name, item in items.items():
         tips = [at(piece, 0.5) for face in cut.get(name, ()) for piece in face.segments]
         view.balloon(tips, str(item))
     return view
 
 
-def _dimension_angles(
-    view: View, ball: Ball, end: float, middle: float, reach: tuple[float, ...], far: float
-) -> None:
-    """Draw the dimensions of the angles; four decimals are 0.2 um on 100 mm."""
-    angles = {"slot's end": end, "roller": middle, "rim": ball.rim, "shafts": ball.axes}
+def _dimension_angles(view: View, parts: SphereParts, far: float) -> None:
+    ball = parts.ball
+    angles = {
+        "slot's end": ball.slot_end,
+        "roller": ball.axes - ball.arm,
+        "rim": ball.rim,
+        "shafts": ball.axes,
+    }
     angles |= {} if ball.opening_mm else {"opening": ball.inner}
+    # four decimals are 0.2 um on 100 mm
     for name, angle in sorted(angles.items(), key=lambda item: item[1]):
         view.angular([(QUARTER - angle, QUARTER)], far, far, f"{name} {degrees(angle, 4)}")
     axis = QUARTER - ball.axes
-    for name, angle in zip(("sector, inside", "sector, lock"), reach, strict=False):
+    for name, angle in zip(("sector, inside", "sector, lock"), _reach(parts), strict=False):
         view.angular([(axis - angle, axis)], far, far, f"{name} {degrees(angle, 4)}")
 
 
@@ -92,12 +96,9 @@ def _crank(parts: SphereParts) -> Iterator[tuple[str, Contour]]:
             sides[1:1] = [parallel(middle, -ball.pin_mm), parallel(middle, ball.pin_mm)]
         for low, high in zip(sides[::2], sides[1::2], strict=True):
             yield "roller", _ring(*ball.span_mm, low, high)
-    reach = _reach(parts)
-    if reach:
-        yield (
-            "locking sector",
-            _ring(*ball.lock_span_mm, *(radial(ball.axes + angle) for angle in reach)),
-        )
+    if reach := _reach(parts):
+        low, high = (radial(ball.axes + angle) for angle in reach)
+        yield "locking sector", _ring(*ball.lock_span_mm, low, high)
     if arm:
         middle, hole = ball.axes - ball.arm, arm.pins[0].radius
         sides = [radial(middle - arm.eye), parallel(middle, -hole), parallel(middle, hole)]
@@ -171,8 +172,4 @@ def _ring(inner: float, outer: float, low: Side, high: Side) -> Contour:
 
 
 def _arc(radius: float, low: float, high: float) -> Arc:
-    return about((0.0, 0.0), radius, QUARTER - low, low - high)
-
-
-def _at(radius: float, angle: float) -> Point:
-    return polar((0.0, 0.0), radius, QUARTER - angle)
+    return about(ORIGIN, radius, QUARTER - low, low - high)

@@ -28,13 +28,15 @@ from geneva_cli.kinds.spherical.arm import CapArm
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.dimensions import dimensions
 from geneva_cli.kinds.spherical.drawings import (
+    Cone,
     arm_cone,
     arm_flat,
+    crank_cone,
     crank_flat,
     slot_flat,
+    wheel_cone,
     wheel_flat,
 )
-from geneva_cli.kinds.spherical.laid_flat import Cone, crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.section import section
 from geneva_cli.motion.pivots import Dimension
@@ -48,8 +50,7 @@ from geneva_cli.spec.written import degrees, length, quantity
 def sheet(parts: SphereParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
     ball = parts.ball
-    wheel = wheel_flat(parts, wheel_cone(ball))
-    crank = crank_flat(parts, crank_cone(ball))
+    wheel, crank = wheel_flat(parts), crank_flat(parts)
     arm = arm_flat(parts, parts.arm) if parts.arm else []
     # 4 decimals of a degree are 0.2 um on 100 mm
     rows = [
@@ -99,21 +100,19 @@ def _arm(parts: SphereParts, arm: CapArm, flat: list[Contour], scale: float) -> 
 def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
     """Yield views of hubs along their axes, with bores and keyways, and of shafts' sides."""
     size = parts.mechanism.spec.size
+
+    def begin(name: str, thick: bool) -> View:
+        return View(name, scale, Fits(size.process))
+
     for part, whose in ((parts.wheel, "wheel"), (parts.crank, "crank")):
-        for hub in plates(part.part):
-            if hub.layer == "ROLLER":
-                continue
-            view = View(hub.name, scale, Fits(size.process))
+        for hub in (plate for plate in plates(part.part) if plate.layer != "ROLLER"):
+            view = begin(hub.name, True)
             view.draw_plate(hub)
             bored(view, hub.holes, size, whose)
             view.to_fix(hub.name, parts.to_fix)
             draw_hub(view, hub, hub_note(size, whose) if hub.layer == "HUB" else "")
             view.remark(f"{length(hub.thickness)} long")
             yield view
-
-    def begin(name: str, thick: bool) -> View:
-        return View(name, scale, Fits(size.process))
-
     yield from shafted(begin, parts.shafts)
 
 
@@ -122,12 +121,11 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
     view = View(f"{whose}, laid flat", scale)
     view.remark(cone.described(whose))
     shift = _shift(ball, cone)
-    near = shift != 0.0
     moved = [mapped(s, lambda p: (p[0] + shift, p[1])) for s in shapes]
     for shape in moved:
         view.draw(shape, CENTRE if shape.layer == "PITCH" else OUTLINE)
     contours = [s for s in moved if isinstance(s, Contour)]
-    if near:
+    if shift:
         view.cross((0.0, 0.0), 0.05 * ball.radius_mm)
         far = max(math.hypot(*s.start) for c in contours for s in c.segments)
         _sectors(view, [c.segments[0] for c in contours if c.layer == "CRANK"], far)
@@ -144,7 +142,7 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
         return view
     first, after = axes[:2]
     view.linear(*first, 0.0, sized.plain(math.dist(*first)), near=True)
-    if near:
+    if shift:
         low, high = sorted(math.atan2(line.start[1], line.start[0]) for line in (first, after))
         view.angular([(low, high)], far, far, times(ball.z - 1, degrees(high - low, 4)))
     else:
@@ -161,11 +159,12 @@ def _shift(ball: Ball, cone: Cone) -> float:
 
 def flat_slot(ball: Ball, tolerance: float) -> Block:
     """Return a table of half of a flat slot: its edge from between two slots to its end."""
-    cone, close = wheel_cone(ball), max(tolerance, COARSE * ball.radius_mm)
+    close = max(tolerance, COARSE * ball.radius_mm)
+    cone = wheel_cone(ball)._replace(tolerance_mm=0.1 * close)
     shift = _shift(ball, cone)
     points: list[Point] = []
     # the fitted curve is ten times as accurate as the table that samples it
-    for piece in slot_flat(ball, cone, 0.1 * close, "arcs").segments:
+    for piece in slot_flat(ball, cone).segments:
 
         def curve(t: Array, piece: Segment = piece) -> Array:
             return np.array([at(piece, float(fraction)) for fraction in t])

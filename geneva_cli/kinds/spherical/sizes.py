@@ -13,16 +13,14 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinds.spherical.ball import (
-    Ball,
-    PartDoesNotFit,
-    about_crank,
-    inner_edge,
-    wheel_axle,
-)
+from geneva_cli.geometry.sphere import Region
+from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, crank_hub, inner_edge, wheel_axle
+from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.rollers import places
+from geneva_cli.numerics.preferred import to_digits
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.machine_sizes import lock_between, refuse_edges, require_lock_between
 from geneva_cli.parts.sizes import (
     arm_bore,
@@ -39,15 +37,41 @@ if TYPE_CHECKING:
     from geneva_cli.parts.stressed import Stressed
 
 
+def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:
+    """Return the sizes of a spherical machine, and its locking sectors.
+
+    Raises GenevaError, naming the key, where they leave no wheel or no lock. With ``advice`` the
+    message names the largest roller that fits, if there is one.
+    """
+
+    def fits(roller_mm: float) -> bool:
+        spec = mechanism.spec.with_("size.roller_radius_mm", roller_mm)
+        try:
+            sectors(ball(mechanism._replace(spec=spec)))
+        except GenevaError:
+            return False
+        return True
+
+    try:
+        sizes = ball(mechanism)
+        return sizes, sectors(sizes)
+    except PartDoesNotFit as error:
+        # 10 halvings give the two digits that are shown
+        most = advice and boundary(fits, 0.0, mechanism.roller_radius_mm, 10)
+        if not most:
+            raise
+        text = f"{error}; a roller of {to_digits(most, 2, math.floor):g} mm fits"
+        raise GenevaError(text, error.key) from None
+
+
 def ball(mechanism: Mechanism) -> Ball:
     """Return the sizes of a spherical machine.
 
     Those that the spec leaves out are as large as its load needs. Raises GenevaError, naming the
     key, where they leave no wheel or no lock.
     """
-    spec = mechanism.spec
-    usual = _ball(mechanism, spec.size.wheel_thickness_mm)
-    if not spec.is_loaded:
+    usual = _ball(mechanism, mechanism.spec.size.wheel_thickness_mm)
+    if not mechanism.spec.is_loaded:
         return usual
     from geneva_cli.kinds.spherical.loaded_ball import horn_thickness_mm, sphere_load_sizes
 
@@ -60,11 +84,8 @@ def ball(mechanism: Mechanism) -> Ball:
 @lru_cache(maxsize=16)
 def sized_ball(mechanism: Mechanism) -> Ball | None:
     """Return the cached sizes of a spherical machine; None where it has no parts."""
-    spec = mechanism.spec
-    if not spec.has_parts:
-        return None
     try:
-        return ball(mechanism)
+        return ball(mechanism) if mechanism.spec.has_parts else None
     except GenevaError:
         return None  # the check of the parts reports the error
 
@@ -85,9 +106,8 @@ def horn_sizes(mechanism: Mechanism) -> tuple[float, float, float] | None:
 
 def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     """Return the sizes for a thickness of the wheel, or else its default."""
-
     spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
-    size, z = spec.size, spec.wheel.z
+    size, z, allowed = spec.size, spec.wheel.z, spec.size.allowances
     if z > Z_DRAWN:
         raise GenevaError(f"z = {z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z"))
     first, *others = places(spec.wheel, spec.drive, spec.given_distance_mm)
@@ -96,26 +116,29 @@ def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     mouth, deepest = (float(engagement.slot(x, 0)[0].c[0]) for x in (engagement.entry_deg, 0.0))
     axes = deepest + arm
     roller = radius_mm / L
-    w = roller + size.allowances.slot_clearance_mm / L
+    w = roller + allowed.slot_clearance_mm / L
     gap = size.slot_bottom_clearance_mm
-    usual = max(size.allowances.slot_clearance_mm, radius_mm / 20.0)
+    usual = max(allowed.slot_clearance_mm, radius_mm / 20.0)
     bottom = deepest - (usual if gap is None else gap) / L
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
-    _refuse_slots(bottom, w, z)
+    if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
+        raise PartDoesNotFit(
+            "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
+            f"slot_bottom_clearance_mm, or use fewer than {z} slots",
+            ("size", "roller_radius_mm"),
+        )
     thick = drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
     pin = pin_radius(size, radius_mm)
     _refuse_thick(thick, size, L, roller, pin)
     refuse_edges(size, min(thick.wheel, thick.lock, thick.arm))
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
-    under = outside + size.allowances.pin_gap_mm  # the arm's inner face, on which the sectors stand
-    slot_end = bottom - w
-    bore, hub = wheel_axle(spec, L, inside, slot_end)
+    under = outside + allowed.pin_gap_mm  # the arm's inner face, on which the sectors stand
+    bore, hub = wheel_axle(spec, L, inside, bottom - w)
     lock = _lock(mechanism, arm - w, abs(axes - rim), roller)
-    many = spec.drive.rollers
     turns = [p.crank_deg for p in (first, *others)]
     if len(turns) == 1:
-        turns = [360.0 * i / many for i in range(many)]
+        turns = [360.0 * i / spec.drive.rollers for i in range(spec.drive.rollers)]
     ball = Ball(
         radius_mm=L,
         z=z,
@@ -128,9 +151,9 @@ def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
         bottom=bottom,
         mouth=mouth,
         rim=rim,
-        inner=inner_edge(slot_end, roller, math.asin(max(bore, hub) / inside)),
+        inner=inner_edge(bottom - w, roller, math.asin(max(bore, hub) / inside)),
         lock=lock,
-        recess=lock + size.allowances.lock_clearance_mm / L if lock else 0.0,
+        recess=lock + allowed.lock_clearance_mm / L if lock else 0.0,
         span_mm=(inside, outside),
         lock_span_mm=(under - thick.lock, under),
         arm_span_mm=(under, under + thick.arm),
@@ -138,9 +161,20 @@ def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
         hub_mm=hub,
         pin_mm=pin,
         arm_bore_mm=_arm_bore(spec, pin, L, arm),
-        about_crank_mm=about_crank(size, L),
+        about_crank_mm=max(0.5 * (size.crank_bore_mm or 0.0), crank_hub(size, L)),
     )
-    _refuse(ball)
+    if ball.inner <= 0.0:
+        raise PartDoesNotFit(
+            "the wheel's middle is not open: the slots end within a roller's width of its axis; "
+            "set a wheel_bore_mm or reduce the roller",
+            ("size", "wheel_bore_mm"),
+        )
+    # a horn thinner than a thousandth of half a step counts as none
+    if ball.opened + ball.corner > (1.0 - 1e-3) * ball.half_step:
+        raise PartDoesNotFit(
+            "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
+            ("size", "lock_radius_mm"),
+        )
     return ball
 
 
@@ -154,11 +188,7 @@ def _arm_bore(spec: Spec, pin: float, L: float, arm: float) -> float:
 
 
 def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:
-    """Return the angle of the locking sectors' edge; its sine is ``lock_radius_mm`` over L.
-
-    As on a plane, the default leaves a horn as thick as the roller's radius, or a fifth of the
-    space.
-    """
+    """Return the angle of the locking sectors' edge; its sine is ``lock_radius_mm`` over L."""
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     if not mechanism.spec.has_lock:
         return 0.0
@@ -174,30 +204,6 @@ def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> fl
         return lock_between(least, limit, roller)
     require_lock_between(size.lock_radius_mm, low, high)
     return math.asin(size.lock_radius_mm / L)
-
-
-def _refuse_slots(bottom: float, w: float, z: int) -> None:
-    if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
-        raise PartDoesNotFit(
-            "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
-            f"slot_bottom_clearance_mm, or use fewer than {z} slots",
-            ("size", "roller_radius_mm"),
-        )
-
-
-def _refuse(ball: Ball) -> None:
-    if ball.inner <= 0.0:
-        raise PartDoesNotFit(
-            "the wheel's middle is not open: the slots end within a roller's width of its axis; "
-            "set a wheel_bore_mm or reduce the roller",
-            ("size", "wheel_bore_mm"),
-        )
-    # a horn thinner than a thousandth of half a step counts as none
-    if ball.opened() + ball.corner() > (1.0 - 1e-3) * ball.half_step:
-        raise PartDoesNotFit(
-            "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
-            ("size", "lock_radius_mm"),
-        )
 
 
 def _refuse_thick(thick: Thicknesses, size: Size, L: float, roller: float, pin_mm: float) -> None:

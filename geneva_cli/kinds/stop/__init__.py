@@ -13,7 +13,7 @@ KINDS = (
                 "stop",
                 "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa",
                 after="parts",
-                alone="kinds.stop.quantities:stop",
+                alone="kinds.stop.parts:stop",
                 makes_parts=True,
             ),
         ),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geneva_cli.kinds.stop.parts import WheelStop, clearances_before, wheel_stop
+from geneva_cli.kinds.stop.parts import WheelStop, clearances_before, stop_contact, wheel_stop
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared
 
@@ -43,16 +43,14 @@ def stress(name: str, parts: FlatParts) -> Check | None:
     stop, limit = _stop(parts), parts.mechanism.spec.limits.stop_stress_max_MPa
     if stop is None or limit is None:
         return None
-    from geneva_cli.kinds.stop.quantities import stop_contact
-
-    value = stop_contact(parts.mechanism, stop.lever_mm, parts.outlines.sizes.rim)
-    if value.contact_stress_MPa is None:
+    force, value = stop_contact(parts.mechanism, stop.lever_mm, parts.outlines.sizes.rim)
+    if value is None:
         needs = "lock_edge_mm in [size]: the end of the disc is sharp"
-        if value.force_N is None:
+        if force is None:
             needs = "winding_torque_Nm in [load]"
         why = f"not known: it needs {needs}"
         return Check(name, None, "at most", limit, None, why)
-    return compared(name, value.contact_stress_MPa, "at most", limit)
+    return compared(name, value, "at most", limit)
 
 
 def _stop(parts: FlatParts) -> WheelStop | None:

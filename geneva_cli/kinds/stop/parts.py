@@ -22,9 +22,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
+from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.gaps import Gaps
+from geneva_cli.spec.materials import wheel_material
+from geneva_cli.verdict.quantities.batch_designs import Values
 
 if TYPE_CHECKING:
     from geneva_cli.parts.outlines.outlines import Outlines
@@ -55,7 +61,9 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
         return None
     L, rk, ra = assembly.L, sizes.lock, sizes.rim
     gamma = math.acos((L * L + rk * rk - ra * ra) / (2.0 * L * rk))
-    crank = _disc_begins(outlines) - gamma
+    ends = [piece.start for contour in outlines.crank for piece in contour.segments]
+    on_disc = [p for p in ends if abs(math.hypot(*p) - rk) < SAME_LENGTH * L]
+    crank = min(abs(math.atan2(y, x)) for x, y in on_disc) - gamma
     delta = math.asin(rk * math.sin(gamma) / ra)  # of the contact, from the line of centres
     at = np.array([math.degrees(crank)])
     from_middle = math.pi / z - delta - float(assembly.wheel(at)[0])
@@ -87,13 +95,45 @@ def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0
     return parts.locking(parts.pose(at.ravel())).reshape(at.shape)
 
 
-def _disc_begins(outlines: Outlines) -> float:
-    """Return the angle from the roller to the first end of the locking disc, radians."""
-    ends = [piece.start for contour in outlines.crank for piece in contour.segments]
-    lock = outlines.sizes.lock
-    on_disc = [
-        abs(math.atan2(y, x))
-        for x, y in ends
-        if abs(math.hypot(x, y) - lock) < SAME_LENGTH * outlines.assembly.L
-    ]
-    return min(on_disc)
+def stop(parts: Parts) -> Values:
+    """Return the quantities of the stops of a crank, where the wheel has a convex face."""
+    if not (parts.mechanism.spec.wheel.stopped and parts.mechanism.spec.is_flat):
+        return {}
+    try:
+        outlines = parts.outlines
+    except GenevaError:  # ``parts.none`` gives the reason
+        return {}
+    stops = wheel_stop(outlines)
+    assert stops is not None  # the wheel has a convex face
+    force, stress = stop_contact(parts.mechanism, stops.lever_mm, outlines.sizes.rim)
+    return {
+        "turns": stops.turns,
+        "first_deg": stops.first_deg,
+        "last_deg": stops.last_deg,
+        "overlap_mm": stops.overlap_mm,
+        "lever_mm": stops.lever_mm,
+        "force_N": force,
+        "contact_stress_MPa": stress,
+    }
+
+
+def stop_contact(
+    mechanism: Mechanism, lever_mm: float, face_radius_mm: float
+) -> tuple[float | None, float | None]:
+    """Return force, N, and Hertz stress, MPa, under ``winding_torque_Nm``; None without a key.
+
+    A sharp end of the disc has no stress. The face is an arc about the wheel's axis. So the force
+    between the end of the disc and the face passes through that axis, turns no wheel, and loads no
+    roller. About the crank's axis its lever is h = L sin delta, where delta is the contact's
+    direction from the line of centres, seen from the wheel's axis: F = T/h.
+    """
+    size, torque = mechanism.spec.size, mechanism.spec.load.winding_torque_Nm
+    if torque is None:
+        return None, None
+    force = 1e3 * torque / lever_mm
+    if size.face_width_mm is None or size.lock_edge_mm is None:
+        return force, None
+    material = wheel_material(mechanism.spec)
+    modulus = contact_modulus_GPa(material, material)
+    radius = 1.0 / (1.0 / size.lock_edge_mm + 1.0 / face_radius_mm)
+    return force, hertz_MPa(modulus, force / size.face_width_mm, radius)

@@ -1,7 +1,7 @@
 """Check that the wheel follows a roller that stops it with one wall only.
 
 If gears drive between two rollers, the slot of the second one has a wall behind its roller only
-(see ``parts.outlines.walls.straight``). The wheel's inertia must hold it on that wall, against the
+(see ``parts.outlines.wheel_outline``). The wheel's inertia must hold it on that wall, against the
 torque that resists. From the handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²),
 while the slot needs less deceleration, psi'' > -m. It lags by
 

@@ -10,8 +10,8 @@ engagement's own mid-motion.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -39,18 +39,6 @@ class WallImpacts(NamedTuple):
     from_deg: Array
     at_deg: Array
     speed: Array  # of the wheel against the slot, over the input's speed
-
-
-class _Coasts(NamedTuple):
-    """Impacts, and a mask of the wheels that cross their play.
-
-    The others may be struck by the wall that they left.
-    """
-
-    from_deg: Array
-    at_deg: Array
-    speed: Array
-    crosses: Mask
 
 
 class Changes(NamedTuple):
@@ -104,70 +92,63 @@ def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) ->
     """
     if not len(at.x):
         return WallImpacts(at.x, at.x, at.x)
-    end = np.ravel(taken(engagement.motion, at.which).exit_deg + 0.0 * at.x[:, None])
     follows = np.append(at.which[1:] == at.which[:-1], False)
-    until = np.where(follows, np.append(at.x[1:], 0.0), end)
+    until = np.where(follows, np.append(at.x[1:], 0.0), np.nan)
     parts = []
     for part in blocks(len(at.x), 256):  # the integrals of so many fit in the cache
         here = Changes(at.which[part], at.x[part])
-        parts.append(_impacts(engagement, here, until[part], play[part], drag))
-    coasts = joined(parts)
+        parts.append(_coasts(engagement, here, until[part], play[part], drag))
+    x, speed, crosses = joined(parts)
     # a wheel that has not crossed its play leaves no other wall at the next change
-    coasts.speed[1:][follows[:-1] & ~coasts.crosses[:-1]] = np.nan
-    return WallImpacts(*coasts[:3])
+    speed[1:][follows[:-1] & ~crosses[:-1]] = np.nan
+    return WallImpacts(at.x, at.x + x / DEGREE, speed)
 
 
-def _impacts(
+def _coasts(
     engagement: Engagement, at: Changes, until: Array, play: Array, drag: Array
-) -> _Coasts:
-    """Coasts from changes of sides; ``until`` are the next changes, or exits."""
-    start = at.x[:, None]
+) -> tuple[Array, Array, Mask]:
+    """Impacts after changes of sides, up to the next changes ``until`` or, if NaN, to the exits.
+
+    They are radians of the input until the wheels are struck, speeds, and masks of the wheels that
+    cross their play. The others may be struck by the wall that they left.
+    """
+    start, motions, drags = at.x[:, None], taken(engagement.motion, at.which), drag[at.which]
+    out: Array = np.full((2, len(start)), np.nan)
 
     def gained(x: Array, live: Whole) -> tuple[Array, Array]:
-        of = at.which[live]
-        return _gained(taken(engagement.motion, of), start[live], drag[of], x[:, None])
+        return _gained(taken(motions, live), start[live], drags[live], x[:, None])
 
     with np.errstate(all="ignore"):
-        every = np.arange(len(at.x))
-        span = ((taken(engagement.motion, at.which).exit_deg - start) * DEGREE)[:, 0]
+        every = np.arange(len(start))
+        span = ((motions.exit_deg - start) * DEGREE)[:, 0]
         # a wheel runs ahead of the slot, or behind, until the next change
-        turn = (until - at.x) * DEGREE
+        turn = np.where(np.isnan(until), span, (until - at.x) * DEGREE)
         sense = np.copysign(1.0, gained(turn, every)[0])
-
-        def faster(x: Array, live: Whole) -> tuple[Array, Array]:
-            of = at.which[live]
-            place = start[live] + x[:, None] / DEGREE
-            torque = (taken(engagement.motion, of)(place, 2).arrays()[2] + drag[of])[:, 0]
-            return sense[live] * gained(x, live)[1], -sense[live] * torque
-
         ahead_at_exit, speed_at_exit = gained(span, every)
         slows = np.flatnonzero(sense * speed_at_exit < 0.0)
+
+        def faster(x: Array, live: Whole) -> tuple[Array, Array]:
+            of = slows[live]
+            place = start[of] + x[:, None] / DEGREE
+            torque = (taken(motions, of)(place, 2).arrays()[2] + drags[of])[:, 0]
+            return sense[of] * gained(x, of)[1], -sense[of] * torque
+
         most = span.copy()  # where it is farthest from the wall that it left
-        most[slows] = find_roots(partial(_of, faster, slows), turn[slows], span[slows])
+        most[slows] = find_roots(faster, turn[slows], span[slows])
         crosses = (play > 0.0) & (play <= sense * gained(most, every)[0])
         returns = (play > 0.0) & ~crosses & (sense * ahead_at_exit < 0.0)
-        there = np.flatnonzero(crosses | returns)
-        gap = np.where(crosses, play, 0.0)
+        there, gap = np.flatnonzero(crosses | returns), np.where(crosses, play, 0.0)
 
         def over(x: Array, live: Whole) -> tuple[Array, Array]:
-            ahead, speed = gained(x, there[live])
-            side = sense[there[live]]
-            return side * ahead - gap[there[live]], side * speed
+            of = there[live]
+            ahead, speed = gained(x, of)
+            return sense[of] * ahead - gap[of], sense[of] * speed
 
-        x, speed = np.full((2, len(span)), np.nan)
         if len(there):
-            low = np.where(crosses, 0.0, most)[there]
-            high = np.where(crosses, most, span)[there]
-            x[there] = find_roots(over, low, high)
-            speed[there] = abs(gained(x[there], there)[1])
-    return _Coasts(at.x, at.x + x / DEGREE, speed, crosses)
-
-
-def _of(
-    function: Callable[[Array, Whole], tuple[Array, Array]], some: Whole, x: Array, live: Whole
-) -> tuple[Array, Array]:
-    """The function of some of the wheels, numbered anew."""
-    return function(x, some[live])
+            low, high = np.where(crosses, 0.0, most)[there], np.where(crosses, most, span)[there]
+            out[0, there] = find_roots(over, low, high)
+            out[1, there] = abs(gained(out[0, there], there)[1])
+    return out[0], out[1], crosses
 
 
 def _gained(motion: WheelMotion, start: Array, drag: Array, x: Array) -> tuple[Array, Array]:
@@ -188,8 +169,7 @@ def _gained(motion: WheelMotion, start: Array, drag: Array, x: Array) -> tuple[A
 
 def drag_over(mechanism: Mechanism) -> float:
     """M_r / (I w²) of the spec's load; infinite without an inertia, as then nothing coasts."""
-    inertia = inertia_kgm2(mechanism.spec)
-    w = omega(mechanism.spec.drive.n_rpm)
+    inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
     heavy = inertia > 0.0
     drag = resisting_torque_Nm(mechanism.spec) / (choose(heavy, inertia, 1.0) * w * w)
     out: float = choose(heavy, drag, math.inf)
@@ -201,9 +181,6 @@ def lasting_drag_Nm(mechanism: Mechanism) -> float:
 
     0 if it stays there already; (m, 1) for m designs.
     """
-    inertia = inertia_kgm2(mechanism.spec)
-    w = omega(mechanism.spec.drive.n_rpm)
-    most = braking(mechanism.engagements[0])
-    for engagement in mechanism.engagements[1:]:
-        most = larger(most, braking(engagement))
+    inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
+    most = reduce(larger, map(braking, mechanism.engagements))
     return larger(inertia * w * w * most - resisting_torque_Nm(mechanism.spec), 0.0)

@@ -23,13 +23,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.impacts.shock import OCTAVES, FirstContacts, RestingAxis
+from geneva_cli.loads.impacts.shock import OCTAVES, FirstContacts, RestingAxis, first_roots
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import Whole, library, parameter
+from geneva_cli.numerics.arrays import library, parameter
 from geneva_cli.numerics.jet import Array, Jet, sqrt
-from geneva_cli.numerics.roots import find_roots
 
 
 class MouthCorner(NamedTuple):
@@ -77,25 +76,13 @@ class MouthCorner(NamedTuple):
         down = m.cos(self.wide)
         return far * down, self.side * m.sin(self.wide), self.top * down
 
-    def outside(self, tau: Array) -> tuple[Array, Array]:
-        """Distance of the roller's centre outside the mouth, and its speed outwards."""
-        x, _, z = self.roller_at(tau)
-        far, top = self.axis.anchor.along, self.top
-        out = x - far if self.axis.engagement.slot.height is None else x * top - z * far
-        value, speed = out.arrays()
-        return value, speed
-
-    @property
-    def reach(self) -> float:
-        """Distance between corner and centre at contact, a chord on a sphere."""
-        if self.axis.engagement.slot.height is None:
-            return self.roller
-        return parameter(2.0 * library(self.roller).sin(0.5 * self.roller))
-
     def gap(self, tau: Array) -> tuple[Array, Array]:
         """Squared distance of centre and corner minus that at contact, and its slope."""
         x, y, z = (p - c for p, c in zip(self.roller_at(tau), self.place, strict=True))
-        value, slope = (x * x + y * y + z * z - self.reach**2).arrays()
+        reach = self.roller
+        if self.axis.engagement.slot.height is not None:  # a chord on a sphere
+            reach = parameter(2.0 * library(self.roller).sin(0.5 * self.roller))
+        value, slope = (x * x + y * y + z * z - reach**2).arrays()
         return value, slope
 
     def jump(self, tau: Array) -> Array:
@@ -115,23 +102,17 @@ class MouthCorner(NamedTuple):
         The roller comes from outside, and has passed once its centre is in the mouth.
         """
         span = 0.5 * self.axis.engagement.motion_deg * DEGREE
-        out, speed = self.outside(np.atleast_2d(0.0 * span))
+        x, _, z = self.roller_at(np.atleast_2d(0.0 * span))
+        along, top = self.axis.anchor.along, self.top
+        # distance of the roller's centre outside the mouth, and its speed outwards
+        flat = self.axis.engagement.slot.height is None
+        out, speed = (x - along if flat else x * top - z * along).arrays()
         far = -out / speed - span * OCTAVES[::-1]
         with np.errstate(all="ignore"):
             value = self.gap(far)[0]
-            far = np.broadcast_to(far, value.shape)
-            meets = value <= -1e-16  # of L²: nearer to 0 it is rounding
-        there, first = np.flatnonzero(meets.any(axis=1)), np.argmax(meets, axis=1)
-        there = there[first[there] > 0]
-        near = first[there]
-
-        def over(tau: Array, which: Whole) -> tuple[Array, Array]:
-            value, slope = taken(self, there[which]).gap(tau[:, None])
-            return value[:, 0], slope[:, 0]
-
-        out = np.full((len(value), 1), np.nan)
-        out[there, 0] = find_roots(over, far[there, near - 1], far[there, near])
-        return out
+        meets = value <= -1e-16  # of L²: nearer to 0 it is rounding
+        places = np.broadcast_to(far, value.shape)
+        return first_roots(lambda tau, which: taken(self, which).gap(tau), places, meets)
 
 
 def mouth_contacts(

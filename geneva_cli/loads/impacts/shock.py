@@ -13,6 +13,7 @@ results are (m,).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +21,7 @@ import numpy as np
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Anchor, Engagement
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import N, Whole, library, parameter
+from geneva_cli.numerics.arrays import Mask, N, Whole, library, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import find_roots
 
@@ -122,16 +123,30 @@ def contact_after(axis: RestingAxis, offset: Array) -> Array:
     offset = offset + 0.0 * before
     with np.errstate(all="ignore"):
         sense = np.where(offset * before > 0.0, -1.0, np.where(offset > 0.0, 1.0, np.nan))
-        far = span * sense * OCTAVES
+        far = span * sense * np.append(0.0, OCTAVES)
         passed = abs(axis.distance(far)[0]) >= abs(offset)
-    there, first = np.flatnonzero(passed.any(axis=1)), np.argmax(passed, axis=1)
-    far = np.hstack((np.zeros((len(far), 1)), far))
-    ends = np.sort([far[there, first[there]], far[there, first[there] + 1]], axis=0)
 
     def less(tau: Array, which: Whole) -> tuple[Array, Array]:
-        value, slope = taken(axis, there[which]).distance(tau[:, None])
-        return (value - offset[there[which]])[:, 0], slope[:, 0]
+        value, slope = taken(axis, which).distance(tau)
+        return value - offset[which], slope
 
-    out = np.full(offset.shape, np.nan)
-    out[there, 0] = find_roots(less, *ends)
+    return first_roots(less, far, passed)
+
+
+def first_roots(
+    f: Callable[[Array, Whole], tuple[Array, Array]], places: Array, passed: Mask
+) -> Array:
+    """The roots before the first places (m, k) that are passed, (m, 1); NaN if there is none.
+
+    ``f(x, which)`` returns value and slope of some designs at places (k, 1).
+    """
+    out, first = np.full((len(places), 1), np.nan), np.argmax(passed, axis=1)
+    there = np.flatnonzero(passed.any(axis=1) & (first > 0))
+    ends = np.sort([places[there, first[there] - k] for k in (0, 1)], axis=0)
+
+    def one_each(x: Array, live: Whole) -> tuple[Array, Array]:
+        value, slope = f(x[:, None], there[live])
+        return value[:, 0], slope[:, 0]
+
+    out[there, 0] = find_roots(one_each, *ends)
     return out

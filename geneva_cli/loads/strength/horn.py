@@ -25,7 +25,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP
 from geneva_cli.loads.strength.horn_search import SlotEnd, UnitStress, slot_ends, squeezed
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import pitch
@@ -69,8 +68,7 @@ class Horn(NamedTuple):
     def thickness(self, wall: Array, normal: Array) -> Array:
         """Thickness at points of the wall, mm; infinite where another horn begins."""
         thick, turned = self.feet(wall, normal)
-        thickness: Array = np.where(turned < self.middle, thick, np.inf)
-        return thickness
+        return np.where(turned < self.middle, thick, np.inf)
 
     def feet(self, wall: Array, normal: Array) -> tuple[Array, Array]:
         """Thickness at points of the wall up to the recess, and directions of the sections' feet.
@@ -113,10 +111,6 @@ class Horn(NamedTuple):
             further = wall[0][:, None] > contact[0]
             stress = np.where(further & np.isfinite(bent), bent, 0.0)
         return UnitStress(stress, wall[0], thick)
-
-    def places(self, count: int) -> Array:
-        """Input angles from the mouth inwards."""
-        return self.at.mouth_deg * np.linspace(1.0, NEAR_CUSP, count)
 
     @property
     def stoutness(self) -> Array:

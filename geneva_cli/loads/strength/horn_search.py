@@ -1,8 +1,4 @@
-"""The search for the greatest stress in a wheel's horns: over the roller's places and sections.
-
-Each horn is sampled at 61 places of the roller along 61 sections. The best sample is refined three
-times, between its neighbours.
-"""
+"""The search for the greatest stress in a wheel's horns: over the roller's places and sections."""
 
 from __future__ import annotations
 
@@ -114,13 +110,6 @@ Sizes: TypeAlias = "tuple[float, ...]"  # half the slot's width, the recess, and
 Sides: TypeAlias = Callable[..., Sequence[HornSide]]  # of a mechanism and those sizes
 
 
-class _SamplePlaces(NamedTuple):
-    """Input angles of each design at which roller and section are sampled."""
-
-    roller: Array  # (m, halves of the motion, places)
-    section: Array  # (m, sections)
-
-
 def squeezed(input_deg: Number) -> Array:
     """Input angles (m, k); (k,) if m is 1, which takes half the time."""
     x = np.atleast_2d(input_deg)
@@ -153,50 +142,36 @@ def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float) ->
     """Greatest stress of designs that are searched together."""
     best = np.full((4, mechanism.designs), np.nan)
     for side in sides(mechanism, *sizes):
-        count = 61  # places and sections of the first sampling
-        within = _SamplePlaces(
-            _from(side.at.runs_from_deg, count), _from([side.at.mouth_deg], count)[:, 0]
-        )
-        own = np.full_like(best, np.nan)
-        for _ in range(4):  # the middle of the remaining places is the best so far
-            sample, within = _sampled(mechanism, side, within, width)
-            own = np.where(np.isnan(sample[0]), own, sample)
-        own[1] += np.ravel(side.at.whole.mid_deg - side.at.ahead_deg)
-        better = ~(own[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(own[0])
-        best = np.where(better, own, best)
+        for start in side.at.runs_from_deg:
+            own = _over_a_half(mechanism, side, start, width)
+            own[1] += np.ravel(side.at.whole.mid_deg - side.at.ahead_deg)
+            better = ~(own[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(own[0])
+            best = np.where(better, own, best)
     at_deg = np.ravel(mechanism.under_load.shown_deg(parameter(best[1][:, None])))
     return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 
 
-def _from(ends: Sequence[float], count: int) -> Array:
-    """Input angles from each of some ends to mid-motion: (m, ends, count)."""
-    whole = np.hstack([np.atleast_2d(end) for end in ends])
-    return whole[..., None] * np.linspace(1.0, NEAR_CUSP, count)
-
-
-def _sampled(
-    mechanism: Mechanism, side: HornSide, within: _SamplePlaces, width: float
-) -> tuple[Array, _SamplePlaces]:
-    """Greatest stress at these places, (4, m), and places around it for the next step.
-
-    The rows are those of ``HornStress``, NaN if there is no stress.
-    """
-    roller, u = within
-    stress, inwards, thick = _stress(mechanism, side, width, roller.reshape(len(roller), -1), u)
-    m, _, count = stress.shape
-    stress = stress.reshape(m, -1)
-    most, every = stress.max(axis=1), np.arange(m)
-    first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
-    i, j = np.divmod(first, count)
-    half, k = np.divmod(i, roller.shape[2])
-    # designs may differ in their loads or sizes alone, and share their slots
-    roller, u, thick, inwards = (
-        np.broadcast_to(of, (m, *of.shape[1:])) for of in (roller, u, thick, inwards)
+def _over_a_half(mechanism: Mechanism, side: HornSide, start: float, width: float) -> Array:
+    """The rows of ``HornStress``, (4, m), for the roller from ``start`` to mid-motion."""
+    roller, section = (
+        np.atleast_2d(end) * np.linspace(1.0, NEAR_CUSP, 61) for end in (start, side.at.mouth_deg)
     )
-    runs = roller[every, half]
-    rows = (stress[every, first], runs[every, k], inwards[every, j], thick[every, j])
-    sample = np.where(most > 0.0, rows, np.nan)
-    return sample, _SamplePlaces(_around(runs, k)[:, None], _around(u, j))
+    best = np.full((4, mechanism.designs), np.nan)
+    for _ in range(4):  # then between the neighbours of the best sample so far
+        stress, inwards, thick = _stress(mechanism, side, width, roller, section)
+        m, _, count = stress.shape
+        stress = stress.reshape(m, -1)
+        most, every = stress.max(axis=1), np.arange(m)
+        first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
+        i, j = np.divmod(first, count)
+        # designs may differ in their loads or sizes alone, and share their slots
+        roller, section, thick, inwards = (
+            np.broadcast_to(of, (m, *of.shape[1:])) for of in (roller, section, thick, inwards)
+        )
+        rows = (stress[every, first], roller[every, i], inwards[every, j], thick[every, j])
+        best = np.where(most > 0.0, rows, best)
+        roller, section = _around(roller, i), _around(section, j)
+    return best
 
 
 def _around(places: Array, i: Whole) -> Array:

@@ -26,11 +26,11 @@ slightly. The greatest is 2 M sin phi/(b R L (phi - sin phi cos phi)).
 from __future__ import annotations
 
 import math
-from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.loads.contact import NEAR_CUSP
 from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import taken
@@ -157,15 +157,12 @@ def _contact(
 def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> HornBending:
     """The weakest horn of each of m designs."""
     every = (mechanism, half_width, recess, phi)
-    m = mechanism.designs
-    if m == 1:
-        return _weakest(*every)
-    # the sections of 8 designs stay in the cache
     groups = []
-    for block in blocks(m, 8):
+    for block in blocks(mechanism.designs, 8):  # the sections of 8 designs stay in the cache
+        own = _weakest(*(taken(every, block) if mechanism.designs > 1 else every))
         # what does not differ, as where loads alone do, is one row for all of them
         size = block.stop - block.start, 1
-        groups.append([np.broadcast_to(row, size) for row in _weakest(*taken(every, block))])
+        groups.append([np.broadcast_to(row, size) for row in own])
     return HornBending(*(np.concatenate(row) for row in zip(*groups, strict=True)))
 
 
@@ -179,7 +176,8 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
     every = []
     for side in horns(mechanism, half_width, recess):
         # sums by trapezoids over 2001 sections have an error of a ten-thousandth at worst
-        wall, normal = side.wall(side.places(2001))
+        inwards = np.linspace(1.0, NEAR_CUSP, 2001)
+        wall, normal = side.wall(side.at.mouth_deg * inwards)
         thick, turned = side.feet(wall, normal)
         middle = wall + 0.5 * thick * normal
         towards = abs(product(side.centre, side.across)) / np.hypot(*side.centre)
@@ -203,7 +201,10 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
             np.where(own > 0.0, thick, np.inf).min(axis=1),
         )
         every.append(HornBending(*(row[:, None] for row in rows)))
-    return reduce(_weaker, every)
+    weakest, *others = every
+    for other in others:  # the greater deflection counts
+        weakest = choose_record(other.deflection > weakest.deflection, other, weakest)
+    return weakest
 
 
 def _ends(of: Array, begins: Array, ends: Array) -> tuple[Array, Array]:
@@ -219,9 +220,3 @@ def _rises(of: Array) -> Array:
     with np.errstate(all="ignore"):
         fraction = np.where(high > 0.0, -low / (high - low), 1.0)
     return np.where(low >= 0.0, 0.0, fraction)
-
-
-def _weaker(one: HornBending, other: HornBending) -> HornBending:
-    """The horn with the greater deflection, in each design."""
-    more = other.deflection > one.deflection
-    return choose_record(more, other, one)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple, cast
 
+import numpy as np
+
 from geneva_cli.numerics.arrays import Number, choose, parameter
 from geneva_cli.numerics.preferred import rounded_below
 
@@ -39,8 +41,6 @@ class Pin(NamedTuple):
         shear to 1 - u². The sum sigma² u² + 3 tau² (1 - u²)² is convex in u². So it is greatest at
         the outer fibre or at the neutral axis.
         """
-        import numpy as np
-
         return cast("Number", np.maximum(self.bending, math.sqrt(3.0) * self.shear))
 
 
@@ -91,8 +91,6 @@ def pin_diameter_mm(mechanism: Mechanism) -> float:
     if size.pin_mm is None:
         if isinstance(r, float | int):
             return rounded_below(r)
-        import numpy as np
-
         return parameter(np.array([[rounded_below(x)] for x in np.ravel(r)]))
     diameter: float = choose(size.pin_mm == 0.0, 2.0 * r, size.pin_mm)
     return diameter
@@ -111,8 +109,6 @@ def pin(size: Size, width: Number, d: Number) -> Pin:
 
 def least_diameter_mm(of: Pin, force_N: Number, allowed_MPa: Number) -> Number:
     """Diameter at which the equivalent stress equals the allowable one."""
-    import numpy as np
-
     bent = np.cbrt(of.bending * force_N / allowed_MPa)
     sheared = np.sqrt(math.sqrt(3.0) * of.shear * force_N / allowed_MPa)
     return cast("Number", of.diameter_mm * np.maximum(bent, sheared))

@@ -18,20 +18,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.contact import contact, is_straight
+from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle_quantities import FORCE
-from geneva_cli.loads.forces import Contact, LoadCase
+from geneva_cli.loads.forces import LoadCase
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadFunctions
-from geneva_cli.loads.load_peaks import search_loads
-from geneva_cli.loads.stretches import refuse_noise, to_mid_motion
+from geneva_cli.loads.load_functions import LoadFunctions, refuse_noise
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, array, parameter
-from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.arrays import Array, Number, Whole, array, parameter
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
@@ -72,24 +69,35 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     >>> passage(m.engagements[0], load_case(m)).travel_m.round(12)  # 2 L (cos b - (1 - l))
     array([0.14641016])
     """
-    # the integrals are bounded where the force is
-    more = ("slides", "along") if turns_back(engagement) else ("slides",)
+    curved = engagement.slot.curved
+    # A roller on a crank's arm turns back on the line of centres, unless its motion is tilted. In a
+    # curved slot both branches begin at mid-motion. Spans end there.
+    middle = curved or (engagement.on_arm and engagement.motion.symmetric)
+    more = ("slides",) if middle else ("slides", "along")
     load, n = LoadFunctions(engagement, case, (FORCE,), more=more), case.designs
-    # spans end at mid-motion, where a roller on an arm turns back in a straight slot
-    result = search_loads(load)
-    bounded, pieces = np.isfinite(result.most[0]), result.stretches
-    design, _, (a, b), positive = to_mid_motion(engagement, pieces, n)
+    result = load.search()
+    bounded = np.isfinite(result.most[0])  # the integrals are, where the force is
+    design, _, (a, b), positive = load.stretches(result)
     own = np.flatnonzero(half * (a + b) >= 0.0)
     design, a, b, positive = design[own], a[own], b[own], positive[:, own]
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
 
     def rows(x: Array, which: Whole) -> Array:
-        some, own = taken((engagement, case), design[which])
+        """Speed along the slot with its sign, |v_s|, N |v_s| and N^p |v_s|."""
+        some, of = taken((engagement, case), design[which])
         drives, slides = (
             signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
         )
-        integrands = passing(own, contact(some, x, reactions=False), drives, slides)
-        return np.stack(np.broadcast_arrays(*integrands))
+        here = Instant(of, contact(some, x, reactions=False), drives, slides)
+        touches, rubs = here.at.touches.c[0], abs(here.slip.arrays()[0]) * of.L
+        # near the torque's change of sign the force may be slightly negative by rounding
+        force = np.maximum(here.force_N.c[0], 0.0)
+        force = np.where(here.grip.c[0] > 0.0, force, np.inf) * touches
+        # nothing presses on a wall if nothing must be turned
+        force = np.where(here.wheel_torque_Nm.c[0] == 0.0, 0.0, force)
+        along = here.at.along.arrays()[0] * of.L * touches
+        each = along, rubs, force * rubs, force**LIFE_EXPONENT * rubs
+        return np.stack(np.broadcast_arrays(*each))
 
     every_one = np.full(n, True)
     requested = np.stack((every_one, every_one, bounded, bounded))
@@ -97,37 +105,38 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
         each = Integrands(rows, a, b, ends=True)
         moved, *others = span_integrals(each, design, requested, apart=True) * DEGREE
     wall = signs["drives"][:, 0] if "drives" in signs else 1.0 + 0.0 * a
-    branch = np.sign(a + b) * engagement.slot.curved
-    pressed = greatest_rubbing_N(Rubbing(design, moved, others[1], wall, branch), n)
+    # of the slot: 0 of a straight one; -1 entry, 1 exit of a curved one
+    branch = np.sign(a + b) * curved
+    pressed = _greatest_rubbing_N(design, np.array([moved, others[1], wall, branch]), n)
     total = [np.bincount(design, row, n) for row in (abs(moved), *others)]
     rows_of = np.where((*requested, bounded), (*total, pressed), np.inf)
     return SlotPassage(*map(parameter, rows_of))
 
 
-def turns_back(engagement: Engagement) -> bool:
-    """Return True if a roller may turn back in its slot elsewhere than at mid-motion.
+def _greatest_rubbing_N(design: Whole, pieces: Array, n: int) -> Array:
+    """The work over the swept length of the wall that has the most of it: (n,), J/m or N.
 
-    A roller on a crank's arm turns back on the line of centres, unless its motion is tilted. In a
-    curved slot both branches begin at mid-motion.
+    In each of the pieces of designs' motions, in order, one wall is rubbed one way: the distance
+    moved along the slot, the work, the wall that bears and its branch are the rows of ``pieces``.
+    NaN for a design whose contact sweeps no wall.
     """
-    return is_straight(engagement) and not (engagement.on_arm and engagement.motion.symmetric)
-
-
-def passing(case: LoadCase, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:
-    """Integrands of a passage, at places where torque and sliding have these signs.
-
-    The first is the signed speed along the slot.
-    """
-    here = Instant(case, at, drives, slides, 1.0)
-    rubs = abs(here.slip.arrays()[0]) * case.L
-    with np.errstate(all="ignore"):
-        # near the torque's change of sign the force may be slightly negative by rounding
-        force = np.maximum(here.force_N.c[0], 0.0)
-        force = np.where(here.grip.c[0] > 0.0, force, np.inf) * at.touches.c[0]
-        # nothing presses on a wall if nothing must be turned
-        force = np.where(here.wheel_torque_Nm.c[0] == 0.0, 0.0, force)
-        along = at.along.arrays()[0] * case.L * at.touches.c[0]
-        return [along, rubs, force * rubs, force**LIFE_EXPONENT * rubs]
+    number = np.arange(len(design)) - np.searchsorted(design, design)
+    padded = np.zeros((len(pieces), n, int(number.max()) + 1))  # a row for each design
+    padded[:, design, number] = pieces
+    moved, work, wall, branch = padded
+    after = np.cumsum(moved, axis=1)
+    low, high = np.minimum(after, after - moved), np.maximum(after, after - moved)
+    most: Array = np.full(n, np.nan)
+    for own in ((wall == d) & (branch == b) for d in (1.0, -1.0) for b in (0.0, -1.0, 1.0)):
+        # the length of the union of intervals
+        begins, ends = np.where(own, low, np.inf), np.where(own, high, -np.inf)
+        order = np.argsort(begins, axis=1)
+        begins, ends = (np.take_along_axis(row, order, axis=1) for row in (begins, ends))
+        begins[:, 1:] = np.maximum(begins[:, 1:], np.maximum.accumulate(ends, axis=1)[:, :-1])
+        covered = np.maximum(ends - begins, 0.0).sum(axis=1)
+        with np.errstate(invalid="ignore"):  # no contact on this wall
+            most = np.fmax(most, np.where(own, work, 0.0).sum(axis=1) / covered)
+    return most
 
 
 def passages(mechanism: Mechanism) -> list[SlotPassage]:
@@ -137,8 +146,11 @@ def passages(mechanism: Mechanism) -> list[SlotPassage]:
 
 def by_roller(mechanism: Mechanism) -> list[SlotPassage]:
     """Passages of each roller; an engagement has two if one starts and another stops the wheel."""
-    each = [(one, half) for one in mechanism.under_load.engagements for half in halves(one)]
-    return [_passage(mechanism, *of) for of in each]
+    return [
+        _passage(mechanism, one, half)
+        for one in mechanism.under_load.engagements
+        for half in ((-1.0, 1.0) if one.paired else (0.0,))
+    ]
 
 
 def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> SlotPassage:
@@ -149,21 +161,11 @@ def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> SlotP
     return found
 
 
-def halves(engagement: Engagement) -> tuple[float, ...]:
-    """Half of a motion that each of its rollers makes; 0 is the whole."""
-    return (-1.0, 1.0) if engagement.paired else (0.0,)
-
-
-def rollers(mechanism: Mechanism) -> int:
-    """Number of rollers on the crank."""
-    spec = mechanism.spec
-    count = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
-    return count * len(mechanism.engagements[0].passages)
-
-
 def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
     """Lives of m designs, (m,) each, or of one, from the passages of their rollers."""
-    spec, m = mechanism.spec, rollers(mechanism)
+    spec = mechanism.spec
+    m = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
+    m *= len(mechanism.engagements[0].passages)  # rollers on the crank
     radius_m = np.ravel(mechanism.roller_radius_mm / 1000.0)
     rows, per_h = [], 60.0 * spec.drive.n_rpm * 360.0 / mechanism.under_load.period_deg  # periods
     for own in (each[i::m] for i in range(min(m, len(each)))):
@@ -185,60 +187,11 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
     return Life(parameter(force), parameter(turns), *lasts)
 
 
-class Rubbing(NamedTuple):
-    """Pieces of n designs' motions, in order, in each of which one wall is rubbed one way."""
-
-    design: Whole
-    moved_m: Array  # along the slot, positive away from the wheel's axis
-    work: Array  # ∫ N |v_s| dt, J
-    wall: Array  # 1 where the wall that drives the wheel bears, -1 where the other does
-    branch: Array  # of the slot: 0 of a straight one; -1 entry, 1 exit of a curved one
-
-    def in_rows(self, n: int) -> Rubbing:
-        """The pieces of each design as a row, padded with zeros: (n, k) each."""
-        number = np.arange(len(self.design)) - np.searchsorted(self.design, self.design)
-        shape = n, int(number.max()) + 1
-        out = []
-        for row in self:
-            padded = np.zeros(shape)
-            padded[self.design, number] = row
-            out.append(padded)
-        return Rubbing._make(out)
-
-
-def greatest_rubbing_N(pieces: Rubbing, n: int) -> Array:
-    """The work over the swept length of the wall that has the most of it: (n,), J/m or N.
-
-    NaN for a design whose contact sweeps no wall.
-    """
-    _, moved, work, wall, branch = pieces.in_rows(n)
-    after = np.cumsum(moved, axis=1)
-    low, high = np.minimum(after, after - moved), np.maximum(after, after - moved)
-    each = []
-    for own in ((wall == d) & (branch == b) for d in (1.0, -1.0) for b in (0.0, -1.0, 1.0)):
-        if own.any():
-            with np.errstate(invalid="ignore"):  # no contact on this wall
-                each.append(np.where(own, work, 0.0).sum(axis=1) / _covered(low, high, own))
-    most: Array = np.fmax.reduce(each)
-    return most
-
-
-def _covered(low: Array, high: Array, own: Mask) -> Array:
-    """The length of the union of each row's ``own`` intervals: (n,)."""
-    low, high = np.where(own, low, np.inf), np.where(own, high, -np.inf)
-    order = np.argsort(low, axis=1)
-    low, high = (np.take_along_axis(row, order, axis=1) for row in (low, high))
-    before = np.maximum.accumulate(high, axis=1)[:, :-1]
-    low[:, 1:] = np.maximum(low[:, 1:], before)
-    length: Array = np.maximum(high - low, 0.0).sum(axis=1)
-    return length
-
-
 def wears_mm(mechanism: Mechanism, rubbing_N: Sequence[Number]) -> Array | None:
     """Mean wear depths in a million passages of the wall that wears most: mm, (m,).
 
-    ``rubbing_N`` are the ``greatest_rubbing_N`` of the engagements; the slot with the most counts.
-    None without ``wear_mm3_Nm`` or ``face_width_mm``.
+    ``rubbing_N`` are those of the engagements' passages; the slot with the most counts. None
+    without ``wear_mm3_Nm`` or ``face_width_mm``.
     """
     spec = mechanism.spec
     k, width = spec.material_wheel.wear_mm3_Nm, spec.size.face_width_mm

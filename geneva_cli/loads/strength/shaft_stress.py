@@ -45,7 +45,6 @@ from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, library
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
-from geneva_cli.spec.tables import Shaft
 
 
 class ShaftForces(Hashable, Protocol):
@@ -74,12 +73,6 @@ def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
     63.661977
     """
     return 16e3 * moment_Nm / (math.pi * diameter_mm**3)
-
-
-def least_diameter_mm(moment_Nm: N, allowed_MPa: N) -> N:
-    """Diameter at which the shear stress equals the allowable one."""
-    diameter: N = np.cbrt(16e3 * moment_Nm / (math.pi * allowed_MPa))
-    return diameter
 
 
 def on_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
@@ -111,32 +104,14 @@ class OnCarrier(NamedTuple):
         return force * force * (overhang * overhang), i.wheel_torque_Nm
 
 
-class OnShaft(NamedTuple):
-    """The force on the shaft of a wheel on a carrier, as a row for ``load_peaks``."""
-
-    loaded: OnCarrier
-
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
-        """The force, and the grip that bounds it."""
-        return QuantityValue(self.loaded.force_N(i), i.grip)
-
-
 def on_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
     """Squared bending moment of the crank's shaft, and its torque."""
     return i.crank_bearing_squared * (overhang * overhang), i.crank_torque_Nm
 
 
-class _Axis(NamedTuple):
-    """An axis of the machine in the roller's directions: cosines along u, m and y."""
-
-    up: Jet
-    away: Jet
-    across: Jet
-
-
 def on_sphere_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
     """Squared bending moment of the wheel's shaft, and torque; the overhang beyond L in metres."""
-    axis = _Axis(i.at.arm, i.at.lever * -1.0, i.at.lever * 0.0)
+    axis = i.at.arm, i.at.lever * -1.0, i.at.lever * 0.0
     return _bending_squared(i, axis, overhang), i.wheel_torque_Nm
 
 
@@ -146,17 +121,16 @@ def on_sphere_crank(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
     away = at.velocity * at.lever
     spin = at.spin + at.velocity * at.arm  # of the crank about the roller's axis
     rate = sqrt(at.along * at.along + away * away + spin * spin)
-    axis = _Axis(spin / rate * -1.0, away / rate, at.along / rate * -1.0)
+    axis = spin / rate * -1.0, away / rate, at.along / rate * -1.0
     return _bending_squared(i, axis, overhang), i.input_torque_Nm / rate
 
 
-def _bending_squared(i: Instant[Jet], axis: _Axis, overhang: Number) -> Jet:
-    """The square of the moment that bends a shaft at its bearing, (N m)²."""
-    L = i.case.L
-    b = L + overhang
-    rub = i.case.friction * i.slides
-    lever = axis.up * -b + L
-    turn = axis.away - axis.across * (i.drives * rub)
+def _bending_squared(i: Instant[Jet], axis: tuple[Jet, Jet, Jet], overhang: Number) -> Jet:
+    """The square of the moment that bends a shaft whose axis has these cosines along u, m, y."""
+    L, (up, away, across) = i.case.L, axis
+    b, rub = L + overhang, i.case.friction * i.slides
+    lever = up * -b + L
+    turn = away - across * (i.drives * rub)
     bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
     return i.force_N * i.force_N * bent
 
@@ -179,8 +153,32 @@ def crank_forces(spec: Spec) -> ShaftForces:
     return on_crank if spec.wheel.axes(spec.given_distance_mm) else on_sphere_crank
 
 
+# Rows for ``load_peaks``, which the grip bounds.
+
+
+class OnShaft(NamedTuple):
+    """The force on the shaft of a wheel on a carrier."""
+
+    loaded: OnCarrier
+
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
+        """The force."""
+        return QuantityValue(self.loaded.force_N(i), i.grip)
+
+
+class Torque(NamedTuple):
+    """The squared torque."""
+
+    loaded: ShaftForces
+
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
+        """The square."""
+        _, torque = self.loaded(i, 0.0)
+        return QuantityValue(torque * torque, i.grip)
+
+
 class Moment(NamedTuple):
-    """The square (Kb M)² + (Kt T)², as a row for ``load_peaks``; overhang in metres."""
+    """The square (Kb M)² + (Kt T)²; overhang in metres."""
 
     loaded: ShaftForces
     overhang: float
@@ -188,21 +186,10 @@ class Moment(NamedTuple):
     torsion: float
 
     def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
-        """The square, and the grip that bounds it."""
+        """The square."""
         square, torque = self.loaded(i, self.overhang)
         turned = torque * self.torsion
         return QuantityValue(square * (self.bending * self.bending) + turned * turned, i.grip)
-
-
-class Torque(NamedTuple):
-    """The squared torque, as a row for ``load_peaks``."""
-
-    loaded: ShaftForces
-
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
-        """The squared torque, and the grip that bounds it."""
-        _, torque = self.loaded(i, 0.0)
-        return QuantityValue(torque * torque, i.grip)
 
 
 def shafts_under_load(
@@ -216,36 +203,29 @@ def shafts_under_load(
     shaft in the dwell, from the first motion's end on. A shaft of which no design has an overhang
     or a load has no columns.
     """
-    known = [i for i, one in enumerate(shafts) if one.overhang_mm is not None]
-    if not (mechanism.spec.is_loaded and known):
-        return [{} for _ in shafts]
-    own = dict[str, LoadQuantity]()
-    for i in known:
-        own[f"moment {i}"] = _moment(mechanism.spec.shaft, shafts[i])
-        own[f"torque {i}"] = Torque(shafts[i].forces)
-    peaks = load_peaks(mechanism, tuple(own), own)
+    table, own = mechanism.spec.shaft, dict[str, LoadQuantity]()
+    for i, one in enumerate(shafts):
+        if mechanism.spec.is_loaded and one.overhang_mm is not None:
+            factors = table.bending_factor, table.torsion_factor
+            own[f"moment {i}"] = Moment(one.forces, one.overhang_mm / 1000.0, *factors)
+            own[f"torque {i}"] = Torque(one.forces)
+    peaks = load_peaks(mechanism, tuple(own), own) if own else {}
     return [
-        _columns(mechanism, one, peaks[f"moment {i}"], peaks[f"torque {i}"]) if i in known else {}
+        _columns(mechanism, one, one.overhang_mm, peaks[f"moment {i}"], peaks[f"torque {i}"])
+        if one.overhang_mm is not None and peaks
+        else {}
         for i, one in enumerate(shafts)
     ]
 
 
-def _moment(table: Shaft, shaft: LoadedShaft) -> Moment:
-    """The equivalent torque in motion, for the factors of the spec's ``[shaft]``."""
-    assert shaft.overhang_mm is not None
-    overhang = shaft.overhang_mm / 1000.0
-    return Moment(shaft.forces, overhang, table.bending_factor, table.torsion_factor)
-
-
 def _columns(
-    mechanism: Mechanism, shaft: LoadedShaft, both: PeakArray, turned: PeakArray
+    mechanism: Mechanism, shaft: LoadedShaft, overhang_mm: float, both: PeakArray, turned: PeakArray
 ) -> dict[str, Array]:
     """Results from the greatest squares of moment and torque in motion."""
     table, d, span = mechanism.spec.shaft, shaft.diameter_mm, shaft.span_mm
     if np.any(np.asarray(shaft.held_N) > 0.0) or np.any(np.asarray(shaft.held_Nm) != 0.0):
-        moment = _moment(table, shaft)
-        bent = np.ravel(moment.bending) * shaft.held_N * np.ravel(moment.overhang)
-        square = bent**2 + (np.ravel(moment.torsion) * shaft.held_Nm) ** 2
+        bent = np.ravel(table.bending_factor) * shaft.held_N * np.ravel(overhang_mm / 1000.0)
+        square = bent**2 + (np.ravel(table.torsion_factor) * shaft.held_Nm) ** 2
         first = mechanism.under_load.engagements[0]
         exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
         both = greater(both, PeakArray(square, np.broadcast_to(exit_deg, square.shape)))
@@ -255,10 +235,10 @@ def _columns(
     if d is not None:
         out["stress_MPa"] = shear_MPa(most, np.ravel(d))
     if shaft.allowed_MPa is not None:
-        out["least_diameter_mm"] = least_diameter_mm(most, np.ravel(shaft.allowed_MPa))
-    if d is not None and span is not None and shaft.overhang_mm is not None:
+        out["least_diameter_mm"] = np.cbrt(16e3 * most / (math.pi * np.ravel(shaft.allowed_MPa)))
+    if d is not None and span is not None:
         polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
-        rate = np.ravel((shaft.overhang_mm + span) / (table.shear_modulus_GPa * polar))
+        rate = np.ravel((overhang_mm + span) / (table.shear_modulus_GPa * polar))
         torque = np.where(np.isfinite(turned.max), np.sqrt(turned.max), np.nan)
         out["twist_deg"] = np.degrees(torque * rate)
     return out

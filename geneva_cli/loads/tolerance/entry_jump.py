@@ -66,16 +66,12 @@ def entry_jumps(mechanism: Mechanism) -> list[EntryJumpFunction]:
     for engagement in mechanism.engagements:
         axis = RestingAxis.of(engagement)
         if axis is not None:
+            # the path after the true entry counts if it is on the other side
+            before, after = _branch(axis, -1.0), _branch(axis, 1.0)
+            branches = (before,) if before.side == after.side else (before, after)
             arm = arm_mm(mechanism, engagement)
-            out.append(EntryJumpFunction(axis, L, arm, tuple(_branches(axis))))
+            out.append(EntryJumpFunction(axis, L, arm, branches))
     return out
-
-
-def _branches(axis: RestingAxis) -> list[Branch]:
-    """The path before the true entry, and the one after it if it is on the other side."""
-    before = _branch(axis, -1.0)
-    after = _branch(axis, 1.0)
-    return [before] if before.side == after.side else [before, after]
 
 
 def _branch(axis: RestingAxis, sense: float) -> Branch:

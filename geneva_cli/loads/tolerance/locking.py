@@ -22,26 +22,14 @@ The play is computed in the middle of a dwell, where the disc is symmetric to th
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import (
-    Mask,
-    Truth,
-    all_true,
-    array,
-    choose,
-    larger,
-    library,
-    parameter,
-    smaller,
-)
+from geneva_cli.loads.tolerance.dimensions import Deviations, deviations
+from geneva_cli.numerics.arrays import Mask, Truth, array, choose, larger, library, smaller
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
-
-if TYPE_CHECKING:
-    from geneva_cli.loads.tolerance.dimensions import Deviations
 
 ROUNDING = 1e-13  # of an angle, or of the centre distance
 
@@ -94,36 +82,36 @@ class Lock(NamedTuple):
         """Return True if the disc reaches as far round as the recess: a corner meets the disc."""
         return _truth(self.reach <= self.half)
 
-    def __call__(self, by: Deviations) -> LockPlay:
-        """Play of the wheel to one side."""
-        L, away = self.L, by.center_distance_mm + self.L
-        lock, recess = by.lock_radius_mm + self.lock, by.recess_radius_mm + self.recess
-        spare, m = recess - lock, library(self.half, self.sign, self.L)
-
-        def to_corner() -> Jet:
-            still, corner = L - 0.0 * away, self._far
-            return _at(still, corner, recess + self.edge) - _at(away, corner, lock + self.edge)
-
-        def to_end() -> Jet:
-            x = away - lock * (self.sign * m.cos(self.half))
-            y = lock * m.sin(self.half)
-            far = sqrt(x * x + y * y)
-            return _at(far, L, recess) - atan2(y, x)
-
-        angle = _either(self.on_corner, to_corner, to_end)
-        # distance to the recess's bottom
-        nearer = array(by.center_distance_mm.c[0]) * -self.sign
-        left = array(spare.c[0]) - np.maximum(nearer, 0.0)
-        jams = (left < -ROUNDING * L) | (array(angle.c[0]) < -ROUNDING)
-        least = smaller(self.reach, self.half)
-        on_it = nearer > np.maximum(spare.c[0], 0.0) * library(least).cos(least)
-        angle = _chosen(on_it & ~jams, self._on_recess(by, spare), angle)
-        return LockPlay(_chosen(jams, angle * 0.0, angle), jams)
-
     @property
     def _far(self) -> float:
         """Distance of a rounded corner's centre from the wheel's axis."""
         return self.corner - self.sign * self.edge
+
+    def __call__(self, by: Deviations) -> LockPlay:
+        """Play of the wheel to one side."""
+        L, off = self.L, by.center_distance_mm
+        away, spare = off + L, by.recess_radius_mm + self.recess - (by.lock_radius_mm + self.lock)
+        lock, recess = by.lock_radius_mm + self.lock, by.recess_radius_mm + self.recess
+        with np.errstate(all="ignore"):
+            still, corner = L - 0.0 * away, self._far
+            on_corner = _at(still, corner, recess + self.edge)
+            on_corner = on_corner - _at(away, corner, lock + self.edge)
+            x, y = away - lock * (self.sign * np.cos(self.half)), lock * np.sin(self.half)
+            on_end = _at(sqrt(x * x + y * y), L, recess) - atan2(y, x)
+            # Between their ends disc and recess touch where 4 L (L + dL) sin²(d/2) = c² - dL², with
+            # the difference c of their radii.
+            square = (spare * spare - off * off) / (away * (4.0 * L))
+            sine = sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 0.25))
+            between = atan2(sine, sqrt(1.0 - sine * sine)) * 2.0
+            on_recess = _chosen(square.c[0] > 0.0, between, between * 0.0)
+        angle = _chosen(self.on_corner, on_corner, on_end)
+        # distance to the recess's bottom
+        nearer = array(off.c[0]) * -self.sign
+        left = array(spare.c[0]) - np.maximum(nearer, 0.0)
+        jams = (left < -ROUNDING * L) | (array(angle.c[0]) < -ROUNDING)
+        least = np.cos(smaller(self.reach, self.half))
+        angle = _chosen((nearer > np.maximum(spare.c[0], 0.0) * least) & ~jams, on_recess, angle)
+        return LockPlay(_chosen(jams, angle * 0.0, angle), jams)
 
     def contact(self) -> LockContact:
         """Contact of disc and recess after the play is used up, without deviations.
@@ -131,42 +119,27 @@ class Lock(NamedTuple):
         >>> touch = Lock(100.0, 1.0, 40.0, 40.5, 86.8, 2.0).contact()
         >>> round(math.degrees(touch.phi), 3), round(math.degrees(touch.play), 4)
         (59.455, 0.3325)
-        >>> Lock(100.0, -1.0, 30.0, 30.5, 86.8, 2.0).contact().on  # an internal wheel
+        >>> str(Lock(100.0, -1.0, 30.0, 30.5, 86.8, 2.0).contact().on)  # an internal wheel
         'recess'
         """
-        from geneva_cli.loads.tolerance.dimensions import Deviations, deviations
-
         L, corner, clearance = self.L, self.on_corner, self.recess - self.lock
-        m = library(L, self.sign * self.lock, self.half * self.recess)
-        x, y = L - self.sign * self.lock * m.cos(self.half), self.lock * m.sin(self.half)
-        far = choose(corner, self._far, m.hypot(x, y))
+        x, y = L - self.sign * self.lock * np.cos(self.half), self.lock * np.sin(self.half)
+        far = choose(corner, self._far, np.hypot(x, y))
         reach = choose(corner, self.lock + self.edge, self.recess)
         cosine = self.sign * (L * L + reach * reach - far * far) / (2.0 * L * reach)
-        arcs = _truth(smaller(self.reach, self.half) > 0.5 * math.pi)
         # if the arcs touch there is no such triangle: the angle is 90 degrees
-        # NaN where the recess's corner is beyond the recess, so that nothing meets it
-        none = _truth(larger(cosine, -cosine) > 1.0)
-        phi = library(cosine).acos(choose(arcs, 0.0, choose(none, math.nan, cosine)))
-        edge = choose(corner, self.edge, 0.0)
-        ended = self.lock * edge / (self.lock + edge)
-        loose = _truth(clearance > 0.0)
+        arcs = _truth(smaller(self.reach, self.half) > 0.5 * math.pi)
+        with np.errstate(invalid="ignore"):
+            # NaN where the recess's corner is beyond the recess, so that nothing meets it
+            phi = np.arccos(choose(arcs, 0.0, cosine))
+        edge, loose = choose(corner, self.edge, 0.0), _truth(clearance > 0.0)
         between = self.lock * self.recess / choose(loose, clearance, 1.0)
+        ended = self.lock * edge / (self.lock + edge)
         radius = choose(loose, choose(arcs, between, ended), math.inf)
-        on = _word(arcs, "recess", _word(corner, "corner", "disc's end"))
-        play = self(deviations([0.0] * len(Deviations._fields))).angle.c[0]
-        free = parameter(np.maximum(play, 0.0))  # without clearance rounding may make it negative
-        return LockContact(on, phi, free if np.ndim(play) else float(free), radius)
-
-    def _on_recess(self, by: Deviations, spare: Jet) -> Jet:
-        """Play if disc and recess touch between their ends.
-
-        4 L (L + dL) sin²(d/2) = c² - dL², where c is the difference of their radii.
-        """
-        off = by.center_distance_mm
-        square = (spare * spare - off * off) / ((off + self.L) * (4.0 * self.L))
-        sine = sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 0.25))
-        out = atan2(sine, sqrt(1.0 - sine * sine)) * 2.0
-        return _chosen(square.c[0] > 0.0, out, out * 0.0)
+        on = np.where(arcs, "recess", np.where(corner, "corner", "disc's end"))
+        # without clearance rounding may make it negative
+        play = np.maximum(self(deviations([0.0] * len(Deviations._fields))).angle.c[0], 0.0)
+        return LockContact(on[()], phi, play, radius)
 
 
 def _at(one: Jet, other: float, opposite: Jet) -> Jet:
@@ -188,20 +161,6 @@ def _truth(condition: Truth) -> Truth:
 def _chosen(condition: Truth, yes: Jet, no: Jet) -> Jet:
     one = _truth(condition)
     return Jet([choose(one, a, b) for a, b in zip(yes.c, no.c, strict=True)])
-
-
-def _either(condition: Truth, yes: Callable[[], Jet], no: Callable[[], Jet]) -> Jet:
-    """One of two jets; only the needed one is computed if one lock's batch agrees."""
-    if all_true(condition):
-        return yes()
-    return _chosen(condition, yes(), no()) if np.any(condition) else no()
-
-
-def _word(condition: Truth, yes: str, no: str) -> str:
-    """One of two words; an array of words for an array of truth values."""
-    if isinstance(condition, bool):
-        return yes if condition else no
-    return cast("str", np.where(condition, yes, no))
 
 
 def loosest(locks: Sequence[Lock]) -> Lock:

@@ -27,6 +27,18 @@ from geneva_cli.numerics.jet import Array, Jet, Number, atan2, sqrt
 MOTION_SAMPLES = 361  # input angles at which a motion is sampled
 
 
+class WorstErrors(NamedTuple):
+    """Greatest errors of n designs, radians, with their input angles and sides: (n,) each."""
+
+    error: Array
+    at_deg: Array
+    side: Array
+
+    def beyond(self, other: WorstErrors) -> WorstErrors:
+        """Select the greater error of this and another result, in each design."""
+        return choose_record(self.error > other.error, self, other)
+
+
 class MotionError(NamedTuple):
     """The error of one engagement's motion as a function of deviations; lengths in mm."""
 
@@ -69,11 +81,10 @@ class MotionError(NamedTuple):
         """
         times = 3.0 if spec.tolerance.distribution == "normal" else 1.0
         play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
-        e = self.engagement
         entry, exit_ = map(np.ravel, self.ends_deg)
-        x, y = e.path(np.linspace(entry, exit_, MOTION_SAMPLES, axis=-1), 0)
+        x, y = self.engagement.path(np.linspace(entry, exit_, MOTION_SAMPLES, axis=-1), 0)
         near = np.atleast_2d(np.hypot(x.c[0], y.c[0])).min(axis=-1, keepdims=True)
-        nearest = self.L * (near - size(e.slot.offset))
+        nearest = self.L * (near - size(self.engagement.slot.offset))
         margin = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
         return parameter(margin if margin.size > 1 else float(margin[0, 0]))
 
@@ -82,12 +93,12 @@ class MotionError(NamedTuple):
 
         The machines are a first axis of the deviations, (k,) or for n designs (k, n, 1).
         """
-        each = Deviations(*[Jet([_machines_first(z) for z in jet.c]) for jet in by])
-
-        def off(at: Array, side: float) -> Array:
-            return np.asarray((array(self(each, at, side).c[0]) * side).max(axis=0))
-
-        return self._greatest(off)
+        # (k, n, 1), with n = 1 for one design
+        values = [np.atleast_1d(jet.c[0]) for jet in by]
+        each = deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
+        return self._greatest(
+            lambda at, side: np.asarray((array(self(each, at, side).c[0]) * side).max(axis=0))
+        )
 
     def greatest_rss(self, sizes: Sequence[float]) -> WorstErrors:
         """Greatest root of the squared effects of the dimensions, over the motion: as ``greatest``.
@@ -122,24 +133,6 @@ class MotionError(NamedTuple):
                 high = np.minimum(exit_, here.at_deg + step)
         assert best is not None
         return best
-
-
-class WorstErrors(NamedTuple):
-    """Greatest errors of n designs, radians, with their input angles and sides: (n,) each."""
-
-    error: Array
-    at_deg: Array
-    side: Array
-
-    def beyond(self, other: WorstErrors) -> WorstErrors:
-        """Select the greater error of this and another result, in each design."""
-        more = self.error > other.error
-        return choose_record(more, self, other)
-
-
-def _machines_first(z: Number) -> Array:
-    """Deviations of machines as (k, n, 1), with n = 1 for one design."""
-    return np.reshape(z, (np.shape(z)[0] if np.ndim(z) else 1, -1, 1))
 
 
 def motion_errors(mechanism: Mechanism) -> list[MotionError]:

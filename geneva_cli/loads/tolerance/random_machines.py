@@ -152,25 +152,21 @@ def spread(
     angle: Callable[[Deviations], Jet], sizes: list[float], worst: float, drawn: Array
 ) -> Spread:
     """Spread of an angle in radians; ``drawn`` has it for random machines."""
-    at_rest = _one(angle(deviations([0.0] * len(sizes))).c[0])
-    parts = [_one(angle(slope_of(i)).c[1]) * size if size else 0.0 for i, size in enumerate(sizes)]
-    rss = abs(at_rest) + math.sqrt(math.fsum(part * part for part in parts))
+
+    def one(number: int | None) -> float:
+        """The angle without deviations, or its slope by a dimension."""
+        by = deviations([0.0] * len(sizes)) if number is None else slope_of(number)
+        return float(np.ravel(angle(by).c[number is not None])[0])
+
+    parts = [one(i) * size if size else 0.0 for i, size in enumerate(sizes)]
+    counts, edges = np.histogram(np.degrees(drawn), bins=60)
+    middles = 0.5 * (edges[:-1] + edges[1:])
     return Spread(
         math.degrees(worst),
-        math.degrees(rss),
+        math.degrees(abs(one(None)) + math.sqrt(math.fsum(part * part for part in parts))),
         math.degrees(drawn.mean()),
         math.degrees(drawn.std()),
         math.degrees(_p997(drawn)),
         tuple(math.degrees(abs(part)) for part in parts),
-        _shape(drawn),
+        tuple(zip(middles.tolist(), (counts / len(drawn)).tolist(), strict=True)),
     )
-
-
-def _shape(drawn: Array) -> tuple[tuple[float, float], ...]:
-    counts, edges = np.histogram(np.degrees(drawn), bins=60)
-    middles = 0.5 * (edges[:-1] + edges[1:])
-    return tuple(zip(middles.tolist(), (counts / len(drawn)).tolist(), strict=True))
-
-
-def _one(value: Number) -> float:
-    return float(np.asarray(value).reshape(-1)[0])

@@ -29,14 +29,13 @@ import numpy as np
 
 from geneva_cli.loads.carried import MM, inertia_kgm2, unbalance_kgm
 from geneva_cli.loads.vibration.oscillator import Oscillator
-from geneva_cli.loads.vibration.panels import Panels
-from geneva_cli.loads.vibration.shape import motion_shapes
+from geneva_cli.loads.vibration.panels import Panels, motion_shapes
 from geneva_cli.loads.vibration.swing import residual_swing
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Complex, Whole, matrix_product
+from geneva_cli.numerics.arrays import Array, Complex, Number, Whole, matrix_product
 from geneva_cli.numerics.jet import Jet, sin_cos
 from geneva_cli.numerics.quadrature import rule
 
@@ -90,17 +89,16 @@ def pull(mechanism: Mechanism, engagement: Engagement) -> Pull | None:
         sine, cosine = sin_cos(angle + middle)
         return (sine * along + cosine * ahead) * scale
 
-    def stiffness(angle: Array) -> Array:
-        """U cos X, with the factor of D."""
-        x = angle + mid
-        out: Array = (np.cos(x) * along - np.sin(x) * ahead) * factor
+    def stiffness(angle: Number) -> Array:
+        x = np.atleast_2d(angle) + mid
+        out: Array = (np.cos(x) * along - np.sin(x) * ahead) * factor  # U cos X, as D
         return out
 
     node, weight = rule(64)  # exact for a motion without knots
     span = motion.exit_deg - motion.entry_deg
-    angles = np.atleast_2d(motion(motion.entry_deg + span * (0.5 + 0.5 * node), 0).c[0])
+    angles = motion(motion.entry_deg + span * (0.5 + 0.5 * node), 0).c[0]
     moving = matrix_product(stiffness(angles), 0.5 * weight)
-    resting = np.ravel(stiffness(np.atleast_2d(engagement.half_step)))
+    resting = np.ravel(stiffness(engagement.half_step))
     return Pull(motion_shapes(motion, mechanism.designs, torque), moving, resting)
 
 
@@ -111,8 +109,8 @@ def stiffness_ratio(mechanism: Mechanism, ratio: Array) -> Array:
     """
     if not mechanism.unbalanced:
         return np.zeros(1)
+    size = np.hypot(*unbalance_kgm(mechanism.spec))
     factor = np.ravel(_factor(mechanism, mechanism.engagements[0]))
-    size = float(np.hypot(*unbalance_kgm(mechanism.spec)))
     ratios: Array = size * factor / (2.0 * np.pi * ratio) ** 2
     return ratios
 

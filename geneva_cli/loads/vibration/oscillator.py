@@ -16,16 +16,12 @@ from geneva_cli.numerics.arrays import Complex, library
 from geneva_cli.spec.rules import Range
 
 PERIOD_RATIO = Range(1e-6, 1e5)  # the range that is computed
+RATIOS = f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}"
 STIFFNESS = ("shaft", "stiffness_Nm_rad")
 NO_INERTIA = (
     "a load without inertia has no natural period; set inertia_kgm2 in [load] or a [[mass]], or "
     "use --period-ratio"
 )
-
-
-def _ratios() -> str:
-    """The range of period ratios, for messages."""
-    return f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}"
 
 
 class Oscillator(NamedTuple, Generic[K]):
@@ -58,7 +54,7 @@ def oscillator(
     zeta = shaft.damping_ratio if damping is None else damping
     if period_ratio is not None:
         if period_ratio not in PERIOD_RATIO:
-            raise GenevaError(f"--period-ratio {period_ratio:g}: must be {_ratios()}")
+            raise GenevaError(f"--period-ratio {period_ratio:g}: must be {RATIOS}")
         return Oscillator(period_ratio, zeta)
     if not mechanism.output.turns:
         raise GenevaError(
@@ -79,7 +75,7 @@ def oscillator(
     if ratio not in PERIOD_RATIO:
         raise GenevaError(
             f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m² gives a period "
-            f"ratio (motion time / natural period) of {ratio:.4g}: it must be {_ratios()}",
+            f"ratio (motion time / natural period) of {ratio:.4g}: it must be {RATIOS}",
             STIFFNESS,
         )
     return Oscillator(ratio, zeta)

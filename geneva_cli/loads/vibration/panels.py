@@ -7,21 +7,31 @@ panels of a batch of motions are computed together; a single motion is a batch o
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Mask, Whole, matrix_product
+from geneva_cli.motion.batch import selection
+from geneva_cli.motion.engagement import WheelMotion
+from geneva_cli.motion.laws.law import Law
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import Array, Number, Whole, matrix_product, read_only
+from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
     # Places u (p, k) of the motions (p,), and the highest order -> derivatives 1, 2, ...: (n, p,
     # k).
     Derivatives = Callable[[Array, Whole, int], Array]
+    # The wheel's angles, and the numbers of their designs -> another value of each.
+    AngleFunction = Callable[[Jet, Whole], Jet]
 
 NODES = 32  # of Gauss's rule on a panel
 TERMS = 20  # of Legendre's series that are kept
 HIGHEST, LOWEST = 5, 2  # order of the derivatives that are used at most, and at least
+MOST = 20_000  # panels of a motion: with more, a higher derivative does not pay
 
 X = np.polynomial.legendre.leggauss(NODES)[0]
 
@@ -78,12 +88,41 @@ class Panels(NamedTuple):
         return of, np.arange(len(of)) + np.repeat(ends[motion] - first, count), first
 
 
-class _Refined(NamedTuple):
-    """Panels' motions and ends, and the derivatives at their nodes (order, p, NODES)."""
+@lru_cache(maxsize=64)
+def shape(motion: WheelMotion) -> Panels:
+    """Return the panels of one motion."""
+    return read_only(motion_shapes(motion, 1))
 
-    motion: Whole
-    edges: Array
-    values: Array
+
+@lru_cache(maxsize=64)
+def law_shape(law: Law) -> Panels:
+    """Return the panels of a motion law."""
+
+    def derivatives(u: Array, _: Whole, order: int) -> Array:
+        return _by_order(law(u, order).c, 1.0, u)
+
+    return read_only(panels_of(derivatives, np.array([sorted({0.0, *law.knots, 0.5, 1.0})])))
+
+
+def motion_shapes(motion: WheelMotion, m: int, function: AngleFunction | None = None) -> Panels:
+    """Return the panels of the motions of m designs, or of a ``function`` of their angles."""
+    of_designs = selection(motion)
+
+    def derivatives(u: Array, which: Whole, order: int) -> Array:
+        some: WheelMotion = of_designs(which)
+        whole, step = some.exit_deg - some.entry_deg, 2.0 * some.half_step
+        angle = some(some.entry_deg + u * whole, order)
+        c = (function(angle, which) if function else angle).c
+        return _by_order([v / step for v in c], whole * DEGREE, u)
+
+    every = np.hstack(motion.breaks(m))
+    return panels_of(derivatives, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
+
+
+def _by_order(c: Sequence[Number], rate: float, u: Array) -> Array:
+    """Return derivatives 1, 2, ... from Taylor coefficients by ``rate`` times the variable."""
+    rows = [v * (math.factorial(k) * rate**k) for k, v in enumerate(c) if k]
+    return np.array([np.broadcast_to(v, u.shape) for v in rows])
 
 
 def panels_of(derivatives: Derivatives, breaks: Array) -> Panels:
@@ -91,26 +130,33 @@ def panels_of(derivatives: Derivatives, breaks: Array) -> Panels:
 
     They hold up to the highest derivative that neither jumps nor needs too many panels.
     """
-    m, parts, top = len(breaks), [], np.full(len(breaks), HIGHEST)
-    rest = np.arange(m)
+    m, parts, rest = len(breaks), [], np.arange(len(breaks))
+    top = np.full(m, HIGHEST)
     for order in range(HIGHEST, LOWEST - 1, -1):
-        part, rest = _refined(derivatives, breaks, rest, order)
-        gap = np.zeros((HIGHEST - order, *part.values.shape[1:]))
-        parts.append(part._replace(values=np.concatenate((part.values, gap))))
+        motion, edges, values, rest = _refined(derivatives, breaks, rest, order)
+        parts.append((motion, edges, np.pad(values, ((0, HIGHEST - order), (0, 0), (0, 0)))))
         top[rest] = order - 1
         if not len(rest):
             break
     motion, edges, values = _joined(parts)
-    order_ = np.lexsort((edges[:, 0], motion))
-    motion, (left, right), values = motion[order_], edges[order_].T, values[:, order_]
+    in_order = np.lexsort((edges[:, 0], motion))
+    motion, (left, right), values = motion[in_order], edges[in_order].T, values[:, in_order]
     series = matrix_product(values, SERIES.T)
-    greatest = np.zeros((HIGHEST, m))
-    for row, size in zip(greatest, np.abs(values).max(axis=2), strict=True):
-        np.maximum.at(row, motion, size)
-    jumps, variation = _jumps(motion, values, series, m)
-    # the wheel starts and stops without a jump of velocity
+    # values at the ends of panels, and jumps between them
+    first, last = (series * (-1.0) ** np.arange(NODES)).sum(axis=2), series.sum(axis=2)
+    begins = np.append(True, motion[1:] != motion[:-1])
+    jump = np.abs(first - np.where(begins, 0.0, np.roll(last, 1, axis=1)))
+    stop = np.where(np.append(begins[1:], True), np.abs(last), 0.0)
+    through = np.concatenate((first[:, :, None], values, last[:, :, None]), axis=2)
+    rises = jump + stop + np.abs(np.diff(through)).sum(axis=2)
+    greatest, jumps, variation = np.zeros((3, HIGHEST, m))
+    for k in range(HIGHEST):
+        np.maximum.at(greatest[k], motion, np.abs(values[k]).max(axis=1))
+        np.maximum.at(jumps[k], motion, np.maximum(jump[k], stop[k]))
+        np.add.at(variation[k], motion, rises[k])
+    # The wheel starts and stops without a jump of velocity. A jump of 1e-12 of a derivative's
+    # greatest value is rounding.
     number = np.arange(1, HIGHEST)[:, None]
-    # a jump of 1e-12 of a derivative's greatest value is rounding
     goes_on = (number < top - 1) & (jumps[1:] <= 1e-12 * greatest[1:])
     smooth = 1 + np.cumprod(goes_on, axis=0).sum(axis=0)
     return Panels(motion, left, right, series[..., :TERMS], smooth, greatest, variation)
@@ -118,20 +164,19 @@ def panels_of(derivatives: Derivatives, breaks: Array) -> Panels:
 
 def _refined(
     derivatives: Derivatives, breaks: Array, which: Whole, order: int
-) -> tuple[_Refined, Whole]:
+) -> tuple[Whole, Array, Array, Whole]:
     """Panels of some motions for derivatives up to an order; and the motions that need too many.
 
+    They are the panels' motions and ends, and the derivatives at their nodes (order, p, NODES).
     Panels are halved until the series of each derivative has ended, or holds only rounding.
     """
-    m = len(breaks)
+    m, closed = len(breaks), []
     open_ = np.stack((breaks[which, :-1].ravel(), breaks[which, 1:].ravel()), 1)
     motion = np.repeat(which, breaks.shape[1] - 1)
     wide = open_[:, 1] > open_[:, 0]
     open_, motion = open_[wide], motion[wide]
     before = np.full((order, len(open_)), np.inf)  # last terms of the panels that were halved
-    closed: list[_Refined] = []
     greatest, count, many = np.zeros((order, m)), np.zeros(m, dtype=int), np.zeros(m, dtype=bool)
-    most = 20_000  # panels: with more, a higher derivative does not pay
     while len(open_):
         np.add.at(count, motion, 1)
         left, width = open_[:, :1], open_[:, 1:] - open_[:, :1]
@@ -141,16 +186,21 @@ def _refined(
         # the last six terms show whether the series has ended
         tail = np.abs(matrix_product(rates, SERIES[TERMS - 6 :].T)).max(axis=2)
         size = greatest[:, motion]
-        rounding = (tail < 1e-6 * size) & _stays(tail, before)  # larger terms are of the motion
+        # Terms that shrank in neither half when a panel was halved are rounding; random ones vary.
+        # Those of a smooth motion shrink to 2^-14 in both halves, near a jump or a pole in one. All
+        # left halves come before all right halves.
+        stays = tail > 0.25 * before
+        stays &= np.roll(stays, stays.shape[1] // 2, axis=1)
+        rounding = (tail < 1e-6 * size) & stays  # larger terms are of the motion
         # 1e-13 is some hundred roundings; panels narrower than 1e-12 of the motion are not halved
         ended = ((tail <= 1e-13 * size) | rounding).all(axis=0) | (width[:, 0] < 1e-12)
         if order > LOWEST:
             # rounding above 1e-11 spoils this derivative: a lower one has less
             many[motion[(rounding & (tail > 1e-11 * size)).any(axis=0)]] = True
-            many |= count > most
+            many |= count > MOST
         else:
-            ended |= (count > most)[motion]
-        closed.append(_Refined(motion[ended], open_[ended], rates[:, ended]))
+            ended |= (count > MOST)[motion]
+        closed.append((motion[ended], open_[ended], rates[:, ended]))
         halved = ~(ended | many[motion])
         rest, of, before = open_[halved], motion[halved], np.tile(tail[:, halved], 2)
         middle = rest.mean(axis=1)
@@ -158,40 +208,9 @@ def _refined(
         open_, motion = np.concatenate(halves), np.concatenate((of, of))
     motion, edges, values = _joined(closed)
     kept = ~many[motion]
-    return _Refined(motion[kept], edges[kept], values[:, kept]), np.flatnonzero(many)
+    return motion[kept], edges[kept], values[:, kept], np.flatnonzero(many)
 
 
-def _joined(parts: Sequence[_Refined]) -> _Refined:
+def _joined(parts: Sequence[tuple[Whole, Array, Array]]) -> tuple[Whole, Array, Array]:
     motion, edges, values = zip(*parts, strict=True)
-    return _Refined(np.concatenate(motion), np.concatenate(edges), np.concatenate(values, axis=1))
-
-
-def _stays(tail: Array, before: Array) -> Mask:
-    """True for panels whose last terms did not shrink in either half when a panel was halved.
-
-    Such terms are rounding. Terms of a smooth motion shrink to 2^-14 in both halves. Near a jump or
-    a pole they shrink in one half. All left halves come before all right halves.
-    """
-    stays = tail > 0.25 * before  # random terms vary
-    both: Mask = stays & np.roll(stays, stays.shape[1] // 2, axis=1)
-    return both
-
-
-def _jumps(motion: Whole, values: Array, series: Array, m: int) -> tuple[Array, Array]:
-    """Greatest jump of each derivative between panels or at the ends, and the variation.
-
-    (order, m) each.
-    """
-    first = (series * (-1.0) ** np.arange(NODES)).sum(axis=2)  # at a panel's left end
-    last = series.sum(axis=2)
-    begins = np.append(True, motion[1:] != motion[:-1])
-    ends = np.append(begins[1:], True)
-    before = np.where(begins, 0.0, np.roll(last, 1, axis=1))
-    jump, stop = np.abs(first - before), np.where(ends, np.abs(last), 0.0)
-    through = np.concatenate((first[:, :, None], values, last[:, :, None]), axis=2)
-    rises = jump + stop + np.abs(np.diff(through)).sum(axis=2)
-    greatest, variation = np.zeros((2, len(values), m))
-    for k in range(len(values)):
-        np.maximum.at(greatest[k], motion, np.maximum(jump[k], stop[k]))
-        np.add.at(variation[k], motion, rises[k])
-    return greatest, variation
+    return np.concatenate(motion), np.concatenate(edges), np.concatenate(values, axis=1)

@@ -6,26 +6,22 @@ The load vibrates as e^(p u), with u the fraction of the motion's time and
 
 lambda is the period ratio: the motion's time over the load's natural period. The residual of a
 motion is an integral of f e^(p (1 - u)) over 0..1, where f is a derivative of the motion by u. On
-each panel f is a Legendre series. The moments of e^(p (1 - u)) with Legendre's polynomials are
-spherical Bessel functions of q = -p h, with h half the panel's width.
-
-They are computed by Miller's downward recurrence. If |q| exceeds the number of terms, the upward
-recurrence is stable and needs only the panels' ends (Filon's method). The 0/0 of textbook forms
-does not occur.
+each panel, of half width h, f is a Legendre series. If |p h| exceeds the number of its terms, the
+moments of e^(p (1 - u)) with Legendre's polynomials follow from the panel's ends, by a recurrence
+(Filon's method). Otherwise Gauss's rule has them.
 """
 
 from __future__ import annotations
-
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.loads.vibration.oscillator import Oscillator
 from geneva_cli.loads.vibration.panels import TERMS, Panels
-from geneva_cli.numerics.arrays import Array, Complex, Whole
+from geneva_cli.numerics.arrays import Array, Complex, Whole, matrix_product
+from geneva_cli.numerics.quadrature import rule
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+NODE, WEIGHT = rule(64)  # exact to a double for |p h| up to TERMS
+_VALUES: Array = np.polynomial.legendre.legvander(NODE, TERMS - 1).T.astype(float)
 
 
 def residual_swing(panels: Panels, motion: Whole, swing: Oscillator[Array]) -> Complex:
@@ -43,8 +39,8 @@ def residual_swing(panels: Panels, motion: Whole, swing: Oscillator[Array]) -> C
         start = 0
         while start < len(at):
             done = count[start - 1] if start else 0
-            # 16,384 pairs of an oscillator and a panel at a time stay in the cache
-            stop = max(start + 1, int(np.searchsorted(count, done + (1 << 14), side="right")))
+            # 4096 pairs of an oscillator and a panel at a time stay in the cache
+            stop = max(start + 1, int(np.searchsorted(count, done + (1 << 12), side="right")))
             part = at[start:stop]
             some = Oscillator(swing.ratio[part], swing.damping[part])
             p = some.p
@@ -70,98 +66,53 @@ def _integral(panels: Panels, order: int, motion: Whole, swing: Oscillator[Array
     of, panel, first = panels.paired(motion)
     p, h = swing.p[of], panels.half[panel]
     each = Oscillator(swing.ratio[of], swing.damping[of])
-    series = panels.series[order - 1, panel]
-    # Without damping q = -i omega h, and all recurrences are real in omega h.
-    unit = 1.0 if swing.damping.any() else -1j
-    # an integral over a smaller |q| is that over 1e-15, to rounding
-    reach = np.maximum(h, 1e-15 / np.abs(p))
-    size = np.abs(p) * reach
-    reduced: Array | Complex = -p * reach if unit == 1.0 else size
+    series, left, right = panels.series[order - 1, panel], panels.left[panel], panels.right[panel]
     out: Complex = np.empty(len(of), dtype=complex)
-    after = _after(each, 1.0 - panels.right[panel])
-    large = size >= TERMS  # there the upward recurrence is stable
-    # apart, since 56 terms of a |q| below 1e-8 overflow, and 32 of 1e-15 do not
-    for here in (size < 0.5, (size >= 0.5) & ~large):
-        if here.any():
-            out[here] = _by_recurrence(reduced[here], unit, series[here]) * h[here] * after[here]
-    if large.any():
-        some = Oscillator(each.ratio[large], each.damping[large])
-        one, other = _by_ends(reduced[large], unit, series[large])
-        both = _after(some, 1.0 - panels.left[panel[large]]) * one + after[large] * other
-        out[large] = both / p[large]
+    large = np.abs(p) * h >= TERMS  # there the recurrence is stable
+    for here, whole in ((~large, False), (large, True)):
+        if not here.any():
+            continue
+        some, c = Oscillator(each.ratio[here], each.damping[here]), series[here]
+        after, q = _after(some, 1.0 - right[here]), (p * h)[here]
+        if whole:
+            begin, end = _moments(1.0 / q), -_moments(-1.0 / q)
+            before = _after(some, 1.0 - left[here])
+            signs = (-1.0) ** np.arange(TERMS)
+            both = before * _sums(begin, c) + after * _sums(end, c * signs)
+            out[here] = both / p[here]
+        else:
+            swung = np.exp(q[:, None] * (1.0 - NODE)) * WEIGHT
+            out[here] = h[here] * after * (matrix_product(c, _VALUES) * swung).sum(axis=1)
     return np.add.reduceat(out, first)
 
 
-def _after(one: Oscillator[Array], v: float | Array) -> Complex:
-    """e^(p v), with the angle reduced before it is rounded; elementwise for arrays."""
+def _after(one: Oscillator[Array], v: Array) -> Complex:
+    """e^(p v), with the angle reduced before it is rounded; elementwise."""
     whole = np.floor(one.ratio)
     split = 2.0**26  # half of a double's bits
     head = np.floor(v * split) / split
     turns = (whole * head) % 1.0 + whole * (v - head) + (one.ratio - whole) * v
     angle = 2.0 * np.pi * (turns - np.round(turns))
-    zeta = one.damping
-    if not zeta.any():
-        return np.cos(angle) + 1j * np.sin(angle)
+    zeta, omega = one.damping, 2.0 * np.pi * one.ratio
     # difference of sqrt(1 - zeta²) from 1
-    slower = zeta * zeta / (1.0 + np.sqrt(1.0 - zeta * zeta))
-    omega = 2.0 * np.pi * one.ratio
-    angle -= omega * slower * v
+    angle -= omega * (zeta * zeta / (1.0 + np.sqrt(1.0 - zeta * zeta))) * v
     return np.exp(-omega * zeta * v) * (np.cos(angle) + 1j * np.sin(angle))
 
 
-def _sums(terms: NDArray[np.inexact], series: Array) -> Complex:
+def _sums(terms: Complex, series: Array) -> Complex:
     """Sums over the terms: of (terms, pairs) times (pairs, terms)."""
     out: Complex = np.einsum("tp,pt->p", terms, series)
     return out
 
 
-def _by_recurrence(reduced: Array | Complex, unit: complex, series: Array) -> Complex:
-    """Integrals of f e^(q (x - 1)) by modified spherical Bessel functions i_n(q) = unit^n y_n.
+def _moments(y: Complex) -> Complex:
+    """Contributions of a panel's end to the moments, times p, from y = 1/(p h): (terms, pairs).
 
-    They are scaled by their sum: q is unit times ``reduced``, and the sum of (2 n + 1) i_n(q) is
-    e^q.
+    The moments with Legendre's polynomials are m_(n+1) = m_(n-1) + (2 n + 1) y m_n.
     """
-    start = TERMS + 12 + int(1.2 * np.abs(reduced).max())
-    square = (unit * unit).real
-    rate = 1.0 / reduced
-    above, here = np.zeros_like(rate), np.full_like(rate, 1e-250)
-    sums = np.zeros((2, *rate.shape), dtype=rate.dtype)
-    kept = np.empty((TERMS, len(rate)), dtype=rate.dtype)
-    for n in reversed(range(start)):
-        term = (2.0 * n + 1.0) * here
-        if n % 4 < 2 or square > 0.0:  # unit^n over 1 or unit
-            sums[n % 2] += term
-        else:
-            sums[n % 2] -= term
-        if n < TERMS:
-            kept[n] = here
-        term *= rate
-        term += square * above  # i_(n-1) = i_(n+1) + (2 n + 1) i_n / q
-        above, here = here, term
-    scaled = 2.0 * series * square ** (np.arange(TERMS) // 2)
-    even, odd = _sums(kept[::2], scaled[:, ::2]), _sums(kept[1::2], scaled[:, 1::2])
-    integrals: Complex = (even + unit * odd) / (sums[0] + unit * sums[1])
-    return integrals
-
-
-def _by_ends(reduced: Array | Complex, unit: complex, series: Array) -> tuple[Complex, Complex]:
-    """Contributions of the panels' left and right ends, times p.
-
-    The moments with Legendre's polynomials are m_(n+1) = m_(n-1) - (2 n + 1) m_n / q, from those of
-    the ends only. ``even`` and ``odd`` are their parts in 1/q, odd over ``unit``.
-    """
-    square = (unit * unit).real
-    y = -1.0 / reduced * square
-    even, odd = np.ones_like(y), np.zeros_like(y)
-    before = -np.ones_like(y), np.zeros_like(y)
-    kept = np.empty((2, TERMS, len(y)), dtype=y.dtype)
+    kept = np.empty((TERMS, len(y)), dtype=complex)
+    before, here = -np.ones_like(y), np.ones_like(y)
     for n in range(TERMS):
-        kept[0, n], kept[1, n] = even, odd
-        step = (2.0 * n + 1.0) * y
-        following = before[0] + square * step * odd, before[1] + step * even
-        before = even, odd
-        even, odd = following
-    turned = series * -((-1.0) ** np.arange(TERMS))
-    first = _sums(kept[0], series) + unit * _sums(kept[1], series)
-    last = _sums(kept[0], turned) - unit * _sums(kept[1], turned)
-    return first, last
+        kept[n] = here
+        before, here = here, before + (2.0 * n + 1.0) * y * here
+    return kept

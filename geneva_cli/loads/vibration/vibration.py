@@ -28,10 +28,14 @@ import numpy as np
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.vibration.centrifugal import STIFFEST, pull, stiffness_ratio, with_each_motion
-from geneva_cli.loads.vibration.load_acceleration import greatest_accelerations
-from geneva_cli.loads.vibration.lobes import Lobes, highest_ratio, lobes
+from geneva_cli.loads.vibration.maxima import (
+    Lobes,
+    greatest_accelerations,
+    highest_ratio,
+    lobes,
+)
 from geneva_cli.loads.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of
-from geneva_cli.loads.vibration.shape import law_shape, motion_shapes, shape
+from geneva_cli.loads.vibration.panels import law_shape, motion_shapes, shape
 from geneva_cli.loads.vibration.swing import residual_swing
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
@@ -40,7 +44,6 @@ from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Complex, Whole, array, parameter
-from geneva_cli.spec.rules import is_array
 
 SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 20 % of stiffness
 SLOWER, FASTER = 0.5, 2.0  # range of speeds over the design's
@@ -85,10 +88,11 @@ class Index:
         # a law without numbers that vary has one shape in all designs
         alike = law is not None and taken(law, slice(0)) is law
         self.is_one = m == 1 or alike
-        if is_array(mechanism.design):
-            self.panels = law_shape(law) if law and alike else motion_shapes(motion, m)
+        single = isinstance(mechanism.design, int)
+        if law and (alike or single):
+            self.panels = law_shape(law)
         else:
-            self.panels = law_shape(law) if law else shape(motion)
+            self.panels = shape(motion) if single else motion_shapes(motion, m)
 
     def shapes(self, which: Whole) -> Whole:
         """Return the numbers of oscillators' motions among the panels'."""
@@ -97,12 +101,11 @@ class Index:
     def residual(self, which: Whole, ratio: Array, damping: Array) -> Complex:
         """Return the residuals of oscillators, by period ratios of the first motion."""
         scale = self.scale if len(self.scale) == 1 else self.scale[which]
-        swing = Oscillator(ratio * scale, damping)
+        swing, own = Oscillator(ratio * scale, damping), self.shapes(which)
         if self.pull is None:
-            return residual_swing(self.panels, self.shapes(which), swing)
+            return residual_swing(self.panels, own, swing)
         swing = self.pull.softened(swing, which)
-        added = self.pull.residual(self.shapes(which), swing)
-        return residual_swing(self.panels, self.shapes(which), swing) + added
+        return residual_swing(self.panels, own, swing) + self.pull.residual(own, swing)
 
     def spans_deg(self, dwell_deg: float, swing: Oscillator[Array]) -> tuple[Array, Array]:
         """Return input angles of the motion and of the dwell after it, as the load swings in them.
@@ -116,11 +119,12 @@ class Index:
         moves, rests = (self.pull.softened(own, every, resting).ratio for resting in (False, True))
         return motion * moves / own.ratio, dwell * rests / own.ratio
 
-    def highest_ratio(self, low: float, damping: float) -> float:
-        """Return a period ratio of this motion above which no speed is one to avoid.
+    def lobes(self, damping: Array, low: Array, high: Array) -> Lobes:
+        """Return the lobes of oscillators, each between two period ratios."""
+        return lobes(lambda of, ratio: np.abs(self.residual(of, ratio, damping[of])), low, high)
 
-        It is for ratios from ``low`` on.
-        """
+    def highest_ratio(self, low: float, damping: float) -> float:
+        """Return a ratio of this motion, ``low`` or above, over which no speed is one to avoid."""
         if self.pull is None:
             return highest_ratio(self.panels, AVOIDED_SHARE, damping)
         # of the shaft's stiffness is left: at twice the speed U/k is four times as much
@@ -128,11 +132,10 @@ class Index:
         # where each of the residual's two parts is below half of the share, their sum is below it
         omega = 2.0 * math.pi * low
         shares = 0.5 * AVOIDED_SHARE, 0.5 * AVOIDED_SHARE * omega * omega * left
-        high = max(
-            highest_ratio(panels, share, damping)
-            for panels, share in zip((self.panels, self.pull.shape), shares, strict=True)
+        both = zip((self.panels, self.pull.shape), shares, strict=True)
+        return max(highest_ratio(panels, share, damping) for panels, share in both) / math.sqrt(
+            left
         )
-        return high / math.sqrt(left)
 
 
 class Oscillators:
@@ -169,9 +172,20 @@ class Oscillators:
         return np.abs(self.residual)
 
     @property
+    def steps(self) -> Array:
+        """The wheel's steps, radians."""
+        return np.array([np.broadcast_to(index.step, self.every.shape) for index in self.indices])
+
+    @property
     def residual_deg(self) -> Array:
         """Residual amplitudes, degrees."""
-        return np.degrees(self.share * self._steps)
+        return np.degrees(self.share * self.steps)
+
+    @property
+    def _bent_deg(self) -> Array:
+        """Wind-up at an acceleration of 1 step over the motion's time squared, degrees."""
+        out: Array = np.degrees(self.steps) / (2.0 * np.pi * self.ratio) ** 2
+        return out
 
     @cached_property
     def windup_deg(self) -> Array:
@@ -180,7 +194,7 @@ class Oscillators:
         for index, bent in zip(self.indices, self._bent_deg, strict=True):
             most = motion_peaks(index.motion, ["acceleration"])["acceleration"].max
             # by the fraction of the motion's time, over the step
-            rows.append(np.ravel(most) * index.whole * index.whole / index.step * bent)
+            rows.append(most * index.whole * index.whole / index.step * bent)
         return np.array(rows)
 
     @cached_property
@@ -216,7 +230,7 @@ class Oscillators:
 
     def _exits(self) -> tuple[list[Array], Array]:
         """Return input angles at the ends of the motions, and the period, as the load swings."""
-        if all(index.pull is None for index in self.indices):
+        if not self.mechanism.unbalanced:
             return [i.exit_deg for i in self.indices], np.ravel(self.mechanism.period_deg)
         exits, at = [], np.zeros(1)
         for number, index in enumerate(self.indices):
@@ -229,37 +243,19 @@ class Oscillators:
     def worst_share(self) -> Array:
         """Greatest residual share for any stiffness within 20 % of the spec's: (n,)."""
         low, high = self.swing.ratio * SOFTER, self.swing.ratio * STIFFER
+        damping = self.swing.damping
         near = [self.residuals(ratio) for ratio in (low, self.swing.ratio, high)]
         worst: Array = np.abs(near).max(axis=(0, 1))
         for index in self.indices:
-            one = index.is_one and bool((self.swing.damping == self.swing.damping[0]).all())
+            one = index.is_one and bool((damping == damping[0]).all())
             if one:  # all oscillators have the lobes of one
-                tops = self.lobes(index, low.min(keepdims=True), high.max(keepdims=True))
+                tops = index.lobes(damping, low.min(keepdims=True), high.max(keepdims=True))
                 of, top = np.nonzero((tops.ratio >= low[:, None]) & (tops.ratio <= high[:, None]))
             else:
-                tops = self.lobes(index, low, high)
+                tops = index.lobes(damping, low, high)
                 of, top = tops.which, np.arange(len(tops.which))
             np.maximum.at(worst, of, tops.share[top])
         return worst
-
-    def lobes(self, index: Index, low: Array, high: Array) -> Lobes:
-        """Return the lobes of an index, each between two period ratios of its own oscillator."""
-
-        def share_at(which: Whole, ratio: Array) -> Array:
-            return np.abs(index.residual(which, ratio, self.swing.damping[which]))
-
-        return lobes(share_at, low, high)
-
-    @property
-    def _steps(self) -> Array:
-        rows = [np.broadcast_to(index.step, self.every.shape) for index in self.indices]
-        return np.array(rows)
-
-    @property
-    def _bent_deg(self) -> Array:
-        """Wind-up at an acceleration of 1 step over the motion's time squared, degrees."""
-        out: Array = np.degrees(self._steps) / (2.0 * np.pi * self.ratio) ** 2
-        return out
 
 
 def oscillators_of(mechanism: Mechanism, load: Oscillator[float]) -> Oscillators:
@@ -331,7 +327,7 @@ def speeds_to_avoid(mechanism: Mechanism, load: Oscillator[float]) -> list[Speed
         high = min(load.ratio / SLOWER, index.highest_ratio(low * scale, load.damping) / scale)
         if low >= high:
             continue
-        tops = own.lobes(index, np.array([low]), np.array([high]))
+        tops = index.lobes(own.swing.damping, np.array([low]), np.array([high]))
         most = np.abs(own.residuals(tops.ratio, tops.which)).max(axis=0)
         # a lobe within 1e-12 of the greatest residual is equal to it
         kept = (tops.share >= AVOIDED_SHARE) & (tops.share >= most * (1.0 - 1e-12))

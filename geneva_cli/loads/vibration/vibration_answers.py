@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -26,118 +27,84 @@ from geneva_cli.motion.motion_table import check_samples
 from geneva_cli.table import Table, computed_table, record_table, rows_table
 
 SPECTRUM_COLUMNS = (
-    "n_rpm",
-    "period_ratio",
-    "residual_share",
-    "residual_deg",
-    "residual_share_worst",
+    *("n_rpm", "period_ratio", "residual_share", "residual_deg", "residual_share_worst"),
     "steady_share",
 )
-
-
-def values(mechanism: Mechanism, load: Oscillator[float] | None) -> dict[str, Any]:
-    """Named values, with equal names for every machine; all None if no inertia is known."""
-    why = _unknown(mechanism, load)
-    if load is None or why:
-        return dict.fromkeys((*NUMBERS, "avoid", "stations")) | {
-            "warnings": (Notice("not-known", f"no value is computed: {why}"),)
-        }
-    oscillators = oscillators_of(mechanism, load)
-    avoid = speeds_to_avoid(mechanism, load)
-    numbers = {name: float(x[0]) for name, x in vibrations(oscillators)._asdict().items()}
-    each, lacks = _stations(oscillators), mechanism.output.lacks
-    return {
-        **{name: None if name in lacks else _known(x) for name, x in numbers.items()},
-        "speeds_to_avoid_rpm": tuple(a.rpm for a in avoid),
-        "avoid": rows_table(SpeedToAvoid._fields, avoid),
-        "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,
-        "warnings": tuple(_warnings(mechanism, load, float(oscillators.ratio.min()))),
-    }
-
-
-def _unknown(mechanism: Mechanism, load: Oscillator[float] | None) -> str:
-    """Return the reason why no value is computed; empty where there is none."""
-    if load is None:
-        return NO_INERTIA
-    ratio = float(stiffness_ratio(mechanism, np.array([load.ratio])).max())
-    if ratio <= STIFFEST:
-        return ""
-    return (
-        "the centrifugal force of bodies off the wheel's axis acts as a spring of "
-        f"{ratio:.3g} times the shaft's stiffness, above {STIFFEST:g}: use a stiffer shaft"
-    )
-
-
-def _stations(oscillators: Oscillators) -> list[tuple[float | None, ...]]:
-    """Return a row of ``STATION_COLUMNS`` for each kind of index in a period."""
-    factor = oscillators.swung_deg / oscillators.windup_deg
-    every = (
-        oscillators.ratio,
-        oscillators.share,
-        oscillators.residual_deg,
-        factor,
-        oscillators.windup_deg,
-    )
-    rows = np.array([*every, oscillators.steady_share])[:, :, 0].T
-    return [tuple(_known(x) for x in row) for row in rows.tolist()]
-
-
-def _known(number: float) -> float | None:
-    """Return None for NaN, a number that is not known."""
-    return None if math.isnan(number) else number
-
-
 STATION_COLUMNS = (
-    "period_ratio",
-    "residual_share",
-    "residual_deg",
-    "dynamic_factor",
-    "windup_deg",
+    *("period_ratio", "residual_share", "residual_deg", "dynamic_factor", "windup_deg"),
     "steady_share",
 )
 NUMBERS = (*Vibrations._fields, "speeds_to_avoid_rpm")
 
 
-def _warnings(mechanism: Mechanism, load: Oscillator[float], least: float) -> list[Notice]:
-    out = []
+def values(mechanism: Mechanism, load: Oscillator[float] | None) -> dict[str, Any]:
+    """Named values, with equal names for every machine; all None if no inertia is known."""
+    why = NO_INERTIA
+    if load:
+        ratio = float(stiffness_ratio(mechanism, np.array([load.ratio])).max())
+        why = (
+            ""
+            if ratio <= STIFFEST
+            else (
+                "the centrifugal force of bodies off the wheel's axis acts as a spring of "
+                f"{ratio:.3g} times the shaft's stiffness, above {STIFFEST:g}: use a stiffer shaft"
+            )
+        )
+    if load is None or why:
+        return dict.fromkeys((*NUMBERS, "avoid", "stations")) | {
+            "warnings": (Notice("not-known", f"no value is computed: {why}"),)
+        }
+    own, lacks = oscillators_of(mechanism, load), mechanism.output.lacks
+    avoid = speeds_to_avoid(mechanism, load)
+    numbers = {name: float(x[0]) for name, x in vibrations(own)._asdict().items()}
+    factor = own.swung_deg / own.windup_deg
+    rows = (own.ratio, own.share, own.residual_deg, factor, own.windup_deg, own.steady_share)
+    each = [tuple(map(_known, row)) for row in np.array(rows)[:, :, 0].T.tolist()]
+    return {
+        **{name: None if name in lacks else _known(x) for name, x in numbers.items()},
+        "speeds_to_avoid_rpm": tuple(a.rpm for a in avoid),
+        "avoid": rows_table(SpeedToAvoid._fields, avoid),
+        "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,
+        "warnings": tuple(_warnings(mechanism, load, float(own.ratio.min()))),
+    }
+
+
+def _known(number: float) -> float | None:
+    return None if math.isnan(number) else number
+
+
+def _warnings(mechanism: Mechanism, load: Oscillator[float], least: float) -> Iterator[Notice]:
     moment = math.hypot(*unbalance_Nm(mechanism))
     if moment:
         stiffness = mechanism.spec.shaft.stiffness_Nm_rad
         windup = (
             f", and winds it up by {math.degrees(moment / stiffness):.4g}°" if stiffness else ""
         )
-        out.append(
-            Notice(
-                "unbalance-windup",
-                "on the carrier the centrifugal force of the bodies off the wheel's axis puts up "
-                f"to {moment:.4g} N m on the shaft{windup}, at rest too. The residuals are about "
-                "that angle: balance the bodies",
-            )
+        yield Notice(
+            "unbalance-windup",
+            "on the carrier the centrifugal force of the bodies off the wheel's axis puts up "
+            f"to {moment:.4g} N m on the shaft{windup}, at rest too. The residuals are about "
+            "that angle: balance the bodies",
         )
     if least < 1.0:
-        out.append(
-            Notice(
-                "short-motion",
-                f"a motion takes only {least:.4g} natural periods of the load, too few to follow: "
-                "use a stiffer shaft, less inertia or a lower speed",
-            )
+        yield Notice(
+            "short-motion",
+            f"a motion takes only {least:.4g} natural periods of the load, too few to follow: "
+            "use a stiffer shaft, less inertia or a lower speed",
         )
     law = mechanism.input_law
     tuned = law.tuned_to if law else None
     # a tuned law may miss its period ratio by a hundredth
     if tuned and not math.isclose(load.ratio, tuned, rel_tol=0.01):
         n_rpm = mechanism.spec.drive.n_rpm * load.ratio / tuned
-        out.append(
-            Notice(
-                "off-tune",
-                f"the law is tuned to period ratio {tuned:g}, but this load has {load.ratio:.6g}: "
-                f"set n_rpm = {n_rpm:.6g}, or use {(tuned / load.ratio) ** 2:.4g} times the "
-                "stiffness",
-            )
+        yield Notice(
+            "off-tune",
+            f"the law is tuned to period ratio {tuned:g}, but this load has {load.ratio:.6g}: "
+            f"set n_rpm = {n_rpm:.6g}, or use {(tuned / load.ratio) ** 2:.4g} times the "
+            "stiffness",
         )
     if why := _never_steady(mechanism, load):
-        out.append(Notice("not-known", f"steady_share is not computed: {why}"))
-    return out
+        yield Notice("not-known", f"steady_share is not computed: {why}")
 
 
 def _never_steady(mechanism: Mechanism, load: Oscillator[float]) -> str:
@@ -154,9 +121,8 @@ def _never_steady(mechanism: Mechanism, load: Oscillator[float]) -> str:
 
 def vibration_table(mechanism: Mechanism, load: Oscillator[float] | None) -> Table:
     """Record of ``geneva vibration``."""
-    title = mechanism.spec.title
-    head = {"spec": mechanism.spec.path, "title": title}
-    return record_table(head | values(mechanism, load), title)
+    head = {"spec": mechanism.spec.path, "title": mechanism.spec.title}
+    return record_table(head | values(mechanism, load), mechanism.spec.title)
 
 
 def spectrum(mechanism: Mechanism, load: Oscillator[float], samples: int) -> Table:

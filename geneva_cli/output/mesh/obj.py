@@ -6,8 +6,7 @@ from collections.abc import Iterator
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.output.mesh.polygons import DECIMALS
-from geneva_cli.output.mesh.solids import bodies
+from geneva_cli.output.mesh.solids import DECIMALS, bodies
 
 
 def data(drawing: Drawing, units: str) -> Iterator[bytes]:

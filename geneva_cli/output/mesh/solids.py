@@ -1,34 +1,35 @@
-"""The solids of a part as meshes: one for each kind of solid, with its places."""
+"""The solids of a part as closed meshes, by manifold3d: one for each kind, and its places."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cache, lru_cache
+from functools import lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+import manifold3d as m3
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, Part, Shell, Solid, Stack
-from geneva_cli.geometry.shapes import Layer, Point
+from geneva_cli.geometry.inset import inset, lines_and_arcs
+from geneva_cli.geometry.measure import STRAIGHT, points
+from geneva_cli.geometry.moments import oriented
+from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid
+from geneva_cli.geometry.round_holes import CrossHole
+from geneva_cli.geometry.shapes import Arc, Contour, Cubic, Layer, Segment
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.geometry.stacks import Run, Side, levels, outline_of, sides
+from geneva_cli.geometry.sphere import Vector, cross, square_to, unit
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.output.mesh.plate_meshes import plate_mesh
-from geneva_cli.output.mesh.polygons import (
-    Fans,
-    Surface,
-    chord_points,
-    rounded,
-    triangles,
-)
-from geneva_cli.output.mesh.shells import shell_mesh
-from geneva_cli.output.solid_part import plate_contours, solid_part
+from geneva_cli.output.solid_part import plate_contours, require_thick, solid_part
 
 if TYPE_CHECKING:
-    pass
+    import numpy.typing as npt
+
+    Numbers: TypeAlias = npt.NDArray[np.int64]
+
+DECIMALS = 6  # of coordinates in mm, so that rounding of another processor is not seen
+CORNERS_MAX = 200_000  # of a solid: a file of about 40 MB
 
 
 class Place(NamedTuple):
@@ -39,7 +40,17 @@ class Place(NamedTuple):
 
     def __call__(self, corners: Array) -> Array:
         """Return corners (n, 3) at this position, rounded as those of a surface."""
-        return rounded(corners @ self.turn.T + self.shift)
+        return _rounded(corners @ self.turn.T + self.shift)
+
+
+class Surface(NamedTuple):
+    """Corners in mm (n, 3), and triangles by their numbers (m, 3), counterclockwise from outside.
+
+    Every side of a triangle is a side of one other, in the opposite sense.
+    """
+
+    corners: Array
+    triangles: Numbers
 
 
 class Body(NamedTuple):
@@ -73,17 +84,15 @@ def _placed(part: Part, at: Place) -> Iterator[tuple[Solid, Place]]:
         yield part, at
         return
     for member in part.members:
-        own = _place(member)
-        yield from _placed(member.part, Place(at.turn @ own.turn, at.turn @ own.shift + at.shift))
+        turn, shift = _turn(member), np.array([*member.at, 0.0])
+        yield from _placed(member.part, Place(at.turn @ turn, at.turn @ shift + at.shift))
 
 
-def _place(member: Member) -> Place:
+def _turn(member: Member) -> Array:
     if member.frame:
-        turn = np.array([member.frame.x, member.frame.y, member.frame.z]).T
-    else:
-        c, s = math.cos(member.turn), math.sin(member.turn)
-        turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    return Place(turn, np.array([*member.at, 0.0]))
+        return np.array([member.frame.x, member.frame.y, member.frame.z]).T
+    c, s = math.cos(member.turn), math.sin(member.turn)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 @lru_cache(maxsize=32)  # an export writes each solid by itself, and all of them together
@@ -92,36 +101,199 @@ def _surface(solid: Solid, tolerance: float) -> Surface:
     if not tolerance > 0.0:
         raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
     if isinstance(solid, Shell):
-        return shell_mesh(solid, tolerance)
-    if isinstance(solid, Stack):
-        return _stack_mesh(solid, tolerance)
-    return plate_mesh(solid, tolerance)
+        body = _shell(solid, tolerance)
+    else:
+        steps = [_plate(plate, tolerance) for plate in solid.plates]
+        body = m3.Manifold.batch_boolean(steps, m3.OpType.Add)
+    mesh = body.to_mesh64()
+    corners = _rounded(np.asarray(mesh.vert_properties)[:, :3])
+    if body.is_empty() or not np.ptp(corners, axis=0).all():  # thinner than the decimals
+        raise _no_wall(solid.name)
+    return Surface(corners, np.asarray(mesh.tri_verts).astype(np.int64))
 
 
-def _stack_mesh(stack: Stack, tolerance: float) -> Surface:
-    """Return a turned part's surface; its chords keep the tolerance, mm.
+def _plate(plate: Plate, tolerance: float) -> m3.Manifold:
+    """Return a plate: a ring of corners at each level of its edges, strips, and two faces."""
+    shapes = plate_contours(plate)
+    if not shapes:  # its outline is rounding
+        raise _no_wall(plate.name)
+    outline, *holes = shapes
+    contours, edge = oriented(outline, holes), plate.edge
+    steps = arc_chords(edge.size, 0.5 * math.pi, tolerance) if edge.rounded and edge.size else 1
+    sections = [edge.at(k / steps) for k in range(steps + 1)] if edge.size else [(0.0, 0.0)]
+    levels = [(depth, plate.low + edge.size - high) for depth, high in sections[::-1]]
+    levels += [(depth, plate.high - edge.size + high) for depth, high in sections]
+    insets = [_insets(contour, sections) for contour in contours]
+    counts = [[_chords(piece, tolerance) for piece in contour[0]] for contour in insets]
+    around = sum(map(sum, counts))
+    _require_few(around * len(levels), plate.name)
+    rings = {
+        depth: np.concatenate([_corners(one[k], n) for one, n in zip(insets, counts, strict=True)])
+        for k, (depth, _) in enumerate(sections)
+    }
+    corners = np.concatenate([_raised(rings[depth], z) for depth, z in levels])
+    starts = np.cumsum([0, *map(sum, counts)])
+    loops = [np.arange(a, b) for a, b in pairwise(starts)]
+    top = _triangles([rings[sections[-1][0]][loop] for loop in loops], plate.name)
+    triangles = [top[:, ::-1], top + around * (len(levels) - 1)]
+    for level in range(len(levels) - 1):
+        for loop in loops:
+            triangles += _strips(loop + level * around, around)
+    body = _manifold(corners, triangles)
+    for hole in plate.cross:
+        body -= _drill(hole, contours, tolerance)
+    return body
 
-    Raises GenevaError for a step without thickness, and for outlines that cross.
+
+def _manifold(corners: Array, triangles: list[Numbers]) -> m3.Manifold:
+    return m3.Manifold(m3.Mesh64(corners, np.concatenate(triangles).astype(np.uint64)))
+
+
+def _strips(ring: Numbers, up: int) -> list[Numbers]:
+    """Return the walls over a closed ring of corners; each above has a number ``up`` greater."""
+    after = np.roll(ring, -1)
+    return [
+        np.column_stack((ring, after, after + up)),
+        np.column_stack((ring, after + up, ring + up)),
+    ]
+
+
+def _insets(contour: Contour, sections: list[tuple[float, float]]) -> list[tuple[Segment, ...]]:
+    """Return the pieces of a contour at the depth of each section; all have as many."""
+    if len(sections) == 1:
+        return [contour.segments]
+    own = lines_and_arcs(contour)
+    return [inset(own, "", depth).segments if depth else tuple(own) for depth, _ in sections]
+
+
+def _triangles(loops: list[Array], name: str) -> Numbers:
+    """Return the triangles of an outline with holes; raises GenevaError for loops that cross."""
+    triangles = m3.triangulate(loops)
+    p, q, r = np.concatenate(loops)[triangles.T]
+    twice = (q - p)[:, 0] * (r - p)[:, 1] - (q - p)[:, 1] * (r - p)[:, 0]
+    if not len(triangles) or twice.min() < -1e-6 * twice.sum():
+        raise _no_wall(name)
+    return triangles
+
+
+def _drill(hole: CrossHole, contours: list[Contour], tolerance: float) -> m3.Manifold:
+    """Return the cylinder of a hole across a plate, which ends beyond the two walls."""
+    low, high = hole.openings(contours)
+    over = -hole.radius, 0.0, hole.radius
+    start = min(low.x(y) for y in over) - hole.radius
+    end = max(high.x(y) for y in over) + hole.radius
+    chords = arc_chords(hole.radius, math.tau, tolerance)
+    drill = m3.Manifold.cylinder(end - start, hole.radius, circular_segments=chords)
+    drill = drill.rotate((0, 90, 0)).translate((start, 0, 0))
+    return drill.rotate((0, 0, math.degrees(hole.turn))).translate((*hole.at, hole.height))
+
+
+def _shell(shell: Shell, tolerance: float) -> m3.Manifold:
+    """Return a shell: a curved block between the spheres, in pyramids from the centre."""
+    require_thick(shell)
+    middle = unit(np.sum([region.middle for region in shell.regions], axis=0))
+    far = 1.01 * shell.outer
+    pyramids, reach = [], 0.0
+    for region in shell.regions:
+        arcs = [
+            arc.at(arc.sweep / n * np.arange(float(n)))[0]
+            for arc in region.boundary
+            for n in [arc_chords(shell.outer * math.sin(arc.angle), arc.sweep, tolerance)]
+        ]
+        around = np.concatenate(arcs)
+        reach = max(reach, float(np.arccos(around @ middle).max()))
+        frame = _frame(region.middle)
+        seen = around @ frame.T
+        flat = far * seen[:, :2] / seen[:, 2:]  # great circles are straight lines
+        here = np.arange(len(flat))
+        walls = np.column_stack((np.full_like(here, len(flat)), np.roll(here, -1), here))
+        corners = np.concatenate((_raised(flat, far), np.zeros((1, 3)))) @ frame
+        pyramids.append(_manifold(corners, [_triangles([flat], shell.name), walls]))
+    body = _block(shell, middle, reach, tolerance)
+    body ^= m3.Manifold.batch_boolean(pyramids, m3.OpType.Add)
+    for hole in shell.holes:
+        chords = arc_chords(hole.radius, math.tau, tolerance)
+        drill = m3.Manifold.cylinder(far, hole.radius, circular_segments=chords)
+        body -= drill.transform(np.column_stack((_frame(hole.axis).T, np.zeros(3))))
+    return body
+
+
+def _block(shell: Shell, middle: Vector, reach: float, tolerance: float) -> m3.Manifold:
+    """Return a block between the spheres of a shell, over all within ``reach`` of its middle."""
+    # A right triangle with legs a is at most a²/4R below a sphere.
+    step = 2.0 * math.sqrt(tolerance / shell.outer)
+    half = 1.02 * reach + step
+    count = math.ceil(2.0 * half / step)
+    _require_few(2 * count * count, shell.name)
+    across = np.linspace(-half, half, count + 1)
+    x, y = (one.ravel() for one in np.meshgrid(across, across, indexing="ij"))
+    angle = np.hypot(x, y)
+    ahead = np.column_stack((x, y, np.cos(angle)))
+    ahead[:, :2] *= np.sinc(angle / math.pi)[:, None]
+    sphere = ahead @ _frame(middle)
+    number = np.arange(len(sphere)).reshape(count + 1, count + 1)
+    a, b = number[:-1, :-1].ravel(), number[1:, :-1].ravel()
+    face = np.concatenate((np.column_stack((a, b, b + 1)), np.column_stack((a, b + 1, a + 1))))
+    ring = (number[:-1, 0], number[-1, :-1], number[:0:-1, -1], number[0, :0:-1])
+    walls = _strips(np.concatenate(ring), len(sphere))
+    corners = np.concatenate((shell.inner * sphere, shell.outer * sphere))
+    return _manifold(corners, [face[:, ::-1], face + len(sphere), *walls])
+
+
+def _frame(axis: Vector) -> Array:
+    """Return three perpendicular unit vectors, the last of which is an axis."""
+    x = square_to(axis)
+    return np.array((x, cross(axis, x), axis))
+
+
+def arc_chords(radius: float, sweep: float, tolerance: float) -> int:
+    """Return the number of chords of an arc of ``sweep`` radians; lengths in mm.
+
+    >>> arc_chords(10.0, 6.283185307179586, 0.01)
+    71
     """
-    fans = Fans()
+    # as in Polyarc.samples: 1 minus a cosine loses the digits of an arc that is nearly straight
+    most = 4.0 * math.asin(math.sqrt(0.5 * min(tolerance / radius, 1.0)))
+    # at least 8 chords in a whole turn
+    return max(1, math.ceil(abs(sweep) / min(most, math.tau / 8)))
 
-    @cache
-    def points(side: Side) -> list[Point]:
-        return chord_points(side, tolerance)
 
-    def along(run: Run) -> list[Point]:
-        own = points(run.side)
-        return own if run.forward else own[::-1]
+def _chords(segment: Segment, tolerance: float) -> int:
+    """Return the number of chords of a segment that keep a tolerance, mm."""
+    if isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
+        return arc_chords(segment.radius, segment.sweep, tolerance)
+    if isinstance(segment, Cubic):
+        a, b, c, d = np.array(segment)
+        bend = max(np.hypot(*(a - 2.0 * b + c)), np.hypot(*(b - 2.0 * c + d)))
+        # the second derivative is at most 6 bends, and a chord's error an eighth of it
+        return max(1, math.ceil(math.sqrt(0.75 * bend / tolerance)))
+    return 1
 
-    for plate in stack.plates:
-        plate_contours(plate)  # refuses what is no solid
-        for side in sides(outline_of(plate)):
-            for p, q in pairwise(points(side)):
-                fans.add([(*p, plate.low), (*q, plate.low), (*q, plate.high), (*p, plate.high)])
-    for level in levels(stack):
-        loops = [[point for run in runs for point in along(run)[:-1]] for runs in level.loops]
-        outer_first = loops if level.up else [loop[::-1] for loop in loops]
-        corners = [(*point, level.z) for loop in outer_first for point in loop]
-        for a, b, c in triangles(outer_first, stack.name):
-            fans.add([corners[k] for k in ((a, b, c) if level.up else (c, b, a))])
-    return fans.surface()
+
+def _corners(pieces: tuple[Segment, ...], counts: list[int]) -> Array:
+    """Return the starts of a contour's chords, (n, 2)."""
+    flat = [p for piece, n in zip(pieces, counts, strict=True) for p in points(piece, n)[:-1]]
+    return np.array(flat)
+
+
+def _raised(flat: Array, z: float) -> Array:
+    return np.column_stack((flat, np.full(len(flat), z)))
+
+
+def _rounded(corners: Array) -> Array:
+    """Return corners with DECIMALS, and without negative zeros."""
+    return np.round(corners, DECIMALS) + 0.0
+
+
+def _require_few(count: int, name: str) -> None:
+    if count > CORNERS_MAX:
+        raise GenevaError(
+            f"--tolerance: the mesh of the {name} takes more than {CORNERS_MAX} corners; use a "
+            "larger tolerance"
+        )
+
+
+def _no_wall(name: str) -> GenevaError:
+    return GenevaError(
+        f"{name}: its outline and holes leave no wall, so it has no mesh; use a smaller --tolerance"
+    )

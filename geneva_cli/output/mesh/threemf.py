@@ -14,8 +14,7 @@ from zipfile import ZIP_STORED, ZipFile, ZipInfo
 from geneva_cli.errors import clean
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.inks import inks
-from geneva_cli.output.mesh.polygons import DECIMALS
-from geneva_cli.output.mesh.solids import Body, Place, bodies
+from geneva_cli.output.mesh.solids import DECIMALS, Body, Place, bodies
 from geneva_cli.table import in_decimals
 
 PACKAGE = "http://schemas.openxmlformats.org/package/2006"

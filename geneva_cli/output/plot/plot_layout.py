@@ -1,13 +1,13 @@
-"""The layout of a figure: panels stacked over one x axis, for any pen.
+"""The layout of a figure: panels stacked over one x axis, for the pens of SVG, PDF and PNG.
 
-Lengths are in px of a page 820 px wide, y downwards. Each format has its own pen: SVG, PDF and
-pictures.
+Lengths are in px of a page 820 px wide, y downwards.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import NamedTuple, Protocol, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
@@ -16,6 +16,8 @@ from geneva_cli.output.plot.ticks import labels, mark_text, named, ticks
 
 Point: TypeAlias = tuple[float, float]
 Path: TypeAlias = Sequence[Point]
+Kind: TypeAlias = Literal["grid", "axis", "curve", "sample", "jump", "points"]
+Look: TypeAlias = Literal["start", "middle", "end", "bold"]  # a text's anchor; bold ones start
 
 PAGE = 820.0
 INCH = 82.0  # px of the layout in an inch: the page is ten inches wide
@@ -24,7 +26,6 @@ ABOVE, BELOW = 26.0, 44.0  # a panel's name; the last one's ticks and the axis' 
 TITLE, TEXT, SMALL = 15.0, 11.0, 10.0  # heights of letters
 LINE_HEIGHT = 14.0
 SAMPLE = 30.0  # length of a curve's sample in the legend
-START, MIDDLE, END = "start", "middle", "end"  # anchor of a text
 
 
 class Frame(NamedTuple):
@@ -52,7 +53,7 @@ class Frame(NamedTuple):
         return self.top + self.high
 
 
-class Pen(Protocol):
+class Pen(ABC):
     """A surface to draw on; ``number`` is a curve's, and determines its look."""
 
     def begin(self, name: str, frame: Frame) -> None:
@@ -63,36 +64,21 @@ class Pen(Protocol):
         """End a panel."""
         return
 
+    @abstractmethod
     def rest(self, x: float, y: float, wide: float, high: float) -> None:
         """Shade a stretch at rest."""
 
-    def grid(self, paths: Iterable[Path]) -> None:
-        """Draw lines of the grid."""
+    @abstractmethod
+    def draw(self, kind: Kind, paths: Iterable[Path], number: int = 0) -> None:
+        """Draw paths of a kind; those of points are single places."""
 
-    def axis(self, paths: Iterable[Path]) -> None:
-        """Draw axes."""
-
-    def curve(self, number: int, paths: Iterable[Path]) -> None:
-        """Draw the smooth pieces of a curve."""
-
-    def sample(self, number: int, place: Point, long: float) -> None:
-        """Draw a level sample of a curve from a place on."""
-        self.curve(number, [[place, (place[0] + long, place[1])]])
-
-    def jumps(self, number: int, paths: Iterable[Path]) -> None:
-        """Draw jumps as thin upright lines."""
-
-    def points(self, number: int, places: Path) -> None:
-        """Draw single points of a curve."""
-
+    @abstractmethod
     def dot(self, number: int, place: Point) -> None:
         """Draw the dot at a peak."""
 
-    def text(self, x: float, y: float, text: str, size: float = TEXT, hold: str = START) -> None:
+    @abstractmethod
+    def text(self, place: Point, text: str, size: float = TEXT, look: Look = "start") -> None:
         """Write a text on its base line."""
-
-    def bold(self, x: float, y: float, text: str, size: float = TEXT) -> None:
-        """Write a text in bold letters."""
 
 
 class FigureBlock(NamedTuple):
@@ -107,14 +93,14 @@ def blocks(figure: Figure) -> Iterator[FigureBlock]:
     known = figure.curves()
     several = len(known) > 1
     legend = _legend(known.values()) if several else []
-    yield FigureBlock(
-        (legend[-1][2] if legend else TITLE + 14.0), lambda pen, top: _head(figure, legend, pen)
-    )
+    high = legend[-1][2] if legend else TITLE + 14.0
+    yield FigureBlock(high, lambda pen, top: _head(figure, legend, pen))
     # a panel's height, by the number of panels
     high = {1: 300.0, 2: 220.0, 3: 160.0}.get(len(figure.panels), 112.0)
     marked = any(curve.marks for panel in figure.panels for curve in panel.curves)
     wide = PAGE - LEFT - (MARKS if marked else RIGHT)
-    yield from (_block(figure, panel, wide, high, several) for panel in figure.panels)
+    for panel in figure.panels:
+        yield _block(figure, panel, wide, high, several)
 
 
 def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool) -> FigureBlock:
@@ -145,10 +131,11 @@ def padded(panel: Panel) -> tuple[float, float]:
 
 def _head(figure: Figure, legend: list[tuple[Curve, float, float, str]], pen: Pen) -> None:
     most = int((PAGE - 2.0 * RIGHT) / (LETTER * TITLE))
-    pen.bold(RIGHT, TITLE + 8.0, cut(clean(figure.title).strip(), most), TITLE)
+    title = cut(clean(figure.title).strip(), most)
+    pen.text((RIGHT, TITLE + 8.0), title, TITLE, "bold")
     for curve, x, y, name in legend:
         _sample(curve, x, y, SAMPLE, pen)
-        pen.text(x + SAMPLE + 6.0, y, name)
+        pen.text((x + SAMPLE + 6.0, y), name)
 
 
 def _legend(curves: Iterable[Curve]) -> list[tuple[Curve, float, float, str]]:
@@ -167,9 +154,9 @@ def _legend(curves: Iterable[Curve]) -> list[tuple[Curve, float, float, str]]:
 def _sample(curve: Curve, x: float, y: float, long: float, pen: Pen) -> None:
     middle = y - 0.35 * TEXT
     if curve.style != POINTS:
-        pen.sample(curve.number, (x, middle), long)
+        pen.draw("sample", [[(x, middle), (x + long, middle)]], curve.number)
     if curve.style != LINE:
-        pen.points(curve.number, [(x + 0.5 * long, middle)])
+        pen.draw("points", [[(x + 0.5 * long, middle)]], curve.number)
 
 
 def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: Pen) -> None:
@@ -180,14 +167,14 @@ def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen:
         pen.rest(frame.x(a), frame.top, frame.x(b) - frame.x(a), frame.high)
     level = [[(LEFT, frame.y(v)), (right, frame.y(v))] for v in up]
     upright = [[(frame.x(v), frame.top), (frame.x(v), frame.bottom)] for v in across]
-    pen.grid(level + upright)
+    pen.draw("grid", level + upright)
     axes = [[(LEFT, frame.top), (LEFT, frame.bottom), (right, frame.bottom)]]
     if frame.span[0] < 0.0 < frame.span[1]:
         axes.append([(LEFT, frame.y(0.0)), (right, frame.y(0.0))])
-    pen.axis(axes)
+    pen.draw("axis", axes)
     for value, label in zip(up, labels(up), strict=True):
-        pen.text(LEFT - 6.0, frame.y(value) + 0.35 * SMALL, label, SMALL, END)
-    pen.bold(LEFT, frame.top - 7.0, named(panel.y))
+        pen.text((LEFT - 6.0, frame.y(value) + 0.35 * SMALL), label, SMALL, "end")
+    pen.text((LEFT, frame.top - 7.0), named(panel.y), look="bold")
     for curve in panel.curves:
         _curve(curve, frame, pen)
 
@@ -197,13 +184,13 @@ def _curve(curve: Curve, frame: Frame, pen: Pen) -> None:
         [(frame.x(x), frame.y(y)) for x, y in zip(*piece, strict=True)] for piece in curve.pieces
     ]
     if curve.style != POINTS:
-        pen.curve(curve.number, pieces)
+        pen.draw("curve", pieces, curve.number)
     jumps = [((frame.x(x), frame.y(a)), (frame.x(x), frame.y(b))) for x, a, b in curve.jumps()]
     visible = [jump for jump in jumps if abs(jump[1][1] - jump[0][1]) > 0.05]  # px
     if visible and curve.style == LINE:
-        pen.jumps(curve.number, visible)
+        pen.draw("jump", visible, curve.number)
     if curve.style != LINE:
-        pen.points(curve.number, [place for piece in pieces for place in piece])
+        pen.draw("points", [[place] for piece in pieces for place in piece], curve.number)
 
 
 def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) -> None:
@@ -216,15 +203,15 @@ def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) 
             if several:
                 _sample(curve, x, y, 0.8 * SAMPLE, pen)
             words = mark_text(mark, "°" if figure.x.unit else "")
-            pen.text(x + (SAMPLE if several else 0.0), y, words)
+            pen.text((x + (SAMPLE if several else 0.0), y), words)
             y += LINE_HEIGHT
 
 
 def _below(figure: Figure, frame: Frame, across: list[float], pen: Pen) -> None:
     """Write the numbers and the name of the x axis."""
     for value, label in zip(across, labels(across), strict=True):
-        pen.text(frame.x(value), frame.bottom + 15.0, label, hold=MIDDLE)
-    pen.text(LEFT + 0.5 * frame.wide, frame.bottom + 34.0, named(figure.x), hold=MIDDLE)
+        pen.text((frame.x(value), frame.bottom + 15.0), label, look="middle")
+    pen.text((LEFT + 0.5 * frame.wide, frame.bottom + 34.0), named(figure.x), look="middle")
 
 
 def _dwell(figure: Figure, frame: Frame, pen: Pen) -> None:
@@ -234,5 +221,5 @@ def _dwell(figure: Figure, frame: Frame, pen: Pen) -> None:
     for a, b in figure.shaded:
         middle = 0.5 * (frame.x(a) + frame.x(b))
         if frame.x(b) - frame.x(a) > needs and middle - needs > taken:
-            pen.text(middle, frame.top - 7.0, "dwell", hold=MIDDLE)
+            pen.text((middle, frame.top - 7.0), "dwell", look="middle")
             return

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import partial
+from typing import ClassVar
 
 from geneva_cli.figure import Figure
 from geneva_cli.output.inks import LIGHT, colour, dashes
@@ -12,12 +13,12 @@ from geneva_cli.output.pdf import pdf_file
 from geneva_cli.output.pdf.pdf_file import POINT, number, tint
 from geneva_cli.output.pdf.pdf_pages import INK, LEFT, WIDE, Item, box, wide, words
 from geneva_cli.output.plot.plot_layout import (
-    END,
     INCH,
     PAGE,
-    START,
     TEXT,
     FigureBlock,
+    Kind,
+    Look,
     Path,
     Pen,
     Point,
@@ -56,6 +57,15 @@ def _drawn(block: FigureBlock, left: float, scale: float, top: float) -> str:
 class _PdfPen(Pen):
     """Operators of a page, in mm; y upwards."""
 
+    WIDTHS: ClassVar = {
+        "grid": 0.5,
+        "axis": 0.9,
+        "curve": 1.6,
+        "sample": 1.6,
+        "jump": 0.8,
+        "points": 4.0,
+    }
+
     def __init__(self, left: float, scale: float, top: float) -> None:
         self.left, self.scale, self.top = left, scale, top
         self.out: list[str] = []
@@ -64,49 +74,27 @@ class _PdfPen(Pen):
         (left, bottom), k = self._place((x, y + high)), self.scale
         self.out.append(box(left, bottom, k * wide, k * high, tint(LIGHT.rest)))
 
-    def grid(self, paths: Iterable[Path]) -> None:
-        self._stroke(LIGHT.grid, 0.5, paths)
-
-    def axis(self, paths: Iterable[Path]) -> None:
-        self._stroke(LIGHT.axis, 0.9, paths)
-
-    def curve(self, number: int, paths: Iterable[Path]) -> None:
-        self._stroke(colour(number, LIGHT), 1.6, paths, dashes(number))
-
-    def jumps(self, number: int, paths: Iterable[Path]) -> None:
-        self._stroke(colour(number, LIGHT), 0.8, paths)
-
-    def points(self, number: int, places: Path) -> None:
-        self._stroke(colour(number, LIGHT), 4.0, [[place] for place in dict.fromkeys(places)])
+    def draw(self, kind: Kind, paths: Iterable[Path], number: int = 0) -> None:
+        ink = {"grid": LIGHT.grid, "axis": LIGHT.axis}.get(kind) or colour(number, LIGHT)
+        if kind == "points":
+            paths = dict.fromkeys(map(tuple, paths))
+        self._stroke(ink, self.WIDTHS[kind], paths, number if kind in ("curve", "sample") else 0)
 
     def dot(self, number: int, place: Point) -> None:
         self._stroke(colour(number, LIGHT), 5.6, [[place]])
 
-    def text(self, x: float, y: float, text: str, size: float = TEXT, hold: str = START) -> None:
-        self._words(x, y, text, size, hold)
+    def text(self, place: Point, text: str, size: float = TEXT, look: Look = "start") -> None:
+        (x, y), size = self._place(place), self.scale * size
+        before = {"end": 1.0, "middle": 0.5}.get(look, 0.0) * wide(text, size)
+        self.out.append(words(text, (x - before, y), size, look == "bold", INK))
 
-    def bold(self, x: float, y: float, text: str, size: float = TEXT) -> None:
-        self._words(x, y, text, size, START, bold=True)
-
-    def _words(
-        self, x: float, y: float, text: str, size: float, hold: str, bold: bool = False
-    ) -> None:
-        (x, y), size = self._place((x, y)), self.scale * size
-        before = 0.0 if hold == START else wide(text, size, bold) * (1.0 if hold == END else 0.5)
-        self.out.append(words(text, (x - before, y), size, bold, INK))
-
-    def _stroke(
-        self, ink: str, width: float, paths: Iterable[Path], pattern: tuple[float, ...] = ()
-    ) -> None:
-        """Draw lines with round ends; a path of one place is a dot."""
-        dash = " ".join(number(self.scale * x) for x in pattern)
+    def _stroke(self, ink: str, width: float, paths: Iterable[Path], dashed: int = 0) -> None:
+        """Draw lines with round ends and a curve's dashes; a path of one place is a dot."""
+        dash = " ".join(number(self.scale * x) for x in dashes(dashed))
         self.out.append(f"{tint(ink)} RG {number(self.scale * width)} w [{dash}] 0 d\n")
         for path in paths:
-            first, *rest = dict.fromkeys(self._at(place) for place in path)
+            first, *rest = dict.fromkeys(pdf_file.point(self._place(place)) for place in path)
             self.out.append(f"{first} m\n" + "".join(f"{p} l\n" for p in rest or [first]) + "S\n")
 
     def _place(self, place: Point) -> Point:
         return self.left + self.scale * place[0], self.top - self.scale * place[1]
-
-    def _at(self, place: Point) -> str:
-        return pdf_file.point(self._place(place))

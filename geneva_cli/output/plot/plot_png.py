@@ -9,7 +9,17 @@ from typing import Any
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import Figure
 from geneva_cli.output.inks import LIGHT, colour, dashes
-from geneva_cli.output.plot.plot_layout import INCH, PAGE, START, TEXT, Path, Pen, Point, blocks
+from geneva_cli.output.plot.plot_layout import (
+    INCH,
+    PAGE,
+    TEXT,
+    Kind,
+    Look,
+    Path,
+    Pen,
+    Point,
+    blocks,
+)
 
 PT = 72.0 / INCH  # points per px
 
@@ -54,43 +64,27 @@ class _PngPen(Pen):
         corners = [x, x + wide, x + wide, x], [y, y, y + high, y + high]
         self.axes.fill(*corners, color=LIGHT.rest, linewidth=0.0)
 
-    def grid(self, paths: Iterable[Path]) -> None:
-        self._stroke(LIGHT.grid, 0.6, paths)
-
-    def axis(self, paths: Iterable[Path]) -> None:
-        self._stroke(LIGHT.axis, 1.0, paths)
-
-    def curve(self, number: int, paths: Iterable[Path]) -> None:
-        pattern = dashes(number)
+    def draw(self, kind: Kind, paths: Iterable[Path], number: int = 0) -> None:
+        if kind == "points":
+            for (place,) in paths:
+                self._dot(number, place, 4.0)
+            return
+        ink = {"grid": LIGHT.grid, "axis": LIGHT.axis}.get(kind) or colour(number, LIGHT)
+        pattern = dashes(number) if kind in ("curve", "sample") else ()
         style: Any = (0.0, [PT * x for x in pattern]) if pattern else "-"
-        self._stroke(colour(number, LIGHT), 1.6, paths, style)
-
-    def jumps(self, number: int, paths: Iterable[Path]) -> None:
-        self._stroke(colour(number, LIGHT), 0.8, paths)
-
-    def points(self, number: int, places: Path) -> None:
-        for place in places:
-            self._dot(number, place, 4.0)
+        width = PT * {"grid": 0.6, "axis": 1.0, "jump": 0.8}.get(kind, 1.6)
+        for path in paths:
+            self.axes.plot(*zip(*path, strict=True), color=ink, lw=width, ls=style)
 
     def dot(self, number: int, place: Point) -> None:
         self._dot(number, place, 5.6)
 
-    def text(self, x: float, y: float, text: str, size: float = TEXT, hold: str = START) -> None:
-        alignment = {"start": "left", "middle": "center", "end": "right"}
-        self._words(x, y, text, size=PT * size, ha=alignment[hold])
-
-    def bold(self, x: float, y: float, text: str, size: float = TEXT) -> None:
-        self._words(x, y, text, size=PT * size, weight="bold")
-
-    def _words(self, x: float, y: float, text: str, **look: Any) -> None:
+    def text(self, place: Point, text: str, size: float = TEXT, look: Look = "start") -> None:
         plain = text.replace("$", r"\$")  # not a formula
-        self.axes.text(x, y, plain, va="baseline", color=LIGHT.text, **look)
+        words = self.axes.text(*place, plain, va="baseline", color=LIGHT.text, size=PT * size)
+        words.set_ha({"middle": "center", "end": "right"}.get(look, "left"))
+        words.set_weight("bold" if look == "bold" else "normal")
 
     def _dot(self, number: int, place: Point, size: float) -> None:
         ink = colour(number, LIGHT)
         self.axes.plot(*([v] for v in place), "o", ms=PT * size, mew=0.0, color=ink)
-
-    def _stroke(self, ink: str, width: float, paths: Iterable[Path], style: Any = "-") -> None:
-        for path in paths:
-            x, y = zip(*path, strict=True)
-            self.axes.plot(x, y, color=ink, lw=PT * width, ls=style)

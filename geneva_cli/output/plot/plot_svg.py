@@ -14,9 +14,10 @@ from geneva_cli.output.inks import DARK, LIGHT, Paper, colour, dashes
 from geneva_cli.output.plot.plot_layout import (
     LEFT,
     PAGE,
-    START,
     TEXT,
     Frame,
+    Kind,
+    Look,
     Path,
     Pen,
     Point,
@@ -92,55 +93,40 @@ class _SvgPen(Pen):
             f'<rect class="rest" x="{_n(x)}" y="{_n(y)}" width="{_n(wide)}" height="{_n(high)}"/>\n'
         )
 
-    def grid(self, paths: Iterable[Path]) -> None:
-        self._path("grid", paths)
-
-    def axis(self, paths: Iterable[Path]) -> None:
-        self._path("axis", paths)
-
-    def curve(self, number: int, paths: Iterable[Path]) -> None:
-        self._path(f"curve c{number}", paths)
-
-    def sample(self, number: int, place: Point, long: float) -> None:
-        self.out.append(f'<path class="curve c{number}" d="M{_at(place)}h{_n(long)}"/>\n')
-
-    def jumps(self, number: int, paths: Iterable[Path]) -> None:
-        words = [f"M{_at(before)}V{_n(after[1])}" for before, after in paths]
-        self.out.append(f'<path class="jump c{number}" d="{"".join(words)}"/>\n')
-
-    def points(self, number: int, places: Path) -> None:
-        dots = "".join(f"M{at}h0" for at in dict.fromkeys(map(_at, places)))
-        self.out.append(f'<path class="points c{number}" d="{dots}"/>\n')
+    def draw(self, kind: Kind, paths: Iterable[Path], number: int = 0) -> None:
+        if kind == "sample":
+            words = [f"M{_at(start)}h{_n(end[0] - start[0])}" for start, end in paths]
+        elif kind == "jump":
+            words = [f"M{_at(before)}V{_n(after[1])}" for before, after in paths]
+        elif kind == "points":
+            words = [f"M{at}h0" for at in dict.fromkeys(_at(place) for (place,) in paths)]
+        else:
+            words = list(_joined(paths))
+        look = {"grid": "grid", "axis": "axis", "sample": f"curve c{number}"}
+        name = look.get(kind, f"{kind} c{number}")
+        self.out.append(f'<path class="{name}" d="{"".join(words)}"/>\n')
 
     def dot(self, number: int, place: Point) -> None:
         x, y = map(_n, place)
         self.out.append(f'<circle class="d{number}" cx="{x}" cy="{y}" r="2.8"/>\n')
 
-    def text(self, x: float, y: float, text: str, size: float = TEXT, hold: str = START) -> None:
-        more = "" if hold == START else f' text-anchor="{hold}"'
-        self._text(x, y, text, more + _size(size))
-
-    def bold(self, x: float, y: float, text: str, size: float = TEXT) -> None:
-        self._text(x, y, text, f'{_size(size)} font-weight="bold"')
-
-    def _path(self, kind: str, paths: Iterable[Path]) -> None:
-        """Add paths; one that begins at the end of the one before continues it."""
-        words: list[str] = []
-        last = ""
-        for path in paths:
-            places = list(map(_at, path))
-            if places[0] != last:
-                words.append("M" + places[0])
-            words += [" " + place for place in places[1:]]
-            last = places[-1]
-        self.out.append(f'<path class="{kind}" d="{"".join(words)}"/>\n')
-
-    def _text(self, x: float, y: float, text: str, more: str) -> None:
-        self.out.append(f'<text x="{_n(x)}" y="{_n(y)}"{more}>{escape(text, quote=False)}</text>\n')
+    def text(self, place: Point, text: str, size: float = TEXT, look: Look = "start") -> None:
+        more = f' text-anchor="{look}"' if look in ("middle", "end") else ""
+        more += "" if size == TEXT else f' font-size="{_n(size)}"'
+        more += ' font-weight="bold"' if look == "bold" else ""
+        x, y = map(_n, place)
+        self.out.append(f'<text x="{x}" y="{y}"{more}>{escape(text, quote=False)}</text>\n')
 
 
-def _size(size: float) -> str:
-    return "" if size == TEXT else f' font-size="{_n(size)}"'
+def _joined(paths: Iterable[Path]) -> Iterator[str]:
+    """Yield the words of paths; one that begins at the end of the one before continues it."""
+    last = ""
+    for path in paths:
+        places = list(map(_at, path))
+        if places[0] != last:
+            yield "M" + places[0]
+        yield from (" " + place for place in places[1:])
+        last = places[-1]
 
 
 def _at(place: Point) -> str:

@@ -12,10 +12,9 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from geneva_cli.geometry.edges import Edge
 from geneva_cli.geometry.inset import corner, corner_slope, inset, lines_and_arcs
 from geneva_cli.geometry.moments import with_material_left
-from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.plates import Edge, Plate
 from geneva_cli.geometry.round_holes import CrossHole, Opening
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape
 from geneva_cli.output.splines import Piece

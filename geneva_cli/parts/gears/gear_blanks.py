@@ -1,8 +1,7 @@
-"""Round gears as plates: whole, in sectors about a hub, or as a ring.
+"""Round gears as plates: whole, in sectors about a hub, or as a ring; with teeth or as blanks.
 
-With ``gear_module_mm`` they have teeth. Without it they are blanks up to the pitch circle. Teeth
-stand out of it about as much as their gaps go into it. So a blank's mass is a gear's within a few
-percent. A gear that stands still is screwed to the frame.
+Teeth stand out of the pitch circle about as much as their gaps go into it. So a blank's mass is a
+gear's within a few percent. A gear that stands still is screwed to the frame.
 """
 
 from __future__ import annotations
@@ -102,8 +101,8 @@ def link_gear(
     radius = link.radius_mm
     if cut:
         radius = cut.teeth.tip if teeth.inside else cut.teeth.root
-    shaft = _bored_by(at, L)
-    low, high = sizes.span(link.plane)
+    # the key that sets its bore
+    shaft = {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
     if teeth.fixed:
         on = ShaftBore(on.bore.running)
     bore = on.bore.reach
@@ -118,21 +117,18 @@ def link_gear(
         hub = sizes.hub(on.bore)
         if not teeth.all_round:
             _refuse(link.name, radius - hub, "hub", shaft)
-            outline = sectors(radius, hub, teeth)
+            outline = _sectors(radius, hub, teeth)
     _refuse(link.name, outer - inner, "bore", shaft)
     if teeth.fixed:
         # the first at 45 degrees, off the line on which the shafts lie
         holes += bolt_circle(size, "gear", L, (inner, outer), 0.25 * math.pi).holes
-    plate = Plate(link.name, "PITCH", outline, tuple(holes), low, high)
+    plate = Plate(link.name, "PITCH", outline, tuple(holes), *sizes.span(link.plane))
     _refuse(link.name, plate_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
     return Gear(at, link.radius_mm, ShaftBore() if teeth.inside else on, teeth, plate, cut)
 
 
 def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:
-    """Return the outline of a gear with teeth, or of the opening of a ring.
-
-    ``hub`` is the radius of the outline between sectors.
-    """
+    """Return the outline of a gear with teeth, or of the opening of a ring."""
     one, step = gear.teeth.one(write), gear.teeth.step
     last = gear.teeth._replace(tip=gear.last_tip).one(write) if gear.last_tip else one
     between = [gear.teeth.between()]
@@ -152,40 +148,31 @@ def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:
     return closed("LINK", pieces)
 
 
-def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
+def _sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
     """Return evenly spaced sectors of a pitch circle, joined by the hub between them."""
-    wide = math.radians(teeth.each_deg)
-    pitch = math.tau / teeth.sectors
+    wide, pitch = math.radians(teeth.each_deg), math.tau / teeth.sectors
+    first = math.radians(teeth.middle_deg) - 0.5 * wide
+    end = about(ORIGIN, hub, first, 1.0).start
     pieces: list[Segment] = []
     for k in range(teeth.sectors):
-        start = math.radians(teeth.middle_deg) + k * pitch - 0.5 * wide
+        start = first + k * pitch
         rim = about(ORIGIN, radius, start, wide)
         back = about(ORIGIN, hub, start + wide, pitch - wide)
-        first = pieces[-1].end if pieces else about(ORIGIN, hub, start, 1.0).start
-        pieces += [Line(first, rim.start), rim, Line(rim.end, back.start), back]
+        pieces += [Line(end, rim.start), rim, Line(rim.end, back.start), back]
+        end = back.end
     return closed("PITCH", pieces)
 
 
-def _bored_by(at: Point, L: float) -> str:
-    """Return the key that sets the bore of a gear, by the shaft that carries the gear."""
-    return {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
-
-
 def _refuse(name: str, wall: float, what: str, shaft: str) -> None:
-    """Raise GenevaError where a hole, or a hub, leaves nothing of a gear.
-
-    ``shaft`` is the key that sets its bore.
-    """
+    """Raise GenevaError where a hole, or a hub, leaves nothing of a gear bored by a key."""
     if wall > 0.0:
         return
+    # the crank's shaft is as wide as its arm's bore, which is the locking disc's by default
+    arm = " or arm_bore_mm" if shaft == "crank_bore_mm" else ""
+    key, reach, remedy = shaft, f"{what} reaches", f"a smaller {shaft}{arm} leaves"
     if what == "bolts":
         key, reach = "gear_bolt_circle_mm", "bolts reach"
         remedy = "the default gear_bolt_circle_mm, a smaller gear_bolt_mm or fewer gear_bolts leave"
-    else:
-        key, reach = shaft, f"{what} reaches"
-        # the crank's shaft is as wide as its arm's bore, which is the locking disc's by default
-        arm = " or arm_bore_mm" if shaft == "crank_bore_mm" else ""
-        remedy = f"a smaller {shaft}{arm} leaves"
     raise GenevaError(
         f"no blank of the {name} is left: its {reach} {-wall:.4g} mm too far; {remedy} some",
         ("size", key),

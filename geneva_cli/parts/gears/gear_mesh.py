@@ -1,7 +1,7 @@
-"""Numbers of teeth and profile shifts of two round gears, for the distance of their axes.
+"""Numbers of teeth and profile shifts of two round gears, for the distance a of their axes.
 
-Module, ratio and distance a are known. Whole gears get the numbers of teeth whose distance without
-shift comes nearest to a. The sum of the shifts x makes up the rest:
+Whole gears get the numbers of teeth whose distance without shift comes nearest to a. The sum of the
+shifts x makes up the rest:
 
     inv w = inv 20° + 2 (x1 + x2) tan 20°/(z1 + z2),    cos w = cos 20° (z1 + z2) m/(2 a)
 
@@ -15,7 +15,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.gear_teeth import Rack, RoundTeeth, involute
@@ -24,6 +24,9 @@ from geneva_cli.motion.pivots import Dimension, Link
 from geneva_cli.numerics.preferred import gear_modules
 from geneva_cli.spec.tables import Size
 
+# directions of the middles of a gear's teeth, of each sector, radians; of a ring, of its spaces
+Middles: TypeAlias = tuple[tuple[float, ...], ...]
+
 
 class ToothedGear(NamedTuple):
     """One of two gears in mesh: its teeth about its axis, and the directions of their middles."""
@@ -31,7 +34,7 @@ class ToothedGear(NamedTuple):
     teeth: RoundTeeth
     z: float  # teeth of the whole circle; of a sector not a whole number
     shift: float  # profile shift in modules, before the backlash is taken off
-    middles: tuple[tuple[float, ...], ...]  # of each sector, radians; of a ring, of its spaces
+    middles: Middles
     last_tip: float = 0.0  # of a driving sector: the radius at which its last tooth ends, mm
 
     @property
@@ -62,40 +65,38 @@ class GearMesh(NamedTuple):
     @property
     def layout(self) -> tuple[Dimension, ...]:
         """Dimensions of both gears and of their mesh."""
-        return (*self._gears(), *self._common())
+        rack = next(iter(self.gears.values())).teeth.rack
+        return (
+            *self._of_gears(),
+            Dimension("gears' module", rack.module, "mm"),
+            Dimension("gears' pressure angle", math.degrees(rack.angle), "deg"),
+            Dimension("gears' pressure angle at work", math.degrees(self.pressure_angle), "deg"),
+            Dimension("gears' contact ratio", self.contact_ratio),
+        )
 
-    def _gears(self) -> Iterator[Dimension]:
+    def _of_gears(self) -> Iterator[Dimension]:
         for name, gear in self.gears.items():
-            teeth, (over, span) = gear.teeth, gear.span
-            each = len(gear.middles[0])
+            teeth, (over, span), each = gear.teeth, gear.span, len(gear.middles[0])
             yield Dimension(f"{name}: teeth{' of a sector' * (gear.z != each)}", each)
             yield Dimension(f"{name}: profile shift x", gear.shift)
-            yield Dimension(f"{name}: reference diameter", 2.0 * teeth.radius, "mm")
-            yield Dimension(f"{name}: base diameter", 2.0 * teeth.base, "mm")
-            yield Dimension(f"{name}: tip diameter", 2.0 * (teeth.opening or teeth.tip), "mm")
-            if gear.last_tip:
-                yield Dimension(f"{name}: last tooth's tip diameter", 2.0 * gear.last_tip, "mm")
             root = teeth.tip if teeth.opening else teeth.root
-            yield Dimension(f"{name}: root diameter", 2.0 * root, "mm")
+            for what, radius in (
+                ("reference", teeth.radius),
+                ("base", teeth.base),
+                ("tip", teeth.opening or teeth.tip),
+                ("last tooth's tip", gear.last_tip),
+                ("root", root),
+            ):
+                if radius:
+                    yield Dimension(f"{name}: {what} diameter", 2.0 * radius, "mm")
             if over:
                 yield Dimension(f"{name}: span over {over} teeth", span, "mm")
-
-    def _common(self) -> Iterator[Dimension]:
-        rack = next(iter(self.gears.values())).teeth.rack
-        yield Dimension("gears' module", rack.module, "mm")
-        yield Dimension("gears' pressure angle", math.degrees(rack.angle), "deg")
-        yield Dimension("gears' pressure angle at work", math.degrees(self.pressure_angle), "deg")
-        yield Dimension("gears' contact ratio", self.contact_ratio)
 
 
 def with_tips(
     one: RoundTeeth, other: RoundTeeth, shifts: tuple[float, float], distance: float, angle: float
 ) -> tuple[RoundTeeth, RoundTeeth]:
-    """Return two outer gears at a distance of their axes, mm, with tips.
-
-    A tip ends a quarter of a module from the other gear's root, and no farther out than the other
-    gear's flank reaches. ``angle`` is the pressure angle at work, radians.
-    """
+    """Return two outer gears at a distance of their axes, mm, with tips."""
     far, module = distance * math.sin(angle), one.rack.module
     tips = [
         min(
@@ -108,10 +109,7 @@ def with_tips(
 
 
 def contact_ratio(small: RoundTeeth, large: RoundTeeth, distance: float, angle: float) -> float:
-    """Return the mean number of teeth in contact of two gears, or of a gear in a ring.
-
-    It is the length of the line of action between their tips, over the pitch of the base circles.
-    """
+    """Return the mean number of teeth in contact of two gears, or of a gear in a ring."""
     sign, rack = -1.0 if large.opening else 1.0, small.rack
     path = small.tangent(small.tip) - sign * distance * math.sin(angle)
     path += sign * large.tangent(large.opening or large.tip)
@@ -141,10 +139,9 @@ def _remedies(size: Size) -> Iterator[tuple[str, Size]]:
     now, modules = size.gear_module_mm or 0.0, gear_modules()
     for module in (m for m in modules if m < now):
         yield f"gear_module_mm = {module:g} is small enough", size.replace(gear_module_mm=module)
-    if size.gear_shift is not None:
-        yield "remove gear_shift", size.replace(gear_shift=None)
-    if size.gear_teeth is not None:
-        yield "remove gear_teeth", size.replace(gear_teeth=None)
+    for key in ("gear_shift", "gear_teeth"):
+        if vars(size)[key] is not None:
+            yield f"remove {key}", size.replace(**{key: None})
     yield "reduce gear_backlash_mm", size.replace(gear_backlash_mm=0.0)
     for module in (m for m in reversed(modules) if m > now):
         yield f"gear_module_mm = {module:g} is large enough", size.replace(gear_module_mm=module)
@@ -156,18 +153,19 @@ class _Pair:
     def __init__(self, driver: Link, driven: Link, at: tuple[Point, Point], size: Size) -> None:
         assert size.gear_module_mm is not None
         self.driver, self.driven, self.size = driver, driven, size
-        links = sorted(zip((driver, driven), at, strict=True), key=lambda one: one[0].radius_mm)
-        (self.small, near), (self.large, far) = links
+        pairs = sorted(zip((driver, driven), at, strict=True), key=lambda one: one[0].radius_mm)
+        (self.small, near), (self.large, far) = pairs
+        self.links = self.small, self.large
         self.module = size.gear_module_mm
         self.rack = Rack(self.module)
         self.ring = self.large.teeth.inside
         self.sign = -1.0 if self.ring else 1.0
-        self.whole = all(one.teeth.all_round for one, _ in links)
+        self.whole = all(link.teeth.all_round for link in self.links)
         self.distance = self.large.radius_mm + self.sign * self.small.radius_mm
         # a ring's teeth meet its gear on the far side of the gear's axis
         ahead = self.sign * (complex(*far) - complex(*near))
         self.towards = cmath.phase(ahead), cmath.phase(-self.sign * ahead)
-        small, large = (2.0 * one.radius_mm / self.module for one, _ in links)
+        small, large = (2.0 * link.radius_mm / self.module for link in self.links)
         self.counts = small, large
         if self.whole:
             count = max(round(small), 1) if size.gear_teeth is None else size.gear_teeth
@@ -193,25 +191,17 @@ class _Pair:
         thinner = 0.5 * self.size.allowances.gear_backlash_mm * (apart / self.distance)
         off = 0.5 * thinner / (self.module * math.tan(self.rack.angle))
         shifts = self._shifts(angle, off)
-        small, large = self._teeth(shifts, off, angle)
-        for teeth, link in ((small, self.small), (large, self.large)):
+        both = self._teeth(shifts, off, angle)
+        for teeth, link in zip(both, self.links, strict=True):
             self._refuse(teeth, link)
-        contact = contact_ratio(small, large, self.distance, angle)
+        contact = contact_ratio(*both, self.distance, angle)
         if contact < 1.0:
             raise self._error(f"teeth lose contact: their contact ratio would be {contact:.3g}")
-        lower = 0.0
-        if self.whole:
-            middles = self._all_round(small, large)
-        else:
-            middles, lower = self._sectors(small, large)
-        gears = {
-            link.name: ToothedGear(
-                teeth, count, x, middles[link.name], lower if link is self.driver else 0.0
-            )
-            for link, teeth, count, x in zip(
-                (self.small, self.large), (small, large), self.counts, shifts, strict=True
-            )
-        }
+        middles, last_tip = self._all_round(*both) if self.whole else self._sectors(*both)
+        gears = {}
+        for link, teeth, z, x in zip(self.links, both, self.counts, shifts, strict=True):
+            lower = last_tip if link is self.driver else 0.0
+            gears[link.name] = ToothedGear(teeth, z, x, middles[link.name], lower)
         return GearMesh(gears, angle, contact)
 
     def _shifts(self, angle: float, off: float) -> tuple[float, float]:
@@ -262,7 +252,6 @@ class _Pair:
             raise self._error(f"teeth of the {link.name} would be pointed")
 
     def _error(self, what: str) -> GenevaError:
-        """Return the error for teeth that cannot be made."""
         key, value = "gear_module_mm", self.module
         if self.size.gear_shift is not None:
             key, value = "gear_shift", self.size.gear_shift
@@ -271,36 +260,29 @@ class _Pair:
             f"{key} = {value:g}: of {small:.4g} and {large:.4g}, {what}", ("size", key)
         )
 
-    def _all_round(
-        self, small: RoundTeeth, large: RoundTeeth
-    ) -> dict[str, tuple[tuple[float, ...], ...]]:
-        """Return the directions of all teeth: the smaller gear has one on the line of centres.
-
-        It lies in a space of the larger one.
-        """
-        out: dict[str, tuple[tuple[float, ...], ...]] = {}
-        space = 0.0 if self.ring else 0.5
-        pairs = zip(
-            (self.small, self.large), (small, large), self.towards, (0.0, space), strict=True
-        )
-        for link, teeth, towards, first in pairs:
+    def _all_round(self, *both: RoundTeeth) -> tuple[dict[str, Middles], float]:
+        """Return the directions of all teeth: the smaller gear has one on the line of centres."""
+        out: dict[str, Middles] = {}
+        firsts = 0.0, 0.0 if self.ring else 0.5
+        for link, teeth, towards, first in zip(self.links, both, self.towards, firsts, strict=True):
             count = round(math.tau / teeth.step)
             out[link.name] = (
                 tuple(towards + math.tau * (k + first) / count for k in range(count)),
             )
-        return out
+        return out, 0.0
 
-    def _sectors(
-        self, small: RoundTeeth, large: RoundTeeth
-    ) -> tuple[dict[str, tuple[tuple[float, ...], ...]], float]:
+    def _sectors(self, *both: RoundTeeth) -> tuple[dict[str, Middles], float]:
         """Return the directions of the teeth on sectors, and the driver's last tip, mm.
 
         Before and after the driving arc the driven gear is slower than the teeth. So the first pair
         comes into contact where the arc starts. The driver's last tooth is lower, so that it leaves
         where the arc ends; else it would jam.
         """
-        teeth = dict(zip((self.small.name, self.large.name), (small, large), strict=True))
-        towards = dict(zip(teeth, self.towards, strict=True))
+        names = [link.name for link in self.links]
+        teeth, towards = (
+            dict(zip(names, both, strict=True)),
+            dict(zip(names, self.towards, strict=True)),
+        )
         one, two = teeth[self.driver.name], teeth[self.driven.name]
         arc = self.driver.radius_mm * math.radians(self.driver.teeth.each_deg)
         pitch = one.rack.pitch
@@ -315,19 +297,17 @@ class _Pair:
         for link in (self.driver, self.driven):
             if count * pitch * link.teeth.sectors > math.tau * link.radius_mm:
                 raise self._error(f"teeth of the {link.name} overlap: {count} are on each sector")
-        driving = tuple(
-            towards[self.driver.name] + (s + one.rack.half) / one.radius for s in passes
-        )
-        middles = {
-            self.driver.name: (driving,),
+        start, sectors = towards[self.driven.name], self.driven.teeth.sectors
+        middles: dict[str, Middles] = {
+            self.driver.name: (
+                tuple(towards[self.driver.name] + (s + one.rack.half) / one.radius for s in passes),
+            ),
             self.driven.name: tuple(
                 tuple(
-                    towards[self.driven.name]
-                    + math.tau * j / self.driven.teeth.sectors
-                    + (two.rack.half - s) / two.radius
+                    start + math.tau * j / sectors + (two.rack.half - s) / two.radius
                     for s in reversed(passes)
                 )
-                for j in range(self.driven.teeth.sectors)
+                for j in range(sectors)
             ),
         }
         return middles, math.hypot(one.base, tangent)

@@ -19,8 +19,15 @@ from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.preferred import bore_radius
-from geneva_cli.parts.gears.gear_curves import SAMPLES, radii, ratio_and_turn, required_gears
-from geneva_cli.parts.gears.pair_teeth import ToothedCurve, pair_teeth, toothed_curve
+from geneva_cli.parts.gears.gear_curves import (
+    SAMPLES,
+    ToothedCurve,
+    pair_teeth,
+    radii,
+    ratio_and_turn,
+    required_gears,
+    toothed_curve,
+)
 from geneva_cli.parts.links.link_positions import gear_plane, same
 from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.links.links import drawn_links
@@ -73,17 +80,14 @@ def gear_pair(
     members = []
     seats, bores = gear_seats(mechanism, parts), gear_bores(mechanism, parts, on_crank)
     for seat, pieces, (at, on) in zip(seats, outlines, bores, strict=True):
-        outline = closed(layer, pieces)
         holes = (on.hole(),) if on.bore.radius else ()
-        members.append(Member(Plate(seat.part, layer, outline, holes, seat.low, seat.high), at))
+        plate = Plate(seat.part, layer, closed(layer, pieces), holes, seat.low, seat.high)
+        members.append(Member(plate, at))
     return tuple(members)
 
 
 def pair_with_teeth(mechanism: Mechanism) -> list[ToothedCurve]:
-    """Return the teeth of driven gear and driver; none without a module.
-
-    Raises GenevaError, naming the key, for teeth that do not fit.
-    """
+    """Return the teeth of driven gear and driver; none without a module."""
     pair, sense = mechanism.spec.gears, mechanism.gear_shaft.sense
     teeth = pair_teeth(pair, mechanism.spec.size)
     if pair is None or teeth is None:
@@ -94,7 +98,7 @@ def pair_with_teeth(mechanism: Mechanism) -> list[ToothedCurve]:
     ]
 
 
-def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
+def pitch_radii(pair: Gears) -> list[tuple[float, float]]:
     """Return least and greatest radius of the pitch curves of driven gear and driver, mm.
 
     Raises GenevaError where one is so near to its axis that it is no gear.
@@ -108,10 +112,7 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
                 f"no gear. A smaller change of the ratio keeps it at {THIN * C:.3g} mm",
                 ("drive", "kind"),
             )
-    return (
-        (float(driven.min()), float(driven.max())),
-        (float(driver.min()), float(driver.max())),
-    )
+    return [(float(r.min()), float(r.max())) for r in (driven, driver)]
 
 
 def gear_shafts(
@@ -125,7 +126,7 @@ def gear_shafts(
     if mechanism.spec.gears is None:
         return
     size = mechanism.spec.size
-    (first, wide), (at, radius) = _shafts(mechanism, parts, on_crank)
+    (first, wide), (at, radius), bored = _shafts(mechanism, parts, on_crank)
     driven, driver = gear_seats(mechanism, parts)
     at_crank = same(first, mechanism.crank_shaft.at, mechanism.center_distance_mm)
     if at_crank and not (ends.crank_has_one or _on_links(mechanism, parts)):
@@ -133,26 +134,25 @@ def gear_shafts(
         on = bore_at(mechanism, first, wide)
         shaft = Shaft("crank's shaft", "crank", on.bore, (driven,), *reach, first)
         yield shaft._replace(direction=on.direction)
-    name, bore, bored = driver.part, Bore(radius), _driver_bore(mechanism, parts) > 0.0
+    name, bore = driver.part, Bore(radius)
     seats, top = ((driver,), driver.high) if bored else ((), driver.low)  # or one piece with it
     yield Shaft(f"{name}'s shaft", name, bore, seats, ends.lowest, top, at)
 
 
 def _shafts(
     mechanism: Mechanism, parts: Outlines | None, on_crank: float
-) -> list[tuple[Point, float]]:
-    """Return position and radius of the shafts of driven gear and driver.
+) -> tuple[tuple[Point, float], tuple[Point, float], bool]:
+    """Return position and radius of both gears' shafts, and whether the driver has a bore.
 
-    The first is the crank's, or that of another drive. Raises GenevaError where a pitch curve is no
-    gear.
+    The first is the crank's, or that of another drive. Otherwise driver and shaft are one piece.
     """
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
-    sizes, ((driven, _), _) = link_sizes(mechanism, [], parts), pitch_radii(pair)
+    sizes, ((driven, _), (driver, _)) = link_sizes(mechanism, [], parts), pitch_radii(pair)
     usual, x = bore_radius(L / 20.0), mechanism.gear_shaft.x_mm
     wide = on_crank or _on_links(mechanism, parts) or sizes.crank_shaft
     wide = wide or sizes.bore(driven, L) or usual
-    ends = (x, 0.0), (x + pair.distance_mm, 0.0)
-    return list(zip(ends, (wide, _driver_bore(mechanism, parts) or usual), strict=True))
+    own = sizes.bore(driver, L)
+    return ((x, 0.0), wide), ((x + pair.distance_mm, 0.0), own or usual), own > 0.0
 
 
 def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:
@@ -161,28 +161,16 @@ def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:
     return drawn_links(mechanism, parts).shaft(mechanism.gear_shaft.at, L)
 
 
-def _driver_bore(mechanism: Mechanism, parts: Outlines | None) -> float:
-    """Return the radius of the driver's bore; 0 where driver and shaft are one piece."""
-    (_, (least, _)), L = pitch_radii(required_gears(mechanism)), mechanism.center_distance_mm
-    return link_sizes(mechanism, [], parts).bore(least, L)
-
-
 def gear_bores(
     mechanism: Mechanism, parts: Outlines | None, on_crank: float = 0.0
 ) -> list[tuple[Point, ShaftBore]]:
-    """Return position and bore of driven gear and driver; of radius 0 for none.
-
-    Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
-    no gear.
-    """
-    pair = required_gears(mechanism)
+    """Return position and bore of driven gear and driver; of radius 0 for none."""
+    pair, size = required_gears(mechanism), mechanism.spec.size
     (driven, _), (driver, _) = pitch_radii(pair)
-    if teeth := pair_teeth(pair, mechanism.spec.size):
+    if teeth := pair_teeth(pair, size):
         driven, driver = driven - teeth.roots[0], driver - teeth.roots[1]
-    (axis, wide), (other, _) = _shafts(mechanism, parts, on_crank)
-    radius = _driver_bore(mechanism, parts)
-    on_driver = ShaftBore(round_bore(mechanism.spec.size, radius)) if radius else ShaftBore()
-    bores = bore_at(mechanism, axis, wide), on_driver
+    (axis, wide), (other, radius), bored = _shafts(mechanism, parts, on_crank)
+    bores = bore_at(mechanism, axis, wide), ShaftBore(round_bore(size, radius if bored else 0.0))
     for name, one, least, key in zip(
         NAMES, bores, (driven, driver), ("arm_bore_mm", "link_bore_mm"), strict=True
     ):

@@ -77,11 +77,7 @@ def gear_plane(mechanism: Mechanism) -> int:
 
 
 def is_bridged(mechanism: Mechanism) -> bool:
-    """Return True if a bridge bears the crank's shaft, because a link turns over its axis below.
-
-    There is none for several wheels or cranks, behind another drive, and where the spec sets the
-    shaft's ends. Such a link is deeper than all on the shaft, as a side-crank's input crank is.
-    """
+    """Return True if a bridge bears the crank's shaft, because a link turns over its axis below."""
     spec, size, L = mechanism.spec, mechanism.spec.size, mechanism.center_distance_mm
     single = len(mechanism.wheel_places) == len(mechanism.crank_places) == 1
     own_ends = size.crank_shaft_low_mm is None and size.crank_shaft_high_mm is None

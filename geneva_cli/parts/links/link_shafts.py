@@ -1,27 +1,41 @@
-"""Shafts and pivots that carry only links: of an input crank, a rocker, a planet.
+"""Shafts and pivots that carry only links, and the gaps of round parts to the links that they pass.
 
-Fixed shafts end in the frame's lower face, like those of wheel and crank. A link on a shaft other
-than the crank's lies in the lowest plane, so that nothing passes below it. A planet's shaft moves,
-and joins the parts on it. Each shaft is as wide as the bores on its axis (``link_pins``). A link
-without a bore is one piece with its shaft, which ends at the link's faces.
+Fixed shafts end in the frame's lower face. A planet's shaft moves, and joins the parts on it. A
+link without a bore is one piece with its shaft, which ends at the link's faces.
+
+Each plane below the wheel's has one link, or gears. Four kinds of round parts pass through: the
+wheel's hub and shaft; the spacer on a pin that joins links of distant planes; pivots and spacers on
+the frame, where another drive is below; the crank's shaft between the planes in which it carries
+something. That leaves the machine below all links, or above through the locking disc; else it has
+no bearing.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
+from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, Plate, Stack, between
-from geneva_cli.geometry.shapes import Point
+from geneva_cli.geometry.shapes import Circle, Contour, Point
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import Joint
+from geneva_cli.motion.pivots import Joint, Link
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.links.link_positions import same
-from geneva_cli.parts.links.links import Links, placed_holes
+from geneva_cli.parts.links.link_positions import gear_plane, links_at, same, turn_deg
+from geneva_cli.parts.links.link_sizes import LinkSizes, places
+from geneva_cli.parts.links.links import Links, joined, placed_holes
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
+from geneva_cli.parts.shafts.hub_and_shafts import wheel_shaft_ends, wheel_shaft_radius
 from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, seat_of, shaft_ends
+from geneva_cli.parts.shafts.shaft_bores import bore_at
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.links.link_pins import LinkAxis
+    from geneva_cli.parts.links.links import LinkAxis
 
 
 def link_shafts(
@@ -96,3 +110,203 @@ def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[M
             spans = [(low, high) for low, high in below + above if high - low > SAME_LENGTH * L]
         for low, high in spans:
             yield member._replace(part=between(member.part, low, high))
+
+
+class Meeting(NamedTuple):
+    """The least gap between a link and a part that passes through its plane."""
+
+    gap: float  # mm, negative where they overlap
+    input_deg: float
+    link: str
+    passing: str
+
+
+class Round(NamedTuple):
+    """A round part that passes through a plane."""
+
+    name: str
+    plane: int
+    path: Array  # complex positions, one at each input angle
+    radius: float
+
+
+class Planes(NamedTuple):
+    """The least gap of all in a whole turn, and that of the crank's shaft to its bearings."""
+
+    nearest: Meeting | None
+    blocked: Meeting | None  # None where the shaft is free
+
+
+def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Planes:
+    """Return the least gaps between links and the parts that pass through their planes.
+
+    ``bars`` are the links of the machine with the outlines ``parts``, and ``spacers`` the rings on
+    its frame.
+    """
+    mechanism = parts.assembly.full
+    turn = turn_deg(mechanism)  # the error of a gap is quadratic in their distance
+    every = links_at(mechanism, turn)
+    if bars.sizes is None:
+        return Planes(None, None)
+    met = list(_gears(parts, bars, [link for link in every if link.radius_mm], turn))
+    links = [link for link in every if not link.radius_mm]
+    if not links:
+        return Planes(min(met, default=None), None)
+    shaft = _Shaft(parts, links, bars)
+    rounds = [
+        *_on_wheel(parts, links, bars.sizes, 0.0 * turn),
+        *_on_pins(links, bars.sizes, SAME_LENGTH * parts.assembly.L),
+        *shaft.between(),
+        *_standing(parts, bars, spacers, turn),
+    ]
+    met += [
+        _meeting(link, shaft.outlines[link.name], one, turn)
+        for link in links
+        for one in rounds
+        if one.plane == link.plane
+    ]
+    return Planes(min(met, default=None), None if shaft.through else shaft.blocked(turn))
+
+
+def crank_stop(parts: Outlines, bars: Links) -> float | None:
+    """Return the height at which a link stops the crank's shaft downwards; None if none does."""
+    mechanism = parts.assembly.full
+    turn = turn_deg(mechanism)
+    links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
+    if not links or bars.sizes is None:
+        return None
+    shaft = _Shaft(parts, links, bars)
+    if shaft.blocked(turn) is None:
+        return None
+    return bars.sizes.span(max(shaft.carries))[0] if max(shaft.carries) else -bars.sizes.gap
+
+
+def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iterator[Meeting]:
+    """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane.
+
+    A first wheel is no gear: ``shaft_gap`` computes its gap.
+    """
+    if parts.assembly.full.first_wheel or bars.sizes is None:
+        return
+    for gear, link in zip(bars.gears, gears, strict=True):
+        away = np.abs(places(link)[0])
+        on_shaft = bool(away.max() < SAME_LENGTH * parts.assembly.L)
+        # a shaft fills the gear's bore, a hub does not
+        wide = gear.bore.bore.cut.around
+        for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
+            if on_shaft and one.radius <= wide:
+                continue
+            gaps = away + (wide - one.radius) if on_shaft else away - gear.outer - one.radius
+            least = int(np.argmin(gaps))
+            yield Meeting(float(gaps[least]), float(turn[least]), gear.name, one.name)
+
+
+def _on_pins(links: list[Link], sizes: LinkSizes, near: float) -> Iterator[Round]:
+    """Yield the spacers on pins that join links of distant planes."""
+    for path, both in joined(links, near):
+        name = f"the pin of {' and '.join(link.name for link in both)}"
+        own = [link.plane for link in both]
+        for plane in range(min(own) + 1, max(own)):
+            if plane not in own:
+                yield Round(name, plane, path, sizes.ring)
+
+
+def _standing(
+    parts: Outlines, bars: Links, spacers: Iterable[Member], turn: Array
+) -> Iterator[Round]:
+    """Yield the pivots and spacers between the frame and links, in the planes of a drive below."""
+    mechanism, L = parts.assembly.full, parts.assembly.L
+    lowest, links = gear_plane(mechanism), links_at(mechanism, np.zeros(1))
+    planes = {link.name: link.plane for link in links}
+    rounds = [
+        (f"the pivot of {axis.names[0]}", axis.at, axis.radius)
+        for axis in bars.axes
+        if axis.stands
+        and not any(same(axis.at, shaft, L) for shaft in ((0.0, 0.0), (L, 0.0)))
+        and max(planes[name] for name in axis.names) < lowest
+    ]
+    for one in spacers:
+        assert isinstance(one.part, Plate) and isinstance(one.part.outline, Circle)
+        rounds.append((f"the {one.part.name}", one.at, one.part.outline.radius))
+    for name, at, radius in rounds:
+        for plane in sorted({link.plane for link in links if link.plane >= lowest}):
+            yield Round(name, plane, np.full(turn.shape, complex(*at)), radius)
+
+
+def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array) -> Iterator[Round]:
+    """Yield the wheel's hub in the planes that it reaches, and its shaft in those below."""
+    if parts.assembly.sign < 0.0:
+        return
+    size, shaft = parts.assembly.mechanism.spec.size, wheel_shaft_radius(parts)
+    hub = parts.sizes.wheel_hub if size.has_hub("wheel") else 0.0
+    reach = -wheel_hub_length(size, parts.sizes)
+    low, _ = wheel_shaft_ends(parts, -math.inf)
+    for plane in sorted({link.plane for link in links}):
+        high = sizes.span(plane)[1]
+        if hub and reach < high - SAME_LENGTH * parts.assembly.L:
+            yield Round("the wheel's hub", plane, axis, hub)
+        elif shaft and low < high - SAME_LENGTH * parts.assembly.L:
+            yield Round("the wheel's shaft", plane, axis, shaft)
+
+
+class _Shaft:
+    """The crank's shaft: the planes in which it carries something; 0 is the wheel's plane."""
+
+    def __init__(self, parts: Outlines, links: list[Link], bars: Links) -> None:
+        L, sizes = parts.assembly.L, bars.sizes
+        assert sizes is not None
+        self.links = links
+        self.outlines = {
+            plate.name: plate.outline for plate in bars.plates if isinstance(plate.outline, Contour)
+        }
+        self.path = places(links[0])[0] * 0.0 + L
+        self.carries: set[int] = set()
+        for link in links:
+            at, kind = places(link)[0], link.kinds[0]
+            if kind is Joint.SHAFT and np.abs(at - L).max() < SAME_LENGTH * L:
+                self.carries.add(link.plane)
+        if parts.has_arm:
+            self.carries.add(1)
+        machine = parts.assembly.full
+        if machine.spec.gears and machine.gear_shaft == machine.crank_shaft:
+            self.carries.add(gear_plane(machine))
+        self.through = parts.sizes.crank_bore > 0.0  # through the locking disc
+        if self.through:
+            self.carries.add(0)
+        radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
+        self.radius = bore_at(parts.assembly.full, (L, 0.0), radius).bore.around
+        low = parts.assembly.full.spec.size.crank_shaft_low_mm
+        ends = math.inf if low is None else low + SAME_LENGTH * L
+        self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}
+
+    def _in(self, plane: int) -> Round:
+        return Round("the crank's shaft", plane, self.path, self.radius)
+
+    def between(self) -> Iterator[Round]:
+        """Yield the shaft in the planes that it must cross, or that the spec extends it to."""
+        if self.carries:
+            deepest = max(self.carries | self.reached)
+            for plane in range(min(self.carries) + 1, deepest + 1):
+                if plane not in self.carries:
+                    yield self._in(plane)
+
+    def blocked(self, turn: Array) -> Meeting | None:
+        """Return the deepest overlap with links below all that the shaft carries; None if free."""
+        deepest = max(self.carries, default=math.inf)
+        met = (
+            _meeting(link, self.outlines[link.name], self._in(link.plane), turn)
+            for link in self.links
+            if link.plane > deepest
+        )
+        return min((one for one in met if one.gap < 0.0), default=None)
+
+
+def _meeting(link: Link, outline: Contour, one: Round, turn: Array) -> Meeting:
+    joints = places(link)
+    ahead = joints[1] - joints[0]
+    size = np.abs(ahead)
+    unit = np.where(size > 0.0, ahead / np.where(size > 0.0, size, 1.0), 1.0)
+    own = (one.path - joints[0]) / unit
+    gaps = Polyarc([outline]).signed(np.column_stack((own.real, own.imag))) - one.radius
+    least = int(np.argmin(gaps))
+    return Meeting(float(gaps[least]), float(turn[least]), link.name, one.name)

@@ -24,7 +24,6 @@ from geneva_cli.parts.shafts.bores import Bore
 from geneva_cli.parts.sizes import HUB, drawn_thicknesses, pin_hole, pin_radius, plane_span
 from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.least_wall import eye_about, wall_min
-from geneva_cli.spec.tables import Size
 
 SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
 
@@ -86,57 +85,42 @@ def link_sizes(
     no hole is left for the roller's pin, or no plate around a pin.
     """
     spec, L = mechanism.spec, mechanism.center_distance_mm
-    size, links = spec.size, [link for link in links if not link.radius_mm]
+    size, bars = spec.size, [link for link in links if not link.radius_mm]
     drawn = parts.sizes if parts else None
     wall, thick = wall_min(size, L), drawn_thicknesses(size, L, drawn)
     first = drawn.first if drawn else None
     stands = first.pin if first else pin_radius(size, mechanism.roller_radius_mm, drawn)
     own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
-    roller = pin_hole(size, stands) if stands else 0.0
-    pin, eye = _pin_and_eye(size, links, wall, L)
-    limit = _eye_limit(mechanism, links)
-    arm = thick.arm if spec.drive.ONE_ARM else thick.link
+    roller, loose = pin_hole(size, stands) if stands else 0.0, size.allowances.around_shaft_mm
+    # a fifth of the distance to the next joint leaves eyes and a gap between
+    nearest = min((distance for link in bars for distance in _pin_distances(link)), default=L)
+    pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
+    eye = half_or(size.link_width_mm, eye_about(pin + loose, wall))
+    if eye <= pin + loose:
+        raise GenevaError(
+            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * (pin + loose):.6g}, the "
+            "diameter of the pins' holes",
+            ("size", "link_width_mm"),
+        )
+    crank_mm = spec.shaft.crank_diameter_mm
+    crank_shaft = None if crank_mm is None else 0.5 * crank_mm
+    if parts and (parts.has_arm or parts.sizes.crank_bore):
+        crank_shaft = parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
     return LinkSizes(
         wall=wall,
         pin=pin,
         roller_stands=stands,
         roller_pin=roller,
         eye=eye,
-        roller_eye=eye_about(roller, wall, limit) if roller else eye,
+        roller_eye=eye_about(roller, wall, _eye_limit(mechanism, bars)) if roller else eye,
         shaft=first.shaft if first else own,
-        crank_shaft=_crank_shaft(mechanism, parts),
+        crank_shaft=crank_shaft,
         thickness=thick.link,
-        arm=arm,
+        arm=thick.arm if spec.drive.ONE_ARM else thick.link,
         gap=size.allowances.pin_gap_mm,
         washer=size.washer_mm,
-        loose=size.allowances.around_shaft_mm,
+        loose=loose,
     )
-
-
-def _pin_and_eye(size: Size, links: Iterable[Link], wall: float, L: float) -> tuple[float, float]:
-    """Return the radii of the pins between links, and of the plate around them."""
-    nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
-    # a fifth of the distance to the next joint leaves eyes and a gap between
-    pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
-    hole = pin + size.allowances.around_shaft_mm
-    eye = half_or(size.link_width_mm, eye_about(hole, wall))
-    if eye <= hole:
-        raise GenevaError(
-            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * hole:.6g}, the diameter of "
-            "the pins' holes",
-            ("size", "link_width_mm"),
-        )
-    return pin, eye
-
-
-def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
-    """Return the radius of the crank's shaft: of arm, locking disc or spec; None for none."""
-    if parts and parts.has_arm:
-        return parts.sizes.arm_bore
-    if parts and parts.sizes.crank_bore:
-        return parts.sizes.crank_bore
-    diameter = mechanism.spec.shaft.crank_diameter_mm
-    return None if diameter is None else 0.5 * diameter
 
 
 def places(link: Link) -> list[Array]:

@@ -1,9 +1,8 @@
-"""The links of a machine, cut out of plates: bars, couplers, slotted links and their blocks.
+"""The links of a machine, cut out of plates, and the pins, washers and rollers between them.
 
 A link's own frame has its first joint as origin, and x through its second. Its outline is the
 convex hull of an eye about each hole. A pin that slides along a link has a block, and the link has
-a slot as long as the pin's path. Links on one axis have one shaft (``link_pins``). Gears are blanks
-(``gear_blanks``), drawn by their pitch circles.
+a slot as long as the pin's path. Links on one axis have one shaft.
 """
 
 from __future__ import annotations
@@ -17,10 +16,11 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate, placed
-from geneva_cli.geometry.shapes import Circle, Layer, Point, Shape
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Point, Shape
 from geneva_cli.geometry.stacks import apart, plate_wall
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.links.link_positions import links_at, same, turn_deg
@@ -39,9 +39,24 @@ from geneva_cli.parts.shafts.shaft_bores import ShaftBore, bore_at
 if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.gears.gear_mesh import GearMesh
-    from geneva_cli.parts.links.link_pins import LinkAxis
 
 SHAFT = Joint.SHAFT
+
+
+class LinkAxis(NamedTuple):
+    """An axis that links turn about: their names and joints, and its position at input angle 0."""
+
+    names: tuple[str, ...]
+    kinds: tuple[Joint, ...]
+    at: Point
+    stands: bool  # it does not move with the input angle
+    bore: ShaftBore = ShaftBore()  # for its shaft or pivot; of radius 0 until that is known
+    one_piece: frozenset[str] = frozenset()  # names of the links that have no bore for it
+
+    @property
+    def radius(self) -> float:
+        """Radius of its bore."""
+        return self.bore.bore.radius
 
 
 class Links(NamedTuple):
@@ -76,16 +91,16 @@ class Links(NamedTuple):
         return [plate for plate in self.plates if plate.name in names]
 
 
-class _UnboredLink(NamedTuple):
+class _Unbored(NamedTuple):
     """A link before it is bored for its shafts; complex points in its own frame."""
 
     link: Link
     at: complex  # position of its origin in the machine, at input angle 0
     unit: complex  # its direction
     own: tuple[complex, ...]  # its joints
-    eyes: tuple[Circle, ...]
-    holes: tuple[Shape, ...]
-    blocks: tuple[Member, ...]
+    eyes: list[Circle]
+    holes: list[Shape]
+    blocks: list[Member]
 
     def clearance(self, z: complex) -> float:
         """Return the distance from a point to the nearest hole, or half-way to another shaft."""
@@ -102,59 +117,67 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     links = links_at(mechanism, turn_deg(mechanism))
     if not links:
         return Links()
-    from geneva_cli.parts.links.link_pins import axes as axes_of
-    from geneva_cli.parts.links.link_pins import pins, rollers
-
-    sizes = link_sizes(mechanism, links, parts)
-    L = mechanism.center_distance_mm
+    sizes, L = link_sizes(mechanism, links, parts), mechanism.center_distance_mm
     bars = [link for link in links if not link.radius_mm]
     unbored = [_bar(link, sizes, L) for link in bars]
-    turning = [
-        _with_shaft(axis, unbored, links, sizes, parts, mechanism)
-        for axis in axes_of(links, SAME_LENGTH * L)
-    ]
-    _refuse_unused(mechanism, turning, sizes, parts)
-    cut = [member for bar in unbored for member in _members(bar, turning, sizes, L)]
-    r = mechanism.roller_radius_mm
-    between = [
-        *pins(bars, sizes, SAME_LENGTH * L),
-        *rollers(bars, sizes, r, sizes.roller_stands),
-    ]
-    mesh, gears = _gears([link for link in links if link.radius_mm], turning, sizes, mechanism)
+    turning = []
+    for axis in _axes(links, SAME_LENGTH * L):
+        # the shaft of wheel or crank is as wide as their own bores
+        on_crank, on_wheel = (same(axis.at, at, L) for at in ((L, 0.0), ORIGIN))
+        known = (sizes.crank_shaft or 0.0) if on_crank else 0.0
+        if on_wheel and parts and not on_crank:
+            known = parts.sizes.wheel_bore
+        bored = _with_shaft(axis, unbored, links, sizes, known, mechanism)
+        turning.append((bored, known))
+    if sizes.shaft is not None and all(known or SHAFT not in a.kinds for a, known in turning):
+        raise GenevaError(
+            f"link_bore_mm = {2.0 * sizes.shaft:g}: it applies to no link: all are on the shafts "
+            "of wheel and crank; set crank_bore_mm, arm_bore_mm or wheel_bore_mm instead",
+            ("size", "link_bore_mm"),
+        )
+    bored_axes = tuple(axis for axis, _ in turning)
+    mesh, gears = _gears([link for link in links if link.radius_mm], bored_axes, sizes, mechanism)
     kinds = {kind for link in bars if link.plane == 1 for kind in link.kinds}
     pin_low = None
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
         pin_low = sizes.span(2 if Joint.CARRIED in kinds else 1)[0]
-    standing = frozenset(link.name for link in bars if link.kinds[0] is Joint.NONE)
-    blocks = frozenset(block.part.name for bar in unbored for block in bar.blocks)
     return Links(
-        sizes=sizes,
-        cut=tuple(cut),
-        joined=tuple(between),
-        gears=tuple(gears),
-        pin_low=pin_low,
-        standing=standing,
-        blocks=blocks,
-        axes=tuple(turning),
+        sizes,
+        tuple(member for bar in unbored for member in _members(bar, bored_axes, sizes, L)),
+        (*_pins(bars, sizes, SAME_LENGTH * L), *_rollers(bars, sizes, mechanism.roller_radius_mm)),
+        tuple(gears),
+        pin_low,
+        standing=frozenset(link.name for link in bars if link.kinds[0] is Joint.NONE),
+        blocks=frozenset(block.part.name for bar in unbored for block in bar.blocks),
+        axes=bored_axes,
         mesh=mesh,
     )
 
 
-def _known(axis: LinkAxis, sizes: LinkSizes, parts: Outlines | None, L: float) -> float:
-    """Return the radius of the shaft of wheel or crank, from their own bores; 0 for another."""
-    if same(axis.at, (L, 0.0), L):
-        return sizes.crank_shaft or 0.0
-    if parts is None or not same(axis.at, (0.0, 0.0), L):
-        return 0.0
-    return parts.sizes.wheel_bore
+def _axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
+    """Yield each axis once; ``near`` is the distance, mm, below which two axes are one."""
+    left = [
+        (link.name, kind, at)
+        for link in links
+        for at, kind in zip(places(link), link.kinds, strict=True)
+        if kind in (SHAFT, Joint.PIN)
+    ]
+    while left:
+        path = left[0][2]
+        apart = [bool(np.abs(at - path).max() >= near) for _, _, at in left]
+        here = [one for one, away in zip(left, apart, strict=True) if not away]
+        left = [one for one, away in zip(left, apart, strict=True) if away]
+        at = point_at_zero(path)
+        names, kinds, _ = zip(*here, strict=True)
+        yield LinkAxis(names, kinds, at, bool(np.abs(path - complex(*at)).max() < near))
 
 
 def _with_shaft(
     axis: LinkAxis,
-    bars: list[_UnboredLink],
+    bars: list[_Unbored],
     links: Iterable[Link],
     sizes: LinkSizes,
-    parts: Outlines | None,
+    known: float,
     mechanism: Mechanism,
 ) -> LinkAxis:
     """Return an axis with its shaft's bore, and the links that are too small to be bored."""
@@ -168,10 +191,8 @@ def _with_shaft(
     }
     limits = [*distances.values()]
     limits += [g.radius_mm for g in links if g.radius_mm and g.name in axis.names]
-    known = _known(axis, sizes, parts, L)
     own = [radius for limit in limits if (radius := sizes.bore(limit, L)) > 0.0]
-    radius = known or min(own, default=bore_radius(L / 20.0))
-    bore = bore_at(mechanism, axis.at, radius)
+    bore = bore_at(mechanism, axis.at, known or min(own, default=bore_radius(L / 20.0)))
     if not known and sizes.shaft is not None:  # of the spec: a check reports the wall that is left
         return axis._replace(bore=bore)
     least = bore.bore.reach + sizes.wall
@@ -179,22 +200,8 @@ def _with_shaft(
     return axis._replace(bore=bore, one_piece=tight)
 
 
-def _refuse_unused(
-    mechanism: Mechanism, turning: list[LinkAxis], sizes: LinkSizes, parts: Outlines | None
-) -> None:
-    """Raise GenevaError for a bore in the spec if no link has a shaft of its own."""
-    L = mechanism.center_distance_mm
-    own = (axis for axis in turning if SHAFT in axis.kinds and not _known(axis, sizes, parts, L))
-    if sizes.shaft is not None and not any(True for _ in own):
-        raise GenevaError(
-            f"link_bore_mm = {2.0 * sizes.shaft:g}: it applies to no link: all are on the shafts "
-            "of wheel and crank; set crank_bore_mm, arm_bore_mm or wheel_bore_mm instead",
-            ("size", "link_bore_mm"),
-        )
-
-
 def _gears(
-    links: list[Link], turning: list[LinkAxis], sizes: LinkSizes, mechanism: Mechanism
+    links: list[Link], turning: Iterable[LinkAxis], sizes: LinkSizes, mechanism: Mechanism
 ) -> tuple[GearMesh | None, list[Gear]]:
     """Return the teeth of gears, if they have some, and the gears, bored for their shafts.
 
@@ -224,55 +231,52 @@ def _gears(
     ]
 
 
-def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
+def _bar(link: Link, sizes: LinkSizes, L: float) -> _Unbored:
     """Return a link without bores for shafts, and the blocks that slide along it."""
     joints = places(link)
     at = [complex(*point_at_zero(joint)) for joint in joints]
     ahead = at[1] - at[0]
     unit = ahead / abs(ahead) if abs(ahead) > SAME_LENGTH * L else 1.0
-    own = tuple((z - at[0]) / unit for z in at)
-    low, high = sizes.span(link.plane)
-    eyes: list[Circle] = []
-    holes: list[Shape] = []
-    blocks: list[Member] = []
-    for joint, z, kind in zip(joints, own, link.kinds, strict=True):
+    bar = _Unbored(link, at[0], unit, tuple((z - at[0]) / unit for z in at), [], [], [])
+    for joint, z, kind in zip(joints, bar.own, link.kinds, strict=True):
         if kind in (Joint.PIN, Joint.ROLLER):
-            holes.append(_circle("BORE", z, sizes.hole(kind)))
             eye = sizes.roller_eye if kind is Joint.ROLLER else sizes.eye
-            eyes.append(_circle("LINK", z, eye))
+            bar.holes.append(_circle("BORE", z, sizes.hole(kind)))
+            bar.eyes.append(_circle("LINK", z, eye))
         elif kind in (Joint.SLIDE, Joint.CARRIED):
-            hole = sizes.hole(kind)
-            along = z / abs(z)
-            distances = np.abs(joint - joints[0])
-            half, long = sizes.block(hole)
-            spare = long + SLOT_MARGIN * hole
-            ends = float(distances.min()) - spare, float(distances.max()) + spare
-            holes.append(convex_hull("LINK", [_circle("LINK", r * along, half) for r in ends]))
-            eyes += [_circle("LINK", r * along, half + hole) for r in ends]
-            if link.kinds[0] is Joint.NONE:  # it is fixed to the frame beyond both ends
-                beyond = half + 2.0 * sizes.pin
-                fixed = [(ends[0] - beyond) * along, (ends[1] + beyond) * along]
-                screw = screw_through(2.0 * sizes.pin)
-                bolt = 0.5 * screw.through if screw else sizes.pin
-                holes += [_circle("BORE", f, bolt) for f in fixed]
-                eyes += [_circle("LINK", f, sizes.eye) for f in fixed]
-            block = Plate(
-                f"{link.name}'s block",
-                "LINK",
-                convex_hull("LINK", [Circle("LINK", (x, 0.0), half) for x in (-long, long)]),
-                (Circle("BORE", (0.0, 0.0), hole),),
-                low,
-                high,
-            )
-            blocks.append(_placed(block, at[0] + z * unit, along * unit))
-    return _UnboredLink(link, at[0], unit, own, tuple(eyes), tuple(holes), tuple(blocks))
+            along, distances = z / abs(z), np.abs(joint - joints[0])
+            travel = float(distances.min()), float(distances.max())
+            _add_slot(bar, sizes, sizes.hole(kind), along, travel)
+            half, long = sizes.block(sizes.hole(kind))
+            outline = convex_hull("LINK", [Circle("LINK", (x, 0.0), half) for x in (-long, long)])
+            hole = (Circle("BORE", ORIGIN, sizes.hole(kind)),)
+            block = Plate(f"{link.name}'s block", "LINK", outline, hole, *sizes.span(link.plane))
+            bar.blocks.append(_placed(block, at[0] + z * unit, along * unit))
+    return bar
+
+
+def _add_slot(
+    bar: _Unbored, sizes: LinkSizes, hole: float, along: complex, travel: tuple[float, float]
+) -> None:
+    """Add the slot of a block to a link, and screws beyond it if the link stands still."""
+    half, long = sizes.block(hole)
+    spare = long + SLOT_MARGIN * hole
+    ends = travel[0] - spare, travel[1] + spare
+    bar.holes.append(convex_hull("LINK", [_circle("LINK", r * along, half) for r in ends]))
+    bar.eyes.extend(_circle("LINK", r * along, half + hole) for r in ends)
+    if bar.link.kinds[0] is Joint.NONE:  # it is fixed to the frame
+        beyond = half + 2.0 * sizes.pin
+        screw = screw_through(2.0 * sizes.pin)
+        for f in ((ends[0] - beyond) * along, (ends[1] + beyond) * along):
+            bar.holes.append(_circle("BORE", f, 0.5 * screw.through if screw else sizes.pin))
+            bar.eyes.append(_circle("LINK", f, sizes.eye))
 
 
 def _members(
-    bar: _UnboredLink, turning: list[LinkAxis], sizes: LinkSizes, L: float
+    bar: _Unbored, turning: Iterable[LinkAxis], sizes: LinkSizes, L: float
 ) -> Iterator[Member]:
     """Yield a link as a plate with the bores for its shafts, and its blocks."""
-    eyes, holes, name = list(bar.eyes), list(bar.holes), bar.link.name
+    eyes, holes, name = [*bar.eyes], [*bar.holes], bar.link.name
     for z, kind in zip(bar.own, bar.link.kinds, strict=True):
         if kind is SHAFT:
             there = bar.at + z * bar.unit
@@ -283,13 +287,23 @@ def _members(
                 holes.append(placed(bored, (z.real, z.imag), 0.0))
     low, high = sizes.span(bar.link.plane)
     plate = Plate(name, "LINK", convex_hull("LINK", eyes), tuple(holes), low, high)
-    _refuse(plate)
+    wall = plate_wall(plate)
+    if wall <= 0.0:
+        raise GenevaError(
+            f"--part links: no plate is left around the holes of the {name}: it lacks "
+            f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart",
+            ("size", "link_pin_mm"),
+        )
     yield _placed(plate, bar.at, bar.unit)
     yield from bar.blocks
 
 
 def _placed(plate: Plate, where: complex, direction: complex) -> Member:
     return Member(plate, (where.real, where.imag), cmath.phase(direction))
+
+
+def _circle(layer: Layer, at: complex, radius: float) -> Circle:
+    return Circle(layer, (at.real, at.imag), radius)
 
 
 def placed_holes(member: Member) -> Iterator[Circle]:
@@ -300,16 +314,52 @@ def placed_holes(member: Member) -> Iterator[Circle]:
             yield placed(hole, member.at, member.turn)
 
 
-def _circle(layer: Layer, at: complex, radius: float) -> Circle:
-    return Circle(layer, (at.real, at.imag), radius)
+def joined(links: Iterable[Link], near: float) -> Iterator[tuple[Array, list[Link]]]:
+    """Yield the pin joints of several links: those nearer than ``near`` mm at all input angles.
+
+    Each is the joint's path, complex points, and its links from the upper to the lower plane.
+    """
+    pins = [
+        (link, at)
+        for link in links
+        for at, kind in zip(places(link), link.kinds, strict=True)
+        if kind in (Joint.PIN, Joint.SLIDE)
+    ]
+    for i, (link, at) in enumerate(pins):
+        others = [other for other, there in pins[i + 1 :] if np.abs(at - there).max() < near]
+        if others:
+            yield at, sorted((link, *others), key=lambda one: one.plane)
 
 
-def _refuse(plate: Plate) -> None:
-    """Raise GenevaError where holes leave no plate between or around them."""
-    wall = plate_wall(plate)
-    if wall <= 0.0:
-        raise GenevaError(
-            f"--part links: no plate is left around the holes of the {plate.name}: it lacks "
-            f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart",
-            ("size", "link_pin_mm"),
-        )
+def _pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Member]:
+    """Yield each pin that joins links, with the washers and spacers on it."""
+    pin, ring = Circle("ROLLER", ORIGIN, sizes.pin), Circle("LINK", ORIGIN, sizes.ring)
+    hole = Circle("LINK", ORIGIN, sizes.pin + sizes.loose)
+    for path, both in joined(links, near):
+        where, name = point_at_zero(path), " and ".join(link.name for link in both)
+        spans = [sizes.span(link.plane) for link in both]
+        yield Member(Plate(f"pin of {name}", "ROLLER", pin, (), spans[-1][0], spans[0][1]), where)
+        for (high, _), (_, low) in zip(spans, spans[1:], strict=False):
+            if high > low:
+                what = "washer" if high - low <= sizes.washer else "spacer"
+                yield Member(Plate(f"{what} of {name}", "LINK", ring, (hole,), low, high), where)
+
+
+def _rollers(links: Iterable[Link], sizes: LinkSizes, roller: float) -> Iterator[Member]:
+    """Yield rollers below the wheel's plane: a first wheel's, with its pin, and a groove's."""
+    radius = sizes.roller_stands
+    if not radius:
+        return
+    pin, hole, whole = (Circle("ROLLER", ORIGIN, r) for r in (radius, radius + sizes.loose, roller))
+    for link in links:
+        for at, kind in zip(places(link), link.kinds, strict=True):
+            where, plates = point_at_zero(at), []
+            if kind is Joint.ROLLER and link.plane > 1:
+                low, high = sizes.span(link.plane - 1)
+                below = sizes.span(link.plane)[0]
+                plates.append(Plate(f"{link.name}'s roller", "ROLLER", whole, (hole,), low, high))
+                plates.append(Plate(f"{link.name}'s pin", "ROLLER", pin, (), below, high))
+            elif kind is Joint.CARRIED:
+                span = sizes.span(link.plane + 1)
+                plates.append(Plate("roller in the groove", "ROLLER", whole, (hole,), *span))
+            yield from (Member(plate, where) for plate in plates)

@@ -1,19 +1,26 @@
 """The crank's outline in the wheel's plane: the locking disc, its relief and its round holes.
 
 It is in the crank's frame: its axis is the origin, and x is through the first roller at
-mid-motion. The disc is whole where it locks, and relieved where a roller moves the wheel.
+mid-motion. The disc is whole where it locks, and relieved where a roller moves the wheel. If the
+wheel reaches beyond the crank's axis, as internal ones do, only locking sectors are left.
 """
 
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
+from collections.abc import Callable
+from functools import cache, partial
 from itertools import combinations
+from typing import TypeAlias
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, Shape, about, closed
-from geneva_cli.numerics.tolerances import SAME_ANGLE
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Segment, Shape, about, closed
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.locking_rings import Swept, rings
 from geneva_cli.parts.outlines.reliefs import (
     Relief,
     arc_floor,
@@ -21,11 +28,15 @@ from geneva_cli.parts.outlines.reliefs import (
     is_whole,
     keyway_direction,
     reliefs,
+    sectors,
     widened,
 )
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.sizes import Sizes, crank_reach_and_hub
 from geneva_cli.parts.slots.roller_paths import mouth_corners, roller_centres
+
+# points of the wheel inside the disc in one motion: x and y in the crank's frame
+Swept: TypeAlias = Callable[[int], tuple[Array, Array]]
 
 
 def crank_contours(
@@ -33,13 +44,12 @@ def crank_contours(
 ) -> list[Contour]:
     """Return the locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
 
-    ``swept(i)`` are points where the wheel enters the disc in the i-th motion. Where the
-    wheel sweeps over the crank's axis, as an internal wheel does, only locking sectors are left.
-    The crank carries them next to the wheel's plane. They keep ``spare`` mm more distance from the
-    wheel.
+    ``swept(i)`` are points where the wheel enters the disc in the i-th motion. Sectors that are
+    left of it keep ``spare`` mm more distance from the wheel. Raises GenevaError where nothing is
+    left.
     """
     if not is_whole(assembly, sizes):
-        return rings(assembly, sizes, swept, spare)
+        return _rings(assembly, sizes, swept, spare)
     around = reliefs(assembly)
     if relief == "sector":
         mouths = mouth_corners(assembly, sizes.roller, sizes.recess, sizes.rim)
@@ -76,8 +86,7 @@ def _arc(sizes: Sizes, relief: Relief) -> Segment:
     """Return one arc that meets the disc at right angles at both ends.
 
     For a radial slot entered without shock it is the triangle of wheel, crank and roller at entry,
-    scaled down to the disc. Its centre is L rk/R from the axis, its radius is L cos b rk/R. Raises
-    GenevaError where the wheel moves over half a turn of the crank or more.
+    scaled down to the disc. Its centre is L rk/R from the axis, its radius is L cos b rk/R.
     """
     if relief.half > 0.5 * math.pi - SAME_ANGLE:
         raise GenevaError(
@@ -95,10 +104,10 @@ def _arc(sizes: Sizes, relief: Relief) -> Segment:
 def _sector(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
     """Return the whole sector, down to where the wheel never comes: L - rim less a clearance."""
     floor = assembly.L - sizes.rim - sizes.relief
-    width = relief.end - relief.start
-    bottom = about((0.0, 0.0), floor, relief.start, width)
-    start = (sizes.lock * math.cos(relief.start), sizes.lock * math.sin(relief.start))
-    end = (sizes.lock * math.cos(relief.end), sizes.lock * math.sin(relief.end))
+    bottom = about((0.0, 0.0), floor, relief.start, relief.end - relief.start)
+    start, end = (
+        (sizes.lock * math.cos(at), sizes.lock * math.sin(at)) for at in (relief.start, relief.end)
+    )
     return [Line(start, bottom.start), bottom, Line(bottom.end, end)]
 
 
@@ -123,3 +132,75 @@ def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
         return None
     pairs = combinations(roller_centres(assembly), 2)
     return min(math.dist(one, other) for one, other in pairs) - 2.0 * sizes.roller
+
+
+def _rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list[Contour]:
+    """Return the sectors between reliefs, each as wide as the wheel leaves it clear."""
+    x, y = map(np.concatenate, zip(*map(swept, range(len(assembly.motions))), strict=True))
+    away = np.sqrt(x * x + y * y)
+
+    def ring(start: float, end: float) -> Contour:
+        middle, whole = 0.5 * (end + start), 0.5 * (end - start)
+        # only points about the sector's direction: this takes less time than all their directions
+        along = x * math.cos(middle) + y * math.sin(middle)
+        near = np.flatnonzero(along >= (math.cos(whole) - SAME_ANGLE) * away)
+        off = np.remainder(np.arctan2(y[near], x[near]) - middle + math.pi, math.tau) - math.pi
+        inner = cache(partial(_inner, sizes, (np.hypot(x[near], y[near]), off), spare))
+        # the least thickness of a sector is a tenth of the disc's radius
+        half = widest(whole, lambda half: max(inner(half)) < 0.9 * sizes.lock)
+        if half is None:
+            raise GenevaError(
+                "the wheel sweeps over the whole locking sector: a smaller roller, or another "
+                f"lock_radius_mm than {sizes.lock:.6g}, may leave part of it; 0 omits it",
+                ("size", "lock_radius_mm"),
+            )
+        return _ring(sizes, middle, half, *inner(half))
+
+    return [ring(*span) for span in sectors(reliefs(assembly))]
+
+
+def widest(whole: float, clears: Callable[[float], bool]) -> float | None:
+    """Return half the width of the widest locking sector that clears the wheel, up to ``whole``.
+
+    Steps are a fiftieth of ``whole``. None if none of at least a fifth of it clears the wheel.
+    Narrower sectors clear the wheel where a wider one does.
+    """
+    if clears(whole):  # as most do
+        return whole
+    halves = [(1.0 - 0.02 * k) * whole for k in range(1, 40)]
+    first = bisect_left(halves, True, key=clears)
+    return halves[first] if first < len(halves) else None
+
+
+def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -> Contour:
+    """Return a locking sector with an inner arc, ``edge`` from the axis at its ends."""
+    low, high = middle - half, middle + half
+    outer = about((0.0, 0.0), sizes.lock, low, 2.0 * half)
+    start, end = ((edge * math.cos(at), edge * math.sin(at)) for at in (high, low))
+    bulge = (edge * math.cos(half) - floor) / (edge * math.sin(half))
+    return closed(
+        "CRANK", [outer, Line(outer.end, start), Arc(start, end, bulge), Line(end, outer.start)]
+    )
+
+
+def _inner(
+    sizes: Sizes, points: tuple[Array, Array], more: float, half: float
+) -> tuple[float, float]:
+    """Return the inner arc of a locking sector: its distance at the edges and in the middle.
+
+    ``points`` of the wheel are radii, and directions from the sector's middle. Through each point
+    there is one circle that meets both edges where this arc does. The circle that is farthest out
+    in the middle clears all points.
+    """
+    inside = np.abs(points[1]) < half
+    radius, off = (each[inside] for each in points)
+    at_edge = float(radius[np.abs(off) > half - 0.035].max(initial=0.0))  # within two degrees
+    spare = min(sizes.relief, (sizes.lock - at_edge) / 3.0) + more
+    edge = max(at_edge + spare, 0.01 * sizes.lock)  # no sector is pointed down to the axis
+    ex, ey = edge * math.cos(half), edge * math.sin(half)
+    x, y = radius * np.cos(off), radius * np.sin(off)
+    off_edge = np.abs(x - ex) > SAME_LENGTH * edge
+    x, y = x[off_edge], y[off_edge]
+    centre = (x * x + y * y - edge * edge) / (2.0 * (x - ex))
+    reach = np.copysign(np.hypot(ex - centre, ey), x - ex)
+    return edge, float((centre + reach).max(initial=0.0)) + spare

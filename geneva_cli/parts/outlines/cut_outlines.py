@@ -1,4 +1,4 @@
-"""The outlines of a machine as they are cut, and the relief of the crank that clears the wheel."""
+"""The outlines of wheel and crank as they are cut, and the relief that clears the wheel."""
 
 from __future__ import annotations
 
@@ -16,10 +16,9 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.crank_outline import arc_leaves_hub, crank_contours
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.reliefs import has_arcs, is_whole, without_lock
+from geneva_cli.parts.outlines.reliefs import has_arcs, is_whole, lock_of, without_lock
 from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.stressed import lock_of
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
 
@@ -65,14 +64,16 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
 
 def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: float) -> Iterator[Arc]:
     """Yield the arcs of a radius whose centres are ``away`` from the axis, both within ``near``."""
-    pieces = (piece for contour in contours for piece in contour.segments)
-    for arc in (piece for piece in pieces if isinstance(piece, Arc)):
-        if abs(arc.radius - radius) < near and abs(math.hypot(*arc.centre) - away) < near:
+    for arc in (piece for contour in contours for piece in contour.segments):
+        if (
+            isinstance(arc, Arc)
+            and max(abs(arc.radius - radius), abs(math.hypot(*arc.centre) - away)) < near
+        ):
             yield arc
 
 
 def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:
-    """Return the crank with the relief of the spec, or else the first kind that clears the wheel.
+    """Return the crank with the spec's relief, or else the first kind that clears the wheel.
 
     An arc leaves the most of the disc and is one cut. If it collides, as with many slots, or leaves
     too little around the crank's bore or hub, the whole sector is cut down to where the wheel never
@@ -91,24 +92,18 @@ def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], st
         if _overlap(gaps, close) <= close:
             return crank, "arc", gaps
     kind, spare = requested or "sector", 0.0
-    crank = crank_contours(assembly, sizes, kind, swept)
-    gaps = bare.with_crank(crank)
-    for _ in range(0 if whole else 5):
-        overlap = _overlap(gaps, close)
-        if overlap <= close:
+    for _ in range(6):
+        crank = crank_contours(assembly, sizes, kind, swept, spare)
+        gaps = bare.with_crank(crank)
+        if whole or (overlap := _overlap(gaps, close)) <= close:
             break
         # Between two of these positions the wheel comes nearer still: three times the overlap.
         spare += 3.0 * overlap + 10.0 * close
-        crank = crank_contours(assembly, sizes, kind, swept, spare)
-        gaps = bare.with_crank(crank)
     return crank, kind, gaps
 
 
 def _overlap(gaps: Gaps, close: float) -> float:
-    """Return the greatest overlap of crank and wheel in all motions, mm.
-
-    Gaps wider than ``close`` count as ``close``.
-    """
+    """Return the greatest overlap of crank and wheel in all motions, mm, 0 for none."""
     least = 0.0
     for engagement, behind in gaps.assembly.motions:
         count = 2 + int(engagement.motion_deg / SWEPT_DEG)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.loads.tolerance.locking import Lock, loosest
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.slots.roller_paths import mouth_corners
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
 Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
@@ -52,10 +54,7 @@ def reliefs(assembly: Assembly) -> list[Relief]:
 
 
 def arc_floor(assembly: Assembly, lock: float) -> float:
-    """Return the least distance from the axis of an arc that meets the disc at right angles.
-
-    It is that of the widest relief; 0 for half a turn or more, where there is no such arc.
-    """
+    """Return the least distance from the axis of an arc that meets the disc at right angles."""
     half = max(one.half for one in reliefs(assembly))
     wide = half > 0.5 * math.pi - SAME_ANGLE
     return 0.0 if wide else lock * math.tan(0.25 * math.pi - 0.5 * half)
@@ -80,25 +79,17 @@ def followed(around: list[Relief]) -> list[tuple[Relief, float]]:
     return list(zip(around, starts, strict=True))
 
 
-def merged(around: list[Relief]) -> list[Relief]:
-    """Return the reliefs, with those that touch joined into one."""
-    joined = around[:1]
-    for one in around[1:]:
-        if one.start - joined[-1].end > SAME_ANGLE:
+def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
+    """Return the reliefs as wide as the wheel's horns need, with those that touch joined."""
+    joined: list[Relief] = []
+    for one in (_widened(assembly, sizes, relief, mouths) for relief in reliefs(assembly)):
+        if not joined or one.start - joined[-1].end > SAME_ANGLE:
             joined.append(one)
         else:
             joined[-1] = joined[-1]._replace(end=max(one.end, joined[-1].end))
     if len(joined) > 1 and joined[0].start + math.tau - joined[-1].end <= SAME_ANGLE:
         joined = [joined[0]._replace(start=joined[-1].start - math.tau), *joined[1:-1]]
     return joined
-
-
-def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
-    """Return the reliefs as wide as the wheel's horns need, with those that touch joined.
-
-    The horns of offset slots and of unequal steps may reach beyond a relief's edges.
-    """
-    return merged([_widened(assembly, sizes, one, mouths) for one in reliefs(assembly)])
 
 
 def _widened(assembly: Assembly, sizes: Sizes, one: Relief, mouths: Mouths) -> Relief:
@@ -141,3 +132,20 @@ def sectors(around: list[Relief]) -> list[tuple[float, float]]:
 def keyway_direction(assembly: Assembly) -> float:
     """Return the keyway's direction: the middle of a locking sector, away from reliefs."""
     return next((0.5 * (start + end) for start, end in sectors(reliefs(assembly))), math.pi)
+
+
+def lock_of(where: Assembly, size: Sizes, cut: Sequence[float] = ()) -> Lock:
+    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
+    mouths = mouth_corners(where, size.roller, size.recess, size.rim)
+    # arcs end where the motions do
+    arcs = not is_whole(where, size) or where.mechanism.spec.size.relief == "arc"
+    locking = sectors(reliefs(where) if arcs else widened(where, size, mouths))
+    half = min((*(0.5 * (end - start) for start, end in locking), *cut), default=math.nan)
+    edge = where.full.spec.size.lock_edge_mm or 0.0
+    lock = Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
+    corners = [radius for mouth in mouths.values() for radius in mouth]
+    if max(corners) - min(corners) < SAME_LENGTH * where.L:
+        return lock
+    near, far = abs(where.L - size.recess), where.L + size.recess
+    tried = [lock._replace(corner=r) for r in sorted(corners) if near < r < far]
+    return loosest(tried) if tried else lock

@@ -1,22 +1,30 @@
-"""The wheel's outline: slots, rim and recesses in one closed contour."""
+"""The wheel's outline: slots, rim and recesses in one closed contour; the walls of straight slots.
+
+Where gears drive between two rollers, a motion has two slots: one starts the wheel, one stops it.
+They lie half of the angle between them on either side of its middle. A roller leaves the first slot
+on an epicycloid with its cusp at the slot's end, and comes to the second on another. Each
+epicycloid leans to the other slot and sweeps away that side of its own slot. So each slot keeps the
+wall on its recess's side. Between the two lies an arc about the wheel's axis, as deep as the slots.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import NoReturn
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import turned
-from geneva_cli.geometry.shapes import Arc, Contour, Point, Segment, about, closed
+from geneva_cli.geometry.measure import turned, turned_pieces
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment, about, closed, joined
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.numerics.arrays import array, scalar
+from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.walls.straight import straight_walls
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.slots.roller_paths import least_mouth
-from geneva_cli.parts.turn.machine_parts import CONTACT
+from geneva_cli.parts.slots.roller_paths import corner, least_mouth, mouth, rest
+from geneva_cli.parts.turn.pairs import CONTACT
 
 CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
 
@@ -35,7 +43,7 @@ class _CurvedSlot:
 # drawings, sheet and solids of one machine have the same walls, and so do machines of other locks
 @lru_cache(maxsize=16)
 def _curved(slot: _CurvedSlot) -> Contour:
-    from geneva_cli.parts.outlines.walls.chain import curved_walls
+    from geneva_cli.parts.outlines.curved_walls import curved_walls
 
     return curved_walls(slot.assembly, slot.sizes, slot.engagement, *slot.form)
 
@@ -56,6 +64,64 @@ def turned_walls(assembly: Assembly, sizes: Sizes) -> dict[Engagement, Contour]:
     return {one: slot_walls(assembly, sizes, one, fine) for one in assembly.kinds}
 
 
+def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> Contour:
+    """Return a straight slot's walls, counterclockwise from one corner of its mouth to the other.
+
+    A pair of slots has the arc between them too. The wall that faces the crank's axis at entry ends
+    where the roller enters, the other where it leaves. These ends lie at different radii if the
+    slots are offset or unequal. Raises GenevaError where the wheel ends short of the slot's end.
+    """
+    apart, engagement = engagement.apart, engagement.through
+    L, w, out = assembly.L, sizes.half_width, assembly.sign
+    # direction of the slot's axis, and its distance from the wheel's centre
+    x, y = engagement.slot(engagement.entry_deg, 0)
+    u, v = engagement.slot(0.0, 0)
+    angle = math.atan2(out * (y.c[0] - v.c[0]), out * (x.c[0] - u.c[0]))
+    c, s = math.cos(angle), math.sin(angle)
+    level = scalar(L * y.c[0] * c - L * x.c[0] * s)
+    level = level if abs(level) > 1e-12 * L else 0.0
+    # the deepest position of the roller's centre along it
+    x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, 721), 0)
+    along = array(L * (x.c[0] * c + y.c[0] * s))
+    bottom = float(along.min() if out > 0.0 else along.max()) - out * sizes.slot_bottom
+    # if the spec sets the rim, it moves all mouths by as much as the widest one
+    raised = sizes.rim - max(mouth(assembly, one, sizes.roller) for one in assembly.kinds)
+    starts = []
+    for side in (-1.0, 1.0):
+        rim, across = mouth(assembly, engagement, sizes.roller), level + side * w
+        if level:
+            x0, y0 = rest(assembly, engagement, -1.0)
+            end = -1.0 if (y0 * c - x0 * s > level) == (side > 0.0) else 1.0
+            rim = math.hypot(*corner(assembly, engagement, end, sizes.roller))
+        start = math.sqrt(max((rim + raised) ** 2 - across * across, 0.0))
+        if not out * (start - bottom) > 0.0:
+            raise GenevaError(
+                f"wheel_radius_mm = {sizes.rim:g}: the rim does not reach the slots' ends, which "
+                f"lie at {bottom:.6g} mm",
+                ("size", "wheel_radius_mm"),
+            )
+        starts.append(start)
+    first = Line((starts[0], level - w), (bottom, level - w))
+    last = Line((bottom, level + w), (starts[1], level + w))
+    if abs(apart) < SAME_ANGLE:
+        pieces: tuple[Segment, ...] = (first, Arc(first.end, last.start, -out), last)
+    else:
+        if apart < 0.0:
+            raise GenevaError(
+                "the slots that start and stop the wheel cross by "
+                f"{math.degrees(-2.0 * apart):.4g} deg: increase sector_deg, or set "
+                'gear_ratio = "shockless"',
+                ("drive", "sector_deg"),
+            )
+        middle = (bottom - w, 0.0)
+        quarter = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
+        begin = turned_pieces([first, Arc(first.end, middle, -quarter)], -apart)
+        between = about((0.0, 0.0), middle[0], -apart, 2.0 * apart)
+        finish = turned_pieces([Arc(middle, last.start, -quarter), last], apart)
+        pieces = (*begin, between, *finish)
+    return turned(Contour("WHEEL", joined(pieces), closed=False), angle)
+
+
 def wheel_contour(
     assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Contour], convex: bool = False
 ) -> Contour:
@@ -72,26 +138,21 @@ def wheel_contour(
     segments: list[Segment] = []
     around = assembly.slots
     walls = [turned(slots[engagement], direction).segments for engagement, direction in around]
-    for i, (_, direction) in enumerate(around):
+    for i, (_, start) in enumerate(around):
         following = (i + 1) % len(around)
         segments += walls[i]
-        between = _between(assembly, direction, around[following][1])
+        span = (around[following][1] - start) % math.tau
+        recess = next(
+            start + off
+            for at in assembly.rests
+            if (off := (at - start) % math.tau) < span or span == 0.0
+        )
         ends = segments[-1].end, walls[following][0].start
         if convex and i == len(around) // 2:
             segments.append(_about((0.0, 0.0), *ends, 1.0))
         else:
-            segments += _rim(assembly, sizes, *ends, between)
+            segments += _rim(assembly, sizes, *ends, recess)
     return closed("WHEEL", segments)
-
-
-def _between(assembly: Assembly, start: float, end: float) -> float:
-    """Return the direction of the recess between two adjacent slots, after the first one's."""
-    span = (end - start) % math.tau
-    return next(
-        start + off
-        for at in assembly.rests
-        if (off := (at - start) % math.tau) < span or span == 0.0
-    )
 
 
 def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) -> list[Segment]:
@@ -100,6 +161,7 @@ def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) 
     Mouths of offset slots and of unequal steps end at different radii. One that the recess does not
     reach is extended to the recess, along the roller's circle about the crank's axis.
     """
+    L = assembly.L
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
     if math.remainder(last - first, math.tau) <= 0.0:
         raise GenevaError(
@@ -109,28 +171,27 @@ def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) 
         )
     last = first + (last - first) % math.tau
     at = first + (at - first) % math.tau
-    axis = assembly.L * math.cos(at), assembly.L * math.sin(at)
+    axis = L * math.cos(at), L * math.sin(at)
     distances = math.dist(start, axis), math.dist(end, axis)
     if sizes.lock and min(distances) <= sizes.recess:
-        _refuse(sizes, min(distances))
-    own = math.hypot(*start), math.hypot(*end)
-    least = least_mouth(assembly.L, sizes.recess, sizes.rim) if sizes.lock else max(own)
-    raised = [least > rim + SAME_LENGTH * assembly.L and assembly.sign > 0.0 for rim in own]
-    rims = [least if up else rim for up, rim in zip(raised, own, strict=True)]
+        raise GenevaError(
+            f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be "
+            f"below {sizes.lock + min(distances) - sizes.recess:.6g}, or the roller smaller",
+            ("size", "lock_radius_mm"),
+        )
+    rims = [math.hypot(*start), math.hypot(*end)]
+    least = least_mouth(L, sizes.recess, sizes.rim) if sizes.lock else max(rims)
     before: list[Segment] = []
     after: list[Segment] = []
-    if raised[0]:
-        first = at - opening(assembly.L, rims[0], distances[0])
-        before.append(_about(axis, start, _on(rims[0], first), 1.0))
-    if raised[1]:
-        last = at + opening(assembly.L, rims[1], distances[1])
-        after.append(_about(axis, _on(rims[1], last), end, 1.0))
+    if assembly.sign > 0.0 and least > rims[0] + SAME_LENGTH * L:
+        rims[0], first = least, at - _opening(L, least, distances[0])
+        before.append(_about(axis, start, _on(least, first), 1.0))
+    if assembly.sign > 0.0 and least > rims[1] + SAME_LENGTH * L:
+        rims[1], last = least, at + _opening(L, least, distances[1])
+        after.append(_about(axis, _on(least, last), end, 1.0))
     if not sizes.lock:
         return [*before, about((0.0, 0.0), rims[0], first, last - first), *after]
-    low, high = (
-        at + side * opening(assembly.L, rim, sizes.recess)
-        for side, rim in zip((-1.0, 1.0), rims, strict=True)
-    )
+    low, high = at - _opening(L, rims[0], sizes.recess), at + _opening(L, rims[1], sizes.recess)
     return [
         *before,
         about((0.0, 0.0), rims[0], first, low - first),
@@ -151,21 +212,8 @@ def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
     return Arc(start, end, math.tan(0.25 * sweep))
 
 
-def _refuse(sizes: Sizes, distance: float) -> NoReturn:
-    """Raise GenevaError: no horn is left at a slot whose mouth is ``distance`` from the axis."""
-    most = sizes.lock + distance - sizes.recess
-    raise GenevaError(
-        f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be below "
-        f"{most:.6g}, or the roller smaller",
-        ("size", "lock_radius_mm"),
-    )
-
-
-def opening(L: float, rim: float, radius: float) -> float:
-    """Return half the angle over which a circle about the crank's axis opens the rim.
-
-    Raises GenevaError where the two circles do not meet.
-    """
+def _opening(L: float, rim: float, radius: float) -> float:
+    """Return half the angle over which a circle about the crank's axis opens the rim."""
     cosine = (L * L + rim * rim - radius * radius) / (2.0 * L * rim)
     if not abs(cosine) < 1.0:
         raise GenevaError(

@@ -1,8 +1,7 @@
 """Bores for shafts: round, round with a keyway, with one flat ("D"), or hexagonal.
 
-A bore's nominal radius is that of its shaft: of the circle, or of the circle inside a hexagon. The
-bore is cut wider by the fit. It has a direction about its axis: that of the keyway, of the flat, or
-of one side of the hexagon.
+A nominal radius is that of the shaft: of the circle, or of that inside a hexagon. The bore is cut
+wider by the fit. It has the direction of the keyway, of the flat, or of one side of the hexagon.
 """
 
 from __future__ import annotations
@@ -77,7 +76,8 @@ class Bore(NamedTuple):
         cut = self.radius + self.loose
         if self.key:
             over = length(cut + self.reach)
-            return f"keyway {self._wide} JS9, {over} over bore ({self.standard})"
+            wide = length(self.key.width, fine=True)
+            return f"keyway {wide} JS9, {over} over bore ({self.standard})"
         if self.form == "hex":
             return f"hexagon {length(2.0 * cut)} across flats"
         return f"flat, {length(2.0 * cut - self.flat)} to the far side" if self.flat else ""
@@ -86,20 +86,13 @@ class Bore(NamedTuple):
     def shaft_note(self) -> str:
         """What a drawing of the shaft says besides the diameter."""
         if self.key:
-            return f"keyway {self._wide} P9, {length(self.key.in_shaft)} deep ({self.standard})"
+            wide = length(self.key.width, fine=True)
+            return f"keyway {wide} P9, {length(self.key.in_shaft)} deep ({self.standard})"
         return self._replace(loose=0.0).note
 
     @property
-    def _wide(self) -> str:
-        return length(self.key.width, fine=True) if self.key else ""
-
-    @property
     def end_diameter(self) -> float | None:
-        """Diameter of a round end of the shaft beyond the bore; None where there is none.
-
-        A flat is milled up to the shaft's end. Within a hexagon the lathe leaves a twentieth less
-        than the width across its flats.
-        """
+        """Diameter of a round end of the shaft beyond the bore; None where there is none."""
         if self.form == "D":
             return None
         return (1.9 if self.form == "hex" else 2.0) * self.radius
@@ -116,8 +109,8 @@ class Bore(NamedTuple):
         """
         radius = self.radius + self.loose
         if self.key:
-            first, second = _arcs(radius, direction, self._half_angle(radius))
-            low, high = self._across(self.reach, direction)
+            first, second = _arcs(radius, direction, math.asin(0.5 * self.key.width / radius))
+            low, high = _across(self.key, self.reach, direction)
             sides = Line(high, first.start), first, second, Line(second.end, low)
             return closed(layer, [Line(low, high), *sides])
         if self.form == "hex":
@@ -133,21 +126,11 @@ class Bore(NamedTuple):
         """Return the section of the shaft."""
         if not self.key:
             return self._replace(loose=0.0).shape(layer, direction)
-        first, second = _arcs(self.radius, direction, self._half_angle(self.radius))
-        low, high = self._across(self.radius - self.key.in_shaft, direction)
+        half = math.asin(0.5 * self.key.width / self.radius)
+        first, second = _arcs(self.radius, direction, half)
+        low, high = _across(self.key, self.radius - self.key.in_shaft, direction)
         sides = Line(second.end, low), Line(low, high), Line(high, first.start)
         return closed(layer, [first, second, *sides])
-
-    def _half_angle(self, radius: float) -> float:
-        """Half the angle of a keyway at a radius."""
-        assert self.key
-        return math.asin(0.5 * self.key.width / radius)
-
-    def _across(self, x: float, direction: float) -> tuple[Point, Point]:
-        """Return both ends of the keyway's bottom or top, at a distance from the axis."""
-        assert self.key
-        half = 0.5 * self.key.width
-        return _turned(x, -half, direction), _turned(x, half, direction)
 
 
 def bore_of(size: Size, part: str, radius: float) -> Bore:
@@ -281,6 +264,12 @@ def around(section: Shape) -> float:
 def _turned(x: float, y: float, direction: float) -> Point:
     c, s = math.cos(direction), math.sin(direction)
     return x * c - y * s, x * s + y * c
+
+
+def _across(key: ParallelKey, x: float, direction: float) -> tuple[Point, Point]:
+    """Return both ends of a keyway's bottom or top, at a distance from the axis."""
+    half = 0.5 * key.width
+    return _turned(x, -half, direction), _turned(x, half, direction)
 
 
 def _arcs(radius: float, direction: float, half: float) -> tuple[Arc, Arc]:

@@ -1,8 +1,7 @@
-"""Limits of the fits (ISO 286) that the drawings use.
+"""Limits of the fits (ISO 286) that the drawings use, and clearances of parts that slide.
 
-H7 is for holes, g6 and h6 for shafts in them. A pin is h6 all along: parts pressed on it are P7,
-parts that turn on it are F7 (shaft-basis fits, ISO 286-1). The loosest and the closest clearance of
-parts that slide are here too.
+H7 is for holes, g6 and h6 for shafts in them. A pin is h6: parts pressed on it are P7, parts that
+turn on it are F7 (shaft-basis fits, ISO 286-1).
 """
 
 from __future__ import annotations
@@ -28,32 +27,19 @@ class SizeRange(NamedTuple):
 
 # ISO 286-1:2010: grades IT6, IT7 and IT11 by its table 1, the fundamental deviations g, f, p and c
 # by its tables 4 and 5.
-ISO_286 = [
-    SizeRange(*row)
-    for row in (
-        (3, 6, 10, 2, 6, 6, 60, 60),
-        (6, 8, 12, 4, 10, 12, 75, 70),
-        (10, 9, 15, 5, 13, 15, 90, 80),
-        (18, 11, 18, 6, 16, 18, 110, 95),
-        (30, 13, 21, 7, 20, 22, 130, 110),
-        (50, 16, 25, 9, 25, 26, 160, 130),
-        (80, 19, 30, 10, 30, 32, 190, 150),
-        (120, 22, 35, 12, 36, 37, 220, 180),
-        (180, 25, 40, 14, 43, 43, 250, 230),
-        (250, 29, 46, 15, 50, 50, 290, 280),
-        (315, 32, 52, 17, 56, 56, 320, 330),
-        (400, 36, 57, 18, 62, 62, 360, 400),
-        (500, 40, 63, 20, 68, 68, 400, 480),
-        (630, 44, 70, 22, 76, 78),
-        (800, 50, 80, 24, 80, 88),
-        (1000, 56, 90, 26, 86, 100),
-        (1250, 66, 105, 28, 98, 120),
-        (1600, 78, 125, 30, 110, 140),
-        (2000, 92, 150, 32, 120, 170),
-        (2500, 110, 175, 34, 130, 195),
-        (3150, 135, 210, 38, 145, 240),
-    )
-]
+# fmt: off
+ISO_286 = [SizeRange(*row) for row in (
+    (3, 6, 10, 2, 6, 6, 60, 60), (6, 8, 12, 4, 10, 12, 75, 70), (10, 9, 15, 5, 13, 15, 90, 80),
+    (18, 11, 18, 6, 16, 18, 110, 95), (30, 13, 21, 7, 20, 22, 130, 110),
+    (50, 16, 25, 9, 25, 26, 160, 130), (80, 19, 30, 10, 30, 32, 190, 150),
+    (120, 22, 35, 12, 36, 37, 220, 180), (180, 25, 40, 14, 43, 43, 250, 230),
+    (250, 29, 46, 15, 50, 50, 290, 280), (315, 32, 52, 17, 56, 56, 320, 330),
+    (400, 36, 57, 18, 62, 62, 360, 400), (500, 40, 63, 20, 68, 68, 400, 480),
+    (630, 44, 70, 22, 76, 78), (800, 50, 80, 24, 80, 88), (1000, 56, 90, 26, 86, 100),
+    (1250, 66, 105, 28, 98, 120), (1600, 78, 125, 30, 110, 140), (2000, 92, 150, 32, 120, 170),
+    (2500, 110, 175, 34, 130, 195), (3150, 135, 210, 38, 145, 240),
+)]
+# fmt: on
 
 
 def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:

@@ -1,8 +1,7 @@
 """Hubs with what holds them on their shafts: a slit with a clamp screw, or radial set screws.
 
-A clamp screw pulls the jaws of a slit hub together, and friction holds the shaft. The hub stays
-within its circle. Screw and head are in a notch whose face is as far from the slit as the thread is
-wide. The other jaw has the thread.
+A clamp's screw and head are in a notch within the hub's circle, whose face is as far from the slit
+as the thread is wide. The other jaw has the thread. Friction holds the shaft.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.round_holes import CrossHole, drilled
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Line, about, closed
 from geneva_cli.parts.shafts.bores import around
-from geneva_cli.parts.shafts.screws import SCREWS, Screw, change_for_hub, screw
+from geneva_cli.parts.shafts.screws import SCREWS, Screw, screw
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.written import length
 
@@ -119,35 +118,33 @@ def clamp_of(size: Size, part: str, bore: float, hub: float) -> Clamp | None:
     return None if thread is None else Clamp(screw(f"{part}_clamp_mm", thread), bore, hub)
 
 
-def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
-    """Return the hub of a part with slit, notch and screw holes, if the spec clamps it.
+def held_hub(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
+    """Return the hub of a part, "wheel" or "crank", with its screw's holes in a direction, radians.
 
-    The slit is in a direction, radians. Raises GenevaError, naming the key, for a hub that does not
-    hold the screw, and for a shaft that is held in another way.
+    Raises GenevaError, naming the key, for a screw that the hub does not hold, and for a shaft that
+    is held in two ways.
     """
-    key = f"{part}_clamp_mm"
     values = vars(size)
+    key, other = f"{part}_clamp_mm", f"{part}_screw_mm"
     if values[key] is None:
-        return hub
+        return hub if values[other] is None else _with_set_screw(size, part, hub, direction)
     bore = hub.holes[0] if hub and hub.holes else None
     if hub is None or not isinstance(bore, Circle) or not isinstance(hub.outline, Circle):
         shape = f"{part}_keyway" if values[f"{part}_keyway"] else f"{part}_bore"
-        change = f"remove {shape}" if bore else change_for_hub(size, part)
+        change = f"remove {shape}" if bore else _change_for_hub(size, part)
         raise GenevaError(
             f"{key}: a clamp needs a hub with a round bore; {change}, or leave out {key}",
             ("size", key),
         )
-    if values[f"{part}_screw_mm"] is not None:
+    if values[other] is not None:
         raise GenevaError(
-            f"{part}_screw_mm: the clamp holds the shaft; remove one of {key} and {part}_screw_mm",
-            ("size", f"{part}_screw_mm"),
+            f"{other}: the clamp holds the shaft; remove one of {key} and {other}", ("size", other)
         )
-    from geneva_cli.geometry.round_holes import CrossHole
-
     clamp = Clamp(screw(key, values[key]), bore.radius, hub.outline.radius)
     if not clamp.fits or hub.thickness < clamp.screw.head:
-        fitting = [s.thread for s in SCREWS if clamp._replace(screw=s).fits]
-        fitting = [one for one in fitting if hub.thickness >= screw(key, one).head]
+        fitting = [
+            s.thread for s in SCREWS if clamp._replace(screw=s).fits and hub.thickness >= s.head
+        ]
         small = "hub" if clamp._replace(screw=SCREWS[0]).is_narrow else "bore"
         most = f"up to {fitting[-1]:g}" if fitting else f"of no size: the {small} must be larger"
         raise GenevaError(
@@ -161,52 +158,16 @@ def with_clamp(size: Size, part: str, hub: Plate | None, direction: float) -> Pl
     for y, diameter in ((clamp.screw.thread, clamp.screw.through), (-clamp.slit, clamp.screw.core)):
         at = c * clamp.axis - s * y, s * clamp.axis + c * y
         holes.append(CrossHole(at, across, middle, 0.5 * diameter))
-    outline = turned(clamp.outline, direction)
-    return hub._replace(outline=outline, holes=(), cross=tuple(holes))
+    return hub._replace(outline=turned(clamp.outline, direction), holes=(), cross=tuple(holes))
 
 
-def clamp_note(size: Size, part: str) -> str:
-    """Return the sheet's note on a clamp; "" without one.
-
-    >>> clamp_note(Size(wheel_clamp_mm=5.0), "wheel")
-    'slit 1.25, clamp screw M5-8.8 (ISO 4762); fixed opposite the slit only'
-    """
-    thread: float | None = vars(size)[f"{part}_clamp_mm"]
-    if thread is None:
-        return ""
-    slit = Clamp(screw(f"{part}_clamp_mm", thread), 0.0, 0.0).slit
-    wide = length(slit)
-    return f"slit {wide}, clamp screw M{thread:g}-8.8 (ISO 4762); fixed opposite the slit only"
-
-
-def held_hub(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
-    """Return the hub of a part, "wheel" or "crank", with its screw's holes in a direction, radians.
-
-    Raises GenevaError, naming the key, for a screw that the hub does not hold.
-    """
-    return _with_set_screw(size, part, with_clamp(size, part, hub, direction), direction)
-
-
-def hub_note(size: Size, part: str) -> str:
-    """Return the sheet's note on what holds a hub on its shaft; "" for nothing."""
-    return clamp_note(size, part) or _screw_note(size, part)
-
-
-def _with_set_screw(size: Size, part: str, hub: Plate | None, direction: float) -> Plate | None:
-    """Return the hub of a part with the hole of its set screw, if the spec has one.
-
-    The hole is for the thread to be cut, amid the hub's length, and reaches the bore at its flat or
-    side in ``direction``, or a quarter of a turn from its keyway. The thread is at least one
-    diameter long, and the hub two diameters, so that half a diameter is left on each side. Raises
-    GenevaError, naming the key, for a set screw that the hub does not hold.
-    """
+def _with_set_screw(size: Size, part: str, hub: Plate | None, direction: float) -> Plate:
+    """Return the hub of a part with the hole of its set screw."""
     key = f"{part}_screw_mm"
-    thread: float | None = vars(size)[key]
-    if thread is None:
-        return hub
+    thread: float = vars(size)[key]
     if hub is None or not hub.holes:
         raise GenevaError(
-            f"{key}: a set screw needs a hub with a bore; {change_for_hub(size, part)}, or leave "
+            f"{key}: a set screw needs a hub with a bore; {_change_for_hub(size, part)}, or leave "
             f"out {key}",
             ("size", key),
         )
@@ -237,15 +198,35 @@ def _with_set_screw(size: Size, part: str, hub: Plate | None, direction: float) 
     return hub._replace(cross=(hole,))
 
 
-def _screw_note(size: Size, part: str) -> str:
-    """Return the sheet's note on a set screw; "" without one.
+def _change_for_hub(size: Size, part: str) -> str:
+    """Return the change of the spec that gives a part, "wheel" or "crank", a hub with a bore."""
+    values = vars(size)
+    hub, bore, length = (f"{part}_{name}_mm" for name in ("hub", "bore", "hub_length"))
+    missing = [hub] if values[hub] is None and values[length] is None else []
+    missing += [] if values[bore] else [bore]
+    if missing:
+        return f"set {' and '.join(missing)}"
+    if values[hub] is not None and values[hub] <= values[bore]:
+        return f"set {hub} above {bore}"
+    return f"set a greater {length}"  # the hub does not reach past what it stands on
 
-    >>> _screw_note(Size(wheel_screw_mm=4.0, wheel_bore="D"), "wheel")
+
+def hub_note(size: Size, part: str) -> str:
+    """Return the sheet's note on what holds a hub on its shaft; "" for nothing.
+
+    >>> hub_note(Size(wheel_clamp_mm=5.0), "wheel")
+    'slit 1.25, clamp screw M5-8.8 (ISO 4762); fixed opposite the slit only'
+    >>> hub_note(Size(wheel_screw_mm=4.0, wheel_bore="D"), "wheel")
     'set screw M4 (ISO 4026), radial, onto the flat'
     """
     values = vars(size)
-    thread, shape = values[f"{part}_screw_mm"], values[f"{part}_bore"]
+    thread: float | None = values[f"{part}_screw_mm"]
+    if clamp := clamp_of(size, part, 0.0, 0.0):
+        return (
+            f"slit {length(clamp.slit)}, clamp screw M{clamp.screw.thread:g}-8.8 (ISO 4762); "
+            "fixed opposite the slit only"
+        )
     if thread is None:
         return ""
-    onto = "the flat" if shape == "D" else "the shaft"
+    onto = "the flat" if values[f"{part}_bore"] == "D" else "the shaft"
     return f"set screw M{thread:g} (ISO 4026), radial, onto {onto}"

@@ -1,10 +1,8 @@
 """The crank's hub, and the shafts of wheel and crank with their ends along the axis.
 
-The crank's hub stands on the locking disc, or on the arm if there is no disc. It is drawn if the
-spec has one of its sizes; otherwise only its space is kept free. Shafts have the shape of the bores
-that they are in, less ``shaft_fit_mm``. They end in the frame's lower face, and above with the part
-that they carry; ``turned_shafts`` has those with steps. A wheel with ``wheel_hub_mm = 0`` has its
-shaft only above it, unless that carries a gear below.
+The hub is drawn if the spec has one of its sizes. Shafts end in the frame's lower face, and above
+with the part that they carry. A wheel with ``wheel_hub_mm = 0`` has its shaft only above it, unless
+that carries a gear below.
 """
 
 from __future__ import annotations
@@ -34,32 +32,26 @@ def crank_hub(parts: Outlines) -> Plate | None:
     Raises GenevaError, naming the key, if there is neither disc nor arm to carry it, and for a set
     screw that it does not hold.
     """
-    assembly = parts.assembly
-    direction = keyway_direction(assembly)
-    return held_hub(assembly.mechanism.spec.size, "crank", _crank_hub(parts), direction)
-
-
-def _crank_hub(parts: Outlines) -> Plate | None:
-    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
-    if not size.has_hub("crank") or sizes.crank_hub <= sizes.crank_bore:
-        return None
-    on_arm = 0.0 - size.allowances.pin_gap_mm  # no -0.0
-    disc = bool(parts.crank) and is_whole(parts.assembly, sizes)
-    if not (disc or parts.has_arm):
-        key = "crank_hub_length_mm" if size.crank_hub_mm is None else "crank_hub_mm"
-        raise GenevaError(
-            f"{key}: a hub needs the locking disc or the crank arm to stand on, and there is "
-            "neither; remove it",
-            ("size", key),
-        )
-    low = on_arm + (sizes.lock_thickness if disc else 0.0)
-    high = sizes.wheel_thickness
-    if size.crank_hub_length_mm is not None:
-        high = on_arm + size.crank_hub_length_mm
-    if high <= low:
-        return None
-    bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
-    return Plate("crank's hub", "HUB", Circle("HUB", ORIGIN, sizes.crank_hub), bores, low, high)
+    size, sizes, hub = parts.assembly.mechanism.spec.size, parts.sizes, None
+    if size.has_hub("crank") and sizes.crank_hub > sizes.crank_bore:
+        low = 0.0 - size.allowances.pin_gap_mm  # no -0.0
+        high = sizes.wheel_thickness
+        if size.crank_hub_length_mm is not None:
+            high = low + size.crank_hub_length_mm
+        if parts.crank and is_whole(parts.assembly, sizes):
+            low += sizes.lock_thickness
+        elif not parts.has_arm:
+            key = "crank_hub_length_mm" if size.crank_hub_mm is None else "crank_hub_mm"
+            raise GenevaError(
+                f"{key}: a hub needs the locking disc or the crank arm to stand on, and there is "
+                "neither; remove it",
+                ("size", key),
+            )
+        if high > low:
+            bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
+            outline = Circle("HUB", ORIGIN, sizes.crank_hub)
+            hub = Plate("crank's hub", "HUB", outline, bores, low, high)
+    return held_hub(size, "crank", hub, keyway_direction(parts.assembly))
 
 
 def shafts(
@@ -73,45 +65,31 @@ def shafts(
     ``lowest`` is the frame's lower face, and ``carried`` returns what sits on a shaft below wheel
     or crank. The crank's shaft ends at ``stop`` if links block it (``turn.planes``).
     """
-    assembly, still = parts.assembly, np.zeros(1)
+    assembly, sizes, still = parts.assembly, parts.sizes, np.zeros(1)
     size = assembly.mechanism.spec.size
-    if parts.sizes.wheel_bore:
-        bore, at = bore_of(size, "wheel", parts.sizes.wheel_bore), (0.0, 0.0)
+    if sizes.wheel_bore:
+        bore, at = bore_of(size, "wheel", sizes.wheel_bore), (0.0, 0.0)
         low, high = wheel_shaft_ends(parts, lowest)
         turn = 0.0 if bore.is_plain else float(assembly.wheel(still)[0])
-        seats = (*carried(at), Seat("wheel", *_on_wheel(parts)))
-        one = Shaft("wheel's shaft", "wheel", bore, seats, low, high, at, assembly.rests[0], turn)
+        hub = wheel_hub(assembly, sizes)
+        seat = Seat("wheel", hub.low if hub else 0.0, sizes.wheel_thickness)
+        seats, direction = (*carried(at), seat), assembly.rests[0]
+        one = Shaft("wheel's shaft", "wheel", bore, seats, low, high, at, direction, turn)
         yield one._replace(ends_here=False)
     radius = crank_shaft_radius(parts)
     if radius:
         bore, at = bore_of(size, "crank", radius), (assembly.L, 0.0)
-        on_crank = _on_crank(parts)
-        low, high = shaft_ends(size, "crank", lowest if stop is None else stop, on_crank[1])
+        # what it carries ends in the arm, or in a bored locking disc or its hub
+        face = top = 0.0 - size.allowances.pin_gap_mm  # no -0.0
+        if sizes.crank_bore:
+            on_disc = crank_hub(parts)
+            top = on_disc.high if on_disc else face + sizes.lock_thickness
+        seat = Seat("crank", face - (sizes.arm_thickness if parts.has_arm else 0.0), top)
+        low, high = shaft_ends(size, "crank", lowest if stop is None else stop, top)
         turn = 0.0 if bore.is_plain else float(assembly.crank(still)[0])
-        seats = (*carried(at), Seat("crank", *on_crank))
-        direction = keyway_direction(assembly)
+        seats, direction = (*carried(at), seat), keyway_direction(assembly)
         one = Shaft("crank's shaft", "crank", bore, seats, low, high, at, direction, turn)
-        yield one._replace(ends_here=parts.sizes.crank_bore == 0.0)
-
-
-def _on_wheel(parts: Outlines) -> tuple[float, float]:
-    """Return the lower and upper face of the wheel with its hub, along the axis."""
-    hub = wheel_hub(parts.assembly, parts.sizes)
-    return hub.low if hub else 0.0, parts.sizes.wheel_thickness
-
-
-def _on_crank(parts: Outlines) -> tuple[float, float]:
-    """Return the lower and upper end of what the crank's shaft carries, along the axis.
-
-    The upper end is in the arm, or in a bored locking disc or its hub.
-    """
-    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
-    on_arm = 0.0 - size.allowances.pin_gap_mm  # no -0.0
-    high = on_arm
-    if sizes.crank_bore:
-        hub = crank_hub(parts)
-        high = hub.high if hub else on_arm + sizes.lock_thickness
-    return on_arm - (sizes.arm_thickness if parts.has_arm else 0.0), high
+        yield one._replace(ends_here=sizes.crank_bore == 0.0)
 
 
 def wheel_shaft_radius(parts: Outlines) -> float:
@@ -122,19 +100,14 @@ def wheel_shaft_radius(parts: Outlines) -> float:
 
 def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
     """Return the ends of the wheel's shaft along the axis."""
-    sizes = parts.sizes
-    low = lowest if sizes.wheel_hub or _has_gear(parts) else 0.0
-    return shaft_ends(parts.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
-
-
-def _has_gear(parts: Outlines) -> bool:
-    """Return True if the wheel's shaft carries a gear below the wheel."""
-    near = SAME_LENGTH * parts.assembly.L
-    return any(
+    sizes, near = parts.sizes, SAME_LENGTH * parts.assembly.L
+    geared = any(
         link.radius_mm and math.hypot(float(x[0]), float(y[0])) < near
         for link in links_at(parts.assembly.full, np.zeros(1))
         for x, y in link.joints
     )
+    low = lowest if sizes.wheel_hub or geared else 0.0
+    return shaft_ends(parts.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
 
 
 def crank_shaft_radius(parts: Outlines) -> float:

@@ -1,7 +1,6 @@
-"""Metric screws: their holes, where these lie on a circle, and the force that they hold with.
+"""Metric screws: their holes, and where these lie on a circle.
 
-A screw passes the part that it fixes, and its thread is in the part below. Default holes are
-clearance holes of ISO 273 for screws of ISO 262.
+A screw passes the part that it fixes, and its thread is in the part below.
 """
 
 from __future__ import annotations
@@ -37,30 +36,15 @@ class Screw(NamedTuple):
 
 # Sizes by ISO 262, coarse pitches by ISO 261, clearance holes by ISO 273 (medium), cylindrical
 # heads by ISO 4762.
-SCREWS = [
-    Screw(*row)
-    for row in (
-        (1.6, 0.35, 1.8, 3.0),
-        (2, 0.4, 2.4, 3.8),
-        (2.5, 0.45, 2.9, 4.5),
-        (3, 0.5, 3.4, 5.5),
-        (4, 0.7, 4.5, 7.0),
-        (5, 0.8, 5.5, 8.5),
-        (6, 1.0, 6.6, 10.0),
-        (8, 1.25, 9.0, 13.0),
-        (10, 1.5, 11.0, 16.0),
-        (12, 1.75, 13.5, 18.0),
-        (16, 2.0, 17.5, 24.0),
-        (20, 2.5, 22.0, 30.0),
-        (24, 3.0, 26.0, 36.0),
-        (30, 3.5, 33.0, 45.0),
-        (36, 4.0, 39.0, 54.0),
-        (42, 4.5, 45.0, 63.0),
-        (48, 5.0, 52.0, 72.0),
-        (56, 5.5, 62.0, 84.0),
-        (64, 6.0, 70.0, 96.0),
-    )
-]
+# fmt: off
+SCREWS = [Screw(*row) for row in (
+    (1.6, 0.35, 1.8, 3.0), (2, 0.4, 2.4, 3.8), (2.5, 0.45, 2.9, 4.5), (3, 0.5, 3.4, 5.5),
+    (4, 0.7, 4.5, 7.0), (5, 0.8, 5.5, 8.5), (6, 1.0, 6.6, 10.0), (8, 1.25, 9.0, 13.0),
+    (10, 1.5, 11.0, 16.0), (12, 1.75, 13.5, 18.0), (16, 2.0, 17.5, 24.0), (20, 2.5, 22.0, 30.0),
+    (24, 3.0, 26.0, 36.0), (30, 3.5, 33.0, 45.0), (36, 4.0, 39.0, 54.0), (42, 4.5, 45.0, 63.0),
+    (48, 5.0, 52.0, 72.0), (56, 5.5, 62.0, 84.0), (64, 6.0, 70.0, 96.0),
+)]
+# fmt: on
 
 
 def screw(key: str, thread: float) -> Screw:
@@ -76,25 +60,6 @@ def screw(key: str, thread: float) -> Screw:
     raise GenevaError(
         f"{key} = {thread:g}: there is no such metric screw; use {nearest:g}", ("size", key)
     )
-
-
-def change_for_hub(size: Size, part: str) -> str:
-    """Return the change of the spec that gives a part, "wheel" or "crank", a hub with a bore.
-
-    >>> change_for_hub(Size(crank_hub_mm=20.0), "crank")
-    'set crank_bore_mm'
-    >>> change_for_hub(Size(crank_hub_mm=20.0, crank_bore_mm=10.0), "crank")
-    'set a greater crank_hub_length_mm'
-    """
-    values = vars(size)
-    hub, bore, length = (f"{part}_{name}_mm" for name in ("hub", "bore", "hub_length"))
-    missing = [hub] if values[hub] is None and values[length] is None else []
-    missing += [] if values[bore] else [bore]
-    if missing:
-        return f"set {' and '.join(missing)}"
-    if values[hub] is not None and values[hub] <= values[bore]:
-        return f"set {hub} above {bore}"
-    return f"set a greater {length}"  # the hub does not reach past what it stands on
 
 
 class BoltCircle(NamedTuple):

@@ -27,10 +27,7 @@ class ShaftBore(NamedTuple):
 
 
 def bore_at(mechanism: Mechanism, at: Point, radius: float) -> ShaftBore:
-    """Return the bore of the parts on the shaft at a point: as in wheel or crank, or a round one.
-
-    Raises GenevaError, naming the key, for a shape that a bore of this radius cannot have.
-    """
+    """Return the bore of what is on the shaft at a point: as in wheel or crank, or a round one."""
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     part = "crank" if same(at, (L, 0.0), L) else "wheel" if same(at, ORIGIN, L) else ""
     if not (part and has_shape(size, part)):

@@ -10,7 +10,7 @@ import numpy as np
 
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import Array, scalar
+from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.assembly import Assembly
 
 TURN_SAMPLES = 720  # input angles at which a path is sampled
@@ -26,12 +26,19 @@ class RollerPaths(NamedTuple):
 
 def roller_paths(assembly: Assembly) -> RollerPaths:
     """Return the paths of a machine's rollers."""
-    kinds = [s.through for s in assembly.kinds]
-    paths = [_pitch(assembly, s) for s in kinds]
-    reach = [np.hypot(*points.T) for points in paths]
-    ends = tuple(float(r.min() if assembly.sign > 0.0 else r.max()) for r in reach)
-    adjacent = [_to_slot(assembly, s, points) for s, points in zip(kinds, paths, strict=True)]
-    return RollerPaths(ends, min(_arm(assembly), *adjacent))
+    L, ends, near = assembly.L, [], []
+    for kind in (s.through for s in assembly.kinds):
+        x, y = kind.slot(np.linspace(kind.entry_deg, kind.exit_deg, TURN_SAMPLES + 1), 0)
+        points = L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
+        reach = np.hypot(*points.T)
+        ends.append(float(reach.min() if assembly.sign > 0.0 else reach.max()))
+        # adjacent slots while the wheel rests
+        near += [np.hypot(*(points - rest(assembly, kind, end)).T).min() for end in (-1.0, 1.0)]
+    turn = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False)
+    leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
+    for i in leaders.values():  # others follow their leaders
+        near.append(np.hypot(*(assembly.pin(i, turn) - (L, 0.0)).T).min())
+    return RollerPaths(tuple(ends), float(min(near)))
 
 
 def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
@@ -57,11 +64,7 @@ def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> 
 
 
 def least_mouth(L: float, recess: float, rim: float) -> float:
-    """Return the radius to which lower mouths are extended, mm.
-
-    It is a fifth of the way from the recess to the rim. The disc then has an arc to lock, and the
-    relief needs to clear little more.
-    """
+    """Return the radius to which lower mouths are extended, mm."""
     reach = L - recess
     return reach + 0.2 * (rim - reach)
 
@@ -69,11 +72,7 @@ def least_mouth(L: float, recess: float, rim: float) -> float:
 def mouth_corners(
     assembly: Assembly, r: float, recess: float, rim: float
 ) -> dict[Engagement, tuple[float, float]]:
-    """Return the radii of each mouth's corners where the roller comes and goes, mm.
-
-    The mouths of offset slots and of unequal steps end at different radii. If the spec sets the
-    rim, it moves all mouths by as much as the widest one.
-    """
+    """Return the radii of each mouth's corners where the roller comes and goes, mm."""
     widest = {kind: mouth(assembly, kind, r) for kind in assembly.kinds}
     shift = rim - max(widest.values())
     least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
@@ -117,27 +116,3 @@ def roller_reaches(assembly: Assembly) -> list[float]:
     leaders = {engagement: i for i, (engagement, _) in enumerate(assembly.rollers)}
     at = [(i, np.array([assembly.rollers[i][1]])) for i in leaders.values()]
     return [math.hypot(*(assembly.pin(i, mid) - (assembly.L, 0.0))[0]) for i, mid in at]
-
-
-def _pitch(assembly: Assembly, engagement: Engagement) -> Array:
-    """Return points of a slot's pitch curve, (n, 2)."""
-    x, y = engagement.slot(
-        np.linspace(engagement.entry_deg, engagement.exit_deg, TURN_SAMPLES + 1), 0
-    )
-    return assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
-
-
-def _arm(assembly: Assembly) -> float:
-    """Return the least distance of the rollers from the crank's axis."""
-    turn = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False)
-    leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
-    # others follow their leaders
-    far = [assembly.pin(i, turn) - (assembly.L, 0.0) for i in leaders.values()]
-    return float(min(np.hypot(*p.T).min() for p in far))
-
-
-def _to_slot(assembly: Assembly, engagement: Engagement, points: Array) -> float:
-    """Return the least distance from the crank's axis to adjacent slots while the wheel rests."""
-    return float(
-        min(np.hypot(*(points - rest(assembly, engagement, e)).T).min() for e in (-1.0, 1.0))
-    )

@@ -2,30 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.geometry import chords
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pitch_curve import (
-    WALLED,
-    PinHeading,
-    Pitch,
-    pin_heading,
-    pitch,
-    pitch_at_retrace,
-    retraces,
-)
-from geneva_cli.numerics.arrays import Array, Number, array
+from geneva_cli.motion.pitch_curve import WALLED, Pitch, pitch, pitch_at_retrace, retraces
+from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.table import Table, computed_table
-
-T = TypeVar("T", PinHeading, Pitch)
 
 
 class SlotProfile(NamedTuple):
@@ -48,16 +37,15 @@ class SlotProfile(NamedTuple):
 def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
     """Return the slot of a mechanism at ascending input angles of its first engagement."""
     engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
-    input_deg = _snapped(engagement, input_deg)
-    at = pitch_at(engagement, input_deg)
-    side = _side(engagement, input_deg, at)
+    at, side, lines = _lines(mechanism, input_deg)
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
     straight = engagement.slot.axis(engagement.entry_deg) is not None
+    input_deg = _snapped(engagement, input_deg)
     return SlotProfile(
         input_deg,
         array(engagement.motion(input_deg, 0).c[0]) * mechanism.output.per_radian,
-        *_offsets(mechanism, at, side),
+        *lines,
         np.degrees(at.pressure),
         np.where(straight | (at.turning == 0.0), np.inf, radius),
     )
@@ -65,10 +53,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
 
 def flanks(mechanism: Mechanism, input_deg: Array) -> tuple[Array, Array, Array]:
     """Return the pitch curve and both flanks at input angles, mm, (n, 2) each."""
-    engagement = mechanism.engagements[0].through
-    input_deg = _snapped(engagement, input_deg)
-    at = heading_at(engagement, input_deg)
-    return _offsets(mechanism, at, _side(engagement, input_deg, at))
+    return _lines(mechanism, input_deg)[2]
 
 
 def _snapped(engagement: Engagement, input_deg: Array) -> Array:
@@ -77,51 +62,38 @@ def _snapped(engagement: Engagement, input_deg: Array) -> Array:
     return np.where(near, 0.0, input_deg)
 
 
-def _side(engagement: Engagement, input_deg: Array, at: PinHeading | Pitch) -> Array:
-    """Return 1, or -1 where the pin leaves on the path on which it came.
+def _lines(
+    mechanism: Mechanism, input_deg: Array
+) -> tuple[Pitch, Array, tuple[Array, Array, Array]]:
+    """Return the pitch curve, the sense of travel on it, and its points with those of both flanks.
 
-    Its travel is reversed after mid-motion; the flanks keep the sides that they had at entry.
+    The sense is -1 where the pin leaves on the path on which it came: the flanks keep the sides
+    that they had at entry.
     """
-    if engagement.slot.axis(engagement.entry_deg) is None:
-        return np.where(retraces(engagement) & (input_deg > 0.0), -1.0, 1.0)
-    first = pin_heading(engagement, engagement.entry_deg)
-    ahead = at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y
-    return np.where(ahead < 0.0, -1.0, 1.0)
-
-
-def _offsets(
-    mechanism: Mechanism, at: PinHeading | Pitch, side: Array
-) -> tuple[Array, Array, Array]:
-    """Return the pitch curve and its two offsets by the roller's radius and clearance, mm."""
-    L, size = mechanism.center_distance_mm, mechanism.spec.size
-    offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
+    engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
+    input_deg = _snapped(engagement, input_deg)
+    at = pitch_at(engagement, input_deg)
+    back = retraces(engagement) & (input_deg > 0.0)
+    if engagement.slot.axis(engagement.entry_deg) is not None:
+        first = pitch(engagement, engagement.entry_deg)
+        ahead = array(at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y)
+        back = ahead < 0.0
+    side = np.where(back, -1.0, 1.0)
+    offset = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
     normal = np.column_stack((-at.tangent_y * side, at.tangent_x * side))
     centre = L * np.column_stack((at.x, at.y))
-    return centre, centre + offset * normal, centre - offset * normal
+    return at, side, (centre, centre + offset * normal, centre - offset * normal)
 
 
 def pitch_at(engagement: Engagement, input_deg: Array) -> Pitch:
     """Return the pitch curve, with its limit at a retracing mid-motion."""
-    return _with_limit(pitch, engagement, input_deg)
-
-
-def heading_at(engagement: Engagement, input_deg: Array) -> PinHeading:
-    """Return the pin's path in the wheel, with its limit at a retracing mid-motion."""
-    return _with_limit(pin_heading, engagement, input_deg)
-
-
-def _with_limit(
-    of: Callable[[Engagement, Number], T], engagement: Engagement, input_deg: Array
-) -> T:
     middle = np.abs(input_deg) < SAME_INPUT_DEG
     if not middle.any() or not retraces(engagement):
-        return of(engagement, input_deg)
+        return pitch(engagement, input_deg)
     # any regular place stands in for mid-motion
-    at = of(engagement, np.where(middle, 0.5 * engagement.entry_deg, input_deg))
-    limit = pitch_at_retrace(engagement)  # its first fields are those of a heading
-    columns = zip(at, limit, strict=False)
-    build: Callable[..., T] = type(at)
-    return build(*(np.where(middle, value, array(column)) for column, value in columns))
+    at = pitch(engagement, np.where(middle, 0.5 * engagement.entry_deg, input_deg))
+    columns = zip(at, pitch_at_retrace(engagement), strict=True)
+    return Pitch(*(np.where(middle, limit, array(value)) for value, limit in columns))
 
 
 def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Array:
@@ -141,10 +113,7 @@ def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Arr
 
 
 def _flank_cusps(mechanism: Mechanism) -> list[float]:
-    """Return where a flank stops and turns back, because the roller is as large as the curvature.
-
-    For a slot with two equal branches only those of the first are returned.
-    """
+    """Return where a flank turns back, because the roller is as large as the curvature."""
     engagement, size = mechanism.engagements[0].through, mechanism.spec.size
     offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
     offset /= mechanism.center_distance_mm

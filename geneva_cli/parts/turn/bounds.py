@@ -1,38 +1,32 @@
 """Proved lower bounds of the gaps between wheel, crank and rollers on intervals of the input angle.
 
-Parts are rigid. A point at a distance r from an axis moves at most r times the angle by which its
-part turns about it; a rack moves by its pinion's radius a radian. So a gap is at least the gap in
-the middle of an interval, less how far the parts move from there. Pairs that touch by design have
-more exact bounds: a roller in its own slot, and the locking disc in its recess, in the dwell and
-beside it. ``geneva help certificates`` derives them.
+A gap is at least that in the middle of an interval, less how far the parts move from there: a point
+at most its lever times its part's turn, a roller as its path's formulas on intervals say. Pairs
+that touch by design have more exact bounds. ``geneva help certificates`` derives them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.hull import farthest, from_segments, short_pieces
+from geneva_cli.geometry.distance import Polyarc, farthest, from_segments, short_pieces
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.plane_motion import turned_points
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Undecided, Whole
+from geneva_cli.numerics.intervals import Interval, size_of
+from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Bounds, Intervals, Pose, Window, raised
-from geneva_cli.parts.turn.travel import Travel, path_travel, slot_travel
 
+Curve: TypeAlias = Callable[[Number, int], tuple[Jet, Jet]]
 
-class Segments(NamedTuple):
-    """Segments in the wheel's frame, and how far from them a roller's centre may be, mm."""
-
-    start: Array  # (n, 2)
-    end: Array
-    aside: Array  # (n,)
+UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
 
 
 class FlatPairs:
@@ -46,8 +40,7 @@ class FlatPairs:
         self.gaps, self.crank, self.target, self.rim = gaps, crank, target, rim
         self.moves, self.L = gaps.assembly.plane_motion, gaps.assembly.L
         self.apart = max(target, 0.0)  # the distance up to which parts matter
-        self._paths: dict[Engagement, Travel] = {}
-        self._slots: dict[Engagement, Travel] = {}
+        self._travels: dict[tuple[str, Engagement], Travel] = {}
 
     def lock(self, window: Window, on: Intervals) -> Bounds:
         """Return the gap of locking disc and wheel: bounds up to ``apart``.
@@ -59,11 +52,8 @@ class FlatPairs:
         far = self.rim if self.gaps.assembly.sign > 0.0 else self.L + self.disc + self.apart
         moved = self.moves.lever(far) * on.wheel + (self.disc + self.apart) * on.crank
         least = gap - moved
-
-        def in_recess(which: Whole) -> Array:
-            return self._in_recess(window, on.at(which))
-
-        least = raised(least, least < self.target, in_recess)
+        doubtful = least < self.target
+        least = raised(least, doubtful, lambda which: self._in_recess(window, on.at(which)))
         return Bounds(gap, np.minimum(least, self.apart))
 
     def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
@@ -73,14 +63,15 @@ class FlatPairs:
         rests, the centre is also near the chord of its path.
         """
         centre, path = self._centre(roller, on.at_middle), self._path(roller)
-        gap = np.maximum(self._gap(roller, on), self._beyond(centre) - self.gaps.sizes.roller)
+        beyond = self.gaps.assembly.sign * (self.moves.level(centre) - self.rim)
+        gap = np.maximum(self._gap(roller, on), beyond - self.gaps.sizes.roller)
         least = gap - self._travel(roller, on, centre)
 
         def near_chord(which: Whole) -> Array:
             some = on.at(which)
             start, end = (self._centre(roller, pose) for pose in (some.at_start, some.at_end))
-            segments = Segments(start, end, path.aside(*self._own(roller, some)))
-            return self._along(segments, centre[which], gap[which])
+            aside = path.aside(*self._own(roller, some))
+            return self._along((start, end, aside), centre[which], gap[which])
 
         return Bounds(gap, raised(least, window.rests & (least < self.target), near_chord))
 
@@ -93,17 +84,17 @@ class FlatPairs:
         centre, gap = self._centre(roller, on.at_middle), self._gap(roller, on)
         if engagement.slot.curved:
             moving, middle = self.gaps.assembly.motions[roller]
-            if moving not in self._slots:
-                self._slots[moving] = slot_travel(moving, self.L)
-            aside = self._slots[moving].aside(on.start - middle, on.end - middle)
+            if ("slot", moving) not in self._travels:
+                self._travels["slot", moving] = slot_travel(moving, self.L)
             start, end = (self._centre(roller, pose) for pose in (on.at_start, on.at_end))
-            return Bounds(gap, self._along(Segments(start, end, aside), centre, gap))
+            aside = self._travels["slot", moving].aside(on.start - middle, on.end - middle)
+            return Bounds(gap, self._along((start, end, aside), centre, gap))
         places = self.gaps.pose(np.array([span[0], 0.5 * (span[0] + span[1])]))
         first, other = self._centre(roller, places)
         axis = (first - other) / math.dist(first, other)
         half = self._travel(roller, on, centre)[:, None] * axis
         aside = np.abs((centre - first) @ (-axis[1], axis[0]))
-        return Bounds(gap, self._along(Segments(centre - half, centre + half, aside), centre, gap))
+        return Bounds(gap, self._along((centre - half, centre + half, aside), centre, gap))
 
     @cached_property
     def pieces(self) -> Polyarc:
@@ -115,17 +106,13 @@ class FlatPairs:
         """The greatest distance of the crank from its axis, mm."""
         return float(farthest(self.pieces, 0.0, 0.0).max())
 
-    def _beyond(self, points: Array) -> Array:
-        """Return the distance of points (..., 2) from the level that the wheel reaches, mm."""
-        return self.gaps.assembly.sign * (self.moves.level(points) - self.rim)
-
     def _path(self, roller: int) -> Travel:
         """Return the travel of a roller in the fixed frame, which several rollers share."""
         engagement, _ = self.gaps.assembly.rollers[roller]
-        if engagement not in self._paths:
+        if ("path", engagement) not in self._travels:
             turn_deg = self.gaps.assembly.turn_deg
-            self._paths[engagement] = path_travel(engagement, self.L, turn_deg)
-        return self._paths[engagement]
+            self._travels["path", engagement] = path_travel(engagement, self.L, turn_deg)
+        return self._travels["path", engagement]
 
     def _own(self, roller: int, on: Intervals) -> tuple[Array, Array]:
         """Return the ends of intervals as angles of the roller's own engagement."""
@@ -145,10 +132,11 @@ class FlatPairs:
         """Return a roller's gap to the wheel in the middle of intervals."""
         return self.gaps.rollers(on.at_middle)[:, roller]
 
-    def _along(self, segments: Segments, centre: Array, gap: Array) -> Array:
+    def _along(self, segments: tuple[Array, Array, Array], centre: Array, gap: Array) -> Array:
         """Return the gap of a roller whose centre moves along segments.
 
-        In the middle of an interval it is at ``centre`` and has the gap ``gap``.
+        ``segments`` has their ends in the wheel's frame, and how far off the centre may be, mm. In
+        the middle of an interval it is at ``centre`` and has the gap ``gap``.
         """
         start, end, aside = segments
         radius = self.gaps.sizes.roller
@@ -157,8 +145,8 @@ class FlatPairs:
         short = 0.5 * np.hypot(*(end - start).T) < radius + gap - off
         least = np.full(len(gap), -math.inf)
         if short.any():
-            start, end, reach = start[short], end[short], radius + self.gaps.near
-            free = from_segments(self.gaps.wheel, start, end, reach)
+            reach = radius + self.gaps.near
+            free = from_segments(self.gaps.wheel, start[short], end[short], reach)
             least[short] = free - aside[short] - radius
         return least
 
@@ -183,4 +171,108 @@ class FlatPairs:
         c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
         x, y = self.L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
         moved = self.disc * on.crank[:, None] + self.apart
-        return self._beyond(np.stack((x, y), axis=-1)) - pieces.size <= moved
+        beyond = self.gaps.assembly.sign * (self.moves.level(np.stack((x, y), axis=-1)) - self.rim)
+        return beyond - pieces.size <= moved
+
+
+class Travel:
+    """Bounds of the speed and the second derivative of a curve between two input angles.
+
+    The angles are those of one engagement, from its mid-motion; lengths are mm. ``rates`` (2, n)
+    has the bounds on the n cells between ``edges``, infinite if unknown, in units of ``length``. A
+    curve that runs all round repeats after ``turn_deg``.
+    """
+
+    def __init__(
+        self, edges: Sequence[float], rates: Array, length: float, turn_deg: float = 0.0
+    ) -> None:
+        speed, bend = np.minimum(length * rates, UNKNOWN)
+        self.edges = np.array(edges)
+        if turn_deg:  # an interval may begin in one turn and end in the next
+            speed, bend = np.tile(speed, 2), np.tile(bend, 2)
+            self.edges = np.concatenate((self.edges, self.edges[1:] + turn_deg))
+        self.bend, self.unknown = bend, np.where(speed < UNKNOWN, 0.0, UNKNOWN)
+        known = np.where(speed < UNKNOWN, speed, 0.0)
+        self.moved = np.concatenate(([0.0], np.cumsum(known * np.radians(np.diff(self.edges)))))
+
+    def most(self, start: Array, end: Array) -> Array:
+        """Return how far the curve is at most, on either half of intervals, from their middles."""
+        moved = [np.interp(at, self.edges, self.moved) for at in (start, 0.5 * (start + end), end)]
+        out: Array = np.diff(moved, axis=0).max(axis=0)
+        return np.maximum(out, self._greatest(self.unknown, start, end))
+
+    def aside(self, start: Array, end: Array) -> Array:
+        """Return how far the curve is at most from its chord on intervals."""
+        return self._greatest(self.bend, start, end) * np.radians(end - start) ** 2 / 8.0
+
+    def _greatest(self, values: Array, start: Array, end: Array) -> Array:
+        """Return the greatest value of the cells that intervals touch."""
+        touch = (self.edges[:-1] <= end[:, None]) & (self.edges[1:] >= start[:, None])
+        return np.where(touch, values, 0.0).max(axis=1)
+
+
+def path_travel(engagement: Engagement, length: float, turn_deg: float) -> Travel:
+    """Return the travel of a roller's path through a whole turn in the fixed frame."""
+    edges = _edges(engagement, -0.5 * turn_deg, 0.5 * turn_deg)
+    start, end = np.array(edges[:-1]), np.array(edges[1:])
+    moving, dwell = np.full(len(start), True), None
+    if engagement.groove is not None:
+        from geneva_cli.motion.groove_path import dwell_rates
+
+        dwell = dwell_rates(engagement.groove)
+        if dwell:
+            moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
+    rates = np.empty((2, len(start)))
+    rates[:, moving] = _rates(engagement.path, start[moving], end[moving])
+    if dwell:
+        rates[:, ~moving] = np.array(dwell)[:, None]
+    return Travel(edges, rates, length, turn_deg)
+
+
+def slot_travel(engagement: Engagement, length: float) -> Travel:
+    """Return the travel of a roller in its slot, in the wheel's frame."""
+    edges = _edges(engagement, engagement.entry_deg, engagement.exit_deg)
+    return Travel(edges, _rates(engagement.slot, np.array(edges[:-1]), np.array(edges[1:])), length)
+
+
+def _edges(engagement: Engagement, start: float, end: float) -> list[float]:
+    """Return the ends of cells; no formula changes within a cell of the motion."""
+    # on cells longer than a degree of the input the bounds are much wider
+    seams = [x for x in engagement.motion.seams_deg if start < x < end]
+    return sorted({*np.linspace(start, end, math.ceil(end - start) + 1).tolist(), *seams})
+
+
+def _rates(curve: Curve, start: Array, end: Array) -> Array:
+    """Return the greatest sizes of a curve's two derivatives on n cells (2, n).
+
+    They are infinite where none is known. Cells with different formulas are evaluated apart. Where
+    another formula takes over within a cell, it is halved down to that place.
+    """
+    rates, tries = np.zeros((2, len(start))), np.zeros(len(start), dtype=int)
+    left = [(np.arange(len(start)), start, end)]  # parts of cells: each one's cell, and its ends
+    while left:
+        part = left.pop()
+        # an interval may reach over the end of a formula's piece by some 1e-12 degrees: each such
+        # place takes 80 halves
+        few = tries[part[0]] < 400
+        cell, low, high = part[0][few], part[1][few], part[2][few]
+        if not len(cell):
+            continue
+        try:
+            with np.errstate(all="ignore"):
+                x, y = curve(cast("Number", Interval(low, high)), 2)
+        except Undecided as error:
+            answers = np.broadcast_to(error.answers, len(cell))
+            for one in sorted(set(answers[~np.isnan(answers)].tolist())):
+                some = answers == one
+                left.append((cell[some], low[some], high[some]))
+            some = np.isnan(answers)
+            cell, low, high = cell[some], low[some], high[some]
+            half = 0.5 * (low + high)
+            left.append((np.tile(cell, 2), np.append(low, half), np.append(half, high)))
+        else:
+            for k, total in enumerate(rates, start=1):
+                np.maximum.at(total, cell, k * np.hypot(size_of(x.c[k]), size_of(y.c[k])))
+        np.add.at(tries, cell, 1)
+    rates[:, tries >= 400] = math.inf
+    return rates

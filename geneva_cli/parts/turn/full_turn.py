@@ -1,23 +1,23 @@
 """The full turn: a collision check of the parts through a whole turn of the crank.
 
-At each position the wheel stands where the mechanism puts it. From there it is pushed back and on
-until slot or lock stop it: that is its play. No parts may overlap, and in every dwell something
-must hold the wheel. If the wheel is off by its play as the roller arrives, the roller must push it
-into line and not jam.
+No parts may overlap, and in every dwell something must hold the wheel. From its place in the ideal
+motion the wheel is pushed back and on until slot or lock stop it: that is its play. If it is off by
+that as the roller arrives, the roller must push it into line and not jam.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, TypeVar
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import Array, Mask, scalar
+from geneva_cli.numerics.arrays import Array, Mask, rising, scalar
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
-from geneva_cli.parts.turn.machine_parts import MachineParts
+from geneva_cli.parts.turn.pairs import TurnedParts, WorkLimit
 from geneva_cli.parts.turn.play import (
     EXACT,
     Play,
@@ -27,12 +27,22 @@ from geneva_cli.parts.turn.play import (
     search_deg,
     windows,
 )
-from geneva_cli.parts.turn.smallest import Earlier, Gap, smallest_gaps
 
-POSITIONS = 65  # from an end of a motion to its middle, a degree or so of the input apart
-# From entry to exit, of a slot's middle. Its chords are within 1e-6 of the centre distance, half of
-# what counts as touching.
-SAMPLES = 721
+POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs more is not proved
+DIP = 1e-9  # mm: gaps that differ by less count as equal
+FINER = 9  # positions in each refinement of a smallest gap
+SAME = 1e-7  # of a play: its relative accuracy
+BESIDE = np.geomspace(0.01, 6.0, 14)  # degrees of the input on either side of a position
+
+Earlier: TypeAlias = Callable[[float], float]
+
+
+class Gap(NamedTuple):
+    """The smallest gap between two parts, mm, negative where they overlap, and its position."""
+
+    mm: float
+    at_deg: float  # input angle
+    parts: str
 
 
 class FirstContact(NamedTuple):
@@ -40,74 +50,6 @@ class FirstContact(NamedTuple):
 
     offset_mm: float
     at_deg: float
-
-
-def first_contact(parts: MachineParts) -> FirstContact:
-    """Return the first contact that is farthest off its slot's middle.
-
-    Each kind of motion has one, at entry or at exit: where the roller comes nearer to the rim's
-    inside. At the other end no rim reaches it that lets it pass at both.
-    """
-    motions: dict[Engagement, int] = {}
-    for i, (engagement, _) in enumerate(parts.assembly.motions):
-        motions.setdefault(engagement, i)
-    contacts = [
-        _contact(parts, i, _tighter_end(parts, engagement)) for engagement, i in motions.items()
-    ]
-    return max(contacts, key=lambda contact: contact.offset_mm)
-
-
-def _tighter_end(parts: MachineParts, engagement: Engagement) -> float:
-    """Return the end of a motion that limits the rim, as in ``mouth``: -1 for entry, 1 for exit.
-
-    The mouth of an offset slot has a corner for each end, and the rim is at the farther one.
-    """
-    ahead = scalar(engagement.exit_reach) - scalar(engagement.entry_reach)
-    farther = -1.0 if engagement.slot.offset else parts.assembly.sign
-    return 1.0 if farther * ahead < -SAME_LENGTH else -1.0
-
-
-def _contact(parts: MachineParts, motion: int, end: float) -> FirstContact:
-    """Return the first contact of a motion's roller at entry (-1) or, in reverse, at exit (1)."""
-    assembly, gaps = parts.assembly, parts.gaps
-    engagement, mid = assembly.motions[motion]
-    start = mid + engagement.end_deg(end)
-    rest = assembly.wheel(np.array([start]))
-    before = sum(len(one.engagement.passages) for one in assembly.motions[:motion])
-    own = slice(before, before + len(engagement.passages))
-
-    def margin(at: Array) -> Array:
-        """Return the gaps of the motion's rollers to the wheel at rest, mm."""
-        pose = gaps.pose(at)
-        gap: Array = gaps.rollers(pose, rest - pose.wheel)[:, own].min(axis=1)
-        return gap - parts.close
-
-    if margin(np.array([start]))[0] <= 0.0:  # the roller is in the slot's middle there
-        return FirstContact(0.0, start)
-    at = np.linspace(start, mid, POSITIONS)
-    meets = margin(at) <= 0.0
-    first = int(np.argmax(meets)) if meets.any() else POSITIONS - 1
-    x = boundary_by_sections(margin, at[first - 1], at[first])
-    place = np.array([x])
-    if parts.past_mouth(motion, place)[0] >= 0.0:  # a wall meets it, no corner
-        return FirstContact(0.0, x)
-    roller = parts.in_wheel(motion, place, rest - assembly.wheel(place))
-    whole = mid + np.linspace(engagement.entry_deg, engagement.exit_deg, SAMPLES)
-    middle = parts.in_wheel(motion, whole)
-    off = _distance(roller[0], middle) - (parts.sizes.half_width - parts.sizes.roller)
-    return FirstContact(off if off > parts.contact else 0.0, x)
-
-
-def _distance(point: Array, line: Array) -> float:
-    """Return the distance of a point from a line through points (n, k)."""
-    start, step = line[:-1], np.diff(line, axis=0)
-    # a roller that stops takes steps of no length
-    square = np.maximum((step * step).sum(axis=1), 1e-300)
-    along = np.clip(((point - start) * step).sum(axis=1) / square, 0.0, 1.0)
-    return float(np.linalg.norm(start + along[:, None] * step - point, axis=1).min())
-
-
-SAME = 1e-7  # of a play: its relative accuracy
 
 
 class Most(NamedTuple):
@@ -123,13 +65,14 @@ Place = TypeVar("Place", Gap, Most, FirstContact)
 class FullTurn(NamedTuple):
     """The results of a full turn, at input angles as ``Mechanism.shown_deg`` gives them.
 
-    ``dwell`` is the wheel's play in either direction in the middle of a dwell, where the lock holds
-    it best. ``hand_over`` is the largest play while no roller is in its slot. ``motion`` is the
-    largest play in both directions while a roller is in its slot; a slot that drives from one wall
-    only does not count as play. ``ahead`` and ``behind`` are the largest play there in each
-    direction alone. ``push`` is the largest pressure angle at which a roller pushes the wheel into
-    line. ``contact`` is the first contact of a roller with a wheel at rest. A play of ``free_deg``,
-    half a step, means that nothing holds the wheel.
+    ``driving``, ``idle`` and ``lock`` are the smallest gaps of driving rollers, of idle ones and of
+    the locking disc. ``dwell`` is the wheel's play in either direction in the middle of a dwell,
+    where the lock holds it best. ``hand_over`` is the largest play while no roller is in its slot.
+    ``motion`` is the largest play in both directions while a roller is in its slot; a slot that
+    drives from one wall only does not count as play. ``ahead`` and ``behind`` are the largest play
+    there in each direction alone. ``push`` is the largest pressure angle at which a roller pushes
+    the wheel into line. ``contact`` is the first contact of a roller with a wheel at rest. A play
+    of ``free_deg``, half a step, means that nothing holds the wheel.
     """
 
     driving: Gap
@@ -156,16 +99,27 @@ class FullTurn(NamedTuple):
         return self.dwell.deg < self.free_deg * (1.0 - SAME)
 
 
-def full_turn(parts: MachineParts, refined: bool = True) -> FullTurn:
+def full_turn(parts: TurnedParts, refined: bool = True) -> FullTurn:
     """Return the results of turning the parts through a whole turn of the crank.
 
     Without ``refined`` those of a first grid of positions: gaps are not smaller there, and plays
     not larger. Raises WorkLimit where that takes more work than ``gaps.WORK``.
     """
     parts.gaps.begin()
-    earlier = _earlier(parts)
-    gaps = smallest_gaps(parts, earlier, refined)
-    fits = gaps.least >= -parts.close
+    # One turn of the input is shown from half a turn before mid-motion, so that the second half of
+    # the last dwell comes first. A period of several turns is shown from the first entry.
+    *_, last = windows(parts)
+    turn, several = parts.assembly.turn_deg, parts.assembly.full.spec.turns > 1
+    middle = 0.5 * (last.start + last.end) if last.rests and not several else last.end
+
+    def earlier(input_deg: float) -> float:
+        return input_deg - turn if input_deg > middle else input_deg
+
+    def shown(place: Place) -> Place:
+        return place._replace(at_deg=parts.assembly.shown_deg(place.at_deg))
+
+    gaps = _smallest_gaps(parts, earlier, refined)
+    fits = min(gap.mm for gap in gaps if gap) >= -parts.close
     middles = np.array([0.5 * (w.start + w.end) for w in windows(parts) if w.rests])
     dwell = Most(0.0, 0.0)
     if len(middles):
@@ -174,39 +128,23 @@ def full_turn(parts: MachineParts, refined: bool = True) -> FullTurn:
     play = play_of(parts, fits, refined)
 
     def most_of(values: Array, where: Mask) -> Most:
-        return _shown(parts, _most(values[where], play.input_deg[where], earlier))
+        return shown(_most(values[where], play.input_deg[where], earlier))
 
     driving, idle, lock = gaps
     return FullTurn(
-        _shown(parts, driving),
-        _shown(parts, idle) if idle else None,
-        _shown(parts, lock) if parts.locked else None,
-        _shown(parts, dwell),
+        shown(driving),
+        shown(idle) if idle else None,
+        shown(lock) if parts.locked else None,
+        shown(dwell),
         most_of(play.either, ~play.guided),
         most_of(play.both, play.guided),
         most_of(play.on, play.guided),
         most_of(play.back, play.guided),
-        _shown(parts, _most(push_deg(parts, play), play.input_deg[:-1], earlier)),
-        _shown(parts, first_contact(parts)),
+        shown(_most(push_deg(parts, play), play.input_deg[:-1], earlier)),
+        shown(_first_contact(parts)),
         search_deg(parts),
         play,
     )
-
-
-def _shown(parts: MachineParts, place: Place) -> Place:
-    return place._replace(at_deg=parts.assembly.shown_deg(place.at_deg))
-
-
-def _earlier(parts: MachineParts) -> Earlier:
-    """Return a sort key of input angles: the order in which they are shown.
-
-    One turn of the input is shown from half a turn before mid-motion, so that the second half of
-    the last dwell comes first. A period of several turns is shown from the first entry.
-    """
-    *_, last = windows(parts)
-    turn, several = parts.assembly.turn_deg, parts.assembly.full.spec.turns > 1
-    middle = 0.5 * (last.start + last.end) if last.rests and not several else last.end
-    return lambda input_deg: input_deg - turn if input_deg > middle else input_deg
 
 
 def _most(values: Array, at: Array, earlier: Earlier) -> Most:
@@ -221,10 +159,148 @@ def _most(values: Array, at: Array, earlier: Earlier) -> Most:
     return Most(size, min(at[(first + last) // 2].tolist(), key=earlier))
 
 
-BESIDE = np.geomspace(0.01, 6.0, 14)  # degrees of the input on either side of a position
+def _smallest_gaps(
+    parts: TurnedParts, earlier: Earlier, refined: bool
+) -> tuple[Gap, Gap | None, Gap]:
+    """Return the smallest gaps of driving rollers, of idle ones if there are any, of the lock."""
+    gaps, assembly, at = parts.gaps, parts.assembly, _positions(parts)
+
+    def drives(x: Array) -> Mask:
+        """Return a mask (n, m) of the rollers that move the wheel at input angles."""
+        columns = []
+        for engagement, behind in assembly.rollers:
+            away = assembly.from_mid(x, behind)
+            since, until = away - engagement.entry_deg, engagement.exit_deg - away
+            columns.append(np.minimum(since, until) >= -SAME_INPUT_DEG)
+        return np.column_stack(columns)
+
+    def rollers(x: Array, idle: bool) -> Array:
+        driving = drives(x)
+        meanwhile = driving.any(axis=1, keepdims=True) & ~driving
+        return np.where(meanwhile == idle, gaps.rollers(gaps.pose(x)), np.inf).min(axis=1)
+
+    def least(gap: Callable[[Array], Array], names: str) -> Gap:
+        return _least(gap, at, parts.close, earlier, refined)._replace(parts=names)
+
+    idle = None
+    if len(assembly.rollers) > 1:
+        idle = least(lambda x: rollers(x, True), "idle roller and wheel")
+    return (
+        least(lambda x: rollers(x, False), "roller and slot"),
+        idle,
+        least(lambda x: gaps.locking(gaps.pose(x)), "locking disc and wheel"),
+    )
 
 
-def gap_about(parts: MachineParts, shown_deg: float) -> float:
+def _positions(parts: TurnedParts) -> Array:
+    """Return input angles of one turn, so dense that parts move less than the thinnest feature."""
+    assembly, sizes = parts.assembly, parts.sizes
+    grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.span_deg, 721)
+    crank = np.unwrap(assembly.crank(grid))
+    wheel = np.abs(np.diff(assembly.wheel(grid)))
+    travel = sizes.arm * np.abs(np.diff(crank)) + parts.rim_lever * wheel
+    # between two positions parts move a quarter of the thinnest feature
+    feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * 0.25
+    total = np.concatenate(([0.0], np.cumsum(travel)))
+    count = math.ceil(total[-1] / feature)
+    if count > POSITIONS:
+        raise WorkLimit(
+            f"the full turn is not proved: it takes {count:,} positions, more than {POSITIONS:,}; "
+            "a larger roller or horn takes fewer"
+        )
+    grid_deg = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
+    # A rim that is too large collides for less than a degree about entry and exit.
+    ends = np.array([b + e for s, b in assembly.motions for e in (s.entry_deg, s.exit_deg)])
+    offsets = np.geomspace(0.01, 15.0, 24)  # degrees of the input, on either side
+    near = (ends[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
+    near = assembly.start_deg + (near - assembly.start_deg) % assembly.span_deg
+    return rising(np.concatenate((grid_deg, near)))
+
+
+def _least(
+    gap: Callable[[Array], Array], at: Array, close: float, earlier: Earlier, refined: bool
+) -> Gap:
+    """Return the smallest gap at the positions ``at``, refined around each local minimum."""
+    values = gap(at)
+    here, before, after = values[1:-1], values[:-2], values[2:]
+    dips = (here < before - DIP) & (here <= after) | (here <= before) & (here < after - DIP)
+    top = 1 + np.flatnonzero(dips)
+    # A smaller gap can only lie between positions whose gaps are already near to the smallest.
+    top = top[np.argsort(values[top])][: 12 if refined else 0]
+    low, high, row = at[top - 1], at[top + 1], np.arange(len(top))
+    size, places = float(values.min()), []
+    for _ in range(6 if len(top) else 0):
+        x = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, FINER)
+        v = gap(x.ravel()).reshape(x.shape)
+        i = np.argmin(v, axis=1)
+        size = min(size, float(v.min()))
+        finest, places = v[row, i], x[row, i]
+        low, high = x[row, np.maximum(i - 1, 0)], x[row, np.minimum(i + 1, FINER - 1)]
+    # Where a gap stays equal for a while, its position is the first one.
+    same = values <= size + close
+    first = at[same & ~np.append(False, same[:-1])].tolist()
+    if len(top):
+        first += places[finest <= size + close].tolist()
+    return Gap(size, min(first, key=earlier), "")
+
+
+def _first_contact(parts: TurnedParts) -> FirstContact:
+    """Return the first contact of all kinds of motions that is farthest off its slot's middle."""
+    kinds: dict[Engagement, int] = {}
+    for i, (engagement, _) in enumerate(parts.assembly.motions):
+        kinds.setdefault(engagement, i)
+    return max((_contact(parts, i) for i in kinds.values()), key=lambda one: one.offset_mm)
+
+
+def _contact(parts: TurnedParts, motion: int) -> FirstContact:
+    """Return the first contact of a motion's roller, at entry or, in reverse, at exit.
+
+    It is at the end where the roller comes nearer to the rim's inside. At the other end no rim
+    reaches it that lets it pass at both.
+    """
+    assembly, gaps = parts.assembly, parts.gaps
+    engagement, mid = assembly.motions[motion]
+    ahead = scalar(engagement.exit_reach) - scalar(engagement.entry_reach)
+    # the mouth of an offset slot has a corner for each end, and the rim is at the farther one
+    farther = -1.0 if engagement.slot.offset else assembly.sign
+    start = mid + engagement.end_deg(1.0 if farther * ahead < -SAME_LENGTH else -1.0)
+    rest = assembly.wheel(np.array([start]))
+    before = sum(len(one.engagement.passages) for one in assembly.motions[:motion])
+    own = slice(before, before + len(engagement.passages))
+
+    def margin(at: Array) -> Array:
+        """Return the gaps of the motion's rollers to the wheel at rest, mm."""
+        pose = gaps.pose(at)
+        gap: Array = gaps.rollers(pose, rest - pose.wheel)[:, own].min(axis=1)
+        return gap - parts.close
+
+    if margin(np.array([start]))[0] <= 0.0:  # the roller is in the slot's middle there
+        return FirstContact(0.0, start)
+    at = np.linspace(start, mid, 65)  # a degree or so of the input apart
+    meets = margin(at) <= 0.0
+    first = int(np.argmax(meets)) if meets.any() else len(at) - 1
+    x = boundary_by_sections(margin, at[first - 1], at[first])
+    place = np.array([x])
+    if parts.past_mouth(motion, place)[0] >= 0.0:  # a wall meets it, no corner
+        return FirstContact(0.0, x)
+    roller = parts.in_wheel(motion, place, rest - assembly.wheel(place))
+    # 720 chords are within 1e-6 of the centre distance, half of what counts as touching
+    whole = mid + np.linspace(engagement.entry_deg, engagement.exit_deg, 721)
+    off = _distance(roller[0], parts.in_wheel(motion, whole))
+    off -= parts.sizes.half_width - parts.sizes.roller
+    return FirstContact(off if off > parts.contact else 0.0, x)
+
+
+def _distance(point: Array, line: Array) -> float:
+    """Return the distance of a point from a line through points (n, k)."""
+    start, step = line[:-1], np.diff(line, axis=0)
+    # a roller that stops takes steps of no length
+    square = np.maximum((step * step).sum(axis=1), 1e-300)
+    along = np.clip(((point - start) * step).sum(axis=1) / square, 0.0, 1.0)
+    return float(np.linalg.norm(start + along[:, None] * step - point, axis=1).min())
+
+
+def gap_about(parts: TurnedParts, shown_deg: float) -> float:
     """Return the smallest gap of any two parts, mm, at positions around one input angle.
 
     A few positions take the place of a whole turn, in a search for a size that clears the parts.
@@ -234,7 +310,7 @@ def gap_about(parts: MachineParts, shown_deg: float) -> float:
     return min(gap, float(parts.gaps.locking(pose).min())) if parts.locked else gap
 
 
-def play_about(parts: MachineParts, shown_deg: float) -> float:
+def play_about(parts: TurnedParts, shown_deg: float) -> float:
     """Return the largest play, degrees, around an input angle while no roller is in its slot."""
     at = _about(parts, shown_deg)
     free = np.ones(len(at), dtype=bool)
@@ -247,7 +323,7 @@ def play_about(parts: MachineParts, shown_deg: float) -> float:
     return math.degrees(float(np.maximum(*free_angles(parts, at[free])).max()))
 
 
-def _about(parts: MachineParts, shown_deg: float) -> Array:
+def _about(parts: TurnedParts, shown_deg: float) -> Array:
     """Return input angles around one, within the turn that starts at the first entry."""
     start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
     place = parts.assembly.place_deg(shown_deg)

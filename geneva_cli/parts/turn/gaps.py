@@ -1,10 +1,19 @@
-"""The gaps between wheel, crank and rollers at given positions."""
+"""The gaps between wheel, crank and rollers at given positions.
+
+Two boundaries are nearest to each other at a corner of one of them, or where their normals
+coincide. On an arc that is in the direction of the other arc's centre, or of the other line's
+normal. On a line it is at the foot of the perpendicular from the other arc's centre. If the
+outlines overlap, one of these points lies inside the other outline. If one piece of each bounds the
+overlap, the point is between the ends of the pieces; any other overlap has a corner in it. So no
+contact between two samples is missed.
+"""
 
 from __future__ import annotations
 
 import copy
 import math
-from typing import Protocol
+from collections.abc import Iterator
+from typing import Protocol, TypeAlias
 
 import numpy as np
 
@@ -15,11 +24,10 @@ from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.turn.contacts import candidates, places_within
-from geneva_cli.parts.turn.machine_parts import Lengths, WorkLimit
-from geneva_cli.parts.turn.pairs import Pose, Stop
-from geneva_cli.parts.turn.stops import Stops
-from geneva_cli.parts.turn.turning_stops import TurningStops
+from geneva_cli.parts.turn.pairs import Lengths, Pose, Stop, WorkLimit
+from geneva_cli.parts.turn.stops import Stops, TurningStops
+
+Owned: TypeAlias = tuple[Whole, Array, Array]  # points x, y, and the pose that each belongs to
 
 NEAR = 0.02  # of the centre distance: wider gaps are returned as this
 WORK = 1e8  # greatest number of distances between points and pieces in a full turn: about 5 s
@@ -83,12 +91,11 @@ class Gaps:
 
     def _to_wheel(self, points: Array) -> Array:
         """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
-        whole, at = self.wheel, points
         if self.pitch:
             slot = np.round(self.plane_motion.place(points) / self.pitch)
-            whole, at = self.around, self.plane_motion.into(points, self.pitch * slot)
-        self._work(len(at) * len(whole))
-        return whole.signed(at)
+            points = self.plane_motion.into(points, self.pitch * slot)
+        self._work(len(points) * len(self.around))
+        return self.around.signed(points)
 
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
@@ -102,22 +109,17 @@ class Gaps:
         Gaps wider than ``near``, by default NEAR * L, are returned as ``near``.
         """
         near = self.near if near is None else near
-        turn = pose.wheel + lead
-        columns: list[Array] = [
-            self._roller(self.plane_motion.into(pose.pins[:, i], turn), near)
-            for i in range(len(self.assembly.rollers))
-        ]
-        return np.column_stack(columns)
-
-    def _roller(self, centres: Array, near: float) -> Array:
-        """Return the gap of a roller centred at points in the wheel's frame."""
         r, sign = self.sizes.roller, self.assembly.sign
-        far = sign * (self.plane_motion.level(centres) - self.sizes.rim) - r
-        out: Array = np.minimum(far, near)
-        close = far < near
-        if close.any():
-            out[close] = np.minimum(self._to_wheel(centres[close]) - r, near)
-        return out
+        columns = []
+        for i in range(len(self.assembly.rollers)):
+            centres = self.plane_motion.into(pose.pins[:, i], pose.wheel + lead)
+            far = sign * (self.plane_motion.level(centres) - self.sizes.rim) - r
+            gap: Array = np.minimum(far, near)
+            close = far < near
+            if close.any():
+                gap[close] = np.minimum(self._to_wheel(centres[close]) - r, near)
+            columns.append(gap)
+        return np.column_stack(columns)
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and on; see ``Stops.first``."""
@@ -135,31 +137,29 @@ class Gaps:
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap between the outlines of crank and wheel, mm (n,); see ``rollers``."""
         near = self.near if near is None else near
+        out = np.full(len(pose.wheel), near)
         if self.crank is None:
-            return np.full(len(pose.wheel), near)
+            return out
         turn = pose.wheel + lead
         # Points of the wheel against the crank ...
         axis = self._axis(turn)
         self._work(len(axis) * len(self.wheel))
         reach, moves = self.sizes.lock + near, self.plane_motion
         half = moves.half_span(reach + float(self.wheel.size.max()), self.assembly.L)
-        nearby = places_within(self._places, moves.PERIOD, -turn, half)
-        angle = pose.crank - self.plane_motion.angle(turn)
-        owner, points = candidates(self.wheel, nearby, self.crank, axis, angle, reach)
+        nearby = _places_within(self._places, moves.PERIOD, -turn, half)
+        angle = pose.crank - moves.angle(turn)
+        owner, points = _candidates(self.wheel, nearby, self.crank, (axis, angle), reach)
         seen = turned_points(points - axis[owner], -angle[owner])
         self._work(len(seen) * len(self.crank))
-        out = _least(len(turn), owner, self.crank.signed(seen), near)
+        np.minimum.at(out, owner, self.crank.signed(seen))
         # ... and corners of the crank against the wheel.
         x, y = self.crank.x0, self.crank.y0
         c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
-        qx, qy = axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c
-        level = self.plane_motion.level(np.stack((qx, qy), axis=-1))
-        inward = self.assembly.sign * (level - self.sizes.rim)
+        corners = np.stack((axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c), axis=-1)
+        inward = self.assembly.sign * (moves.level(corners) - self.sizes.rim)
         owner, which = np.nonzero(inward < near)
-        points = np.column_stack((qx[owner, which], qy[owner, which]))
-        if len(points):
-            signed = self._to_wheel(points)
-            out = np.minimum(out, _least(len(turn), owner, signed, near))
+        if len(owner):
+            np.minimum.at(out, owner, self._to_wheel(corners[owner, which]))
         return out
 
     def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
@@ -174,41 +174,29 @@ class Gaps:
         at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
         if self.pitch and engagement.mirrored and len(self.assembly.motions) == 1:
             at = at[: (count + 1) // 2]
-        turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
-        # 2^19 points of the wheel at a time fit into the cache
-        step = max(1, (1 << 19) // len(self._wheel_points[0]))
-        blocks = [
-            self._within_disc(turn[i : i + step], pose[i : i + step])
-            for i in range(0, len(at), step)
-        ]
-        x, y = zip(*blocks, strict=True)
-        return np.concatenate(x), np.concatenate(y)
-
-    def _within_disc(self, turn: Array, pose: Array) -> tuple[Array, Array]:
-        """Return the wheel's points inside the locking disc, in the crank's frame, as x and y."""
-        # an overlap below 1e-7 of the locking disc counts as touching
-        reach = self.sizes.lock * (1.0 - 1e-7)
-        # Only points near the direction of the crank's axis can be within reach of it.
-        (points, places), moves = self._wheel_points, self.plane_motion
-        half = moves.half_span(reach, self.assembly.L)
-        owner, which = places_within(places, moves.PERIOD, -turn, half)
-        px, py = points.T
-        ax, ay = self._axis(turn).T
-        x, y = px[which] - ax[owner], py[which] - ay[owner]
-        inside = np.flatnonzero(x * x + y * y < reach * reach)
-        x, y, owner = x[inside], y[inside], owner[inside]
-        c, s = np.cos(turn - pose)[owner], np.sin(turn - pose)[owner]
-        return x * c - y * s, x * s + y * c
-
-    @cached_property
-    def _wheel_points(self) -> tuple[Array, Array]:
-        """Points along the wheel's outline that come near the locking disc, (n, 2), and places."""
-        L = self.assembly.L
-        # arcs: chords within 2e-6 of the centre distance
-        # lines: samples at most 0.02 of it apart
+        L, lock, moves = self.assembly.L, self.sizes.lock, self.plane_motion
+        # chords of arcs within 2e-6 of the centre distance, and samples of lines 0.02 of it apart
         points = self.wheel.samples(2e-6 * L, 0.02 * L)
-        points = points[np.hypot(*points.T) >= L - self.sizes.lock]
-        return points, self.plane_motion.place(points)
+        points = points[np.hypot(*points.T) >= L - lock]
+        places = moves.place(points)
+        reach = lock * (1.0 - 1e-7)  # a smaller overlap counts as touching
+        # only points near the direction of the crank's axis can be within reach of it
+        half = moves.half_span(reach, L)
+        step = max(1, (1 << 19) // len(points))  # 2^19 points at a time fit into the cache
+        blocks = []
+        for i in range(0, len(at), step):
+            turn, pose = (
+                self.assembly.wheel(at[i : i + step]),
+                self.assembly.crank(at[i : i + step]),
+            )
+            owner, which = _places_within(places, moves.PERIOD, -turn, half)
+            x, y = (points[which] - self._axis(turn)[owner]).T
+            inside = np.flatnonzero(x * x + y * y < reach * reach)
+            x, y, owner = x[inside], y[inside], owner[inside]
+            c, s = np.cos(turn - pose)[owner], np.sin(turn - pose)[owner]
+            blocks.append((x * c - y * s, x * s + y * c))
+        x, y = (np.concatenate(each) for each in zip(*blocks, strict=True))
+        return x, y
 
     @cached_property
     def _places(self) -> Array:
@@ -232,7 +220,100 @@ def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> b
     return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME_LENGTH)
 
 
-def _least(count: int, owner: Whole, values: Array, most: float) -> Array:
-    out = np.full(count, most)
-    np.minimum.at(out, owner, values)
-    return out
+def _places_within(place: Array, period: float, middle: Array, half: float) -> tuple[Whole, Whole]:
+    """Return the middles (n,) and places (k,), by index, that are within ``half`` of each other.
+
+    The middles ascend. With a finite ``period``, a whole turn, places are directions.
+    """
+    turns = math.isfinite(period)
+    if turns:
+        place, middle, half = place % period, middle % period, min(half, 0.5 * period)
+    order, known = np.argsort(place), np.sort(place)
+    if turns:  # places a turn before and after, for spans across 0
+        known = np.concatenate((known - period, known, known + period))
+    start = np.searchsorted(known, middle - half - 1e-12)  # radians: rounding
+    count = np.searchsorted(known, middle + half + 1e-12, "right") - start
+    count = np.minimum(count, len(place))
+    owner = np.repeat(np.arange(len(middle)), count)
+    first = np.repeat(start - np.cumsum(count) + count, count)
+    return owner, order[(first + np.arange(len(owner))) % len(place)]
+
+
+def _candidates(
+    own: Polyarc,
+    near: tuple[Whole, Whole],
+    other: Polyarc,
+    placed: tuple[Array, Array],
+    reach: float,
+) -> tuple[Whole, Array]:
+    """Return points of ``own`` that may touch ``other``, within ``reach`` of its origin.
+
+    ``placed`` has the n points of that origin, (n, 2), and the n angles of ``other``. ``near``
+    selects pieces of ``own``, each after the index of the position that it belongs to. Returns the
+    index of the position of each point, and the points in the frame of ``own``.
+    """
+    (owner, piece), (origin, angle) = near, placed
+    dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
+    close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
+    owner, piece = owner[close], piece[close]
+    c, s = np.cos(angle)[owner], np.sin(angle)[owner]
+    # one row for each of the other's pieces, which are few
+    arcs, lines = np.flatnonzero(other.arc)[:, None], np.flatnonzero(~other.arc)[:, None]
+    x, y = other.cx[arcs], other.cy[arcs]
+    centres = origin[owner, 0] + (c * x - s * y), origin[owner, 1] + (s * x + c * y)
+    x, y = other.dy[lines], -other.dx[lines]
+    normals = c * x - s * y, s * x + c * y
+    columns = [
+        (owner, own.x0[piece], own.y0[piece]),
+        *_on_arcs(own, owner, piece, centres, normals),
+        _on_lines(own, owner, piece, centres),
+    ]
+    owner, x, y = (np.concatenate(each) for each in zip(*columns, strict=True))
+    inside = (x - origin[owner, 0]) ** 2 + (y - origin[owner, 1]) ** 2 < reach * reach
+    return owner[inside], np.column_stack((x[inside], y[inside]))
+
+
+def _on_arcs(
+    own: Polyarc,
+    owner: Whole,
+    piece: Whole,
+    centres: tuple[Array, Array],
+    normals: tuple[Array, Array],
+) -> Iterator[Owned]:
+    """Yield points of arcs in the directions of centres and normals, (k, pieces) each.
+
+    Coordinates are from each arc's centre, along its chord and outwards, over its radius. They are
+    computed from the chord's middle: the centre of an arc fitted to a nearly straight wall is too
+    far away.
+    """
+    bent = np.flatnonzero(own.arc[piece])
+    i = piece[bent]
+    mx, my, half, bend = own.mx[i], own.my[i], 0.5 * own.length[i], 1.0 / own.radius[i]
+    px, py = centres[0][:, bent] - own.ox[i], centres[1][:, bent] - own.oy[i]
+    nx, ny = normals[0][:, bent], normals[1][:, bent]
+    aside = np.concatenate((bend * (mx * py - my * px), mx * ny - my * nx))
+    ahead = np.concatenate((bend * (mx * px + my * py) + own.cos_half[i], mx * nx + my * ny))
+    size = np.maximum(np.sqrt(aside * aside + ahead * ahead), 1e-300)
+    aside, ahead = aside / size, ahead / size
+    for side in (1.0, -1.0):
+        within = side * own.sin_half[i] * ahead >= own.cos_half[i] * np.abs(aside)
+        which, pair = np.nonzero(within)
+        k = i[pair]
+        along = side * own.radius[k] * aside[which, pair]
+        # the arc's height above its chord there: its middle's, less that by which it falls off
+        falls = along**2 / (1.0 + side * ahead[which, pair])
+        out = bend[pair] * (half[pair] ** 2 / (1.0 + own.cos_half[k]) - falls)
+        x = own.ox[k] + out * own.mx[k] - along * own.my[k]
+        y = own.oy[k] + out * own.my[k] + along * own.mx[k]
+        yield owner[bent[pair]], x, y
+
+
+def _on_lines(own: Polyarc, owner: Whole, piece: Whole, centres: tuple[Array, Array]) -> Owned:
+    """Return the feet of perpendiculars from centres, (k, pieces), on lines."""
+    flat = np.flatnonzero(~own.arc[piece])
+    i = piece[flat]
+    ax, ay = centres[0][:, flat] - own.x0[i], centres[1][:, flat] - own.y0[i]
+    fraction = (ax * own.dx[i] + ay * own.dy[i]) / own.square[i]
+    which, pair = np.nonzero((fraction > 0.0) & (fraction < 1.0))
+    t, i = fraction[which, pair], i[pair]
+    return owner[flat[pair]], own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]

@@ -1,13 +1,26 @@
-"""Pairs of parts: their positions, and bounds of their gaps on intervals of the input angle."""
+"""What a full turn knows of parts: positions, clearances, and bounds of these on intervals."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple, Protocol
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sized
+from typing import NamedTuple, Protocol, Self
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.assembly import Assembly
+
+# Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
+# and no roller is more accurate, nor are curved walls.
+CONTACT = 2e-6
+
+
+class WorkLimit(GenevaError):
+    """Error for a full turn that would take too long."""
 
 
 class Window(NamedTuple):
@@ -41,8 +54,7 @@ class Stop(NamedTuple):
 class Intervals(NamedTuple):
     """Intervals of the input angle, and how far crank and wheel are at most from their middles.
 
-    The angles are greatest at the ends, because neither crank nor wheel turns back. The positions
-    of the parts at the ends and in the middles are known from that.
+    The angles are greatest at the ends, because neither crank nor wheel turns back.
     """
 
     start: Array  # degrees of the input, (n,)
@@ -61,8 +73,7 @@ class Intervals(NamedTuple):
     def at(self, which: Whole) -> Intervals:
         """Return some of the intervals."""
         start, end, crank, wheel = (each[which] for each in self[:4])
-        first, middle, last = (pose.at(which) for pose in self[4:])
-        return Intervals(start, end, crank, wheel, first, middle, last)
+        return Intervals(start, end, crank, wheel, *(pose.at(which) for pose in self[4:]))
 
 
 class Bounds(NamedTuple):
@@ -70,19 +81,6 @@ class Bounds(NamedTuple):
 
     middle: Array
     least: Array
-
-
-class Pairs(Protocol):
-    """The pairs of parts that may meet, whose gaps are bounded on intervals."""
-
-    def lock(self, window: Window, on: Intervals) -> Bounds:
-        """Return the gap of the crank's locking surfaces and the wheel, in a motion or dwell."""
-
-    def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
-        """Return the gap of a roller and the wheel, outside the slot that the roller drives."""
-
-    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds:
-        """Return the gap of a roller and the wheel, in its slot between two input angles."""
 
 
 def raised(least: Array, doubtful: Mask, closer: Callable[[Whole], Array]) -> Array:
@@ -94,6 +92,30 @@ def raised(least: Array, doubtful: Mask, closer: Callable[[Whole], Array]) -> Ar
     if len(which):
         out[which] = np.maximum(least[which], closer(which))
     return out
+
+
+class Lengths(Protocol):
+    """Lengths of the parts, mm; on a sphere arc lengths, except ``rim``."""
+
+    @property
+    def roller(self) -> float:
+        """Radius of the roller."""
+
+    @property
+    def half_width(self) -> float:
+        """Half the width of a slot."""
+
+    @property
+    def rim(self) -> float:
+        """Distance of the rim from the wheel's axis; of a rack's edge from the origin."""
+
+    @property
+    def arm(self) -> float:
+        """Distance of the rollers from the crank's axis."""
+
+    @property
+    def horn(self) -> float:
+        """Thickness of the horn between slot and recess."""
 
 
 class Clearances(Protocol):
@@ -130,7 +152,117 @@ class Clearances(Protocol):
         """
 
 
-def smallest_clearance(gaps: Clearances, pose: Pose, lead: Array, near: float) -> Array:
-    """Return the smallest clearance of all parts in each pose, (n,)."""
-    rolling = gaps.rollers(pose, lead, near).min(axis=1)
-    return np.minimum(gaps.locking(pose, lead, near), rolling)
+class Pairs(Protocol):
+    """The pairs of parts that may meet, whose gaps are bounded on intervals."""
+
+    def lock(self, window: Window, on: Intervals) -> Bounds:
+        """Return the gap of the crank's locking surfaces and the wheel, in a motion or dwell."""
+
+    def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
+        """Return the gap of a roller and the wheel, outside the slot that the roller drives."""
+
+    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds:
+        """Return the gap of a roller and the wheel, in its slot between two input angles."""
+
+
+class Shape(Protocol):
+    """Wheel and crank of a machine, as they are cut and turned."""
+
+    @property
+    def assembly(self) -> Assembly:
+        """Positions of the parts at any input angle."""
+
+    @property
+    def sizes(self) -> Lengths:
+        """Lengths of the parts."""
+
+    @property
+    def gaps(self) -> Clearances:
+        """Clearances between the parts."""
+
+    @property
+    def crank(self) -> Sized:
+        """The locking surfaces of the crank; empty if there are none."""
+
+    def _replace(self, *, assembly: Assembly) -> Self:
+        """Return these parts with another assembly."""
+
+
+class TurnedParts(ABC):
+    """Wheel, crank and rollers of one machine, which a full turn checks.
+
+    Curved outlines are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance
+    they are as accurate as the checks need them. Without ``advice`` an error does not name the
+    roller that fits, which takes long to find.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        advice: bool = True,
+        tolerance: float | None = None,
+        curves: str = "arcs",
+    ) -> None:
+        self.mechanism, self.advice = mechanism, advice
+        self.tolerance, self.curves = tolerance, curves
+
+    @property
+    @abstractmethod
+    def _shape(self) -> Shape:
+        """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
+
+    @property
+    def assembly(self) -> Assembly:
+        """The positions of the parts at any input angle."""
+        return self._shape.assembly
+
+    @property
+    def sizes(self) -> Lengths:
+        """The lengths of the parts."""
+        return self._shape.sizes
+
+    @property
+    def gaps(self) -> Clearances:
+        """The clearances between the parts."""
+        return self._shape.gaps
+
+    @property
+    def locked(self) -> bool:
+        """True if the crank has locking surfaces."""
+        return len(self._shape.crank) > 0
+
+    @property
+    def close(self) -> float:
+        """The overlap, mm, that counts as rounding or as the walls' tolerance."""
+        return SAME_LENGTH * self.assembly.L
+
+    @property
+    def contact(self) -> float:
+        """The overlap, mm, up to which parts count as touching."""
+        return CONTACT * self.assembly.L
+
+    @property
+    def rim_lever(self) -> float:
+        """How far the wheel's rim moves a radian, mm."""
+        return self.assembly.plane_motion.lever(self.sizes.rim)
+
+    def over(self, assembly: Assembly) -> Self:
+        """Return the parts of a machine whose wheel and crank are equal, at its own positions."""
+        other = type(self)(assembly.full, self.advice)
+        vars(other)["_shape"] = self._shape._replace(assembly=assembly)
+        return other
+
+    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
+        """Return the centre of a motion's roller in the wheel's frame at input angles (n,), mm.
+
+        It is an array (n, 2), or on a sphere (n, 3). The wheel is turned on by ``lead`` radians.
+        """
+        return self.assembly.in_wheel(motion, at, lead)
+
+    @abstractmethod
+    def past_mouth(self, motion: int, at: Array) -> Array:
+        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
+
+    @abstractmethod
+    def pairs(self, target: float) -> Pairs:
+        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""

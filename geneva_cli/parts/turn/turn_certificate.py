@@ -1,8 +1,7 @@
 """Certificate of the full turn: a proved lower bound of the gap at every input angle.
 
-The sampled full turn gives the smallest gap. The certificate proves that no gap is smaller by more
-than a tolerance, by halving intervals. It takes distances at single positions as exact, up to their
-rounding.
+It proves by halving intervals that no gap is smaller than the smallest sampled one by more than a
+tolerance. Distances at single positions are taken as exact, up to their rounding.
 """
 
 from __future__ import annotations
@@ -15,8 +14,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.turn.machine_parts import MachineParts
-from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, Window
+from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, TurnedParts, Window
 from geneva_cli.parts.turn.play import windows
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
@@ -34,26 +32,79 @@ class Open(NamedTuple):
     least_mm: float
 
 
-class Settled(NamedTuple):
-    """A lower bound of the gap, mm, the number of intervals, and one that was left, if any."""
+class Certificate(NamedTuple):
+    """A proved lower bound of the gap, mm, and the number of intervals that it took.
 
-    least: float
+    If an interval is ``open``, it holds elsewhere only. ``between`` names the parts there.
+    """
+
+    least_mm: float
     intervals: int
-    open: Open | None
+    open: Open | None = None
+    between: str = ""
+
+    @property
+    def proved(self) -> bool:
+        """True if no interval is open."""
+        return self.open is None
 
 
-def settled(
+def tolerance_mm(parts: TurnedParts) -> float:
+    """Return the tolerance of a certificate by default: how far it is from the smallest gap."""
+    # 1 um, or twice the overlap that counts as touching, if that is more
+    return max(1e-3, 2.0 * parts.contact)
+
+
+def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
+    """Return the certificate that no gap in a full turn is smaller than the smallest by ``to_mm``.
+
+    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. Raises
+    WorkLimit.
+    """
+    parts = one_motion(parts)
+    parts.gaps.begin()
+    # the greatest rounding of a distance; doubles carry 2e-16
+    spare = 1e-11 * parts.assembly.L
+    target = max(gap_mm, 0.0) - to_mm + spare
+    least, count = math.inf, 0
+    for between, pair, ends in _pairs(parts, target):
+        bound = _halved(parts.gaps, pair, ends, target)
+        least, count = min(least, bound.least_mm - spare), count + bound.intervals
+        if bound.open:
+            start, end = (parts.assembly.shown_deg(x) for x in bound.open[:2])
+            shown = bound.open._replace(start_deg=start, end_deg=end)
+            return Certificate(least, count, shown, between)
+    return Certificate(least, count)
+
+
+def _pairs(
+    parts: TurnedParts, target: float
+) -> Iterator[tuple[str, Callable[[Intervals], Bounds], tuple[float, float]]]:
+    """Yield each pair of parts in each motion and dwell: names, bounds, and its input angles."""
+    pairs = parts.pairs(target)
+    for window in windows(parts):
+        if parts.locked:
+            ends = window.start, window.end
+            yield "locking disc and wheel", partial(pairs.lock, window), ends
+        for span, driver in spans(parts, window):
+            for roller in range(len(parts.assembly.rollers)):
+                if roller == driver:
+                    yield "roller and slot", partial(pairs.driving, roller, span), span
+                else:
+                    yield "roller and wheel", partial(pairs.free, roller, window), span
+
+
+def _halved(
     gaps: Clearances,
     pair: Callable[[Intervals], Bounds],
     ends: tuple[float, float],
     target: float,
-) -> Settled:
+) -> Certificate:
     """Return a lower bound of a pair's gap between two input angles, at least ``target`` mm.
 
     Intervals are halved until the bound on each is at least ``target``. Without success the most
     doubtful interval is returned as open.
     """
-    # 32 intervals at first
     cuts = np.linspace(*ends, 33)
     start, end = cuts[:-1], cuts[1:]
     least, count = math.inf, 0
@@ -63,15 +114,15 @@ def settled(
         closed = bounds.least >= target
         least = min(least, float(bounds.least[closed].min(initial=math.inf)))
         start, end = start[~closed], end[~closed]
-        collides = bounds.middle[~closed] < target
-        if collides.any() or count + 2 * len(start) > MOST:
-            known = bounds.middle if collides.any() else bounds.least
-            i = int(np.argmin(known[~closed]))
-            values = (float(each[~closed][i]) for each in bounds)
-            return Settled(least, count, Open(float(start[i]), float(end[i]), *values))
-        middle = 0.5 * (start + end)
-        start, end = np.concatenate((start, middle)), np.concatenate((middle, end))
-    return Settled(least, count, None)
+        middle, bound = (each[~closed] for each in bounds)
+        collides = bool((middle < target).any())
+        if collides or count + 2 * len(start) > MOST:
+            i = int(np.argmin(middle if collides else bound))
+            left = Open(*(float(each[i]) for each in (start, end, middle, bound)))
+            return Certificate(least, count, left)
+        half = 0.5 * (start + end)
+        start, end = np.concatenate((start, half)), np.concatenate((half, end))
+    return Certificate(least, count)
 
 
 def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
@@ -90,91 +141,27 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
     return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn, *poses)
 
 
-class Certificate(NamedTuple):
-    """A proved lower bound of the gap in a full turn, ``least_mm``.
-
-    If an interval is ``open``, it holds elsewhere only. ``between`` names the parts there.
-    """
-
-    least_mm: float
-    intervals: int
-    open: Open | None = None
-    between: str = ""
-
-    @property
-    def proved(self) -> bool:
-        """True if no interval is open."""
-        return self.open is None
-
-
-def tolerance_mm(parts: MachineParts) -> float:
-    """Return the tolerance of a certificate by default: how far it is from the smallest gap."""
-    # 1 um, or twice the overlap that counts as touching, if that is more
-    return max(1e-3, 2.0 * parts.contact)
-
-
-def certificate(parts: MachineParts, gap_mm: float, to_mm: float) -> Certificate:
-    """Return the certificate that no gap in a full turn is smaller than the smallest by ``to_mm``.
-
-    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. Raises
-    WorkLimit.
-    """
-    parts = one_motion(parts)
-    parts.gaps.begin()
-    # the greatest rounding of a distance; doubles carry 2e-16
-    spare = 1e-11 * parts.assembly.L
-    target = max(gap_mm, 0.0) - to_mm + spare
-    least, count = math.inf, 0
-    for between, bound in _gaps(parts, target):
-        least, count = min(least, bound.least - spare), count + bound.intervals
-        if bound.open:
-            start, end = (parts.assembly.shown_deg(x) for x in bound.open[:2])
-            shown = bound.open._replace(start_deg=start, end_deg=end)
-            return Certificate(least, count, shown, between)
-    return Certificate(least, count)
-
-
-def _gaps(parts: MachineParts, target: float) -> Iterator[tuple[str, Settled]]:
-    """Yield the proved bound of each pair of parts in each motion and dwell."""
-    pairs = parts.pairs(target)
-    for window in windows(parts):
-        ends = window.start, window.end
-        if parts.locked:
-            lock = partial(pairs.lock, window)
-            yield "locking disc and wheel", settled(parts.gaps, lock, ends, target)
-        for span, driver in spans(parts, window):
-            for roller in range(len(parts.assembly.rollers)):
-                if roller == driver:
-                    between, pair = "roller and slot", partial(pairs.driving, roller, span)
-                else:
-                    between, pair = "roller and wheel", partial(pairs.free, roller, window)
-                yield between, settled(parts.gaps, pair, span, target)
-
-
-def spans(parts: MachineParts, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
+def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
     """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
 
     Where gears drive between two rollers, each of them is in its slot up to its deepest position,
     or from there.
     """
-    motion, start, end = window.motion, window.start, window.end
-    engagement, _ = parts.assembly.motions[motion]
-    if window.rests:
-        yield (start, end), None
-    elif not engagement.paired:
-        yield (start, end), motion
-    else:
-        first, last = 2 * motion, 2 * motion + 1
-        turn = parts.assembly.turn_deg
-        leaves, meets = (
-            start + (parts.assembly.rollers[i][1] - start) % turn for i in (first, last)
-        )
-        yield (start, leaves), first
-        yield (leaves, meets), None
-        yield (meets, end), last
+    start, end, motion, rests = window
+    assembly = parts.assembly
+    if rests or not assembly.motions[motion].engagement.paired:
+        yield (start, end), None if rests else motion
+        return
+    first, last = 2 * motion, 2 * motion + 1
+    leaves, meets = (
+        start + (assembly.rollers[i].mid - start) % assembly.turn_deg for i in (first, last)
+    )
+    yield (start, leaves), first
+    yield (leaves, meets), None
+    yield (meets, end), last
 
 
-Parts = TypeVar("Parts", bound=MachineParts)
+Parts = TypeVar("Parts", bound=TurnedParts)
 
 
 def one_motion(parts: Parts) -> Parts:
@@ -189,5 +176,4 @@ def one_motion(parts: Parts) -> Parts:
     alike = one and len(motions) == len(assembly.rollers) == m > 1
     if not (alike and parts.gaps.repeats(m)):
         return parts
-    once = assembly._replace(motions=motions[:1], span_deg=assembly.turn_deg / m)
-    return parts.over(once)
+    return parts.over(assembly._replace(motions=motions[:1], span_deg=assembly.turn_deg / m))

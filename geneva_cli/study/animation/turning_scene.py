@@ -41,7 +41,7 @@ from geneva_cli.study.animation.bodies import (
 )
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.summary.load_lines import title_of
-from geneva_cli.verdict.report.words import words
+from geneva_cli.verdict.report import words
 
 
 def scene(design: Design) -> Scene:

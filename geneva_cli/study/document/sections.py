@@ -8,7 +8,7 @@ from typing import Any
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.manual.explained import entries
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Output

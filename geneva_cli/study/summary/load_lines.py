@@ -9,7 +9,7 @@ from typing import Any
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
 from geneva_cli.loads.indexer_formula import recommended_motor
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import no_load
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick

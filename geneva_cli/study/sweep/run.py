@@ -24,7 +24,7 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
 from geneva_cli.study.sweep.values import Value, VariedKey
-from geneva_cli.verdict.together import share
+from geneva_cli.verdict.quantities.under_load import share
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 ERROR = "error"  # the column that says why a design cannot be built

@@ -12,7 +12,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.tolerances import CLEARLY
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import full_turn, gap_about, play_about
-from geneva_cli.parts.turn.machine_parts import WorkLimit
+from geneva_cli.parts.turn.pairs import WorkLimit
 from geneva_cli.parts.turn.turn_certificate import one_motion
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.study.synth.fast_parts import SPARE, USUAL, exact, parts, with_roller

@@ -22,7 +22,7 @@ from geneva_cli.motion.undercut import depths_mm
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.machine_sizes import sizes
-from geneva_cli.parts.turn.machine_parts import CONTACT
+from geneva_cli.parts.turn.pairs import CONTACT
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.study.synth.parts_data import PartsData, distances_at_rest, parts_data
 from geneva_cli.verdict.checks.motion_checks import undercut_depth

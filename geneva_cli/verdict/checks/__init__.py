@@ -15,11 +15,10 @@ from geneva_cli.verdict.checks.all_checks import (
     LIMITS,
     MOTION,
     PROOFS,
+    TURNING,
     applicable,
     check_named,
     standing,
-    standing_checks,
-    turn_checks,
 )
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
@@ -52,6 +51,8 @@ def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
 
     ``to_mm`` is the tolerance of the proof, by default ``certificate.tolerance_mm``.
     """
+    if not parts.mechanism.spec.is_turned:
+        return []
     try:
         return list(applicable(PROOFS, parts, to_mm))
     except GenevaError:
@@ -88,7 +89,7 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
 
     machine = machine or parts_of(mechanism)
     try:
-        rows = none or list(standing_checks(machine.built))
+        rows = none or list(applicable(standing(mechanism), machine.built))
         _ = machine.turned
     except GenevaError as error:
         yield refused("parts", error)
@@ -96,11 +97,11 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
     yield from rows
     if not turned:
         return
-    from geneva_cli.parts.turn.machine_parts import WorkLimit
+    from geneva_cli.parts.turn.pairs import WorkLimit
 
     try:
         turn = machine.turn
     except WorkLimit as error:
         yield refused("full_turn", error)
         return
-    yield from turn_checks(machine, turn)
+    yield from applicable(TURNING, machine, turn)

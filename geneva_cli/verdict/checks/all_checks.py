@@ -1,7 +1,7 @@
 """The list of checks, in the order shown; each is imported at its first use.
 
-A new check is a file, or a function in a file of related ones, and one line here. The function gets
-its name and the object to check, and returns None if the check does not apply.
+A new check is a function in a file of related ones, and its name here. The function gets the name
+and the object to check, and returns None if the check does not apply.
 """
 
 from __future__ import annotations
@@ -20,88 +20,94 @@ if TYPE_CHECKING:
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function
 
+
+def _of(module: str, **functions: str) -> Checks:
+    """The checks of a module, from the names that each of its functions computes."""
+    return {
+        name: f"verdict.checks.{module}:{function}"
+        for function, names in functions.items()
+        for name in names.split()
+    }
+
+
 # Checks of the motion, if they apply.
 MOTION: Checks = {
-    "dwell_deg": "verdict.checks.motion_checks:shortest_dwell",
-    "driver_gear_convexity": "verdict.checks.motion_checks:gear_convexity",
-    "driven_gear_convexity": "verdict.checks.motion_checks:gear_convexity",
-    "velocity_min": "verdict.checks.motion_checks:least_velocity",
-    "groove_pressure_deg": "verdict.checks.motion_checks:groove_pressure",
-    "pressure_angle_deg": "verdict.checks.motion_checks:curved_slot_pressure",
-    "driven_fraction": "verdict.checks.motion_checks:driven_fraction",
-    "undercut_mm": "verdict.checks.motion_checks:undercut_depth",
-    "entry_shock_N": "verdict.checks.shocks:entry_shock",
-    "reversal_shock_N": "verdict.checks.shocks:reversal_shock",
-    "reversal_stress_MPa": "verdict.checks.shocks:reversal_stress",
-    "stopping_torque_Nm": "verdict.checks.shocks:stopping_torque",
+    **_of(
+        "motion_checks",
+        shortest_dwell="dwell_deg",
+        gear_convexity="driver_gear_convexity driven_gear_convexity",
+        least_velocity="velocity_min",
+        groove_pressure="groove_pressure_deg",
+        curved_slot_pressure="pressure_angle_deg",
+        driven_fraction="driven_fraction",
+        undercut_depth="undercut_mm",
+    ),
+    **_of(
+        "load_checks",
+        entry_shock="entry_shock_N",
+        reversal_shock="reversal_shock_N",
+        reversal_stress="reversal_stress_MPa",
+        stopping_torque="stopping_torque_Nm",
+    ),
     **{name: path for kind in KINDS for name, path in kind.motion_checks.items()},
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {
-    "velocity_max": "verdict.checks.limits:limited_peak",
-    "acceleration_max": "verdict.checks.limits:limited_peak",
-    "acceleration_entry_max": "verdict.checks.limits:limited_peak",
-    "jerk_max": "verdict.checks.limits:limited_peak",
-    "pin_force_max_N": "verdict.checks.limits:limited_load",
-    "input_torque_max_Nm": "verdict.checks.limits:limited_load",
-    "pressure_angle_deg": "verdict.checks.motion_checks:limited_pressure",
-    "contact_stress_max_MPa": "verdict.checks.limits:limited_load",
-    **dict.fromkeys(
-        (
-            "pv_max_W_m2",
-            "roller_life_min_h",
-            "slot_wear_max_mm_per_million",
-            "pin_stress_MPa",
-            "horn_stress_MPa",
-            "lock_horn_stress_MPa",
-            "lock_stress_max_MPa",
-            "lock_deflection_max_deg",
-            "wheel_shaft_stress_MPa",
-            "crank_shaft_stress_MPa",
-            "arm_stress_MPa",
-            "wheel_key_pressure_MPa",
-            "crank_key_pressure_MPa",
-        ),
-        "verdict.checks.strength_checks:strength_limit",
+    **_of(
+        "motion_checks",
+        limited_peak="velocity_max acceleration_max acceleration_entry_max jerk_max",
     ),
-    "product_acceleration_max_m_s2": "verdict.checks.limits:product_acceleration",
-    "product_slip": "verdict.checks.limits:product_slip",
+    **_of("load_checks", limited_load="pin_force_max_N input_torque_max_Nm"),
+    **_of("motion_checks", limited_pressure="pressure_angle_deg"),
+    **_of(
+        "load_checks",
+        limited_load="contact_stress_max_MPa",
+        strength_limit=(
+            "pv_max_W_m2 roller_life_min_h slot_wear_max_mm_per_million pin_stress_MPa "
+            "horn_stress_MPa lock_horn_stress_MPa lock_stress_max_MPa lock_deflection_max_deg "
+            "wheel_shaft_stress_MPa crank_shaft_stress_MPa arm_stress_MPa "
+            "wheel_key_pressure_MPa crank_key_pressure_MPa"
+        ),
+        product_acceleration="product_acceleration_max_m_s2",
+        product_slip="product_slip",
+    ),
 }
 # Checks of flat parts at rest.
 STATIC: Checks = {
-    "wall_between_slots_mm": "verdict.checks.walls:between_slots",
-    "horn_mm": "verdict.checks.walls:horn",
-    "rollers_apart_mm": "verdict.checks.walls:rollers_apart",
-    "wheel_bore_wall_mm": "verdict.checks.walls:wheel_bore",
-    "outer_wall_mm": "verdict.checks.walls:outside",
-    "wheel_clamp_Nm": "verdict.checks.shaft_checks:held_torque",
-    "crank_clamp_Nm": "verdict.checks.shaft_checks:held_torque",
-    "dial_wall_mm": "verdict.checks.walls:dial",
-    "crank_bore_wall_mm": "verdict.checks.walls:crank_bore",
-    "crank_shaft_mm": "verdict.checks.shaft_checks:crank_shaft",
-    "crank_hub_mm": "verdict.checks.shaft_checks:crank_hub",
-    "wheel_shaft_mm": "verdict.checks.shaft_checks:wheel_shaft",
-    "beside_shafts_mm": "verdict.checks.shaft_checks:passing_parts",
-    "gear_gap_mm": "verdict.checks.shaft_checks:passing_gears",
-    "arm_wall_mm": "verdict.checks.arm_checks:arm_wall",
-    "arm_to_hub_mm": "verdict.checks.arm_checks:arm_to_hub",
-    "link_wall_mm": "verdict.checks.arm_checks:links_wall",
-    "link_gap_mm": "verdict.checks.arm_checks:links_gap",
-    "first_pin_stress_MPa": "verdict.checks.strength_checks:first_stress",
-    "first_horn_stress_MPa": "verdict.checks.strength_checks:first_stress",
-    "first_crank_shaft_stress_MPa": "verdict.checks.strength_checks:first_stress",
-    "first_arm_stress_MPa": "verdict.checks.strength_checks:first_stress",
-    "branches_apart_mm": "verdict.checks.walls:branches_apart",
-    "branches_crossed_mm": "verdict.checks.walls:branches_crossed",
-    "wheels_apart_mm": "verdict.checks.crank_checks:wheels_apart",
-    "cranks_apart_mm": "verdict.checks.crank_checks:cranks_apart",
+    **_of(
+        "walls",
+        between_slots="wall_between_slots_mm",
+        horn="horn_mm",
+        rollers_apart="rollers_apart_mm",
+        wheel_bore="wheel_bore_wall_mm",
+        outside="outer_wall_mm",
+    ),
+    **_of("clearances", held_torque="wheel_clamp_Nm crank_clamp_Nm"),
+    **_of("walls", dial="dial_wall_mm", crank_bore="crank_bore_wall_mm"),
+    **_of(
+        "clearances",
+        crank_shaft="crank_shaft_mm",
+        crank_hub="crank_hub_mm",
+        wheel_shaft="wheel_shaft_mm",
+        passing_parts="beside_shafts_mm",
+        passing_gears="gear_gap_mm",
+        arm_wall="arm_wall_mm",
+        arm_to_hub="arm_to_hub_mm",
+        links_wall="link_wall_mm",
+        links_gap="link_gap_mm",
+    ),
+    **_of(
+        "load_checks",
+        first_stress="first_pin_stress_MPa first_horn_stress_MPa first_crank_shaft_stress_MPa "
+        "first_arm_stress_MPa",
+    ),
+    **_of("walls", branches_apart="branches_apart_mm", branches_crossed="branches_crossed_mm"),
+    **_of("crank_checks", wheels_apart="wheels_apart_mm", cranks_apart="cranks_apart_mm"),
 }
 # Checks of flat parts at rest, shown behind those that a kind adds.
-PROCESS: Checks = {
-    "cut_plate_mm": "verdict.checks.process:thickest_plate",
-    "cut_slot_mm": "verdict.checks.process:slot_width",
-    "parts": "verdict.checks.process:plates_built",
-}
+PROCESS = _of(
+    "clearances", thickest_plate="cut_plate_mm", slot_width="cut_slot_mm", plates_built="parts"
+)
 # All checks of parts at rest, of whatever kind.
 STANDING: Checks = {
     **STATIC,
@@ -109,35 +115,35 @@ STANDING: Checks = {
     **PROCESS,
 }
 # Checks of all the machines within the tolerances, for which parts are turned.
-TOLERANCES: Checks = {
-    "tolerance_slot_mm": "verdict.checks.tolerance_checks:slot_clearance",
-    "tolerance_lock_mm": "verdict.checks.tolerance_checks:lock_clearance",
-    "tolerance_turns": "verdict.checks.tolerance_checks:extremes_turn",
-}
-# Checks of plates or shells in a whole turn.
+TOLERANCES = _of(
+    "play_checks",
+    slot_clearance="tolerance_slot_mm",
+    lock_clearance="tolerance_lock_mm",
+    extremes_turn="tolerance_turns",
+)
+# Checks of plates or shells in a whole turn. JAMS are those that fail where a roller does not find
+# its slot, or meets the rim next to it, and jams.
+_DWELL = _of(
+    "play_checks",
+    dwell_hold="dwell_hold",
+    smallest_gap="gap_mm",
+    idle_roller="idle_roller_mm",
+    dwell="dwell_play_deg dwell_play_mm",
+)
+JAMS = _of(
+    "play_checks",
+    hand_over="hand_over_play_deg hand_over_play_mm",
+    hand_over_pressure="hand_over_pressure_deg",
+    hand_over_offset="hand_over_offset_mm",
+)
 TURNING: Checks = {
-    "dwell_hold": "verdict.checks.play_checks:dwell_hold",
-    "gap_mm": "verdict.checks.play_checks:smallest_gap",
-    "idle_roller_mm": "verdict.checks.play_checks:idle_roller",
-    "dwell_play_deg": "verdict.checks.play_checks:dwell",
-    "dwell_play_mm": "verdict.checks.play_checks:dwell",
-    "hand_over_play_deg": "verdict.checks.play_checks:hand_over",
-    "hand_over_play_mm": "verdict.checks.play_checks:hand_over",
-    "hand_over_pressure_deg": "verdict.checks.play_checks:hand_over_pressure",
-    "hand_over_offset_mm": "verdict.checks.play_checks:hand_over_offset",
-    "motion_play_deg": "verdict.checks.play_checks:motion",
-    "motion_play_mm": "verdict.checks.play_checks:motion",
+    **_DWELL,
+    **JAMS,
+    **_of("play_checks", motion="motion_play_deg motion_play_mm"),
     **TOLERANCES,
 }
-# Those that fail where a roller does not find its slot, or meets the rim next to it, and jams.
-JAMS = (
-    "hand_over_play_deg",
-    "hand_over_play_mm",
-    "hand_over_pressure_deg",
-    "hand_over_offset_mm",
-)
 # Of flat parts at every angle of the turn, made for a design's own answer.
-PROOFS: Checks = {"gap_proved_mm": "verdict.checks.proved:least_gap"}
+PROOFS = _of("play_checks", least_gap="gap_proved_mm")
 
 
 # The names of all checks but those of the whole turn; ``parts``: they can be built.
@@ -150,9 +156,8 @@ def standing(mechanism: Mechanism) -> Checks:
     """The checks of the parts of a machine at rest."""
     kinds = of_wheel(mechanism.spec.wheel.NAME)
     own = next((kind.parts_checks for kind in reversed(kinds) if kind.parts), {})
-    some = {
-        name: path for kind in kinds if not kind.parts for name, path in kind.parts_checks.items()
-    }
+    added = [kind.parts_checks.items() for kind in kinds if not kind.parts]
+    some = {name: path for rows in added for name, path in rows}
     return {**own, **some} if own else {**STATIC, **some, **PROCESS}
 
 
@@ -168,23 +173,23 @@ def turn_checks(parts: Parts, turn: FullTurn) -> Iterator[Check]:
 
 def check_named(among: Checks, name: str, *of: object) -> Check | None:
     """The check with this name; None if it is not in the list, or does not apply."""
-    return next(untold({name: among[name]}, *of), None) if name in among else None
+    return load_named(among[name])(name, *of) if name in among else None
 
 
 def untold(among: Checks, *of: object) -> Iterator[Check]:
     """The checks of a list that apply to ``of``; those that fail have no reason in words yet."""
     for name, path in among.items():
-        check: Check | None = load_named(path)(name, *of)
-        if check is not None:
+        if check := load_named(path)(name, *of):
             yield check
 
 
 def applicable(among: Checks, *of: object) -> Iterator[Check]:
     """The checks of a list that apply to ``of``; of those that fail for one reason, the first."""
     reasons = set()
-    for check in untold(among, *of):
-        told = check.told
-        if told.passes is not False or told.why not in reasons:
-            yield told
-        if told.passes is False and told.why:
-            reasons.add(told.why)
+    for name, path in among.items():
+        if check := load_named(path)(name, *of):
+            told = check.told
+            if told.passes is not False or told.why not in reasons:
+                yield told
+            if told.passes is False and told.why:
+                reasons.add(told.why)

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.tolerances import keeps
-
-if TYPE_CHECKING:
-    from geneva_cli.verdict.shaft_gap import ShaftGap
 
 # The reason why a failing check has no advice.
 NONE = "no single change that was tried passes all checks"
@@ -37,7 +34,7 @@ class Check(NamedTuple):
     at_deg: float | None = None
     nearest: str = ""
     direction: str = ""
-    # what makes ``why`` of a failing check, which the trials of an adviser need not
+    # makes ``why`` of a failing check, which an adviser's trials do not need
     reason: Callable[[], str] | None = None
 
     @property
@@ -71,6 +68,14 @@ class Check(NamedTuple):
         return f"{self.name} is not computed: {self.why}" if self.value is None else ""
 
 
+class ShaftGap(NamedTuple):
+    """The least gap, mm, between a hub or shaft and a part that passes it."""
+
+    gap: float  # negative where they overlap
+    shaft: str
+    part: str
+
+
 def compared(
     name: str,
     value: float,
@@ -95,7 +100,9 @@ def refused(name: str, error: GenevaError) -> Check:
     return Check(name, 0.0, "at least", 1.0, False, str(error))
 
 
-def at_least(name: str, measure: Callable[[], float | None], limit: float) -> Check | None:
+def at_least(
+    name: str, measure: Callable[[], float | None], limit: float, noise: float = 0.0
+) -> Check | None:
     """The check that a value, if there is one, is at least a limit.
 
     It fails if parts cannot be built.
@@ -104,17 +111,18 @@ def at_least(name: str, measure: Callable[[], float | None], limit: float) -> Ch
         value = measure()
     except GenevaError as error:
         return Check(name, None, "at least", limit, False, str(error))
-    return None if value is None else compared(name, value, "at least", limit)
+    return None if value is None else compared(name, value, "at least", limit, None, noise)
 
 
 def gap(name: str, least: Callable[[], ShaftGap | None], L: float) -> Check | None:
     """The least gap at shafts, if there is one; it fails if parts cannot be built."""
-    try:
+
+    def measure() -> float | None:
         smallest = least()
-    except GenevaError as error:
-        return Check(name, None, "at least", 0.0, False, str(error))
+        return smallest.gap if smallest else None
+
     # A gap is rounded to 1e-12 of the centre distance, or of the sphere's radius.
-    return compared(name, smallest.gap, "at least", 0.0, noise=1e-12 * L) if smallest else None
+    return at_least(name, measure, 0.0, 1e-12 * L)
 
 
 def all_pass(rows: Iterable[Check]) -> bool:

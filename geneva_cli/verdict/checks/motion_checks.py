@@ -1,8 +1,9 @@
-"""The wheel's motion, the gears in front of it, and the slots or the groove that a law needs."""
+"""The wheel's motion and its limits, gears in front of it, and the slots or groove of a law."""
 
 from __future__ import annotations
 
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peaks import worst, worst_of
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.checks.check import Check, compared
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT, turns_back
@@ -20,6 +21,20 @@ def least_velocity(name: str, mechanism: Mechanism) -> Check | None:
         return None
     value, at_deg = turns_back(mechanism) or (0.0, None)
     return compared(name, value, "at least", 0.0, at_deg)
+
+
+def limited_peak(name: str, mechanism: Mechanism) -> Check | None:
+    """The peak, a derivative by the input's radians, that a key of ``[limits]`` bounds."""
+    limit = mechanism.spec.limits.as_dict()[name]
+    if limit is None:
+        return None
+    if name == "acceleration_entry_max":
+        value = worst(mechanism).ends.acceleration_entry
+    elif name == "jerk_max":
+        value = worst(mechanism).jerk.max
+    else:
+        value = worst_of(mechanism, name.removesuffix("_max")).max
+    return compared(name, value, "at most", limit)
 
 
 def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:
@@ -52,13 +67,10 @@ def _greatest_pressure(name: str, mechanism: Mechanism, limit: float) -> Check:
     from geneva_cli.verdict.quantities.load_quantities import pressure
 
     peak = single(mechanism).columns(pressure)
-    most, at_deg = peak["max_deg"], peak["at_deg"]
-    assert most is not None  # every machine with slots has both
-    assert at_deg is not None
-    value = number_of(most, 0)
+    value, at_deg = number_of(peak["max_deg"], 0), number_of(peak["at_deg"], 0)
     # At 90 degrees nothing turns the wheel, whatever the limit.
     passes = keeps(value, "at most", limit) and value < 90.0
-    return Check(name, value, "at most", limit, passes, at_deg=number_of(at_deg, 0))
+    return Check(name, value, "at most", limit, passes, at_deg=at_deg)
 
 
 def driven_fraction(name: str, mechanism: Mechanism) -> Check | None:

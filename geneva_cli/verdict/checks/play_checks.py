@@ -1,4 +1,4 @@
-"""Gaps and the wheel's play in a whole turn: in its dwell, between lock and slot, in its motion.
+"""A whole turn: gaps, the wheel's play, what ``[tolerance]`` needs, and the proof of the gap.
 
 A play is an angle, or the travel of a rack: each check has a name for either unit.
 """
@@ -6,10 +6,18 @@ A play is an angle, or the travel of a rack: each check has a name for either un
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from geneva_cli.parts.parts import Parts
+from geneva_cli.parts.turn.bounds import UNKNOWN
 from geneva_cli.parts.turn.full_turn import FullTurn, Most
+from geneva_cli.parts.turn.pairs import WorkLimit
+from geneva_cli.parts.turn.turn_certificate import Certificate, certificate, tolerance_mm
+from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.tolerance.needed import LeastClearances
 
 DRY_FRICTION = 0.3  # of a sliding pair that nobody greases: steel on steel or PLA on PLA
 
@@ -101,3 +109,75 @@ def finds_slot(parts: Parts) -> float:
     """The play, degrees, with which the roller would just meet the mouth of its slot."""
     sizes, moves = parts.sizes, parts.assembly.plane_motion
     return math.degrees(moves.half_span(sizes.half_width, sizes.rim))
+
+
+def slot_clearance(name: str, parts: Parts, turn: FullTurn) -> Check | None:
+    """The clearance per side of the slots, against what the tolerances need."""
+    least, own = _least(parts), parts.assembly.full.spec.size.allowances
+    return least and compared(name, own.slot_clearance_mm, "at least", least.slot_mm)
+
+
+def lock_clearance(name: str, parts: Parts, turn: FullTurn) -> Check | None:
+    """The clearance per side of the lock, against what the tolerances need."""
+    least, own = _least(parts), parts.assembly.full.spec.size.allowances
+    if least is None or least.lock_mm is None:  # no disc holds the wheel
+        return None
+    return compared(name, own.lock_clearance_mm, "at least", least.lock_mm)
+
+
+def extremes_turn(name: str, parts: Parts, turn: FullTurn) -> Check | None:
+    """Check that the tightest and the loosest machine turn, if their clearances are enough."""
+    least = _least(parts)
+    if least is None or least.short(parts.assembly.full.spec):
+        return None
+    turns, why = least.turns()
+    return Check(name, None if turns is None else float(turns), "at least", 1.0, turns, why)
+
+
+def _least(parts: Parts) -> LeastClearances | None:
+    """What the tolerances need; None without tolerances, or where none are computed."""
+    machine = parts.assembly.full
+    tolerance = machine.spec.tolerance
+    none = tolerance == Tolerance(distribution=tolerance.distribution)
+    if none or not machine.output.turns:
+        return None
+    # a spec without tolerances is checked without their modules
+    from geneva_cli.loads.tolerance.worst_effects import used
+    from geneva_cli.verdict.tolerance.needed import least_clearances
+
+    return least_clearances(machine, parts, used(machine))
+
+
+def least_gap(name: str, parts: Parts, to_mm: float | None) -> Check | None:
+    """The proved lower bound of the gap, mm; None where parts are known to overlap.
+
+    ``to_mm`` is how far below the smallest gap the bound may be, by default ``tolerance_mm``.
+    """
+    gap = parts.turned.turn.smallest.mm
+    if gap < -parts.contact:
+        return None
+    to_mm = to_mm or tolerance_mm(parts)
+    unproved = Check(name, None, "at least", -to_mm, None)
+    try:
+        found = certificate(parts, gap, to_mm)
+    except WorkLimit as error:
+        return unproved._replace(why=str(error))
+    if found.open:
+        start, end, known, _ = found.open
+        unproved = unproved._replace(why=_open(found))
+        if known < -max(to_mm, parts.contact):
+            return unproved._replace(value=known, at_deg=0.5 * (start + end), passes=False)
+        return unproved
+    why = f"collision-free, proved to {1e3 * to_mm:.3g} µm ({found.intervals:,} intervals)"
+    return compared(name, found.least_mm, "at least", -to_mm)._replace(why=why)
+
+
+def _open(found: Certificate) -> str:
+    assert found.open is not None
+    start, end, gap, least = found.open
+    bound = "no bound is known" if least <= -0.5 * UNKNOWN else f"at least {least:.4g} mm"
+    return (
+        f"sampled collision check; the proof is open from {start:.9g} to {end:.9g}° between "
+        f"{found.between}, after {found.intervals:,} intervals. There the gap is {gap:.4g} mm in "
+        f"the middle and {bound} throughout"
+    )

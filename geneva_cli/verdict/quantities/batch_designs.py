@@ -105,7 +105,7 @@ class Designs:
 
         Raises GenevaError for a single design of that kind.
         """
-        from geneva_cli.loads.stretches import refuse_rounding, too_fast
+        from geneva_cli.loads.load_functions import refuse_rounding, too_fast
 
         resisted = self.resisted
         if not resisted.any():
@@ -137,8 +137,9 @@ class BatchMember(Designs):
         return super().columns(compute) if is_unknown else own
 
 
-def number_of(column: Number, i: int) -> float:
+def number_of(column: Number | None, i: int) -> float:
     """The value of one design in a column, which may be one number for all."""
+    assert column is not None
     values = np.ravel(column)
     return float(values[i] if len(values) > 1 else values[0])
 

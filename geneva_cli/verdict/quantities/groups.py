@@ -6,6 +6,7 @@ A new quantity is a name in one group here, and a value of the group's function.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -26,21 +27,19 @@ ECHOED = {  # keys that the numbers of a report depend on, besides the machine's
     "wheel": ("held_by",),
     "drive": ("n_rpm",),
     "size": (
-        "process",
-        "slot_clearance_mm",
-        "lock_clearance_mm",
-        "press_fit_mm",
-        "shaft_fit_mm",
-        "face_width_mm",
-        "pin_held",
-        "pin_gap_mm",
-        "lock_edge_mm",
+        *("process", "slot_clearance_mm", "lock_clearance_mm", "press_fit_mm", "shaft_fit_mm"),
+        *("face_width_mm", "pin_held", "pin_gap_mm", "lock_edge_mm"),
     ),
-    "load": tuple(key.key for key in fields(Load)),
-    "shaft": tuple(key.key for key in fields(Shaft)),
-    "material.wheel": tuple(key.key for key in fields(WheelMaterial)),
-    "material.roller": tuple(key.key for key in fields(RollerMaterial)),
-    "limits": tuple(key.key for key in fields(Limits)),
+    **{
+        table: tuple(key.key for key in fields(keys))
+        for table, keys in (
+            ("load", Load),
+            ("shaft", Shaft),
+            ("material.wheel", WheelMaterial),
+            ("material.roller", RollerMaterial),
+            ("limits", Limits),
+        )
+    },
 }
 # For each peak: the power of the input speed that turns its invariant into a rate; the power of the
 # output's unit in the rate, and the end of the rate's name behind that unit.
@@ -53,11 +52,11 @@ RATES = {
 
 
 # The loads of a cycle: those whose ``max`` is the greatest size, which a report shows, and others.
-SIZED = "pin_force_N contact_stress_MPa input_torque_Nm rack_force_N"
-SIGNED = (
-    "omega_rad_s alpha_rad_s2 wheel_torque_Nm sliding_m_s power_W wheel_bearing_N crank_bearing_N "
-    "pv_W_m2 rack_speed_m_s rack_acceleration_m_s2 guide_force_N "
-    "wheel_near_bearing_N wheel_far_bearing_N crank_near_bearing_N crank_far_bearing_N"
+SIZED = ("pin_force_N", "contact_stress_MPa", "input_torque_Nm", "rack_force_N")
+_SIGNED = (
+    "omega_rad_s,alpha_rad_s2,wheel_torque_Nm,sliding_m_s,power_W,wheel_bearing_N,crank_bearing_N,"
+    "pv_W_m2,rack_speed_m_s,rack_acceleration_m_s2,guide_force_N,"
+    "wheel_near_bearing_N,wheel_far_bearing_N,crank_near_bearing_N,crank_far_bearing_N"
 )
 
 
@@ -148,247 +147,216 @@ def values(groups: Iterable[QuantityGroup], parts: Parts) -> Values:
     return out
 
 
-def _product(of: str, names: str) -> tuple[str, ...]:
-    """Each of some names behind each prefix, as texts of words.
+def _words(names: str) -> tuple[str, ...]:
+    """The words of a text, and each end in braces behind each prefix before them.
 
-    >>> _product("jerk power", "max at_deg")
-    ('jerk.max', 'jerk.at_deg', 'power.max', 'power.at_deg')
+    >>> _words("k jerk,power.{max at_deg}")
+    ('k', 'jerk.max', 'jerk.at_deg', 'power.max', 'power.at_deg')
     """
-    return tuple(f"{prefix}.{name}" for prefix in of.split() for name in names.split())
+    out: list[str] = []
+    for prefixes, ends, word in re.findall(r"(\S+)\.{([^}]*)}|(\S+)", names):
+        own = [f"{prefix}.{end}" for prefix in prefixes.split(",") for end in ends.split()]
+        out += own or [word]
+    return tuple(out)
 
 
-def _group(
-    table: str, names: str, alone: str = "", batch: str = "", makes_parts: bool = False
+def _batch(table: str, names: str, function: str) -> QuantityGroup:
+    """A group that a function of this folder computes for a batch."""
+    return QuantityGroup(table, _words(names), batch=f"verdict.quantities.{function}")
+
+
+def _alone(
+    table: str,
+    names: str,
+    function: str,
+    parts: bool = False,
+    module: str = "report_sections",
 ) -> QuantityGroup:
-    """A group whose names are words of a text."""
-    return QuantityGroup(table, tuple(names.split()), alone, batch, makes_parts=makes_parts)
+    """A group that is computed for one design at a time."""
+    return QuantityGroup(table, _words(names), f"verdict.{module}:{function}", makes_parts=parts)
 
 
-MACHINE = _group(
-    "",
-    "wheel.z wheel.gearing drive.kind drive.rollers drive.before.kind motion.law",
-    "verdict.quantities.single:machine",
+MACHINE = _alone(
+    "", "wheel.z wheel.gearing drive.kind drive.rollers drive.before.kind motion.law", "machine"
 )
+_INPUTS = " ".join(f"{table}.{{{' '.join(keys)}}}" for table, keys in ECHOED.items())
 # Quantities of a report, in the order shown, but those of kinds.
 _REPORT = (
-    QuantityGroup(
-        "inputs",
-        tuple(f"{table}.{key}" for table, names in ECHOED.items() for key in names),
-        "verdict.report.sizes_report:inputs",
+    _alone(
+        "inputs", " ".join(f"{t}.{key}" for t, keys in ECHOED.items() for key in keys), "inputs"
     ),
-    _group(
+    _batch(
         "timing",
         "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm",
-        batch="verdict.quantities.motion_quantities:timing",
+        "motion_quantities:timing",
     ),
-    _group("timing", "shortest_motion_s", "verdict.report.stations:shortest_motion"),
-    _group("timing", "k_r", batch="verdict.quantities.motion_quantities:timing"),
-    QuantityGroup(
+    _alone("timing", "shortest_motion_s", "shortest_motion"),
+    _batch("timing", "k_r", "motion_quantities:timing"),
+    _batch(
         "",
-        (
-            *_product("velocity", "max at_deg max_rad_s max_m_s"),
-            *_product(
-                "acceleration", "max at_deg max_rad_s2 max_m_s2 entry exit entry_rad_s2 entry_m_s2"
-            ),
-            *_product("jerk", "max at_deg max_rad_s3 max_m_s3 entry exit"),
-            *_product("power", "max at_deg max_rad2_s3 max_m2_s3"),
-        ),
-        batch="verdict.quantities.motion_quantities:peaks",
+        "velocity.{max at_deg max_rad_s max_m_s} "
+        "acceleration.{max at_deg max_rad_s2 max_m_s2 entry exit entry_rad_s2 entry_m_s2} "
+        "jerk.{max at_deg max_rad_s3 max_m_s3 entry exit} "
+        "power.{max at_deg max_rad2_s3 max_m2_s3}",
+        "motion_quantities:peaks",
     ),
-    _group("", "", "verdict.report.stations:stations"),
-    QuantityGroup(
+    _alone("", "", "stations"),
+    _batch(
         "loads",
-        (
-            *_product("torque_Nm rack_force_N pin_force_N", "max at_deg"),
-            *_product("input_torque_Nm contact_stress_MPa", "max at_deg"),
-            "kinetic_power_W",
-        ),
-        batch="verdict.quantities.load_quantities:greatest",
+        "torque_Nm,rack_force_N,pin_force_N,input_torque_Nm,contact_stress_MPa.{max at_deg} "
+        "kinetic_power_W",
+        "load_quantities:greatest",
     ),
-    QuantityGroup(
-        "cycle",
-        _product("input_torque_Nm power_W crank_bearing_N", "max min mean rms"),
-        "verdict.report.load_report:cycle",
-    ),
-    _group(
-        "shock.entry",
-        "at_deg jump force_N moment_Nms",
-        batch="verdict.quantities.disturbances:entry",
-    ),
-    _group(
+    _alone("cycle", "input_torque_Nm,power_W,crank_bearing_N.{max min mean rms}", "cycle"),
+    _batch("shock.entry", "at_deg jump force_N moment_Nms", "load_quantities:entry"),
+    _batch(
         "shock.reversal",
         "at_deg jump force_N moment_Nms contact_stress_MPa drag_Nm",
-        batch="verdict.quantities.disturbances:reversal",
+        "load_quantities:reversal",
     ),
-    _group("slot", "positively_driven", "verdict.report.load_report:slot"),
-    _group(
-        "slot",
-        "not_driven_share branch_gap_mm branch_gap_at_deg",
-        batch="verdict.quantities.load_quantities:slot",
-    ),
-    _group(
+    _alone("slot", "positively_driven", "slot"),
+    _batch("slot", "not_driven_share branch_gap_mm branch_gap_at_deg", "load_quantities:slot"),
+    _alone(
         "vibration",
         "none period_ratio damping_ratio natural_Hz residual_share residual_deg "
         "residual_share_worst steady_share dynamic_factor windup_deg",
-        "verdict.report.load_report:vibration",
-        "verdict.quantities.disturbances:vibration",
-    )._replace(one_by_one=("none",)),
-    QuantityGroup(
+        "vibration",
+    )._replace(batch="verdict.quantities.load_quantities:vibration", one_by_one=("none",)),
+    _batch(
         "product",
-        (
-            *("travel_mm", "chord_mm", "friction_needed", "swing_mm"),
-            *_product(
-                "speed_m_s acceleration_m_s2 tangential_m_s2 centripetal_m_s2 jerk_m_s3",
-                "max at_deg",
-            ),
-        ),
-        batch="verdict.quantities.motion_quantities:product",
+        "travel_mm chord_mm friction_needed swing_mm "
+        "speed_m_s,acceleration_m_s2,tangential_m_s2,centripetal_m_s2,jerk_m_s3.{max at_deg}",
+        "motion_quantities:product",
     ),
-    _group("", "", "verdict.report.stations:wheels"),
-    _group("", "", "verdict.report.stations:cranks"),
-    _group(
+    _alone("", "", "wheels"),
+    _alone("", "", "cranks"),
+    _alone(
         "sizes",
         "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "
         "center_distance_mm crank_radius_mm ratio roller_radius_mm slot_width_mm clearances_from "
         "slot_mouth_radius_mm slot_bottom_radius_mm wheel_radius_mm rim_radius_mm "
         "pressure_angle_max_deg rollers_max",
-        "verdict.report.sizes_report:sizes",
+        "sizes",
     ),
-    _group(
+    _alone(
         "parts",
         "none rim_radius_mm slot_end_radius_mm lock_radius_mm recess_radius_mm relief horn_mm "
         "wheel_bore_mm crank_bore_mm",
-        "verdict.report.parts_report:parts",
-        makes_parts=True,
+        "parts",
+        True,
     ),
-    _group(
+    _alone(
         "parts",
         "smallest_gap_mm smallest_gap_at_deg dwell_play_deg dwell_play_mm",
-        "verdict.report.parts_report:turned",
-        makes_parts=True,
+        "turned",
+        True,
     ),
-    _group("parts_list", "", "verdict.report.parts_report:parts_list_tables", makes_parts=True),
-    QuantityGroup(
+    _alone("parts_list", "", "parts_list_tables", True),
+    _alone(
         "tolerance",
-        (
-            *_product("dwell_position motion_play", "worst_deg rss_deg p997_deg"),
-            *_product("entry_jump", "mean worst mouth_worst"),
-            *_product("clearances", "slot_needed_mm lock_needed_mm turns"),
+        "dwell_position,motion_play.{worst_deg rss_deg p997_deg} "
+        "entry_jump.{mean worst mouth_worst} clearances.{slot_needed_mm lock_needed_mm turns}",
+        "tolerances",
+        True,
+    )._replace(
+        batch="verdict.quantities.load_quantities:tolerances",
+        one_by_one=_words(
+            "dwell_position.{worst_deg rss_deg p997_deg} motion_play.p997_deg "
+            "entry_jump.{mean mouth_worst} clearances.{slot_needed_mm lock_needed_mm turns}"
         ),
-        "verdict.report.load_report:tolerances",
-        "verdict.quantities.disturbances:tolerances",
-        (
-            *_product("dwell_position", "worst_deg rss_deg p997_deg"),
-            *("motion_play.p997_deg", "entry_jump.mean", "entry_jump.mouth_worst"),
-            *_product("clearances", "slot_needed_mm lock_needed_mm turns"),
-        ),
-        makes_parts=True,
     ),
-    _group(
+    _batch(
         "strength.pin",
         "diameter_mm bending_MPa shear_MPa stress_MPa allowed_MPa margin least_diameter_mm",
-        batch="verdict.quantities.part_strength:pin",
+        "part_strength:pin",
     ),
-    _group(
+    _batch(
         "strength.horn",
         "stress_MPa at_deg inwards_mm thickness_mm allowed_MPa margin",
-        batch="verdict.quantities.part_strength:horn",
+        "part_strength:horn",
     ),
-    _group(
+    _batch(
         "strength.lock",
         "torque_Nm force_N contact_stress_MPa pressure_MPa allowed_MPa margin horn_stress_MPa "
         "play_deg approach_deg bending_deg deflection_deg",
-        batch="verdict.quantities.part_strength:lock",
+        "part_strength:lock",
     ),
     *(
-        _group(
+        _batch(
             f"strength.{shaft}",
             "diameter_mm moment_Nm at_deg stress_MPa allowed_MPa margin least_diameter_mm "
             "twist_deg",
-            batch=f"verdict.quantities.part_strength:{shaft}",
+            f"part_strength:{shaft}",
         )
         for shaft in ("wheel_shaft", "crank_shaft")
     ),
-    _group(
-        "strength.arm",
-        "thickness_mm stress_MPa allowed_MPa margin",
-        batch="verdict.quantities.part_strength:arm",
-    ),
-    _group(
-        "strength.arm", "least_thickness_mm", batch="verdict.quantities.part_strength:arm_thickness"
-    ),
+    _batch("strength.arm", "thickness_mm stress_MPa allowed_MPa margin", "part_strength:arm"),
+    _batch("strength.arm", "least_thickness_mm", "part_strength:arm_thickness"),
     *(
-        _group(
+        _batch(
             f"strength.{key}",
             "length_mm pressure_MPa shear_MPa allowed_MPa margin least_length_mm",
-            batch=f"verdict.quantities.part_strength:{key}",
+            f"part_strength:{key}",
         )
         for key in ("wheel_key", "crank_key")
     ),
-    _group(
+    _batch(
         "life",
         "slot_travel_m roller_turns_per_motion equivalent_force_N friction_work_J",
-        batch="verdict.quantities.part_strength:wear",
+        "part_strength:wear",
     ),
-    _group("life", "pv_max_W_m2", batch="verdict.quantities.part_strength:pressure_speed"),
-    _group(
-        "life", "pin_stress_MPa horn_stress_MPa", batch="verdict.quantities.part_strength:bending"
-    ),
-    _group(
+    _batch("life", "pv_max_W_m2", "part_strength:pressure_speed"),
+    _batch("life", "pin_stress_MPa horn_stress_MPa", "part_strength:bending"),
+    _batch(
         "life",
         "roller_life_turns roller_life_motions roller_life_h slot_wear_mm_per_million",
-        batch="verdict.quantities.part_strength:wear",
+        "part_strength:wear",
     ),
-    _group("strength", "", "verdict.report.load_report:needs"),
-    _group("", "", "verdict.both_directions:differences"),
+    _alone("strength", "", "needs"),
+    _alone("", "", "differences", module="both_directions"),
 )
 
 
-def _with_kinds(groups: tuple[QuantityGroup, ...]) -> Iterator[QuantityGroup]:
+def _with_kinds() -> Iterator[QuantityGroup]:
     """The groups of a report, each kind's own behind the tables that it names."""
-    last = {group.table: group for group in groups}
-    for group in groups:
+    last = {group.table: group for group in _REPORT}
+    for group in _REPORT:
         yield group
         for kind in KINDS:
             for own in kind.quantities:
                 if last[own.after] is group:
-                    yield _group(own.table, own.names, *own[3:])._replace(kind=kind.name)
+                    names, parts = _words(own.names), own.makes_parts
+                    yield QuantityGroup(
+                        own.table, names, own.alone, own.batch, (), parts, kind.name
+                    )
 
 
-REPORT = (*_with_kinds(_REPORT),)
+REPORT = (*_with_kinds(),)
+_CHECKS = {
+    "values_before_turn": BEFORE_TURN,
+    "check_values": (*OF_TURN, "passes", "failed"),
+    "passes": ("passes",),  # alone, until the first check that fails
+    "proved": PROOFS,
+}
 # Further quantities, for studies.
 STUDY = (
-    QuantityGroup(
+    _batch(
         "loads",
-        (
-            *_product(f"{SIZED} {SIGNED}", "min min_at_deg mean rms"),
-            *_product(SIGNED, "max max_at_deg"),
-        ),
-        batch="verdict.quantities.load_quantities:summaries",
+        f"{','.join(SIZED)},{_SIGNED}.{{min min_at_deg mean rms}} {_SIGNED}.{{max max_at_deg}}",
+        "load_quantities:summaries",
     ),
-    _group(
+    _batch(
         "sizing",
         "inertia_kgm2 acceleration_rad_s2 inertia_torque_Nm friction_torque_Nm total_torque_Nm "
         "design_torque_Nm input_torque_Nm power_W Am Vm Qm energy_fluctuation_J flywheel_kgm2 "
         "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2 "
         "coasting_speed_share input_torque_ratio",
-        batch="verdict.quantities.load_quantities:sizing",
+        "load_quantities:sizing",
     ),
-    QuantityGroup(
-        "checks",
-        BEFORE_TURN,
-        "verdict.quantities.single:values_before_turn",
-        makes_parts=True,
+    *(
+        _alone("checks", " ".join(names), function, True, "both_directions")
+        for function, names in _CHECKS.items()
     ),
-    QuantityGroup(
-        "checks",
-        (*OF_TURN, "passes", "failed"),
-        "verdict.quantities.single:check_values",
-        makes_parts=True,
-    ),
-    # alone, until the first check that fails
-    QuantityGroup("checks", ("passes",), "verdict.quantities.single:passes", makes_parts=True),
-    QuantityGroup("checks", tuple(PROOFS), "verdict.quantities.single:proved", makes_parts=True),
 )
 # All quantities; those that make parts come last.
 GROUPS = tuple(sorted((MACHINE, *REPORT, *STUDY), key=lambda group: group.makes_parts))

@@ -8,7 +8,6 @@ from typing import cast
 import numpy as np
 
 from geneva_cli.loads.product import ProductMotion, product_motion
-from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import QUANTITIES
@@ -88,15 +87,12 @@ def peak_values(
 
 def _ends(machine: Mechanism, order: int) -> list[Array]:
     """The greatest sizes of a derivative just after an entry, and just before an exit."""
-    motions = [e.motion for e in machine.engagements]
-    return [
-        np.max(np.broadcast_arrays(*(_size(m, m.entry_deg, order) for m in motions)), axis=0),
-        np.max(np.broadcast_arrays(*(_size(m, m.exit_deg, order) for m in motions)), axis=0),
-    ]
-
-
-def _size(motion: WheelMotion, at_deg: Number, order: int) -> Array:
-    return np.ravel(abs(motion(at_deg, order).arrays()[order]))
+    ends: list[Array] = []
+    for name in ("entry_deg", "exit_deg"):
+        motions = (e.motion for e in machine.engagements)
+        sizes = [np.ravel(abs(m(getattr(m, name), order).arrays()[order])) for m in motions]
+        ends.append(np.max(np.broadcast_arrays(*sizes), axis=0))
+    return ends
 
 
 def product_motion_of(of: Designs) -> ProductMotion | None:

@@ -105,7 +105,7 @@ def _is_repeated(name: str) -> bool:
     """
     table, _, own = name.partition(".")
     load, _, end = own.partition(".")
-    is_size = end == "max" and load in SIZED.split()
+    is_size = end == "max" and load in SIZED
     return table == "cycle" and f"loads.{own}" in group_of() and not is_size
 
 

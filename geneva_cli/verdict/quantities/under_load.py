@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cache, partial
 from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
 
 import numpy as np
@@ -19,7 +20,13 @@ from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
-from geneva_cli.loads.strength.part_loads import PartLoads, own_loads, part_loads, sizing_loads
+from geneva_cli.loads.strength.part_loads import (
+    PartLoads,
+    own_loads,
+    part_loads,
+    single_loads,
+    sizing_loads,
+)
 from geneva_cli.loads.strength.pin import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
@@ -33,13 +40,12 @@ from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.sized_by_load import horn_MPa
 from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
 from geneva_cli.spec.materials import roller_material
+from geneva_cli.verdict.quantities.batch_designs import BatchMember, Designs, limited_loads, single
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.horn_search import HornStress, Sides, Sizes
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.motion.mechanism import Mechanism
-    from geneva_cli.verdict.quantities.batch_designs import Designs
-
 
 T = TypeVar("T")
 
@@ -311,3 +317,28 @@ def drawn_pin(of: Designs) -> PinSize | None:
     """The pin that an impact bends, and its contact; None where nothing has a width."""
     width = under_load(of).contact_mm
     return None if width is None else PinSize(under_load(of).pin_mm, width)
+
+
+def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
+    """Let the machines of a batch's designs take from it what their checks need.
+
+    The batch is searched when the first of them needs a value. A value that the batch lacks is
+    computed for the design alone. There are at most ``kept.KEPT`` machines.
+    """
+    designs = Designs(batch, limited_loads(batch.spec), machines)
+
+    @cache
+    def sizing() -> PartLoads | None:
+        try:
+            return under_load(designs).sizing_loads
+        except GenevaError:  # which one of the designs raises it again
+            return None
+
+    def loads_of(i: int) -> PartLoads | None:
+        every = sizing()
+        one = every and every.of(i)
+        return None if one is None or any(map(math.isnan, one)) else one
+
+    for i, machine in enumerate(machines):
+        single.put(machine, partial(BatchMember, designs, i))
+        single_loads.put(machine, partial(loads_of, i))

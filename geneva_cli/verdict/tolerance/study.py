@@ -1,9 +1,10 @@
-"""The effects of one machine's tolerances on its dwell, motion, entry and clearances; its locks."""
+"""The effects of tolerances on dwell, motion, entry and clearances: ``geneva tolerance``."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from geneva_cli.loads.tolerance.locking import CutLock
 from geneva_cli.loads.tolerance.motion_error import WorstErrors, motion_errors
 from geneva_cli.loads.tolerance.random_machines import (
     Draws,
-    RandomMachines,
     Spread,
     likely_place,
     random_machines,
@@ -25,8 +25,13 @@ from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst, used
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.tolerance.lock_tolerances import cut_parts
-from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
+from geneva_cli.spec.rules import POSITIVE, require_mm
+from geneva_cli.table import Table, record_table, rows_table
+from geneva_cli.verdict.tolerance.needed import (
+    RequiredClearances,
+    cut_parts,
+    required_clearances,
+)
 
 
 class EntryJumps(NamedTuple):
@@ -66,7 +71,12 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
     _refuse_large(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
-    every_lock = _locks(mechanism, parts, warnings)
+    every_lock: Sequence[CutLock] = []
+    if mechanism.spec.is_turned:
+        try:
+            every_lock = cut_parts(parts.turned).locks()
+        except GenevaError as error:
+            warnings.append(Notice("not-known", f"no parts: {error}"))
     lock = max(every_lock, key=lambda one: _greatest(one(ends).angle.arrays()[0]), default=None)
     motions = motion_errors(mechanism)
     errors = [(one, *_single_design(one.greatest(ends))) for one in motions]
@@ -100,8 +110,14 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
                 "motion_play is not known: curved slots are computed for a path without errors",
             )
         )
-    entry = _entry(mechanism, use, drawn) if jumps else None
-    if entry is None:
+    entry = None
+    if jumps:
+        worst_jump = entry_jumps_worst(mechanism, use)
+        assert worst_jump is not None  # there are slots to enter
+        mean, deviation = float(drawn.jump.mean()), float(drawn.jump.std())
+        mouth = mouth_jumps_worst(mechanism).item()
+        entry = EntryJumps(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
+    else:
         warnings.append(
             Notice(
                 "not-known",
@@ -113,15 +129,6 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
         what = "not every machine turns" if clearances.turns is False else "no turn was computed"
         warnings.append(Notice("not-every-machine-turns", f"{what}: {clearances.why}"))
     return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(warnings))
-
-
-def _entry(mechanism: Mechanism, use: dict[str, float], drawn: RandomMachines) -> EntryJumps:
-    """The jumps at entry of a machine whose roller runs along its slot there."""
-    worst = entry_jumps_worst(mechanism, use)
-    assert worst is not None  # there are slots to enter
-    mouth = mouth_jumps_worst(mechanism).item()
-    mean, deviation = float(drawn.jump.mean()), float(drawn.jump.std())
-    return EntryJumps(float(worst[0]), mean, deviation, drawn.missed, mouth)
 
 
 def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
@@ -159,16 +166,6 @@ def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
             )
 
 
-def _locks(mechanism: Mechanism, parts: Parts, warnings: list[Notice]) -> Sequence[CutLock]:
-    if not mechanism.spec.is_turned:
-        return []
-    try:
-        return cut_parts(parts.turned).locks()
-    except GenevaError as error:
-        warnings.append(Notice("not-known", f"no parts: {error}"))
-        return []
-
-
 def _single_design(errors: WorstErrors) -> tuple[float, float, float]:
     """The values of the single design."""
     return float(errors.error[0]), float(errors.at_deg[0]), float(errors.side[0])
@@ -176,3 +173,91 @@ def _single_design(errors: WorstErrors) -> tuple[float, float, float]:
 
 def _greatest(values: Array) -> float:
     return float(np.max(values))
+
+
+ANGLES = ("worst", "rss", "mean", "std", "p997")
+
+
+def tolerance_table(
+    mechanism: Mechanism, parts: Parts, samples: int, seed: int, radius_mm: float | None = None
+) -> Table:
+    """The study as a record, with micrometres at ``radius_mm``, if not None."""
+    if radius_mm is not None:
+        require_mm("--radius", radius_mm, POSITIVE)
+    results = study(mechanism, parts, samples, seed)
+    spec, size, entry = mechanism.spec, mechanism.spec.size, results.entry
+    locked = results.clearances.lock_mm is not None
+    values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
+    values |= {"samples": samples, "seed": seed, "distribution": spec.tolerance.distribution}
+    values["radius_mm"] = radius_mm
+    values |= _angles("dwell_position", results.dwell, radius_mm)
+    values |= _angles("motion_play", results.motion, radius_mm)
+    values["motion_play.at_deg"] = results.motion_at_deg
+    values["contributions"] = _contributions(mechanism, results)
+    fields = {name: f"entry_jump.{name}" for name in ("mean", "std", "worst")}
+    fields |= {"missed": "entry_jump.missed_share", "mouth": "entry_jump.mouth_worst"}
+    values |= {name: getattr(entry, field) if entry else None for field, name in fields.items()}
+    values |= {
+        "clearances.slot_mm": size.allowances.slot_clearance_mm,
+        "clearances.slot_needed_mm": results.clearances.slot_mm,
+        "clearances.lock_mm": size.allowances.lock_clearance_mm if locked else None,
+        "clearances.lock_needed_mm": results.clearances.lock_mm,
+        "clearances.turns": results.clearances.turns,
+        "clearances.jam_share": results.jams,
+        "warnings": (*results.warnings, *_unscaled(results, radius_mm)),
+    }
+    return record_table(values, spec.title)
+
+
+def histogram_table(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Table:
+    """Histograms of the machines: for each angle the middles of bins, and the fraction in each.
+
+    Raises GenevaError if neither angle is known.
+    """
+    results = study(mechanism, parts, samples, seed)
+    known = {"dwell_position": results.dwell, "motion_play": results.motion}
+    columns: dict[str, list[float]] = {}
+    for name, one in known.items():
+        if one:
+            columns[f"{name}_deg"], columns[f"{name}_share"] = map(
+                list, zip(*one.shape, strict=True)
+            )
+    if not columns:
+        raise GenevaError(f"--histogram: {'; '.join(results.warnings)}")
+    return Table(tuple(columns), list(columns.values()), title=mechanism.spec.title)
+
+
+def _angles(name: str, of: Spread | None, radius_mm: float | None) -> dict[str, float | None]:
+    """The five numbers of a spread in degrees, arc seconds, and micrometres at a radius."""
+    micron = None if radius_mm is None else math.radians(1.0) * radius_mm * 1e3
+    units = {"deg": 1.0, "arcsec": 3600.0, "um": micron}
+    return {
+        f"{name}.{angle}_{unit}": None
+        if of is None or scale is None
+        else getattr(of, angle) * scale
+        for unit, scale in units.items()
+        for angle in ANGLES
+    }
+
+
+def _unscaled(results: Study, radius_mm: float | None) -> list[Notice]:
+    """A note on the micrometres, if there are angles and no radius."""
+    angles = {"dwell_position": results.dwell, "motion_play": results.motion}
+    known = [name for name, of in angles.items() if of]
+    if radius_mm is not None or not known:
+        return []
+    return [Notice("not-known", f"micrometres of {' and '.join(known)}: need --radius")]
+
+
+def _contributions(mechanism: Mechanism, results: Study) -> Table:
+    """A row for each dimension that deviates: its fraction of the squares, its plus or minus."""
+    names = ("dimension", "share", "dwell_position_deg", "motion_share", "motion_play_deg")
+    rows = []
+    for i, name in enumerate(Deviations._fields):
+        if tolerances(mechanism.spec)[name]:
+            row: list[Any] = [name]
+            for of in (results.dwell, results.motion):
+                row += [of.fractions[i], of.parts[i]] if of else [None, None]
+            rows.append(tuple(row))
+    rows.sort(key=lambda row: -(row[1] or 0.0))
+    return rows_table(names, rows)

@@ -6,6 +6,7 @@ import math
 import mpmath
 import pytest
 import repo
+from load_states import greatest
 from sampling import some
 from typer.testing import CliRunner
 
@@ -13,7 +14,6 @@ from geneva_cli import Design, External, Load, Size
 from geneva_cli.cli.app import app
 from geneva_cli.design import load
 from geneva_cli.extras.certify.certified_loads import LOADS
-from geneva_cli.loads.cycle import greatest
 from geneva_cli.loads.load_case import load_case
 
 LOADED = Design(External(6), load=Load(0.4, 15))

@@ -29,6 +29,7 @@ MIDDLE = -(2.0 * 3.0 + 0.25 * BAR + 1.5 * BAR + CLEARANCE)
 # mass, force, friction of the slot and of the guide
 CASES = [
     (4.0, 30.0, 0.1, 0.1),
+    (4.0, 30.0, 0.1, 0.0),
     (4.0, 0.0, 0.3, 0.2),
     (0.0, 9.0, 0.0, 0.25),
     (4.0, 5.0, 0.6, 0.05),  # both ends bear on one side near mid-motion

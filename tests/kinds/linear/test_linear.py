@@ -13,7 +13,6 @@ import pytest
 from geneva_cli import (
     Design,
     External,
-    Internal,
     Linear,
     Load,
     Shaft,
@@ -64,63 +63,6 @@ def test_timing_and_peaks():
     assert p.jerk == (1.0, 0.0)
     assert p.power == pytest.approx((0.5, -45.0), rel=1e-12)  # sin a cos a
     assert p.ends[0] == p.ends[1] == 1.0
-
-
-def scaled(z: int, x: np.ndarray) -> np.ndarray:
-    """Mean of the external and the internal wheel's angle, with derivatives, over sin(pi/z)."""
-    both = []
-    for wheel in (External(z), Internal(z)):
-        motion = Design(wheel).mechanism.engagements[0].motion
-        both.append(np.array([np.array(row) for row in motion(x, 3).derivatives()]))
-    return (both[0] + both[1]) / (2.0 * math.sin(math.pi / z))
-
-
-def test_both_kinds_of_wheels_tend_to_a_rack():
-    """psi/l = sin a +- l sin a cos a + ...: the first order cancels, and the error falls as l².
-
-    Extrapolated (Richardson), it falls as l⁴: at z = 1000 that is 1e-10, times 2^k for k
-    derivatives of its harmonics of order up to 5.
-    """
-    x = np.linspace(-80.0, 80.0, 33)
-    true = np.array([np.array(r) for r in RACK.mechanism.engagements[0].motion(x, 3).derivatives()])
-    coarse, middle, fine = (scaled(z, x) for z in (250, 500, 1000))
-    errors = [abs(one - true).max(axis=1) for one in (coarse, middle, fine)]
-    for before, after in zip(errors, errors[1:], strict=False):
-        assert np.log2(before / after) == pytest.approx(2.0, abs=0.01)
-    extrapolated = (4.0 * fine - middle) / 3.0
-    assert abs(extrapolated - true).max() < 1e-7
-    assert abs(extrapolated - true)[0].max() < 1e-9
-
-
-def torque_by_equilibrium(a: float) -> tuple[float, float]:
-    """Pin force and input torque of ``LOADED`` from forces in the plane, for a crank angle a.
-
-    The crank turns clockwise about (R, 0). The roller, fixed to it, presses on the wall above or
-    below it; friction acts along the slot against its sliding there.
-    """
-    R, r, m, F, mu, w = 0.05, 0.006, 4.0, 30.0, 0.1, 2.0 * math.pi
-    pin = np.array([R - R * math.cos(a), R * math.sin(a)])
-    speed = R * w * np.array([math.sin(a), math.cos(a)])
-    push = m * -R * w * w * math.sin(a) + F
-    side = math.copysign(1.0, push)
-    touch = pin + np.array([0.0, side * r])
-    arm = touch - pin
-    slide = speed[0] + w * arm[1]  # of a body that turns by -w: v + (-w) x arm
-    on_crank = np.array([-mu * abs(push) * math.copysign(1.0, slide), -push])
-    lever = touch - np.array([R, 0.0])
-    moment = lever[0] * on_crank[1] - lever[1] * on_crank[0]
-    return push, moment  # counterclockwise on the crank, so the input gives it clockwise
-
-
-@pytest.mark.parametrize("at_deg", [-90.0, -60.0, -20.0, -1.0, 10.0, 45.0, 90.0])
-def test_loads_are_those_of_equilibrium(at_deg):
-    force, torque = torque_by_equilibrium(math.radians(at_deg))
-    here = LOADED.cycle.states(np.array([at_deg]))
-    assert here.pin_force_N[0] == pytest.approx(force, rel=1e-13)
-    assert here.input_torque_Nm[0] == pytest.approx(torque, rel=1e-12)
-    rack = LOADED.load_cycle(361).to_dict()
-    row = round(at_deg + 90.0)
-    assert rack["rack_force_N"][row] == pytest.approx(force, rel=1e-13)
 
 
 def test_the_input_does_the_work_of_force_and_friction():

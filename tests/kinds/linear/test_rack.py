@@ -15,9 +15,9 @@ from geneva_cli.design import load
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import solids
+from geneva_cli.kinds.linear.frame import rack_stressed
 from geneva_cli.kinds.linear.outlines import turned_rack
 from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
-from geneva_cli.kinds.linear.stressed import rack_stressed
 from geneva_cli.parts.turn.full_turn import full_turn
 
 R, r = 50.0, 6.0
@@ -91,21 +91,6 @@ def test_a_rack_beyond_the_axis_meets_the_roller_before_it_enters():
         overlap = np.where(out <= e, off, r - np.hypot(out - e, r - off))
         # the turn halves its samples down to 1e-9 mm
         assert smallest_gap(s) == pytest.approx(-overlap.max(), abs=1e-9)
-
-
-def in_recess(s, q: float, d: float) -> bool:
-    """Whether a point of the ring's end, q from the axis, lies in the recess, d after entry."""
-    y = R * (1.0 - math.cos(d))
-    return q * q - 2.0 * q * y * math.sin(d) + y * y <= s.recess**2 * (1.0 + 1e-12)
-
-
-def test_the_end_of_the_ring_stays_in_its_recess():
-    """From its inner to its outer radius, at every angle up to mid-motion."""
-    for lock in (27.0, 35.0, 43.0):
-        s = sizes_of(lock_radius_mm=lock, relief_clearance_mm=0.2)
-        for d in np.linspace(0.0, 0.5 * math.pi, 91):
-            assert all(in_recess(s, q, d) for q in np.linspace(s.floor, s.lock, 21))
-    assert not in_recess(s, s.floor - 0.3, 0.5 * math.pi)
 
 
 @pytest.mark.usefixtures("no_advice")
@@ -268,6 +253,7 @@ def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
     assert values["guide.locks_at_friction"] == pytest.approx(half / lever, rel=1e-14)
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
     """At entry, without friction in the slot: both ends' friction is nu (|N1| + |N2|)."""
     loaded = design(**PARTS).with_("load.force_N", 10.0)
@@ -285,7 +271,7 @@ def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
 
 
 @pytest.mark.usefixtures("no_advice")
-@pytest.mark.parametrize("mu", (0.0, 0.3, 0.63))
+@pytest.mark.parametrize("mu", (0.0, 0.63))
 def test_a_guide_locks_where_the_loads_lose_their_bound(mu):
     """A percent below that friction the pin's force has a bound, a percent above it has none."""
     feeder = load(str(repo.DESIGNS / "linear.toml"), [f"load.friction={mu}"])

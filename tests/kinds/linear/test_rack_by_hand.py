@@ -8,8 +8,8 @@ from test_parts_by_hand import dimensions
 from geneva_cli import Design, Linear
 from geneva_cli.drawings.sheet.crank_views import draw_arm
 from geneva_cli.geometry.measure import bounds
-from geneva_cli.kinds.linear.arm import crank_arm as rack_arm
 from geneva_cli.kinds.linear.frame import guide
+from geneva_cli.kinds.linear.rack import crank_arm as rack_arm
 from geneva_cli.spec.tables import Size
 
 

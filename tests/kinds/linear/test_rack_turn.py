@@ -162,7 +162,7 @@ def test_an_overlap_is_as_deep_at_the_end_of_the_ring():
     sizes, shift = parts.sizes, math.radians(1.0)
     outline = Polyarc([rack_contour(sizes, 5)])
     rack, ring = outline.samples(1e-6, 1e-3), Polyarc([locking_sector(sizes)]).samples(1e-6, 0.02)
-    for turn, sense in product((90.5, 150.0, 179.0, 179.9, 180.0, 180.1, 240.0), (1.0, -1.0)):
+    for turn, sense in product((90.5, 150.0, 179.9, 180.0), (1.0, -1.0)):
         pose = parts.gaps.pose(np.array([turn]))
         a, travel = math.radians(turn), R + sense * R * shift
         x, y = rack[:, 0] - R, rack[:, 1] + travel

@@ -32,15 +32,14 @@ from geneva_cli import (
 from geneva_cli.drives.retimed import retimed
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds
-from geneva_cli.loads.load_peaks import load_summaries
-from geneva_cli.loads.load_summary import LoadSummary
+from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.both_ways import backwards
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.pivots import Joint
-from geneva_cli.parts.links.link_planes import planes
 from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.specfile.tree import spec_of

@@ -13,7 +13,7 @@ from words import Spec, Wheel
 from geneva_cli import Design, Size, Spherical, load
 from geneva_cli.geometry.plates import solids
 from geneva_cli.geometry.sphere import place
-from geneva_cli.kinds.spherical.laid_flat import wheel_cone
+from geneva_cli.kinds.spherical.drawings import wheel_cone
 from geneva_cli.kinds.spherical.sheet import flat_slot
 from geneva_cli.parts.parts import parts_of
 

@@ -7,8 +7,8 @@ import pytest
 from scipy.spatial import cKDTree
 
 from geneva_cli import Design, External, Size, Spherical
-from geneva_cli.kinds.spherical.crank import at_mid_motion
 from geneva_cli.kinds.spherical.gaps import BallGaps
+from geneva_cli.kinds.spherical.regions import at_mid_motion
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.gaps import NEAR
 from geneva_cli.verdict.checks import checks

@@ -12,12 +12,16 @@ from geneva_cli.geometry.shapes import Contour
 from geneva_cli.geometry.sphere import POLE
 from geneva_cli.geometry.sphere_arcs import SphereArcs
 from geneva_cli.kinds.spherical.arm import crank_arm
-from geneva_cli.kinds.spherical.crank import at_mid_motion, rollers, sectors
-from geneva_cli.kinds.spherical.drawings import arm_cone
-from geneva_cli.kinds.spherical.laid_flat import crank_cone, wheel_cone
+from geneva_cli.kinds.spherical.drawings import arm_cone, crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import wheel_shell
+from geneva_cli.kinds.spherical.regions import (
+    at_mid_motion,
+    edge_points,
+    rollers,
+    sectors,
+    wheel_regions,
+)
 from geneva_cli.kinds.spherical.sizes import ball
-from geneva_cli.kinds.spherical.wheel import edge_points, wheel_regions
 from geneva_cli.parts.parts import parts_of
 
 CLEAR = Size(80.0, 5.0, slot_clearance_mm=0.05, lock_clearance_mm=0.04)
@@ -144,9 +148,9 @@ def test_solid_angle_and_inertia_are_those_of_integrals(name):
             kept -= to(top) - to(slot[0])
         return kept
 
-    corner, foot = found.corner(), math.atan2(math.tan(w), math.sin(found.bottom))
+    corner, foot = found.corner, math.atan2(math.tan(w), math.sin(found.bottom))
     widest = math.asin(math.sin(w) / math.sin(found.bottom))
-    breaks = sorted({0.0, corner, foot, widest, b - found.opened(), b})
+    breaks = sorted({0.0, corner, foot, widest, b - found.opened, b})
 
     def squares(polar):  # the integral of sin², over the sphere
         return mpmath.cos(polar) ** 3 / 3 - mpmath.cos(polar)

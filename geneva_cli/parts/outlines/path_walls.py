@@ -7,6 +7,8 @@ path out, and the circle again. Where the roller turns back, its own outline is 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -15,10 +17,11 @@ from geneva_cli.motion.pitch_curve import Pitch, retraces
 from geneva_cli.numerics.arrays import Array, Mask, array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.walls.joint import Curve, Wall
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import rest
-from geneva_cli.parts.slots.slot_profile import heading_at, nodes, pitch_at
+from geneva_cli.parts.slots.slot_profile import nodes, pitch_at
+
+Curve: TypeAlias = "Callable[[Array], tuple[Array, Array]]"  # parameters -> points and tangents
 
 # Of the centre distance, the greatest deviation of the sampled path from the true one: less than
 # half of the overlap that does not count as covered.
@@ -26,15 +29,25 @@ FINE = 4e-7
 CIRCLE_SAMPLES = 97  # of the roller's circle, at least, and of its own outline
 
 
+class Wall(NamedTuple):
+    """One wall: points and tangents by a parameter, and samples in the order of the parameter."""
+
+    curve: Curve
+    t: Array
+    points: Array
+    tangents: Array
+    free: Mask  # samples that no other position of the roller covers
+    centre: tuple[float, float] | None = None  # where the wall is an arc, by its angle
+    radius: float = 0.0
+
+
 def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall]:
     """Return every wall of the roller's path, with its free samples."""
-    w, back = sizes.half_width, retraces(engagement)
-    t = nodes(assembly.mechanism, FINE * assembly.L, fewest=False)
-    near = w - 1e-6 * assembly.L  # a smaller overlap does not count as covered
-    middle = int(np.searchsorted(t, 0.0))
+    w, L, back = sizes.half_width, assembly.L, retraces(engagement)
+    t = nodes(assembly.mechanism, FINE * L, fewest=False)
+    near = w - 1e-6 * L  # a smaller overlap does not count as covered
     circles = [_circle(assembly, sizes, engagement, end) for end in (-1.0, 1.0)]
-    sections = [circles[0][1][::-1], _pitch(assembly, engagement, t), circles[1][1]]
-    path = np.concatenate(sections)
+    path = np.concatenate([circles[0][1][::-1], _pitch(L, engagement, t), circles[1][1]])
     arcs: list[Wall] = []
     for centre, points in circles:
         radius = math.dist(centre, points[0])
@@ -42,45 +55,40 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
         for side in (-w, w):
             arcs.append(_arc(path, near, centre, radius + side, np.sort(angles)))
     flanks: list[Wall] = []
+    middle = int(np.searchsorted(t, 0.0))
     for part in (t[: middle + 1], t[middle:]):
-        at, outward = pitch_at(engagement, part) if back else None, bool(part[-1] > 0.0)
+        outward = bool(part[-1] > 0.0)
         if outward and engagement.mirrored:
+            # the roller runs back over the mirror image of its path, with the same wall on its left
             flanks += [
-                _mirrored(flank, parallel(assembly, engagement, side, outward))
+                Wall(
+                    parallel(assembly, engagement, side, outward),
+                    -flank.t[::-1],
+                    flank.points[::-1] * (1.0, -1.0),
+                    flank.tangents[::-1] * (-1.0, 1.0),
+                    flank.free[::-1],
+                )
                 for flank, side in zip(flanks, (-w, w), strict=True)
             ]
             break
         for side in (-w, w):
             curve = parallel(assembly, engagement, side, outward)
-            t = part if at is None else _unfolded(curve, part, at, assembly.L, side)
+            t = _unfolded(curve, part, pitch_at(engagement, part), L, side) if back else part
             points, tangents = curve(t)
             flanks.append(Wall(curve, t, points, tangents, _free(points, path, near)))
     if not back:
         return [*arcs, *flanks]
-    x, y = _pitch(assembly, engagement, np.zeros(1))[0]
-    tangent = _tangent_in(engagement)
-    ahead = math.atan2(tangent[1], tangent[0])
-    turns = [_meets(flank, (float(x), float(y))) - ahead for flank in flanks]
+    # the roller's own outline where it stops in the wheel, between the flanks that leave it
+    x, y = _pitch(L, engagement, np.zeros(1))[0]
+    at = pitch_at(engagement, np.zeros(1))
+    ahead = math.atan2(float(array(at.tangent_y)[0]), float(array(at.tangent_x)[0]))
+    ends = [flank.points[-1 if flank.t[-1] <= 0.0 else 0] for flank in flanks]
+    turns = [math.atan2(v - y, u - x) - ahead for u, v in ends]
     turns = [math.remainder(turn, math.tau) for turn in turns]
     low = max(turn for turn in turns if turn < 0.0)
     high = min(turn for turn in turns if turn > 0.0)
     round_ = ahead + np.linspace(low, high, CIRCLE_SAMPLES)
     return [*arcs, *flanks, _arc(path, near, (float(x), float(y)), w, round_)]
-
-
-def _mirrored(flank: Wall, curve: Curve) -> Wall:
-    """Return the flank out of a slot with two equal branches, from the one on its way in.
-
-    The roller runs back over the mirror image of its path, with the same wall on its left.
-    """
-    points, tangents = flank.points[::-1] * (1.0, -1.0), flank.tangents[::-1] * (-1.0, 1.0)
-    return Wall(curve, -flank.t[::-1], points, tangents, flank.free[::-1])
-
-
-def _meets(flank: Wall, centre: tuple[float, float]) -> float:
-    """Return the direction from the roller at mid-motion to where a flank leaves its outline."""
-    end = flank.points[-1] if flank.t[-1] <= 0.0 else flank.points[0]
-    return math.atan2(end[1] - centre[1], end[0] - centre[0])
 
 
 def _circle(
@@ -91,7 +99,7 @@ def _circle(
     The points lead outwards from the slot until the roller has left the wheel.
     """
     centre = rest(assembly, engagement, end)
-    x, y = _pitch(assembly, engagement, np.array([engagement.end_deg(end)]))[0]
+    x, y = _pitch(assembly.L, engagement, np.array([engagement.end_deg(end)]))[0]
     radius, start = math.dist((x, y), centre), math.atan2(y - centre[1], x - centre[0])
     # As far as the middle of the dwell, where the path of the next slot begins.
     ahead = math.atan2(-assembly.sign * centre[1], -assembly.sign * centre[0])
@@ -127,7 +135,7 @@ def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: b
     back, L = retraces(engagement), assembly.L
 
     def curve(t: Array) -> tuple[Array, Array]:
-        at = heading_at(engagement, t)
+        at = pitch_at(engagement, t)
         tangent = np.column_stack((at.tangent_x, at.tangent_y))
         if back and outward:  # at mid-motion the tangent is the limit from the entry
             tangent[t == 0.0] *= -1.0
@@ -138,11 +146,7 @@ def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: b
 
 
 def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array:
-    """Return a flank's samples without the fold at mid-motion.
-
-    The roller stops there, and its path turns sharply. On the inner side of the turn the flank
-    folds back into the roller's own outline. The flank is cut where it leaves that outline.
-    """
+    """Return a flank's samples without the fold at mid-motion."""
     order = np.argsort(np.abs(t))
     # a smaller fold is ignored
     folded = L * array(at.speed)[order] < side * array(at.turning)[order] - 1e-7 * L
@@ -161,15 +165,9 @@ def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array
     return np.append(kept, b) if b < 0.0 else np.insert(kept, 0, b)
 
 
-def _pitch(assembly: Assembly, engagement: Engagement, t: Array) -> Array:
+def _pitch(L: float, engagement: Engagement, t: Array) -> Array:
     x, y = engagement.slot(t, 0)
-    return assembly.L * np.column_stack((x.c[0], y.c[0]))
-
-
-def _tangent_in(engagement: Engagement) -> tuple[float, float]:
-    """Return the roller's direction where it stops in the wheel at mid-motion."""
-    at = heading_at(engagement, np.zeros(1))
-    return float(array(at.tangent_x)[0]), float(array(at.tangent_y)[0])
+    return L * np.column_stack((x.c[0], y.c[0]))
 
 
 def _free(points: Array, path: Array, least: float) -> Mask:

@@ -1,0 +1,171 @@
+"""The guide of a rack: its place, the forces at its ends, and the friction at which it locks.
+
+A bar under the rack's back slides between a rail and a wall. The rack lies on the rail, which the
+arm's eye passes a quarter of a bar away. The rack covers its guide in each of its steps: when the
+first one begins, it ends R - w past the crank's axis, w being half a slot.
+
+At the crank angle a the roller's centre is x = R (1 - cos a) from its deepest place and y = R sin a
+from the line of centres. It presses with F on a wall across x, and friction with mu F along x. With
+d = 1 where it drives the rack and -1 where it holds it back, s the sign of its sliding, and the
+guide's middle at x0, they turn the rack about that middle by
+
+    M = F (d (x - x0) - s mu (y + d r))
+
+The load and the mass are taken to act along the guide. A guide that is 2 h long bears on its bar at
+its two ends, with s mu F/2 + M/(2 h) and s mu F/2 - M/(2 h).
+
+Friction in the guide, nu times the sizes of both forces, holds the rack back by D = nu times the
+greater of |M|/h and mu F. The rack's balance along its travel is d F = T/R + D, and the input pays
+D y' on top. The friction is taken to act in the bar's middle: half a bar's width moves M by nu mu
+F/2 of it.
+
+Where D is F, no force moves the rack: its guide locks. While the roller drives, friction in the
+slot takes mu |y + r| from the lever |M|/F. It is longest at entry, R - x0 - mu (R - r); above the
+greatest real friction it is negative, and longest at exit. So the guide locks from nu = h over the
+greatest of R - x0 - mu (R - r), mu (R + r) - (R - x0) and mu h.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.kinds.linear.motion import guided
+from geneva_cli.loads.forces import Contact, LoadCase, QuantityValue, lesser
+from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_peaks import load_peaks
+from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.motion.engagement import Peak
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import choose, larger
+from geneva_cli.numerics.jet import Jet, Number, V
+from geneva_cli.spec.default_sizes import value_or
+from geneva_cli.spec.least_wall import eye_about, wall_min
+
+
+class GuidePlace(NamedTuple):
+    """Place and sizes of a guide, mm; x runs from the deepest roller towards the crank's axis."""
+
+    slot: float  # half of the slot's width
+    bottom: float  # clearance between the deepest roller and the slot's end
+    rail: float  # distance of the rail's front behind the deepest roller
+    bar: float  # width of the bar on the rack's back, and of the rail
+    slide: float  # clearance of the bar on either side
+    half: float  # half of the guide's length; 0 or less where the slots are too wide for a guide
+
+    @property
+    def back(self) -> float:
+        """The x of the bar's back."""
+        return 0.0 - (self.rail + 2.0 * self.bar + self.slide)
+
+    @property
+    def middle(self) -> float:
+        """The x of the bar's middle."""
+        return self.back + 0.5 * self.bar
+
+
+def guide_place(mechanism: Mechanism) -> GuidePlace:
+    """Return the place of a rack's guide; (m, 1) each for m designs."""
+    size, r = mechanism.spec.size, mechanism.roller_radius_mm
+    R = mechanism.ratio * mechanism.center_distance_mm
+    slide = size.allowances.slot_clearance_mm
+    half_slot = r + slide
+    bottom = value_or(size.slot_bottom_clearance_mm, larger(slide, r / 20.0))
+    # the holes of its screws take at most half of the bar, and leave a wall on either side
+    wall = wall_min(size, R)
+    bar = larger(R / 10.0, 4.0 * wall)
+    rail = larger(bottom + half_slot, _eye_mm(mechanism, wall) + 0.25 * bar)
+    return GuidePlace(half_slot, bottom, rail, bar, slide, R - half_slot)
+
+
+def _eye_mm(mechanism: Mechanism, wall: float) -> float:
+    """Return the radius of the arm's eye about the pin; 0 without a pin, and so without an arm."""
+    size = mechanism.spec.size
+    hole = 0.5 * (pin_diameter_mm(mechanism) - size.allowances.press_fit_mm)
+    eye = eye_about(hole, wall) if size.arm_eye_mm is None else 0.5 * size.arm_eye_mm
+    return eye if size.pin_mm is None else choose(size.pin_mm > 0.0, eye, 0.0 * eye)
+
+
+class RackGuide(NamedTuple):
+    """The guide of a rack, lengths over L; floats, or (m, 1) for m designs."""
+
+    friction: float
+    middle: float  # x of its middle from the deepest roller
+    half: float  # half its length
+
+    def lever(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+        """Lever of the force on a rack about its guide's middle, over L, for a roller that drives.
+
+        The formula is that of ``guide_forces``, over d. The crank turns against the rack,
+        at the rate ``spin``, so that cos a is -velocity/spin, and sin a -along/spin.
+        """
+        lever = at.velocity / at.spin + (1.0 - self.middle)
+        if not case.rubs:
+            return lever
+        height = drives * case.radius - at.along / at.spin
+        return lever - height * (case.friction * slides * drives)
+
+    def leaning(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+        """A value above 0 where the rack bears on opposite sides of its guide's ends: smooth."""
+        lever = self.lever(case, at, drives, slides)
+        return lever * lever - (case.friction * self.half) ** 2
+
+    def drag(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+        """Friction in a rack's guide over the pin's force: nu (|N1| + |N2|)/F.
+
+        The forces at both ends add up to mu F across the travel, and their moment about the guide's
+        middle is that of the roller. So |N1| + |N2| is the greater of |M|/h and mu F.
+        """
+        turns = self.lever(case, at, drives, slides) * (1.0 / self.half)
+        both = lesser(turns * -1.0, turns)  # less their size
+        least = turns * 0.0 - case.friction
+        return lesser(both, least) * (0.0 - self.friction)
+
+
+def with_guide(mechanism: Mechanism, case: LoadCase) -> LoadCase:
+    """Return a load case with the guide of a rack, if the machine has one.
+
+    A rack whose slots leave no space for a guide has none.
+    """
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    if not guided(spec):
+        return case
+    place = guide_place(mechanism)
+    friction = value_or(spec.load.guide_friction, spec.load.friction)
+    there = place.half > 0.0
+    guide = RackGuide(
+        choose(there, friction, 0.0), place.middle / L, choose(there, place.half / L, 1.0)
+    )
+    return case._replace(guide=guide)
+
+
+class EndForce(NamedTuple):
+    """The squared force at one end of a guide, as a quantity of ``load_peaks``."""
+
+    side: float  # 1 for one end, -1 for the other
+
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
+        """The square, and the grip that bounds it."""
+        rub = i.slides * i.case.friction
+        guide = i.case.guide
+        assert isinstance(guide, RackGuide)
+        lever = guide.lever(i.case, i.at, i.drives, i.slides) * i.drives
+        force = i.force_N * (lever * (0.5 * self.side / guide.half) + 0.5 * rub)
+        return QuantityValue(force * force, i.grip)
+
+
+def guide_force(mechanism: Mechanism) -> Peak[float]:
+    """The greatest force at an end of a guide, N; infinite if the pin's force has no bound."""
+    ends = {str(side): EndForce(side) for side in (1.0, -1.0)}
+    first, second = load_peaks(mechanism, tuple(ends), ends).values()
+    most = first if first.max.item() >= second.max.item() else second
+    return Peak(math.sqrt(most.max.item()), most.at_deg.item())
+
+
+def locks_at_friction(mechanism: Mechanism) -> float:
+    """The friction from which a guide locks itself, with the slot's own friction as it is."""
+    place, mu = guide_place(mechanism), mechanism.spec.load.friction
+    R, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
+    far = R - place.middle
+    levers = (far - mu * (R - r), mu * (R + r) - far, mu * place.half)
+    return place.half / max(levers)

@@ -1,1 +1,0 @@
-"""The walls of a slot, straight and curved."""

@@ -1,0 +1,308 @@
+"""Loads, impacts, stresses and life against limits of the spec, or of the default steel."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.preferred import to_digits
+from geneva_cli.numerics.roots import boundary
+from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.spec import load_limits
+from geneva_cli.spec.load_limits import LIMITED
+from geneva_cli.spec.tables import Tolerance
+from geneva_cli.verdict.checks.check import Check, compared
+
+if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
+    from geneva_cli.loads.impacts.impacts import Impact
+    from geneva_cli.loads.product import ProductMotion
+    from geneva_cli.loads.strength.pin import PinSize
+    from geneva_cli.verdict.strength import Strength
+
+
+def limited_load(name: str, mechanism: Mechanism) -> Check | None:
+    """The load that a key of ``[limits]`` bounds, and its input angle."""
+    limit = mechanism.spec.limits.as_dict()[name]
+    if limit is None:
+        return None
+    from geneva_cli.verdict.quantities.batch_designs import number_of, single
+    from geneva_cli.verdict.quantities.load_quantities import greatest
+
+    peaks, load = single(mechanism).columns(greatest), load_limits.limited_load(name)
+    most, at_deg = (number_of(peaks[f"{load}.{end}"], 0) for end in ("max", "at_deg"))
+    return compared(name, most, "at most", limit, at_deg)
+
+
+def product_acceleration(name: str, mechanism: Mechanism) -> Check | None:
+    """The product's greatest acceleration, where ``[limits]`` bounds it."""
+    limit = mechanism.spec.limits.product_acceleration_max_m_s2
+    if limit is None:
+        return None
+    most, at_deg = _product_motion(mechanism).acceleration_m_s2
+    return compared(name, most.item(), "at most", limit, at_deg.item())
+
+
+def product_slip(name: str, mechanism: Mechanism) -> Check | None:
+    """The friction coefficient that holds the product, where ``[product]`` has its own."""
+    friction = mechanism.spec.product.friction
+    if friction is None or mechanism.spec.support.axis != "vertical":
+        return None
+    motion = _product_motion(mechanism)
+    at_deg = motion.acceleration_m_s2.at_deg
+    return compared(name, motion.friction_needed.item(), "at most", friction, at_deg.item())
+
+
+def _product_motion(mechanism: Mechanism) -> ProductMotion:
+    from geneva_cli.verdict.quantities.batch_designs import single
+    from geneva_cli.verdict.quantities.motion_quantities import product_motion_of
+
+    motion = single(mechanism).once(product_motion_of)
+    assert motion is not None  # the spec refuses limit and friction without the product's place
+    return motion
+
+
+def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
+    """The impact at entry if R/L is wrong and the roller does not enter along its slot."""
+    tolerance = mechanism.spec.tolerance
+    if not (tolerance.crank_radius_mm or tolerance.center_distance_mm):
+        return None
+    from geneva_cli.loads.impacts.impacts import entry_impacts
+
+    impact = entry_impacts(mechanism, pin=_pin(mechanism)).only
+    if impact is None:
+        return None
+    check = _force_check(name, mechanism, impact)
+    if check.passes is not False:
+        return check
+    return check._replace(reason=partial(_tolerable, mechanism, check))
+
+
+def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
+    """The impact where the roller changes from one wall of its slot to the other.
+
+    None if neither a limit nor tolerances ask for it: the pin's stress has it in any case.
+    """
+    spec = mechanism.spec
+    limit, tolerance = spec.limits.pin_force_max_N, spec.tolerance
+    if limit is None and tolerance == Tolerance(distribution=tolerance.distribution):
+        return None
+    if mechanism.unbalanced:
+        why = "not computed where a body off its axis moves a wheel on a carrier"
+        return Check(name, None, "at most", limit, None, why)
+    impact = _reversal(mechanism)
+    if impact is None:
+        return None
+    check = _force_check(name, mechanism, impact)
+    if check.passes is None:
+        return check._replace(why=f"{check.why}; {drag_words(mechanism)}")
+    return check if check.passes else check._replace(reason=partial(drag_words, mechanism))
+
+
+def reversal_stress(name: str, mechanism: Mechanism) -> Check | None:
+    """The contact stress of the impact at a change of sides, where ``[limits]`` bounds it."""
+    limit = mechanism.spec.limits.contact_stress_max_MPa
+    impact = None if limit is None else _reversal(mechanism)
+    if limit is None or impact is None or impact.contact_stress_MPa is None:
+        return None
+    check = compared(name, impact.contact_stress_MPa, "at most", limit, impact.at_deg)
+    return check if check.passes else check._replace(reason=partial(drag_words, mechanism))
+
+
+def _reversal(mechanism: Mechanism) -> Impact | None:
+    from geneva_cli.loads.impacts.impacts import reversal_impacts
+
+    return reversal_impacts(mechanism, _pin(mechanism)).only
+
+
+def drag_words(mechanism: Mechanism) -> str:
+    """The remedy for the change of sides, in words.
+
+    If one roller starts the wheel and another stops it, a drag would take the wheel off the second
+    one, so less clearance is advised.
+    """
+    if any(engagement.paired for engagement in mechanism.engagements):
+        return "a smaller slot_clearance_mm reduces it"
+    from geneva_cli.loads.impacts.change_of_sides import lasting_drag_Nm
+
+    # the last digits of a short number are rounding
+    drag = to_digits(lasting_drag_Nm(mechanism) * (1.0 - 1e-9), 3, math.ceil)
+    return f"a drag of {drag:g} N m on the wheel prevents the change of sides"
+
+
+def _pin(mechanism: Mechanism) -> PinSize | None:
+    from geneva_cli.verdict.quantities.batch_designs import single
+    from geneva_cli.verdict.quantities.under_load import drawn_pin
+
+    return drawn_pin(single(mechanism))
+
+
+def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
+    """The impact's force, compared with the limit of the pin force if there is one."""
+    spec, limit = mechanism.spec, mechanism.spec.limits.pin_force_max_N
+    if impact.force_N is not None and limit is not None:
+        return compared(name, impact.force_N, "at most", limit, impact.at_deg)
+    lacks = [] if spec.is_loaded else ["inertia_kgm2 in [load]"]
+    if impact.force_N is None and spec.size.face_width_mm is None:
+        lacks.append("face_width_mm in [size]")
+    if limit is None:
+        lacks.append("pin_force_max_N in [limits]")
+    why = f"the wheel's speed jumps by {impact.jump:.4g} of the input's; to judge it, set "
+    why += ", ".join(lacks)
+    return Check(name, impact.force_N, "at most", limit, None, why, impact.at_deg)
+
+
+def _tolerable(mechanism: Mechanism, check: Check) -> str:
+    """The tolerances on R and L, reduced by one fraction, with which the force is at its limit."""
+    from geneva_cli.loads.impacts.impacts import entry_impacts
+
+    limit, pin = check.limit or 0.0, _pin(mechanism)
+
+    def holds(fraction: float) -> bool:
+        impact = entry_impacts(mechanism, fraction, pin).only
+        return impact is None or (impact.force_N or 0.0) <= limit
+
+    low = boundary(holds, 0.0, 1.0, 40)  # two digits of it are shown
+    tolerance = mechanism.spec.tolerance.as_dict()
+    names = [
+        f"{key} = {to_digits(low * tolerance[key] * (1.0 + 1e-9), 2, math.floor):g}"
+        for key in ("crank_radius_mm", "center_distance_mm")
+        if tolerance[key]
+    ]
+    return " and ".join(names) + " in [tolerance]"
+
+
+def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
+    """The resisting torque, limited by the wheel's inertia; None for slots with two walls."""
+    if not mechanism.engagements[0].paired:
+        return None
+    from geneva_cli.loads.impacts.arrival import arrival
+
+    stop = arrival(mechanism)
+    if stop is None:
+        return None
+    check = compared(name, stop.torque_Nm, "at most", stop.most_Nm)
+    if check.passes or stop.most_Nm > 0.0:
+        return check
+    return check._replace(why="no inertia carries the wheel on: set inertia_kgm2 in [load]")
+
+
+class Bound(NamedTuple):
+    """A limited quantity of strength or life.
+
+    ``part`` is the loaded part whose default steel limits it if the spec does not. ``size`` is the
+    dimension on which its stress depends, ``words`` its name, and ``held`` what else must stay.
+    """
+
+    limit: str  # table.key
+    quantity: str
+    part: str = ""
+    size: str = ""
+    words: str = ""
+    held: str = ""
+
+
+# A change of one size moves others, such as bores and overhangs by load.
+_DRAWN = "with the other parts as they are"
+_WHEEL, _SHAFT = "material.wheel.stress_max_MPa", "shaft.shear_stress_max_MPa"
+BOUNDS = {
+    **{
+        name: Bound(f"limits.{name}", LIMITED[name])
+        for name in ("pv_max_W_m2", "roller_life_min_h", "slot_wear_max_mm_per_million")
+    },
+    "pin_stress_MPa": Bound(
+        "material.roller.stress_max_MPa", "pin.stress_MPa", "pin", "diameter_mm", "pin_mm"
+    ),
+    "horn_stress_MPa": Bound(_WHEEL, "horn.stress_MPa", "horn"),
+    "lock_horn_stress_MPa": Bound(_WHEEL, "lock.horn_stress_MPa", "horn"),
+    "lock_stress_max_MPa": Bound("limits.lock_stress_max_MPa", "lock.greatest_MPa"),
+    "lock_deflection_max_deg": Bound("limits.lock_deflection_max_deg", "lock.deflection_deg"),
+    **{
+        f"{part}_shaft_stress_MPa": Bound(
+            _SHAFT,
+            f"{part}_shaft.stress_MPa",
+            f"{part}_shaft",
+            "diameter_mm",
+            f"the {part}'s shaft",
+            _DRAWN,
+        )
+        for part in ("wheel", "crank")
+    },
+    "arm_stress_MPa": Bound(
+        _WHEEL, "arm.stress_MPa", "arm", "thickness_mm", "arm_thickness_mm", "with these bores"
+    ),
+    **{
+        f"{key}_pressure_MPa": Bound(_WHEEL, f"{key}.pressure_MPa", key, "length_mm", "the key")
+        for key in ("wheel_key", "crank_key")
+    },
+}
+
+
+def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
+    """A limited value of strength or life; None without a limit, or without the part.
+
+    Loaded parts are limited by the spec, or else by their default steel. It is not proved if a key
+    is missing.
+    """
+    bound = BOUNDS[name]
+    table, _, key = bound.limit.rpartition(".")
+    limit = own = mechanism.spec.table(table)[key]
+    if own is None and not (bound.part and mechanism.spec.is_loaded):
+        return None
+    from geneva_cli.verdict.strength import BOUND, strength
+
+    of = strength(mechanism)
+    # a key's allowable shear limits it, too
+    if bound.part and (own is None or bound.words == "the key"):
+        limit = of[f"strength.{bound.part}.allowed_MPa"]
+    life = bound.quantity.startswith("life.")
+    value = of[bound.quantity if life else f"strength.{bound.quantity}"]
+    must_be = "at least" if name == "roller_life_min_h" else "at most"
+    if value is not None and limit is not None:
+        placed = name in ("horn_stress_MPa", "wheel_shaft_stress_MPa", "crank_shaft_stress_MPa")
+        at_deg = of[f"strength.{bound.part}.at_deg"] if placed else None
+        check = compared(name, value, must_be, limit, at_deg)
+        return check if check.passes else check._replace(reason=partial(_needed, bound, of, check))
+    reason = of.reason(name)
+    # without a limit in the spec, a value that needs another key is not asked for
+    if reason is None or (own is None and reason != BOUND):
+        return None
+    return Check(name, None, must_be, limit, None, f"not known: it needs {reason}")
+
+
+def _needed(bound: Bound, of: Strength, check: Check) -> str:
+    """The size on which a failing stress depends, and what it must be; empty if unknown."""
+    if bound.size:
+        table = f"strength.{bound.part}"
+        size, least = of[f"{table}.{bound.size}"], of[f"{table}.least_{bound.size}"]
+        if size is None:
+            return ""
+        needs = "no value is enough" if least is None else f"this load needs {least:.4g}"
+        return f"{bound.words} is {size:.4g} mm, but {needs} {bound.held}".rstrip()
+    # a horn's stress is in inverse proportion to the width of the contact
+    if not bound.part or of.contact_mm is None or not check.value or not check.limit:
+        return ""
+    least = of.contact_mm * check.value / check.limit
+    return f"the contact is {of.contact_mm:.4g} mm wide, but this load needs {least:.4g}"
+
+
+def first_stress(name: str, parts: FlatParts) -> Check | None:
+    """A stress of the first of two wheels in series or of its crank; None without them or a load.
+
+    It is the check of a machine of one wheel, made of that first pair.
+    """
+    if not (parts.mechanism.spec.is_loaded and parts.in_front):
+        return None
+    check = strength_limit(name.removeprefix("first_"), parts.front.mechanism)
+    if check is None:
+        return None
+    # its angles are counted from another motion of the first wheel
+    check = check._replace(name=name, at_deg=None)
+    return check._replace(reason=partial(_of_links, check)) if check.reason else check
+
+
+def _of_links(check: Check) -> str:
+    """The reason of a first wheel's check, whose sizes are those of links."""
+    why = check.told.why.replace("arm_thickness_mm", "link_thickness_mm")
+    return why.replace("the crank's shaft", "the first crank's shaft")

@@ -1,0 +1,326 @@
+"""Sections of a report that a batch does not compute, and the words above it."""
+
+from __future__ import annotations
+
+import math
+from contextlib import suppress
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.loads import highest_speed
+from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.load_tables import reversals_deg
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peaks import placed_peaks
+from geneva_cli.motion.timing import timings
+from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.arrays import scalar
+from geneva_cli.parts.parts import Parts
+from geneva_cli.spec.tables import Tolerance
+from geneva_cli.table import Reading, rows_table
+from geneva_cli.verdict.quantities.batch_designs import Numbers, Values, single
+from geneva_cli.verdict.quantities.groups import ECHOED, only, own_names
+from geneva_cli.verdict.quantities.load_quantities import pressure
+from geneva_cli.verdict.quantities.motion_quantities import peak_values
+from geneva_cli.verdict.strength import NEEDY, strength
+
+SAMPLES = 65536  # random machines, as ``geneva tolerance`` draws by default
+
+
+def machine(parts: Parts) -> Values:
+    """The kind of machine."""
+    spec = parts.mechanism.spec
+    return {
+        "wheel.z": spec.wheel.z,
+        "wheel.gearing": spec.wheel.NAME,
+        "drive.kind": spec.drive.NAME,
+        "drive.rollers": spec.drive.rollers,
+        "drive.before.kind": spec.drive_before.NAME if spec.drive_before else None,
+        "motion.law": spec.motion.law.NAME if spec.motion else None,
+    }
+
+
+def inputs(parts: Parts) -> Values:
+    """The values of the keys that the numbers of a report depend on."""
+    spec = parts.mechanism.spec
+    known = {  # if a key is left out
+        "wheel": {"held_by": spec.wheel.held_by},
+        "size": spec.size.allowances._asdict(),
+    }
+    values: Values = {}
+    for table, names in ECHOED.items():
+        keys = spec.table(table) | known.get(table, {})
+        values |= {f"{table}.{key}": keys[key] for key in names}
+    return values
+
+
+def shortest_motion(parts: Parts) -> Values:
+    """The time of the fastest motion, if it is equal in all engagements."""
+    each = [engagement.motion_deg for engagement in parts.mechanism.engagements]
+    # Rounding makes a motion differ between engagements by up to 1e-12 of it.
+    if not math.isclose(min(each), max(each), rel_tol=1e-12):
+        return {}
+    return {"shortest_motion_s": _shortest_s(parts.mechanism, each[0])}
+
+
+def _shortest_s(mechanism: Mechanism, motion_deg: float) -> float | None:
+    """The time of a motion at the highest speed that the limits on loads allow.
+
+    Krasniqi's (15) and (16). Without limits it is that at n; None if no speed keeps them.
+    """
+    fastest = highest_speed.fastest_rpm(mechanism)
+    if fastest is not None and math.isinf(fastest):
+        fastest = mechanism.spec.drive.n_rpm
+    return motion_deg / (6.0 * fastest) if fastest else None
+
+
+def stations(parts: Parts) -> Values:
+    """A row for each engagement, if they differ: its timing and peaks."""
+    mechanism, each = parts.mechanism, list[Numbers]()
+    if len(mechanism.engagements) == 1:
+        return {"stations": None}
+    w, output = omega(mechanism.spec.drive.n_rpm), mechanism.output
+    for timing, engagement in zip(timings(mechanism), mechanism.engagements, strict=True):
+        motion = timing.motion_deg
+        values: Numbers = timing._asdict()
+        values["shortest_motion_s"] = _shortest_s(mechanism, motion)
+        values["k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
+        row = {f"timing.{name}": value for name, value in values.items()}
+        peaks = placed_peaks(mechanism, engagement)
+        ends = {"acceleration": peaks.ends[:2], "jerk": peaks.ends[2:]}
+        for name in ("velocity", "acceleration", "jerk", "power"):
+            row |= peak_values(name, output, w, getattr(peaks, name), ends.get(name, ()))
+        each.append(row)
+    return {"stations": rows_table(tuple(each[0]), [tuple(e.values()) for e in each])}
+
+
+def wheels(parts: Parts) -> Values:
+    """A row for each of several wheels: where it stands, and when it moves.
+
+    Angles are those of the carrier from the middle of the first wheel's motion.
+    """
+    mechanism = parts.mechanism
+    places = mechanism.wheel_places
+    if len(places) < 2:
+        return {"wheels": None}
+    (one,) = mechanism.engagements  # one finger, which all wheels meet alike
+    names = ("wheel", "behind_deg", "entry_deg", "exit_deg", "entry_s")
+    rows = []
+    for place in places:
+        behind = place.behind_deg
+        after_s = behind / (6.0 * mechanism.spec.drive.n_rpm)  # n rpm is 6 n degrees a second
+        rows.append((place.number, behind, behind + one.entry_deg, behind + one.exit_deg, after_s))
+    return {"wheels": rows_table(names, rows)}
+
+
+def cranks(parts: Parts) -> Values:
+    """A row for each of several cranks; None for a single one.
+
+    Input angles are from the middle of the first crank's motion. Slots count counterclockwise from
+    that which the first crank then enters. In step n a crank enters slot k - n from place k.
+    """
+    mechanism = parts.mechanism
+    places = mechanism.crank_places
+    if len(places) < 2:
+        return {"cranks": None}
+    spec = mechanism.spec
+    each = mechanism.engagements  # one of each crank, if they differ
+    every = math.gcd(len(places), spec.wheel.z)
+    names = ("crank", "place_deg", "behind_deg", "entry_deg", "exit_deg", "entry_s", "slot")
+    rows = []
+    for k, (place, step) in enumerate(zip(places, spec.drive.cranks, strict=True)):
+        number, i = divmod(k, len(each))
+        one = each[i]
+        behind = number * mechanism.period_deg + one.mid_deg - each[0].mid_deg
+        ends = behind + one.entry_deg, behind + one.exit_deg
+        # n rpm is 6 n degrees a second
+        after_s = (ends[0] - each[0].entry_deg) / (6.0 * spec.drive.n_rpm)
+        slot = (int(step) - place.number + 1) % every
+        place_deg = 360.0 * step / spec.wheel.z
+        rows.append((place.number, place_deg, behind, *ends, after_s, slot, every))
+    return {"cranks": rows_table((*names, "slot_every"), rows)}
+
+
+def cycle(parts: Parts) -> Values:
+    """Greatest and least over the motions, mean and rms over the period; None without a load."""
+    of = cycle_of(parts.mechanism)
+    values: Values = {}
+    for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):
+        one = of.extremes.get(name)
+        numbers = one._asdict() if one else {}
+        for key in ("max", "min", "mean", "rms"):
+            value = numbers.get(key)
+            bounded = value is not None and math.isfinite(value)
+            values[f"{name}.{key}"] = value if bounded else None
+    values["reversals_deg"] = tuple(reversals_deg(of)) if of.is_loaded else None
+    return values
+
+
+def needs(parts: Parts) -> Values:
+    """The keys that unknown values of strength and life need: a line for each set of keys."""
+    return {"needs": tuple(strength(parts.mechanism).missing(NEEDY))}
+
+
+def slot(parts: Parts) -> Values:
+    """Whether a wall pushes throughout, which may be cut away; None for straight slots."""
+    from geneva_cli.loads.positive_drive import positive_drives
+
+    drive = positive_drives(parts.mechanism)
+    return {"positively_driven": not drive.loose_deg if drive else None}
+
+
+def vibration(parts: Parts) -> Values:
+    """The load on its elastic shaft: what an index leaves swinging, and the speeds to avoid.
+
+    None without a stiffness, and why where inertia is missing or its period is out of range.
+    Bands, stations and warnings are those of ``geneva vibration``.
+    """
+    mechanism = parts.mechanism
+    none: Values = {"speeds_to_avoid_rpm": None}
+    if mechanism.spec.shaft.stiffness_Nm_rad is None:
+        return none
+    # only for elastic shafts: the modules of vibration take a twentieth of a short report
+    from geneva_cli.loads.vibration.oscillator import required_oscillator
+    from geneva_cli.loads.vibration.vibration_answers import values
+
+    try:
+        results = values(mechanism, required_oscillator(mechanism))
+    except GenevaError as error:
+        return none | {"none": str(error)}
+    return {name: results[name] for name in results if name in (*own_names("vibration"), *none)}
+
+
+def tolerances(parts: Parts) -> Values:
+    """The first lines of ``geneva tolerance``, and its warnings; None without tolerances."""
+    mechanism, tolerance = parts.mechanism, parts.mechanism.spec.tolerance
+    if tolerance == Tolerance(distribution=tolerance.distribution):
+        return {"warnings": None}
+    from geneva_cli.verdict.tolerance.study import tolerance_table
+
+    # micrometres need a radius
+    L = mechanism.center_distance_mm
+    answers = tolerance_table(mechanism, parts, SAMPLES, 0, L).to_dict()
+    return {name: answers[name] for name in (*own_names("tolerance"), "warnings")}
+
+
+def sizes(parts: Parts) -> Values:
+    """Sizes of a flat wheel as cut, or of a spherical wheel as turned.
+
+    The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
+    """
+    mechanism, spec = parts.mechanism, parts.mechanism.spec
+    if not mechanism.axes:
+        return _sphere_sizes(mechanism)
+    L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
+    return {
+        "center_distance_mm": L,
+        "crank_radius_mm": mechanism.ratio * L,
+        "ratio": mechanism.ratio,
+        "roller_radius_mm": r,
+        "slot_width_mm": 2.0 * (r + spec.size.allowances.slot_clearance_mm),
+        "clearances_from": spec.size.allowances.source,
+        **_cut_radii(parts),
+        "pressure_angle_max_deg": (
+            only(single(mechanism).columns(pressure)["max_deg"])
+            if mechanism.engagements[0].slot.curved
+            else None
+        ),
+        "rollers_max": mechanism.rollers_max,
+    }
+
+
+def _cut_radii(parts: Parts) -> Values:
+    """Radii of slots and rim as cut, mm."""
+    mouth = bottom = rim = None
+    spec = parts.mechanism.spec
+    inside = spec.wheel.SIGN < 0.0
+    if spec.is_flat:
+        from geneva_cli.parts.assembly import assembly
+        from geneva_cli.parts.machine_sizes import machine_sizes
+        from geneva_cli.parts.slots.roller_paths import roller_paths
+
+        where = assembly(parts.mechanism)
+        ends = roller_paths(where).ends
+        mouth = max(where.L * scalar(s.entry_reach) for s in where.kinds)
+        bottom = max(ends) if inside else min(ends)
+        with suppress(GenevaError):  # ``parts.none`` gives the reason
+            rim = machine_sizes(parts.mechanism)[1].rim
+    return {
+        "slot_mouth_radius_mm": mouth,
+        "slot_bottom_radius_mm": bottom,
+        "wheel_radius_mm": None if inside else rim,
+        "rim_radius_mm": rim if inside else None,
+    }
+
+
+def _sphere_sizes(mechanism: Mechanism) -> Values:
+    """Sizes of a spherical wheel: the slot is a meridian between two polar angles."""
+    engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
+    mouth, bottom = (engagement.slot(x, 0)[0].c[0] for x in (engagement.entry_deg, 0.0))
+    return {
+        **mechanism.spec.wheel.own_sizes,
+        "sphere_radius_mm": L,
+        "crank_arm_mm": mechanism.ratio * L,
+        "roller_radius_mm": mechanism.roller_radius_mm,
+        "clearances_from": mechanism.spec.size.allowances.source,
+        "slot_mouth_polar_deg": math.degrees(mouth),
+        "slot_bottom_polar_deg": math.degrees(bottom),
+        "rollers_max": mechanism.rollers_max,
+    }
+
+
+def parts(of: Parts) -> Values:
+    """Sizes of the parts, or the reason in ``none`` why there are none.
+
+    A sphere has the horn; its other sizes are angles, in the list of parts.
+    """
+    spec = of.mechanism.spec
+    if not spec.has_parts:
+        return {}
+    try:
+        values: Values = {"horn_mm": of.built.horn_mm}
+        if not spec.is_flat:
+            return values
+        outlines = of.outlines
+    except GenevaError as error:
+        return {"none": str(error)}
+    size, locked = outlines.sizes, bool(outlines.crank)
+    return values | {
+        "rim_radius_mm": size.rim,
+        "slot_end_radius_mm": size.slot_end,
+        "lock_radius_mm": size.lock,
+        "recess_radius_mm": size.recess if locked else None,
+        "relief": outlines.relief if locked else None,
+        "wheel_bore_mm": 2.0 * size.wheel_bore,
+        "crank_bore_mm": 2.0 * size.crank_bore,
+    }
+
+
+def turned(parts: Parts) -> Values:
+    """Results of the parts' whole turn, or the reason in ``none`` why there is no turn."""
+    if not parts.mechanism.spec.is_turned:
+        return {}
+    try:
+        turn, output = parts.turned.turn, parts.mechanism.output
+    except GenevaError as error:
+        return {"none": str(error)}
+    gap = turn.smallest
+    # the lock's play, in the unit of what the machine gives out
+    play = {f"dwell_play_{output.unit}": output.from_deg(turn.dwell.deg)}
+    return {
+        "smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0,
+        "smallest_gap_at_deg": gap.at_deg,
+        **(play if parts.locked else {}),
+    }
+
+
+def parts_list_tables(parts: Parts) -> Values:
+    """The three tables; None for one without rows, such as the pivots of a spherical wheel."""
+    from geneva_cli.drawings.parts_list import FIRST, KINDS, parts_list
+
+    rows = parts_list(parts).to_rows()
+    values: Values = {}
+    for kind, names in KINDS.items():
+        own = [[row[name] for name in names] for row in rows if row["row"] == kind]
+        table = rows_table(names, own, mixed=True).replaced(reading=Reading(FIRST))
+        values[kind] = table if own else None
+    return values
