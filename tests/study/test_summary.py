@@ -10,8 +10,7 @@ from geneva_cli.answer import PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.design import Design, load
 from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
 from geneva_cli.study.summary.load_lines import of_loads
-from geneva_cli.study.summary.report_summary import of_report
-from geneva_cli.study.summary.vibration_summary import of_tolerance, of_vibration
+from geneva_cli.study.summary.report_summary import of_report, of_tolerance, of_vibration
 
 pytestmark = pytest.mark.usefixtures("made_once")
 

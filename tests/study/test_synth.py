@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import peak, worst
 from geneva_cli.motion.timing import timings
-from geneva_cli.study.synth.families import closed
+from geneva_cli.study.synth.families import straight_slots as closed
 from geneva_cli.study.synth.machine_rows import NEAR_DEG, MachineRow, _slot_failure
 from geneva_cli.study.synth.parts_data import parts_data
 from geneva_cli.study.synth.reading import read_target

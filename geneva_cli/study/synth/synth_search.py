@@ -17,8 +17,8 @@ from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.study.fields import Cell, Pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint, Nearness, is_number
-from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.family import natural_deg
+from geneva_cli.study.synth.families.straight_slots import MOST
 from geneva_cli.study.synth.group_search import all_kinds, replacement_rows, with_batch_values
 from geneva_cli.study.synth.machine_rows import MachineRow
 from geneva_cli.study.target import TURNS, Target
@@ -169,12 +169,12 @@ def _out_of_reach(target: Target, errors: list[str]) -> str:
     if not target.output.turns:
         return (
             f"{target.words}: out of reach of a rack: no drive goes beyond A or eccentricity "
-            f"{closed.PARAMETER_MAX}{first}"
+            f"{MOST}{first}"
         )
     return (
         f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: curved "
         "slots turn an internal wheel at most half as fast as the crank"
-        + (f", and no drive goes beyond A or eccentricity {closed.PARAMETER_MAX}" if m == 1 else "")
+        + (f", and no drive goes beyond A or eccentricity {MOST}" if m == 1 else "")
         + f"; use more slots or a longer motion{first}"
     )
 
