@@ -48,7 +48,7 @@ ORDER = (
 LINKS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm")
 
 
-class SynthesisColumn(NamedTuple):
+class _Column(NamedTuple):
     """A column for people: its source, its heading and its cells."""
 
     source: str
@@ -103,22 +103,22 @@ def for_people(table: Table) -> Table:
 
 def _columns(
     rows: list[dict[str, Any]], names: tuple[str, ...], several: bool
-) -> Iterator[SynthesisColumn]:
+) -> Iterator[_Column]:
     # the machine's description has the keys
     known = {*HEADS, "drive", "law", "alpha0_deg", *OWN_KEYS}
     for source in ORDER:
         if source == "machine":
-            yield SynthesisColumn(source, source, [_machine(row, several) for row in rows])
+            yield _Column(source, source, [_machine(row, several) for row in rows])
         elif source == "extra":
             for name in (name for name in names if name not in known):
-                yield SynthesisColumn(source, name.replace(".", "_"), [row[name] for row in rows])
+                yield _Column(source, name.replace(".", "_"), [row[name] for row in rows])
         elif source == "parts":
-            yield SynthesisColumn(source, source, [_parts_entry(row["parts"]) for row in rows])
+            yield _Column(source, source, [_parts_entry(row["parts"]) for row in rows])
         else:
             cells = [row[source] for row in rows]
             if source == "gearing":  # ext, int, sph
                 cells = [word[:3] for word in cells]
-            yield SynthesisColumn(source, HEADS[source], cells)
+            yield _Column(source, HEADS[source], cells)
 
 
 def _machine(row: dict[str, Any], several: bool) -> str:
@@ -139,7 +139,7 @@ def _machine(row: dict[str, Any], several: bool) -> str:
     return " ".join([row["drive"], *filter(None, own)])
 
 
-def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
+def _fitting(columns: list[_Column]) -> list[_Column]:
     rank = _ranks(columns)
     # letters with a frame's gap between two columns; headings are broken at underscores
     wide = [
@@ -151,7 +151,7 @@ def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
     return [columns[i] for i in kept]
 
 
-def _ranks(columns: list[SynthesisColumn]) -> dict[str, float]:
+def _ranks(columns: list[_Column]) -> dict[str, float]:
     rank: dict[str, float] = {source: i for i, source in enumerate(HEADS)}
     named = [c.cells for c in columns if c.source in ("z", "gearing", "machine")]
     names = [*zip(*named, strict=True)]
