@@ -10,7 +10,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.manual.explained import entries
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.output.document.blocks import (
     BAD,
@@ -248,13 +247,11 @@ def remarks(design: Design, left: RemainingValues) -> Iterator[Block]:
     yield from section("Other answers", list(left.rest()))
     texts = [TextList(tuple(unknown))] if unknown else []
     yield from section("What is not known, and the key that would give it", texts)
-    yield Heading("Sources of the formulas")
-    yield TextList((*_own_sources(design.spec), *SOURCES))
-
-
-def _own_sources(spec: Spec) -> list[str]:
+    spec = design.spec
     before = [spec.drive_before.NAME] if spec.drive_before else []
     laws = [spec.motion.law.NAME] if spec.motion else []
     names = [spec.wheel.NAME, spec.drive.NAME, *before, *laws]
-    known = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
-    return [f"{name[0].upper()}{name[1:]}: {known[name]}." for name in names if known.get(name)]
+    source = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
+    own = [f"{name[0].upper()}{name[1:]}: {source[name]}." for name in names if source.get(name)]
+    yield Heading("Sources of the formulas")
+    yield TextList((*own, *SOURCES))

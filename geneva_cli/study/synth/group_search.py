@@ -75,14 +75,9 @@ def kinds(target: Target) -> list[tuple[Kind, Target]]:
     alone = target.only_acceleration
     return [
         *((kind, one) for kind in families_of_kinds("alone") for one in some),
-        *((_straight, one.by_bounds if alone else one) for one in each),
+        *((straight, one.by_bounds if alone else one) for one in each),
         *((with_laws, one._replace(laws=(law,))) for law in target.laws for one in each),
     ]
-
-
-def _straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
-    for wheel in wheels:
-        yield from straight(target, wheel)
 
 
 def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> KindRows:

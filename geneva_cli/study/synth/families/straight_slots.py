@@ -15,7 +15,7 @@ with a side-crank drive"), and the focal property of equal ellipses.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -143,18 +143,16 @@ GEARS = tuple(
 )
 
 
-def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
+def straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """The families with straight slots."""
-    natural = natural_deg(wheel)
-    for m in _natural_rollers(target, natural):
-        yield Family(plain(target, wheel, m))
-        if m == 1:
-            yield from planets(target, wheel)
-    yield from driven(target, wheel)
-    for own in families_of_kinds("wheel", wheel.NAME):
-        yield from own(target, wheel)
-    if target.rollers in (None, 1):
-        for kind in families_of_kinds("straight"):
+    for wheel in wheels:
+        for m in _natural_rollers(target, natural_deg(wheel)):
+            yield Family(plain(target, wheel, m))
+            if m == 1:
+                yield from planets(target, wheel)
+        yield from driven(target, wheel)
+        kinds = families_of_kinds("straight") if target.rollers in (None, 1) else ()
+        for kind in (*families_of_kinds("wheel", wheel.NAME), *kinds):
             yield from kind(target, wheel)
 
 
