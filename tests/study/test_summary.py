@@ -1,7 +1,6 @@
 """Summaries: what a designer tells a colleague, in lines that fit and values that hold."""
 
 import math
-from pathlib import Path
 
 import pytest
 import repo
@@ -49,15 +48,6 @@ def test_a_turret_gets_one_motor() -> None:
     assert len(sizes) == 6
     peak = 0.603613 * 1400.0 * math.tau / 60.0
     assert line(powers, f"{peak:.4g} W").text.startswith("greatest at the motor")
-
-
-def test_what_has_no_bound_gets_no_motor(tmp_path: Path) -> None:
-    """Friction holds the wheel of three slots at mid-motion, however hard the roller presses."""
-    file = tmp_path / "spec.toml"
-    file.write_text("[wheel]\nz = 3\n[load]\ntorque_Nm = 3\nfriction = 3\n", encoding="utf-8")
-    first, *_ = of_loads(load(str(file))).summaries
-    assert line(first, "motor").state == WARNS
-    assert "nothing bounds" in line(first, "motor").text
 
 
 @pytest.mark.parametrize("name", ["turret", "spherical-z6", "internal-curved-z8", "unequal-steps"])
