@@ -12,31 +12,22 @@ from geneva_cli.table import Reading, Table
 
 # Columns and their short names, the least important last; empty ones are left out. Rows are sorted
 # by the peak acceleration, and --write takes their number: a narrow window keeps both.
-HEADS = {
-    "no": "no",
-    "machine": "machine",
+SHORT = {
     "acceleration_max": "accel_max",
-    "z": "z",
     "gearing": "wheel",
-    "parts": "parts",
     "n_rpm": "rpm",
     "extra": "",
-    "rollers": "rollers",
-    "motion_deg": "motion_deg",
-    "dwell_s": "dwell_s",
     "acceleration_max_rad_s2": "accel_rad/s2",
     "acceleration_max_m_s2": "accel_m/s2",
-    "index_mm": "index_mm",
     "acceleration_entry": "accel_entry",
-    "velocity_max": "velocity_max",
-    "jerk_max": "jerk_max",
-    "tau": "tau",
-    "power_max": "power_max",
-    "motion_s": "motion_s",
-    "dwell_deg": "dwell_deg",
-    "k": "k",
-    "ratio": "ratio",
 }
+RANKED = (
+    *("no", "machine", "acceleration_max", "z", "gearing", "parts", "n_rpm", "extra", "rollers"),
+    *("motion_deg", "dwell_s", "acceleration_max_rad_s2", "acceleration_max_m_s2", "index_mm"),
+    *("acceleration_entry", "velocity_max", "jerk_max", "tau", "power_max", "motion_s"),
+    *("dwell_deg", "k", "ratio"),
+)
+HEADS = {name: SHORT.get(name, name) for name in RANKED}
 ORDER = (
     *("no", "z", "gearing", "rollers", "machine", "ratio", "index_mm", "motion_deg", "dwell_deg"),
     *("motion_s", "dwell_s", "tau", "k", "n_rpm", "velocity_max", "acceleration_max"),
