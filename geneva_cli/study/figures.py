@@ -147,9 +147,9 @@ def _curve(
         return None
     ascends = all(a[0] < b[0] for a, b in pairwise(points))
     points.sort()
-    pairs = [*pairwise(points)]
-    apart = all(a[0] < b[0] for a, b in pairs)
-    monotonic = all(a[1] > b[1] for a, b in pairs) or all(a[1] < b[1] for a, b in pairs)
+    steps = [*pairwise(points)]
+    apart = all(a[0] < b[0] for a, b in steps)
+    monotonic = all(a[1] > b[1] for a, b in steps) or all(a[1] < b[1] for a, b in steps)
     if not apart or not (ascends or is_key or monotonic):
         return Curve(number, name, (_piece(points),), style=POINTS)
     # marks of more points would touch, but for a front

@@ -181,6 +181,6 @@ def _plates(
 def _by_motion(motion: WheelMotion, mid: float, turned: float) -> Moving:
     def moving(x: Array) -> tuple[Array, Array]:
         psi = motion(x - mid, 1)
-        return turned + np.asarray(psi.c[0]), np.asarray(psi.c[1]) * (math.pi / 180.0)
+        return turned + psi.c[0] + 0.0 * x, psi.c[1] * (math.pi / 180.0) + 0.0 * x
 
     return moving

@@ -116,11 +116,12 @@ def timing(left: RemainingValues, n_rpm: float, output: Output) -> Iterator[Bloc
     width = 6  # engagements that fit on a page side by side
     for start in range(0, len(each), width):
         group = each[start : start + width]
-        heads = ("Of the engagement", "Unit", *(str(start + i + 1) for i in range(len(group))))
+        numbers = (str(start + i + 1) for i in range(len(group)))
         names = [fact(name) for name in stations.names] if stations else []
         columns = zip(names, zip(*group, strict=True), strict=True)
         lines = [(one.name, one.unit, *values) for one, values in columns]
-        yield Grid("Engagement by engagement", heads, tuple(lines))
+        heads_of_group = ("Of the engagement", "Unit", *numbers)
+        yield Grid("Engagement by engagement", heads_of_group, tuple(lines))
 
 
 def curves(design: Design) -> Iterator[Block]:

@@ -31,6 +31,7 @@ def front(
 
 def best(costs: Array) -> list[int]:
     """The numbers of the rows of costs (n, d) that no other row dominates, ascending."""
+    kept: Mask
     rows, same = np.unique(costs, axis=0, return_inverse=True)
     # in lexicographic order nothing later dominates anything earlier
     if rows.shape[1] <= 2:

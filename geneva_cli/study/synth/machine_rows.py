@@ -189,7 +189,7 @@ def _candidate(
     if target.timed:
         n = spec.drive.n_rpm
         timed |= {"n_rpm": n, "motion_s": time.motion_s, "dwell_s": time.dwell_s}
-        rate = own["acceleration_max"] * omega(n) ** 2 * output.rate_per_radian
+        rate = costs[1] * omega(n) ** 2 * output.rate_per_radian
         timed[f"acceleration_max_{output.rate_unit}_s2"] = rate
     return Candidate(
         z=spec.wheel.z,

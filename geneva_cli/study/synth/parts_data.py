@@ -127,16 +127,13 @@ def _computed(specs: Sequence[Spec], machine: Mechanism) -> list[PartsData]:
     walls = outer_walls(machine, UNDERCUT_SAMPLES)
     back = None if machine.spec.drive.LOCKS else _places_at_rest(machine)
     columns = np.broadcast_arrays(ends, arm, between, least, pressure)
-    return [
-        PartsData(
-            spec,
-            RollerPaths((row[0],), row[1]),
-            *row[2:],
-            walls and (walls[0].of(i), walls[1].of(i)),
-            back and (back[0][i], back[1][i]),
-        )
-        for i, (spec, row) in enumerate(zip(specs, np.column_stack(columns).tolist(), strict=True))
-    ]
+    out = []
+    for i, (spec, row) in enumerate(zip(specs, np.column_stack(columns).tolist(), strict=True)):
+        end, near, apart, radius, steep = row
+        own = walls and (walls[0].of(i), walls[1].of(i))
+        away = back and (back[0][i], back[1][i])
+        out.append(PartsData(spec, RollerPaths((end,), near), apart, radius, steep, own, away))
+    return out
 
 
 def _places_at_rest(machine: Mechanism) -> tuple[Array, Array]:

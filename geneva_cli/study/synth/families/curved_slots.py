@@ -73,12 +73,10 @@ class _LawLine(NamedTuple):
 
     def spec(self, m: int, motion_deg: float) -> Spec:
         alpha0 = _alpha0(self.target, self.natural, motion_deg)
-        if self.grooved:
-            kind, motion = Cam, Motion(self.law, alpha0_deg=alpha0)
-        else:
-            kind, motion = Crank, Motion(self.law, alpha0_deg=alpha0, ratio="matched")
+        motion = Motion(self.law, alpha0_deg=alpha0, ratio=None if self.grooved else "matched")
 
         def drive(n_rpm: float) -> Cam | Crank:
+            kind = Cam if self.grooved else Crank
             return kind(n_rpm=n_rpm, rollers=m)
 
         return machine(self.target, self.wheel, drive, m, motion_deg, motion)
