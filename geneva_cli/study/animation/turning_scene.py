@@ -31,7 +31,7 @@ from geneva_cli.output.scene import (
 from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.animation.animated_turn import MachineTurn
+from geneva_cli.study.animation.animated_turn import MachineTurn, pushes
 from geneva_cli.study.animation.bodies import (
     DrawnTeeth,
     bodies,
@@ -39,7 +39,6 @@ from geneva_cli.study.animation.bodies import (
     drawn_teeth,
     wheels_of,
 )
-from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.verdict.report import words
 
