@@ -204,7 +204,7 @@ def test_every_command_has_a_row():
     assert {row.line.split()[0] for row in ROWS} >= set(COMMANDS)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.line)
 def test_heavy_modules(forks, row):
     may = set(row.may.split())
@@ -217,7 +217,7 @@ def test_own_modules(line):
 
 
 @pytest.mark.parametrize("line", MOST)
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 def test_few_own_modules(line):
     for text, most in zip((STRAIGHT, CURVED), MOST[line], strict=True):
         modules = own(loaded(line.split(), input=text, stdout=subprocess.DEVNULL))
