@@ -770,7 +770,7 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import parts_having
         from geneva_cli.verdict.advice import judged
-        from geneva_cli.verdict.failures import failures
+        from geneva_cli.verdict.headline import failures
 
         parts = parts_having(self.parts, part)
         if parts.mechanism.spec.is_flat:

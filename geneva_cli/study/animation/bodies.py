@@ -19,8 +19,8 @@ from geneva_cli.motion.pivots import Link
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.output.scene import Body, Box, Track
+from geneva_cli.parts.assembly import links_at, same
 from geneva_cli.parts.gears.gear_curves import gears_table
-from geneva_cli.parts.links.link_positions import links_at, same
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.study.animation.animated_turn import MachineTurn
 from geneva_cli.study.animation.tracks import still
@@ -85,7 +85,7 @@ def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
 
 def _pitch_curves(machine: Mechanism, sign: float) -> list[tuple[Shape, ...]]:
     table = gears_table(machine, 0.001, 241).to_dict()
-    curves = []
+    curves: list[tuple[Shape, ...]] = []
     for gear in ("driven", "driver"):  # the table turns as an external wheel does
         x, y = -table[f"{gear}_x_mm"][:-1], -sign * table[f"{gear}_y_mm"][:-1]
         curves.append((polygon("GEAR", list(zip(x.tolist(), y.tolist(), strict=True))),))
