@@ -11,34 +11,6 @@ from geneva_cli.numerics.tolerances import TIE
 MOST_STEPS = 200  # towards a root, at most; halving reaches the last of 50 digits in 170
 
 
-def root(
-    slope: Callable[[float], tuple[float, float]], a: float, b: float, before: float | None = None
-) -> float:
-    """The root of ``slope`` (value, derivative) in [a, b], by Newton's method within the bracket.
-
-    ``before`` has the sign just after a, if that differs from the sign at a. The search bisects
-    where Newton leaves the bracket or shrinks it too slowly, down to one unit in the last place.
-    """
-    f_a = slope(a)[0] if before is None else before
-    x, step = 0.5 * (a + b), b - a
-    for _ in range(MOST_STEPS):
-        f, d = slope(x)
-        if f == 0.0:
-            return x
-        if (f > 0.0) == (f_a > 0.0):
-            a = x
-        else:
-            b = x
-        newton = x - f / d if d else a
-        inside = min(a, b) < newton < max(a, b)
-        new = newton if inside and abs(newton - x) < 0.5 * abs(step) else 0.5 * (a + b)
-        step = new - x
-        if new in (x, a, b):
-            return new
-        x = new
-    return x
-
-
 def find_roots(f: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Array) -> Array:
     """The root of each function in [a, b], where its sign changes: shape (n,), to the last bit.
 
@@ -122,34 +94,6 @@ def boundary_by_sections(margin: Callable[[Array], Array], good: float, bad: flo
         known = math.isfinite(left - short)
         root = left / (left - short) if known else 0.5
     return good
-
-
-class Falsi:
-    """Regula falsi with Illinois halving, for the place where a limit is just kept.
-
-    ``left`` >= 0 is the margin to the limit at ``good``, and ``short`` < 0 that at ``bad``. The
-    caller takes the next place from ``middle`` and adds the margin there. If one of the two values
-    is infinite, the bracket is halved.
-    """
-
-    def __init__(self, good: float, left: float, bad: float, short: float) -> None:
-        self.good, self.left, self.bad, self.short = good, left, bad, short
-        self._stayed = 0  # times in a row that the good end moved (> 0), or the bad one (< 0)
-
-    def middle(self, margin: float = 0.0) -> float:
-        """The next place, at least a fraction ``margin`` of the bracket from either end."""
-        known = math.isfinite(self.left) and math.isfinite(self.short)
-        fraction = self.left / (self.left - self.short) if known else 0.5
-        return self.good + (self.bad - self.good) * min(max(fraction, margin), 1.0 - margin)
-
-    def add(self, x: float, left: float) -> None:
-        """Narrow the bracket by the margin at a place in it."""
-        if left >= 0.0:
-            self.good, self.left, self._stayed = x, left, max(self._stayed, 0) + 1
-            self.short *= 0.5 if self._stayed > 1 else 1.0
-        else:
-            self.bad, self.short, self._stayed = x, left, min(self._stayed, 0) - 1
-            self.left *= 0.5 if self._stayed < -1 else 1.0
 
 
 def greatest_at(candidates: Sequence[tuple[float, float]]) -> tuple[float, float]:

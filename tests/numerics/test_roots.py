@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from witness import near
 
-from geneva_cli.numerics.roots import Falsi, boundary, boundary_by_sections, find_roots, root
+from geneva_cli.numerics.roots import boundary, boundary_by_sections, find_roots
 
 
 def calls(f):
@@ -19,37 +19,6 @@ def calls(f):
         return f(x)
 
     return counted, seen
-
-
-@pytest.mark.parametrize(
-    ("f", "a", "b", "exact"),
-    [
-        (lambda x: (x * x - 2.0, 2.0 * x), 0.0, 2.0, math.sqrt(2.0)),
-        (lambda x: (math.cos(x), -math.sin(x)), 0.0, 3.0, math.pi / 2.0),
-        (lambda x: (2.0 - x * x, -2.0 * x), 0.0, 2.0, math.sqrt(2.0)),
-        (lambda x: (math.atan(50.0 * (x - 0.3)), 50.0 / (1 + 2500.0 * (x - 0.3) ** 2)), -9, 9, 0.3),
-    ],
-)
-def test_root(f, a, b, exact):
-    g, seen = calls(f)
-    x = root(g, a, b)
-    # one unit in the last place; where cos x passes zero its own rounding decides
-    assert x == near(exact, 2.3e-16)
-    assert len(seen) < 120
-
-
-def test_root_with_a_misleading_slope():
-    """A slope that always throws Newton out of the bracket costs bisection, no more."""
-    g, seen = calls(lambda x: (x - 0.1, 1e-9))
-    assert root(g, -1.0, 1.0) == near(0.1, 2.3e-16)
-    assert len(seen) < 120
-
-
-def test_triple_root_at_zero_ends():
-    """0 has no last place to stop at: the bracket shrinks towards it until the steps run out."""
-    g, seen = calls(lambda x: (x**3, 3.0 * x * x))
-    assert abs(root(g, -1.0, 1.5)) < 1e-30
-    assert len(seen) <= 201
 
 
 def test_boundary():
@@ -95,21 +64,6 @@ def test_boundary_by_sections_without_a_good_end():
     assert boundary_by_sections(lambda x: -1.0 - x, 1.0, 2.0) == 1.0
 
 
-@pytest.mark.parametrize("short", [-1.0, -math.inf])
-def test_falsi(short):
-    """Where what is left is known, some steps; where it is without bound, by halving."""
-    found = Falsi(1.0, 1.0, 2.0, short)
-    steps = 0
-    while (x := found.middle()) not in (found.good, found.bad):
-        steps += 1
-        left = 2.0 - x * x
-        found.add(x, left if left >= 0.0 or math.isfinite(short) else -math.inf)
-    assert found.good == near(math.sqrt(2.0), 2.3e-16)
-    assert found.good**2 <= 2.0
-    assert steps < (12 if math.isfinite(short) else 60)
-    assert Falsi(1.0, 1e-300, 2.0, -1.0).middle(0.02) == 1.02
-
-
 def test_roots_of_a_batch():
     """Newton, a bend that misleads it, a slope that is none, and no number."""
     rate = np.array([1.0, 50.0, 1e3, math.nan])
@@ -123,6 +77,6 @@ def test_roots_of_a_batch():
     assert found[:3] == pytest.approx(place[:3], rel=2.3e-16)
     assert math.isnan(found[3])
     flat = find_roots(lambda x, which: (x - 0.1, 0.0 * x), np.array([0.0]), np.array([1.0]))
-    assert flat[0] == root(lambda x: (x - 0.1, 0.0), 0.0, 1.0)
+    assert flat[0] == near(0.1, 2.3e-16)
     falling = find_roots(lambda x, _: (0.25 - x, 0.0 * x - 1.0), np.zeros(2), np.ones(2))
     assert falling.tolist() == [0.25, 0.25]
