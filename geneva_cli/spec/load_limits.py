@@ -27,9 +27,14 @@ def limits_by_key(limits: Limits) -> dict[str, float]:
 
 
 def load_limits(limits: Limits) -> dict[str, float]:
-    """The limits that a spec sets on loads, by the quantities that they bound.
+    """The limits that a spec sets on loads, by the quantities that they bound."""
+    return {limited_load(key): most for key, most in limits_by_key(limits).items()}
 
-    >>> load_limits(Limits(pin_force_max_N=500.0))
-    {'pin_force_N': 500.0}
+
+def limited_load(key: str) -> str:
+    """The load that a key bounds.
+
+    >>> limited_load("pin_force_max_N")
+    'pin_force_N'
     """
-    return {LIMITED[key].split(".")[1]: most for key, most in limits_by_key(limits).items()}
+    return LIMITED[key].split(".")[1]
