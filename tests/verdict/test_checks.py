@@ -15,6 +15,7 @@ from geneva_cli.motion import machine_spec as machine_spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
+from geneva_cli.parts.turn.pairs import WorkLimit
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.all_checks import standing_checks
@@ -197,6 +198,22 @@ def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
     assert run.exit_code == 1
     assert "not written: the crank's bore breaks through the relief by" in run.stderr
     assert not out.exists()
+
+
+def test_a_turn_that_takes_too_long_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The check says so in place of those of the turn, and the turn is not tried again."""
+    tries = []
+
+    def endless(parts: object) -> None:
+        tries.append(parts)
+        raise WorkLimit("it takes too long")
+
+    monkeypatch.setattr("geneva_cli.parts.turn.full_turn.full_turn", endless)
+    parts = parts_of(build(Spec(Wheel(6))))
+    for _ in range(2):
+        *_, last = checks(parts.mechanism, parts)
+        assert (last.name, last.passes, last.why) == ("full_turn", False, "it takes too long")
+    assert len(tries) == 1
 
 
 def test_a_slot_that_drives_from_one_wall_leaves_the_wheel_free() -> None:
