@@ -16,7 +16,7 @@ from typer.testing import CliRunner
 from words import Spec, Wheel
 
 from geneva_cli.cli.app import app
-from geneva_cli.drawings.catalogue import PARTS, Part
+from geneva_cli.drawings.catalogue import PARTS
 from geneva_cli.motion import registry
 from geneva_cli.motion.laws.law import Law, from_velocity
 from geneva_cli.motion.mechanism import Mechanism, build
@@ -158,6 +158,6 @@ def pins(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Tabl
 
 
 def test_a_part(add: Add, run: Callable[..., Any]) -> None:
-    add(PARTS, "pins", Part(table="drawings.added:pins"), "drawings")
+    add(PARTS, "pins", "drawings.added:pins", "drawings")
     shown = run("profile", "[wheel]\nz = 6\n[drive]\nrollers = 2\n", "--part", "pins")
     assert json.loads(shown)["rows"] == [{"pins": 2}]

@@ -16,8 +16,7 @@ from geneva_cli.specfile.template import KINDS, example, template
 from geneva_cli.study.animation.turning_scene import scene
 from geneva_cli.study.document import document
 from geneva_cli.study.export import export_files, trade_of
-from geneva_cli.study.summary.check_summary import of_checks
-from geneva_cli.study.verdicts import verdict
+from geneva_cli.study.verdicts import of_checks, verdict
 
 SPEC = "spec.toml"
 

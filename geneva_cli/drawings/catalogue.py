@@ -1,12 +1,12 @@
 """The parts that ``geneva profile`` writes: as tables of points, and as drawings to cut.
 
-A new part is one function, and one line here. A drawing has a line in the records of the kinds that
-have the part.
+A new part is one function, one name here, and a line in the records of the kinds that have it.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.motion.mechanism import Mechanism
@@ -20,44 +20,26 @@ if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
 
 
-class Part(NamedTuple):
-    """How a part is written; the records of the kinds have the functions that draw it."""
-
-    cut: bool = False  # True if it is cut out of a plate
-    in_front: bool = False  # True if it belongs to a first wheel, in front of the crank
-    sheet: bool = False  # True if it is a drawing sheet with dimensions
-    table: str = ""  # function of a table that every machine has and no drawing
-
-
-PARTS = {
-    "slot": Part(),
-    "wheel": Part(cut=True),
-    "crank": Part(cut=True),
-    "arm": Part(cut=True),
-    "links": Part(cut=True),
-    "first-wheel": Part(cut=True, in_front=True),
-    "first-crank": Part(cut=True, in_front=True),
-    "frame": Part(cut=True),
-    "guide": Part(cut=True),
-    "parts": Part(table="drawings.parts_list:parts_table"),
-    "assembly": Part(),
-    "gears": Part(),
-    "groove": Part(),
-    "groove-plate": Part(cut=True),
-    "coupon": Part(cut=True),
-    "plate": Part(),
-    "sheet": Part(sheet=True),
-}
-DRAWINGS = tuple(name for name, part in PARTS.items() if not (part.sheet or part.table))
-CUT = tuple(name for name, part in PARTS.items() if part.cut)
-SHEETS = tuple(name for name, part in PARTS.items() if part.sheet)
+_NAMES = (
+    *("slot", "wheel", "crank", "arm", "links", "first-wheel", "first-crank", "frame", "guide"),
+    *("parts", "assembly", "gears", "groove", "groove-plate", "coupon", "plate", "sheet"),
+)
+SHEET = "sheet"  # a drawing sheet with dimensions
+# the function of a table that every machine has, and no drawing
+PARTS = dict.fromkeys(_NAMES, "") | {"parts": "drawings.parts_list:parts_table"}
+DRAWINGS = tuple(name for name, table in PARTS.items() if not table and name != SHEET)
+# what is cut out of a plate
+CUT = tuple(n for n in DRAWINGS if n not in ("slot", "assembly", "gears", "groove", "plate"))
 SAMPLES_MAX = 1_000_000
 
 
 def is_sheet(part: str) -> bool:
     """Return True if a part is drawn as a sheet. Raises GenevaError for an unknown part."""
-    _require_known(part)
-    return part in SHEETS
+    if part not in PARTS:
+        raise GenevaError(
+            f"--part {cut(part)}: it must be one of {few(part, PARTS)}{nearest(part, PARTS)}"
+        )
+    return part == SHEET
 
 
 def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
@@ -65,7 +47,7 @@ def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
 
     Raises GenevaError for a part that is unknown, or has no drawing.
     """
-    _require_known(part)
+    is_sheet(part)
     require_drawn(mechanism, part)
     if drawn and part not in DRAWINGS:
         raise GenevaError(
@@ -82,18 +64,23 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     """
     if samples is not None and not 2 <= samples <= SAMPLES_MAX:
         raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
-    if part in SHEETS or not is_table(mechanism, part, drawn=False):
+    if part == SHEET or not is_table(mechanism, part, drawn=False):
         raise GenevaError(f"--part {part} is a drawing: write it as .dxf or .svg")
     require_tolerance(mechanism, tolerance_mm)
     table: Table = load_named(_table(mechanism, part))(mechanism, tolerance_mm, samples)
     return table
 
 
+def _table(mechanism: Mechanism, part: str) -> str:
+    own = (kind.tables.get(part) for kind in reversed(of_wheel(mechanism.spec.wheel.NAME)))
+    return next(filter(None, own), PARTS[part])
+
+
 def require_drawn(mechanism: Mechanism, part: str) -> None:
     """Raise GenevaError for a part that no machine with such a wheel has."""
     kinds = of_wheel(mechanism.spec.wheel.NAME)
     drawn = {name for kind in kinds for name in (*kind.drawings, *kind.tables)}
-    known = [name for name, one in PARTS.items() if one.table or name in drawn]
+    known = [name for name, table in PARTS.items() if table or name in drawn]
     if part not in known:
         raise GenevaError(
             f"--part {part}: a machine of this kind has none; it may have {', '.join(known)}",
@@ -115,7 +102,7 @@ def parts_having(parts: Parts, part: str) -> Parts:
 
     Raises GenevaError for a part of a first wheel if there is none.
     """
-    return parts.front if part in PARTS and PARTS[part].in_front else parts
+    return parts.front if part.startswith("first-") else parts
 
 
 def part_drawing(parts: Parts, part: str, tolerance_mm: float, curves: str) -> Drawing:
@@ -123,14 +110,12 @@ def part_drawing(parts: Parts, part: str, tolerance_mm: float, curves: str) -> D
 
     Raises GenevaError for a part that is not drawn, or that the machine does not have.
     """
-    _require_known(part)
-    if part in SHEETS:
+    if is_sheet(part):
         raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
     parts = parts_having(parts, part)
     require_tolerance(parts.mechanism, tolerance_mm)
     is_table(parts.mechanism, part, drawn=True)
-    by, built = _maker(parts, part)
-    drawing: Drawing = load_named(by)(built.within(tolerance_mm, curves))
+    drawing: Drawing = _maker(parts, part)(tolerance_mm, curves)
     return drawing._replace(tolerance=tolerance_mm)
 
 
@@ -141,19 +126,19 @@ def part_sheet(parts: Parts, part: str, tolerance_mm: float, curves: str) -> She
     """
     require_drawn(parts.mechanism, part)
     if not is_sheet(part):
-        raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
+        raise GenevaError(f"--part {part} is no drawing sheet; use {SHEET}")
     require_tolerance(parts.mechanism, tolerance_mm)
-    by, built = _maker(parts, part)
-    sheet: Sheet = load_named(by)(built.within(tolerance_mm, curves))
+    sheet: Sheet = _maker(parts, part)(tolerance_mm, curves)
     return sheet
 
 
-def _maker(parts: Parts, part: str) -> tuple[str, Parts]:
-    """Return the function that draws a part, and the parts of the machine that it takes."""
+def _maker(parts: Parts, part: str) -> Callable[[float, str], Any]:
+    """Return what draws a part for a tolerance and curves, by the record of the machine's kind."""
     kinds = of_wheel(parts.mechanism.spec.wheel.NAME)
     kind = next(kind for kind in reversed(kinds) if part in kind.drawings)
     # links and gears in front of a sphere are flat
-    return kind.drawings[part], parts.built if kind.parts else parts.flat
+    built, draw = parts.built if kind.parts else parts.flat, load_named(kind.drawings[part])
+    return lambda tolerance_mm, curves: draw(built.within(tolerance_mm, curves))
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:
@@ -162,17 +147,4 @@ def require_cut(part: str, option: str = "--kerf") -> None:
         raise GenevaError(
             f"{option} applies only to parts that are cut out of a plate ({', '.join(CUT)}), not "
             f"to {cut(part)}"
-        )
-
-
-def _table(mechanism: Mechanism, part: str) -> str:
-    """Return the function that tabulates a part; empty without one."""
-    own = (kind.tables.get(part) for kind in reversed(of_wheel(mechanism.spec.wheel.NAME)))
-    return next(filter(None, own), PARTS[part].table)
-
-
-def _require_known(part: str) -> None:
-    if part not in PARTS:
-        raise GenevaError(
-            f"--part {cut(part)}: it must be one of {few(part, PARTS)}{nearest(part, PARTS)}"
         )

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from geneva_cli.drawings.sheet.pack import packed_apart
+from geneva_cli.drawings.sheet.composed import packed_apart
 from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell, Solid, Stack, lowered, solids
@@ -92,7 +92,6 @@ def _around(usual: tuple[float, ...], own: float) -> list[float]:
 
 
 def _slot(low: Point, half: float, length: float) -> Contour:
-    """Return an upright slot of half a width, from the centre of its lower end."""
     (x, y), top = low, low[1] + length
     return closed(
         "COUPON",

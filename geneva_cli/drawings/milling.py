@@ -73,7 +73,6 @@ def with_dog_bones(drawing: Drawing, parts: Parts, cutter_mm: float) -> Drawing:
 
 
 def _locks(piece: Line | Arc, lock: float, mechanism: Mechanism) -> bool:
-    """Return True if a piece lies on the locking disc's circle."""
     near = SAME_LENGTH * mechanism.center_distance_mm
     return (
         isinstance(piece, Arc)

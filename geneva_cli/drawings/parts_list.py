@@ -75,7 +75,6 @@ def parts_list(parts: Parts) -> Table:
 
 
 def _parts(parts: Parts) -> Iterator[Row | Missing]:
-    """Yield all parts, and then the reason for each that cannot be built."""
     spec = parts.mechanism.spec
     missing: list[Missing] = []
 
@@ -152,10 +151,8 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
 
 
 def _pivots(mechanism: Mechanism) -> Iterator[Row]:
-    L = mechanism.center_distance_mm
-    own = mechanism.layout
-    pivots = [p for p in own if isinstance(p, Pivot)]
-    for pivot in (*mechanism.spec.wheel.axes(L), *pivots):
+    pivots = [p for p in mechanism.layout if isinstance(p, Pivot)]
+    for pivot in (*mechanism.spec.wheel.axes(mechanism.center_distance_mm), *pivots):
         yield {"row": "pivot", **pivot._asdict()}
 
 
@@ -174,21 +171,23 @@ def _dimensions(parts: Parts) -> Iterator[Row | Missing]:
     ]
     entries += _screws_and_edges(spec.size)
     with suppress(GenevaError):  # the rows of what cannot be built have the reason
-        entries += _screws(parts)
-    entries += _to_fix(parts)
+        screws = parts.built.screws if spec.has_parts else ()
+        entries += (Dimension(one.name, one.text) for one in screws)
+    for _, build in parts.all_built:
+        with suppress(GenevaError):
+            entries += (Dimension(FIX, name) for name in build().to_fix)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     own = thing(spec.wheel.NAME, "dimensions")
     entries += own(parts) if own else ()
     if mechanism.law is None and spec.drive.crank:
         entries += _straight(mechanism)
-    elif spec.drive.crank:
-        entries.append(Dimension("crank radius", mechanism.ratio * L, "mm"))
-        entries.append(Dimension("rollers, evenly", spec.drive.rollers))
-    elif spec.drive.rollers > 1:
-        entries.append(Dimension("rollers, evenly", spec.drive.rollers))
+    else:
+        if spec.drive.crank:
+            entries.append(Dimension("crank radius", mechanism.ratio * L, "mm"))
+        if spec.drive.crank or spec.drive.rollers > 1:
+            entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     entries += _motions(mechanism)
-    own = mechanism.layout
-    entries += [d for d in own if isinstance(d, Dimension)]
+    entries += [d for d in mechanism.layout if isinstance(d, Dimension)]
     if spec.size.gear_module_mm is not None:
         entries += or_missing("teeth of the gears", lambda: parts.flat.tooth_dimensions)
     for entry in entries:
@@ -196,7 +195,6 @@ def _dimensions(parts: Parts) -> Iterator[Row | Missing]:
 
 
 def _screws_and_edges(size: Size) -> Iterator[Dimension]:
-    """Yield the screws that hold hubs on their shafts, and the chamfer or rounding of edges."""
     for part in ("wheel", "crank"):
         for key, name in (("screw", "set screw"), ("clamp", "clamp screw")):
             screw = vars(size)[f"{part}_{key}_mm"]
@@ -205,19 +203,6 @@ def _screws_and_edges(size: Size) -> Iterator[Dimension]:
     if size.edge_mm:
         kind = "rounding" if size.edge_chamfer_mm is None else "chamfer"
         yield Dimension(f"{kind} of all edges", size.edge_mm, "mm")
-
-
-def _screws(parts: Parts) -> Iterator[Dimension]:
-    """Yield the screws between the parts, with their threads and the parts that are tapped."""
-    screws = parts.built.screws if parts.mechanism.spec.has_parts else ()
-    yield from (Dimension(one.name, one.text) for one in screws)
-
-
-def _to_fix(parts: Parts) -> Iterator[Dimension]:
-    """Yield what to do with parts that turn with their shaft in a round bore, and each part."""
-    for _, build in parts.all_built:
-        with suppress(GenevaError):  # the rows of what cannot be built have the reason
-            yield from (Dimension(FIX, name) for name in build().to_fix)
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
@@ -233,7 +218,6 @@ def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
 
 
 def _motions(mechanism: Mechanism) -> Iterator[Dimension]:
-    """Yield the step and the input angles of each engagement of a period."""
     from geneva_cli.motion.timing import timings
 
     output = mechanism.output

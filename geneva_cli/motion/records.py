@@ -25,7 +25,7 @@ _DRAWINGS = {
     "first-wheel": "drawings.part_drawings:wheel",
     "first-crank": "drawings.part_drawings:crank",
     "frame": "drawings.part_drawings:frame",
-    "assembly": "drawings.machine_drawing:machine",
+    "assembly": "drawings.part_drawings:machine",
     "gears": "drawings.part_drawings:gears",
     "groove": "drawings.part_drawings:groove",
     "groove-plate": "drawings.part_drawings:groove_plate",

@@ -91,20 +91,23 @@ def shown(value: Any, unit: str) -> tuple[Any, str]:
     >>> shown(25.4, "mm")
     (25.4, 'mm')
     """
-    if choice.units == "mm":
-        return value, unit
-    from geneva_cli.output.inches import value_in_inches
-
-    return value_in_inches(value, unit)
+    inches = _inches()
+    return inches.value_in_inches(value, unit) if inches else (value, unit)
 
 
 def shown_text(text: str) -> str:
     """A sentence with its numbers in the units that this run shows."""
-    if choice.units == "mm":
-        return text
-    from geneva_cli.output.inches import text_in_inches
+    inches = _inches()
+    return inches.text_in_inches(text) if inches else text
 
-    return text_in_inches(text)
+
+def _inches() -> Any:
+    """The module that converts, None where numbers stay in mm."""
+    return None if choice.units == "mm" else _module("inches")
+
+
+def _module(name: str) -> Any:
+    return importlib.import_module(f"geneva_cli.output.{name}")
 
 
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
@@ -116,25 +119,21 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
 
 
 def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
-    from geneva_cli.output.finite import checked
+    from geneva_cli.output.finite import checked, only
 
     table = checked(table, is_seen(output))
     if choice.columns:
-        from geneva_cli.output.finite import only
-
         table = only(table, choice.columns)
     if name not in ("table", "md"):
         refuse_inches(f"{name} is for programs, and in SI units")
-    if choice.units != "mm":
-        from geneva_cli.output.inches import table_in_inches
-
-        table = table_in_inches(table)
+    if inches := _inches():
+        table = inches.table_in_inches(table)
     if name == "table" and is_seen(output):
         from geneva_cli.output.terminal.layout import window
         from geneva_cli.output.terminal.terminal_tables import chunks
 
         return chunks(table, window(bool(choice.columns), choice.wide))
-    return importlib.import_module(f"geneva_cli.output.{FORMATS[name]}").chunks(table)
+    return _module(FORMATS[name]).chunks(table)
 
 
 def is_seen(output: str) -> bool:
@@ -194,11 +193,11 @@ def draw(
         show(pieces_table(drawing, units), output, name, inputs)
         return
     refuse_columns()
-    loaded = importlib.import_module(f"geneva_cli.output.{DRAWN[name]}")
+    module = _module(DRAWN[name])
     if name in MESHES:
-        _put_bytes(loaded.data(drawing, units), output, name, inputs)
+        _put(module.data(drawing, units), output, inputs, name)
     else:
-        _put(loaded.chunks(drawing, units, **own), output, inputs)
+        _put(module.chunks(drawing, units, **own), output, inputs)
 
 
 def draw_sheet(
@@ -213,8 +212,7 @@ def draw_sheet(
     name = sheet_as(output, format)
     require_own(own, name)
     refuse_columns()
-    module = importlib.import_module(f"geneva_cli.output.sheets.sheet_{name}")
-    _put(module.chunks(sheet, **own), output, inputs)
+    _put(_module(f"sheets.sheet_{name}").chunks(sheet, **own), output, inputs)
 
 
 def show_figure(
@@ -231,18 +229,13 @@ def show_figure(
         show(figure.table(), output, name, inputs)
         return
     refuse_columns()
-    if choice.units != "mm":
-        from geneva_cli.output.inches import figure_in_inches
-
-        figure = figure_in_inches(figure)
+    if inches := _inches():
+        figure = inches.figure_in_inches(figure)
+    module = _module("plot.plot_text" if name == "table" else f"plot.plot_{name}")
     if name == "table":
-        from geneva_cli.output.plot import plot_text
-
-        _put(plot_text.chunks(figure, *_terminal(output)), output, inputs)
-        return
-    module = importlib.import_module(f"geneva_cli.output.plot.plot_{name}")
-    if name == "png":
-        _put_bytes((module.png_bytes(figure) for _ in range(1)), output, name, inputs)
+        _put(module.chunks(figure, *_terminal(output)), output, inputs)
+    elif name == "png":
+        _put((module.png_bytes(figure) for _ in range(1)), output, inputs, name)
     else:
         _put(module.chunks(figure), output, inputs)
 
@@ -257,11 +250,8 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
     extension = os.path.splitext(output)[1].lower()
     if output != "-" and extension not in (".html", ".htm", ".svg"):
         raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm or .svg')
-    from geneva_cli.output import page
-    from geneva_cli.output.svg import still_svg
-
-    chunks = still_svg.chunks if extension == ".svg" else page.chunks
-    _put(chunks(scene), output, inputs)
+    module = _module("svg.still_svg" if extension == ".svg" else "page")
+    _put(module.chunks(scene), output, inputs)
 
 
 def show_document(
@@ -273,16 +263,12 @@ def show_document(
     """
     name = document_as(output, format)
     refuse_columns()
-    module = importlib.import_module(f"geneva_cli.output.document.{DOCUMENTS[name]}")
-    if choice.units != "mm":
-        from geneva_cli.output.inches import document_in_inches
-
-        document = document_in_inches(document)
-    _put(module.chunks(document), output, inputs)
+    if inches := _inches():
+        document = inches.document_in_inches(document)
+    _put(_module(f"document.{DOCUMENTS[name]}").chunks(document), output, inputs)
 
 
 def _terminal(output: str) -> tuple[int, bool]:
-    """The width of a chart in columns, and whether letters beyond ASCII are allowed."""
     if not is_seen(output):
         return 80, False
     import shutil
@@ -316,19 +302,16 @@ def show_markdown(text: str) -> None:
     _put(chunks(text, window(False, choice.wide)), "-", ())
 
 
-def _put(chunks: Iterable[str], output: str, inputs: Iterable[str]) -> None:
-    if output == "-":
-        for chunk in chunks:
-            sys.stdout.write(chunk)
+def _put(
+    chunks: Iterable[str] | Iterable[bytes], output: str, inputs: Iterable[str], binary: str = ""
+) -> None:
+    """Write chunks; ``binary`` is the format of chunks that are bytes."""
+    if output != "-":
+        from geneva_cli.output.files import write
+
+        write(output, chunks, inputs)
         return
-    from geneva_cli.output.files import write
-
-    write(output, chunks, inputs)
-
-
-def _put_bytes(data: Iterable[bytes], output: str, name: str, inputs: Iterable[str]) -> None:
-    if output == "-":
-        raise GenevaError(f"--format {name}: not for standard output; give -o FILE.{name}")
-    from geneva_cli.output.files import write_bytes
-
-    write_bytes(output, data, inputs)
+    if binary:
+        raise GenevaError(f"--format {binary}: not for standard output; give -o FILE.{binary}")
+    for chunk in chunks:
+        sys.stdout.write(str(chunk))

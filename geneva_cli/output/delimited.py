@@ -15,7 +15,7 @@ def chunks(table: Table) -> Iterator[str]:
         table = flat(table)
     yield one_line(table.names)
     for columns in table.slices(1024):
-        if all(map(_is_floats, columns)):
+        if not any(isinstance(c, (list, tuple)) or c.dtype != "float64" for c in columns):
             yield _numbers(columns)
         else:
             yield "".join(map(one_line, plain_rows(columns)))
@@ -24,10 +24,6 @@ def chunks(table: Table) -> Iterator[str]:
 def one_line(row: Iterable[Any]) -> str:
     """The line of one row."""
     return ",".join(map(_field, row)) + "\n"
-
-
-def _is_floats(column: Any) -> bool:
-    return not isinstance(column, (list, tuple)) and column.dtype == "float64"
 
 
 def _numbers(columns: Sequence[Any]) -> str:

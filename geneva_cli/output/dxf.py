@@ -89,7 +89,6 @@ def _is_r12(space: BaseLayout) -> bool:
 
 
 def _entity(space: BaseLayout, layer: str, piece: Piece) -> None:
-    """A line, an arc or a spline as an entity of its own."""
     attributes = {"layer": layer}
     if isinstance(piece, Line):
         space.add_line(piece.start, piece.end, dxfattribs=attributes)
@@ -98,7 +97,10 @@ def _entity(space: BaseLayout, layer: str, piece: Piece) -> None:
         if piece.radius > 1e5:
             _polyline(space, layer, [piece], False)
             return
-        start, end = (_direction(piece.centre, p) for p in (piece.start, piece.end))
+        x, y = piece.centre
+        start, end = (
+            math.degrees(math.atan2(q - y, p - x)) % 360.0 for p, q in (piece.start, piece.end)
+        )
         angles = (start, end) if piece.bulge > 0.0 else (end, start)  # always counterclockwise
         space.add_arc(piece.centre, piece.radius, *angles, dxfattribs=attributes)
     else:
@@ -110,10 +112,6 @@ def _entity(space: BaseLayout, layer: str, piece: Piece) -> None:
         double = [scale * knot for knot in piece.knots for _ in range(2)]
         spline.knots = [*double[:2], *double, *double[-2:]]
         spline.dxf.flags = 8  # in a plane
-
-
-def _direction(centre: tuple[float, float], point: tuple[float, float]) -> float:
-    return math.degrees(math.atan2(point[1] - centre[1], point[0] - centre[0])) % 360.0
 
 
 FLOAT_CODES = {
@@ -148,7 +146,6 @@ def dxf_text(
 
 
 def _document(units: str, version: str, fill: Callable[[Document, Modelspace], None]) -> str:
-    """The text as ezdxf writes it."""
     if version not in DXF_VERSIONS:
         raise GenevaError(
             f"--dxf-version {cut(version)}: it must be one of {', '.join(DXF_VERSIONS)}"

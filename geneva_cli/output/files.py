@@ -27,20 +27,15 @@ TEMPORARY = ".{name}.geneva-{number}.tmp"
 SIGNALS = [getattr(signal, x) for x in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, x)]
 
 
-def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
-    """Write text to ``path`` so that at every moment the old file or the new one is complete.
+def write(path: str, chunks: Iterable[str] | Iterable[bytes], inputs: Iterable[str] = ()) -> None:
+    """Write texts or bytes to ``path`` so that at every moment the old or new file is complete.
 
-    The text goes to a temporary file in the same folder, which then replaces the old one and takes
-    its owner and permissions. A device or a pipe is written to directly. Raises GenevaError if the
-    file cannot be written, is read-only, or is one of ``inputs``.
+    They go to a temporary file in the same folder, which then replaces the old one and takes its
+    owner and permissions. A device or a pipe is written to directly. Raises GenevaError if the file
+    cannot be written, is read-only, or is one of ``inputs``.
     """
-    write_bytes(path, (chunk.encode() for chunk in chunks), inputs)
-
-
-def write_bytes(path: str, chunks: Iterable[bytes], inputs: Iterable[str] = ()) -> None:
-    """Write bytes to ``path``, as ``write`` does for text."""
     with replacing(path, inputs) as file:
-        file.writelines(chunks)
+        file.writelines(one.encode() if isinstance(one, str) else one for one in chunks)
 
 
 @contextmanager

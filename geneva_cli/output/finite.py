@@ -96,17 +96,13 @@ def only(table: Table, names: Sequence[str]) -> Table:
 
 
 def _tables(value: Any) -> list[Table]:
-    """The tables in a cell: one, several, or none."""
     if isinstance(value, Table):
         return [value]
     return [v for v in value if isinstance(v, Table)] if isinstance(value, tuple) else []
 
 
 def _of_kinds(table: Table, names: Sequence[str]) -> Table:
-    """Return the rows of the kinds that have one of the columns, but for those that all kinds have.
-
-    So the masses in a list of parts are those of its parts, without empty rows for its pivots.
-    """
+    """Return the rows of the kinds that have one of the columns."""
     at = table.names.index(KIND)
     has: dict[str, set[str]] = {}
     for row in table.rows():

@@ -140,7 +140,6 @@ def _replace(real: str, new: str, entries: list[Entry]) -> list[str]:
 
 
 def _own(real: str, rows: list[Row]) -> set[str]:
-    """The listed files that nobody has changed; a link is a person's."""
     places = {row: os.path.join(real, row.file) for row in rows if row.digest}
     return {
         row.file

@@ -137,7 +137,6 @@ def _chosen(output: str, format: str, formats: Collection[str], remark: str = ""
 
 
 def _named(output: str, format: str) -> str:
-    """The format that is given, or that of a file's extension; empty for an unknown extension."""
     return format or EXTENSIONS.get(os.path.splitext(output)[1].lower().lstrip("."), "")
 
 

@@ -71,7 +71,6 @@ class GrowingFile:
                 raise
 
     def _begin(self, first: bytes) -> None:
-        """Write the first line, and nothing else."""
         self.first, self.end, self.digest = first, len(first), hashlib.sha256(first)
         self.file.seek(0)
         self.file.truncate()
@@ -79,7 +78,6 @@ class GrowingFile:
         self.file.flush()
 
     def _continue(self, key: str) -> bool:
-        """Return True if the file is whole, or if there are rows to continue."""
         name = cut(os.path.basename(self.real))
         same = self.first == TITLE + key.encode() + b"\n"
         whole = re.fullmatch(rb"whole ([0-9a-f]{64})\n", self.file.readline(LINE_MAX))
@@ -105,10 +103,7 @@ class GrowingFile:
         return bool(blocks)
 
     def _blocks(self) -> Iterator[tuple[int, bytes]]:
-        """Yield the number of rows and the bytes of each block, up to the first damaged one.
-
-        What is appended next follows the last block that was read.
-        """
+        """Yield the number of rows and the bytes of each block, up to the first damaged one."""
         size = os.fstat(self.file.fileno()).st_size
         self.file.seek(0)
         self.digest = hashlib.sha256(self.file.read(len(self.first)))
@@ -179,7 +174,6 @@ class GrowingFile:
 
 
 def _open_locked(path: str, inputs: Iterable[str]) -> BinaryIO:
-    """Open or create a state file without following a link, and lock it."""
     if os.path.lexists(path):
         status = os.lstat(path)
         if not stat.S_ISREG(status.st_mode):

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-from geneva_cli.figure import Axis, Curve, Figure, Panel
+from geneva_cli.figure import Axis, Figure
 from geneva_cli.names import UNITS, unit_end, unit_of
-from geneva_cli.output.document.blocks import Block, Curves, Document, Fact, Facts, Grid, TextList
+from geneva_cli.output.document.blocks import Block, Curves, Document, Facts, Grid, TextList
 from geneva_cli.spec.units import ratio
 from geneva_cli.table import Table
 
@@ -38,10 +38,7 @@ INSTEAD = {
 
 @cache
 def _other(unit: str) -> tuple[str, float]:
-    """The unit that is shown instead of an SI unit, and how many SI units it is; or unit and 1.
-
-    Numbers are divided by it, so that 25.4 mm are exactly 1 in.
-    """
+    """The unit that is shown instead of an SI unit, and how many SI units it is; or unit and 1."""
     instead = INSTEAD.get(unit)
     if instead is None:
         return unit, 1.0
@@ -110,41 +107,37 @@ def table_in_inches(table: Table) -> Table:
             is_table = isinstance(value, Table)
             values[new] = table_in_inches(value) if is_table else _over(value, size)
         return table.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
-    by_row = {"quantity", "check", "unit"} & set(table.names)
-    sizes = [_named(name)[1] for name in table.names]
-    if by_row:
+    if {"quantity", "check", "unit"} & set(table.names):
         table = table.replaced(columns=_by_row(table))
     else:
-        table = table.changed(lambda columns: list(map(_column, columns, sizes)))
-    reading = table.reading
-    first, in_title = (tuple(_named(n)[0] for n in x) for x in (reading.first, reading.in_title))
-    return table.replaced(
-        names=tuple(_named(name)[0] for name in table.names),
-        reading=reading._replace(first=first, in_title=in_title),
+        sizes = [_named(name)[1] for name in table.names]
+        table = table.changed(
+            lambda columns: [
+                _over(one if isinstance(one, (list, tuple)) else one.tolist(), size)
+                for one, size in zip(columns, sizes, strict=True)
+            ]
+        )
+    names, first, in_title = (
+        tuple(_named(name)[0] for name in some)
+        for some in (table.names, table.reading.first, table.reading.in_title)
     )
-
-
-def _column(column: Any, size: float) -> Any:
-    return _over(column if isinstance(column, (list, tuple)) else column.tolist(), size)
+    return table.replaced(
+        names=names, reading=table.reading._replace(first=first, in_title=in_title)
+    )
 
 
 def _by_row(table: Table) -> Sequence[Any]:
     """The columns of a table whose rows have units: by a column with them, or by their names."""
     rows = []
     for row in table.rows():
-        values = dict(zip(table.names, row, strict=True))
+        values, size = dict(zip(table.names, row, strict=True)), 1.0
         key = next((key for key in ("quantity", "check") if key in values), None)
-        size = 1.0
         if key:
             values[key], size = _named(str(values[key]))
         elif values["unit"]:
             values["unit"], size = _other(values["unit"])
-        rows.append(
-            [
-                _over(value, _named(name)[1] if unit_of(name) else size)
-                for name, value in values.items()
-            ]
-        )
+        sizes = {name: _named(name)[1] if unit_of(name) else size for name in values}
+        rows.append([_over(value, sizes[name]) for name, value in values.items()])
     return list(zip(*rows, strict=True)) if rows else table.columns
 
 
@@ -158,36 +151,45 @@ def document_in_inches(document: Document) -> Document:
 
 def figure_in_inches(figure: Figure) -> Figure:
     """The figure with its curves and axes in inches and pounds."""
-    x, size = _axis(figure.x)
-    title = figure.title
-    for axis in (figure.x, *(panel.y for panel in figure.panels)):
-        title = title.replace(axis.label, _axis(axis)[0].label)
-    return Figure(
-        title=title,
-        x=x,
-        panels=tuple(_panel(panel, size) for panel in figure.panels),
-        window=_over(figure.window, size),
-        shaded=_over(figure.shaded, size),
-    )
+    (x, size_x), panels = _axis(figure.x), []
+    title = figure.title.replace(figure.x.label, x.label)
+    for panel in figure.panels:
+        y, size = _axis(panel.y)
+        title = title.replace(panel.y.label, y.label)
+        curves = tuple(
+            curve._replace(
+                pieces=tuple((_over(u, size_x), _over(v, size)) for u, v in curve.pieces),
+                marks=tuple(
+                    m._replace(x=_over(m.x, size_x), y=_over(m.y, size)) for m in curve.marks
+                ),
+            )
+            for curve in panel.curves
+        )
+        bounds = panel.bounds and _over(panel.bounds, size)
+        panels.append(panel._replace(y=y, curves=curves, bounds=bounds))
+    window, shaded = (_over(span, size_x) for span in (figure.window, figure.shaded))
+    return Figure(title, x, tuple(panels), window, shaded)
 
 
 def _block(block: Block) -> Block:
     if isinstance(block, TextList):
         return block._replace(texts=tuple(map(text_in_inches, block.texts)))
     if isinstance(block, Facts):
-        return block._replace(facts=tuple(map(_fact, block.facts)))
+        # a key of the spec keeps its unit
+        facts = (
+            fact
+            if unit_of(fact.name)
+            else fact._replace(
+                value=_over(fact.value, _other(fact.unit)[1]), unit=_other(fact.unit)[0]
+            )
+            for fact in block.facts
+        )
+        return block._replace(facts=tuple(facts))
     if isinstance(block, Grid) and "Key" not in block.heads:
         return _grid(block)
     if isinstance(block, Curves):
         return Curves(figure_in_inches(block.figure))
     return block
-
-
-def _fact(fact: Fact) -> Fact:
-    if unit_of(fact.name):  # a key of the spec
-        return fact
-    unit, size = _other(fact.unit)
-    return fact._replace(value=_over(fact.value, size), unit=unit)
 
 
 def _grid(grid: Grid) -> Grid:
@@ -211,18 +213,6 @@ def _grid(grid: Grid) -> Grid:
             cells[at] = unit
         rows.append(tuple(cells))
     return grid._replace(heads=tuple(heads), rows=tuple(rows))
-
-
-def _panel(panel: Panel, size_x: float) -> Panel:
-    y, size = _axis(panel.y)
-    curves = tuple(_curve(curve, size_x, size) for curve in panel.curves)
-    return panel._replace(y=y, curves=curves, bounds=panel.bounds and _over(panel.bounds, size))
-
-
-def _curve(curve: Curve, size_x: float, size_y: float) -> Curve:
-    pieces = tuple((_over(x, size_x), _over(y, size_y)) for x, y in curve.pieces)
-    marks = (m._replace(x=_over(m.x, size_x), y=_over(m.y, size_y)) for m in curve.marks)
-    return curve._replace(pieces=pieces, marks=tuple(marks))
 
 
 def _axis(axis: Axis) -> tuple[Axis, float]:

@@ -19,19 +19,19 @@ def chunks(table: Table) -> Iterator[str]:
     separator = "\n"
     numbers = "{" + ", ".join(f"{json.dumps(name)}: %r" for name in table.names) + "}"
     flat = table.mixed or not any("." in name for name in table.names)
-    tree = _flat if flat else _nested
     for block in table.blocks():
         if flat and all(type(v) is float and math.isfinite(v) for row in block for v in row):
             lines = [numbers % tuple(v + 0.0 for v in row) for row in block]
         else:
-            lines = [json.dumps(tree(table.names, row), allow_nan=False) for row in block]
+            names = table.names
+            trees = (
+                dict(zip(names, map(_plain, row), strict=True)) if flat else _nested(names, row)
+                for row in block
+            )
+            lines = [json.dumps(tree, allow_nan=False) for tree in trees]
         yield separator + ",\n".join(lines)
         separator = ",\n"
     yield "\n]}\n"
-
-
-def _flat(names: tuple[str, ...], row: tuple[Any, ...]) -> dict[str, Any]:
-    return {name: _plain(value) for name, value in zip(names, row, strict=True)}
 
 
 def _nested(names: tuple[str, ...], row: tuple[Any, ...]) -> dict[str, Any]:

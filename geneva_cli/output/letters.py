@@ -22,14 +22,12 @@ def western(text: str) -> str:
     >>> western("d²ψ/dθ² = 3 × 10⁻³"), western("Дα")
     ('d²psi/dtheta² = 3 × 10^-3', '[U+0414]alpha')
     """
-    return "".join(map(_spelled, re.sub("[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", _power, text)))
 
+    def power(match: re.Match[str]) -> str:
+        plain = match[0].translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+        return match[0] if all(map(_is_western, match[0])) else f"^{plain}"
 
-def _power(match: re.Match[str]) -> str:
-    raised = match[0]
-    if all(map(_is_western, raised)):
-        return raised
-    return "^" + raised.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+    return "".join(map(_spelled, re.sub("[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", power, text)))
 
 
 def _spelled(letter: str) -> str:

@@ -48,7 +48,9 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> Not
         arc = Arc(first, last, turn.bulge)
         contour = Contour("", (arc,), closed=False)
         lines.append(contour)
-        heads.append(_head(last, _heading(arc, mm * ARROW[0]), mm))
+        (x, y), back = arc.centre, 0.5 * mm * ARROW[0] / arc.radius
+        ahead = math.copysign(0.5 * math.pi - back, arc.bulge)  # that of the arc under the head
+        heads.append(_head(last, math.atan2(last[1] - y, last[0] - x) + ahead, mm))
         around = bounds(contour)
         left, right = min(left, around.x0), max(right, around.x1)
         low, high = min(low, around.y0), max(high, around.y1)
@@ -91,24 +93,15 @@ def span_text(span: LevelDistance, units: str) -> str:
 
 
 def _span(span: LevelDistance, unit: float, low: float, gap: float) -> list[Contour]:
-    """Return a distance's line, and the lines from its ends down to it."""
     a, b = _ends(span, unit)
     sides = (((x / unit, y / unit), (x / unit, low - 0.4 * gap)) for x, y in (span.start, span.end))
     return [line("", *ends) for ends in (((a, low), (b, low)), *sides)]
 
 
 def _head(tip: Point, angle: float, mm: float) -> tuple[Point, Point, Point]:
-    """Return the corners of an arrow's head in a direction."""
     long, half, c, s = mm * ARROW[0], mm * ARROW[1], math.cos(angle), math.sin(angle)
     x, y = tip[0] - long * c, tip[1] - long * s
     return tip, (x - half * s, y + half * c), (x + half * s, y - half * c)
-
-
-def _heading(arc: Arc, long: float) -> float:
-    """Return the direction of an arrow at an arc's end: that of the arc under its head."""
-    (x, y), (cx, cy) = arc.end, arc.centre
-    ahead = 0.5 * math.pi - 0.5 * long / arc.radius
-    return math.atan2(y - cy, x - cx) + math.copysign(ahead, arc.bulge)
 
 
 def round_length(length: float) -> float:

@@ -62,13 +62,10 @@ def _kinds(source: BinaryIO) -> dict[str, str]:
         for kind, text in zip(kinds, fields, strict=True):
             if text:
                 kind.add(_kind(text))
-    return {name: _one(kind) for name, kind in zip(names, kinds, strict=True)}
-
-
-def _one(kinds: set[str]) -> str:
-    if not kinds:
-        return "number"
-    return next(iter(kinds)) if len(kinds) == 1 else "text"
+    return {
+        name: (kind or {"number"}).pop() if len(kind) < 2 else "text"
+        for name, kind in zip(names, kinds, strict=True)
+    }
 
 
 def _kind(text: str) -> str:

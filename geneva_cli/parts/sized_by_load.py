@@ -22,6 +22,7 @@ import numpy as np
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.impacts.shock_force import forces_N
+from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength.arm_strength import arm_stress_MPa
 from geneva_cli.loads.strength.horn import horns
@@ -31,7 +32,6 @@ from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.pin import PinSize, pin
 from geneva_cli.loads.strength.shaft_stress import shear_MPa
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.loads.unbalance import centrifugal_N
 from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec

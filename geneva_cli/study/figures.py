@@ -41,20 +41,13 @@ def of_specs(
     texts = spec_texts(paths, tuple(settings), vary)
     designs = designs_of(texts, reverse)
     cycles = {name: design.cycle for name, design in designs.items()}
-    curves, left_out = figure(cycles, [_drawn_as(name) for name in pick])
-    return (
-        curves,
-        list(designs.values()),
-        [(designs[name].spec.path, text) for name, text in left_out],
-    )
-
-
-def _drawn_as(name: str) -> str:
-    """The curve that shows a quantity: ``acceleration`` for ``acceleration.max``."""
-    if name in AXIS_BY_NAME:
-        return name
-    parts = (_quantity(name) or "").split(".")
-    return next((part for part in parts if part in AXIS_BY_NAME), name)
+    names = []
+    for name in pick:  # acceleration shows acceleration.max
+        parts = (_quantity(name) or "").split(".")
+        names.append(next((part for part in (name, *parts) if part in AXIS_BY_NAME), name))
+    curves, left_out = figure(cycles, names)
+    lacks = [(designs[name].spec.path, text) for name, text in left_out]
+    return curves, list(designs.values()), lacks
 
 
 def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
@@ -154,26 +147,20 @@ def _curve(
         return None
     ascends = all(a[0] < b[0] for a, b in pairwise(points))
     points.sort()
-    apart = all(a[0] < b[0] for a, b in pairwise(points))
-    falls = all(a[1] > b[1] for a, b in pairwise(points))
-    rises = all(a[1] < b[1] for a, b in pairwise(points))
-    if apart and (ascends or is_key):
-        style = JOINED if len(points) <= 40 else LINE  # marks of more points would touch
-    else:
-        style = JOINED if apart and (falls or rises) else POINTS
-    if style == POINTS:
-        return Curve(number, name, (_piece(points),), style=style)
-    return Curve(number, name, tuple(_without_gaps(rows)), style=style)
-
-
-def _without_gaps(rows: Sequence[tuple[float | None, float | None]]) -> list[Piece]:
-    out: list[list[tuple[float, float]]] = [[]]
+    steps = [*pairwise(points)]
+    apart = all(a[0] < b[0] for a, b in steps)
+    monotonic = all(a[1] > b[1] for a, b in steps) or all(a[1] < b[1] for a, b in steps)
+    if not apart or not (ascends or is_key or monotonic):
+        return Curve(number, name, (_piece(points),), style=POINTS)
+    # marks of more points would touch, but for a front
+    style = LINE if (ascends or is_key) and len(points) > 40 else JOINED
+    pieces: list[list[tuple[float, float]]] = [[]]  # divided where a row has no value
     for x, y in sorted((r for r in rows if r[0] is not None), key=lambda r: r[0] or 0.0):
         if x is None or y is None:
-            out.append([])
+            pieces.append([])
         else:
-            out[-1].append((x, y))
-    return [_piece(points) for points in out if points]
+            pieces[-1].append((x, y))
+    return Curve(number, name, tuple(_piece(one) for one in pieces if one), style=style)
 
 
 def _piece(points: Sequence[tuple[float, float]]) -> Piece:

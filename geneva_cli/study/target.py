@@ -162,17 +162,16 @@ class Target(NamedTuple):
         if "motion_deg" in spans:
             yield options["motion_deg"], spans["motion_deg"]
         if "tau" in spans:
-            low, high = spans["tau"]
-            yield options["tau"], AllowedSpan(360.0 * low / m, 360.0 * high / m)
+            yield options["tau"], AllowedSpan(*(360.0 * tau / m for tau in spans["tau"]))
         if "k" in spans:
             yield options["k"], AllowedSpan(*(360.0 * _tau(k) / m for k in spans["k"]))
         if "dwell_deg" in spans:
             yield options["dwell_deg"], spans["dwell_deg"].mirrored(turn)
-        if "motion_s" in spans and speed:
-            yield f"{options['motion_s']} with {speed}", spans["motion_s"].over(cycle).times(turn)
-        if "dwell_s" in spans and speed:
-            fraction = spans["dwell_s"].over(cycle).times(turn)
-            yield f"{options['dwell_s']} with {speed}", fraction.mirrored(turn)
+        for name in ("motion_s", "dwell_s") if speed else ():
+            if name in spans:
+                span = spans[name].over(cycle).times(turn)
+                span = span.mirrored(turn) if name == "dwell_s" else span
+                yield f"{options[name]} with {speed}", span
         if "motion_s" in spans and "dwell_s" in spans:
             k = spans["motion_s"].over(spans["dwell_s"])
             words = f"{options['motion_s']} with {options['dwell_s']}"
@@ -212,7 +211,7 @@ class Target(NamedTuple):
         return usual if whole == 60.0 / (m * usual) else 60.0 / (m * whole)
 
     @property
-    def counts(self) -> Sequence[float]:
+    def counts(self) -> list[float]:
         """The numbers of motions in a turn that allow a machine."""
         return [m for m in self._every_count if not self._contradiction(m)]
 
@@ -263,14 +262,12 @@ def _typed(s: AllowedSpan) -> str:
 
 def _angles(s: AllowedSpan, m: float) -> str:
     """The motion angles that a requirement leaves, for a message."""
-    whole = 360.0 / m
     if s.high * m <= MOTION_MIN:
         return "no time to move"
     if s.low * m >= 360.0 - MOTION_MIN:
         return "no dwell"
-    return AllowedSpan(
-        s.low if s.low > 0.0 else -math.inf, s.high if s.high < whole else math.inf
-    ).words("a motion of", " deg")
+    low, high = s.low if s.low > 0.0 else -math.inf, s.high if s.high < 360.0 / m else math.inf
+    return AllowedSpan(low, high).words("a motion of", " deg")
 
 
 class AllowedSpan(NamedTuple):

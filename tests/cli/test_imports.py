@@ -15,7 +15,6 @@ from geneva_cli.cli.app import COMMANDS
 DESIGNS = str(repo.DESIGNS)
 # What costs: a run may import only what its row allows of these.
 HEAVY = {"numpy", "scipy", "rich", "pydantic", "matplotlib", "ezdxf", "tomli", "tomllib", "json"}
-HEAVY |= {"pyparsing", "fontTools"}  # ezdxf's, which no drawing needs
 HEAVY |= {"ssl", "numpy.ma"}  # those of xml.sax.saxutils and of np.unique, for a line of code
 # The whole program, through its real entry point, which ends the process by os._exit.
 PROBE = """
@@ -205,7 +204,7 @@ def test_every_command_has_a_row():
     assert {row.line.split()[0] for row in ROWS} >= set(COMMANDS)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.line)
 def test_heavy_modules(forks, row):
     may = set(row.may.split())
@@ -218,7 +217,7 @@ def test_own_modules(line):
 
 
 @pytest.mark.parametrize("line", MOST)
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 def test_few_own_modules(line):
     for text, most in zip((STRAIGHT, CURVED), MOST[line], strict=True):
         modules = own(loaded(line.split(), input=text, stdout=subprocess.DEVNULL))

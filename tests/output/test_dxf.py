@@ -2,7 +2,6 @@
 
 import io
 import math
-import re
 
 import pytest
 from drawing_witness import (
@@ -21,7 +20,7 @@ from sampling import some
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 from geneva_cli.geometry.sheet import Drawing, extent
-from geneva_cli.output.dxf import FLOAT_CODES, chunks
+from geneva_cli.output.dxf import chunks
 from geneva_cli.output.svg import drawing_svg as svg
 
 # mm. A file's last decimal is 1e-12; a polyline's centre of 300 degrees, an ARC's ends at a radius
@@ -101,15 +100,6 @@ def test_arcs_of_any_sweep(degrees, turn):
         assert math.dist(read["WHEEL"][0][0][2](share), (3.0, 4.0)) == pytest.approx(25.0, abs=1e-7)
 
 
-def test_decimals_are_fixed():
-    """No exponent, and no zero with a sign."""
-    tiny = [Arc((1e-17, -0.0), (30.0, 1e-13), 1e-3), Line((30.0, 1e-13), (1e-17, -0.0))]
-    written = text(of(closed("WHEEL", tiny), Circle("BORE", (-1e-17, -1e-14), 1e-5)))
-    values = [value for value in written.split("\n") if "." in value]
-    assert len(values) > 100
-    assert not [value for value in values if re.search(r"\de|-0\.0+$", value)]
-
-
 def test_a_contour_with_cubics_is_end_to_end():
     found = entities(of(smooth()))
     assert [e.dxftype() for e in found] == ["SPLINE", "ARC", "LINE"]
@@ -166,25 +156,6 @@ def test_the_header(units, number, measurement, unit):
     assert sum(center) == pytest.approx(12.5 / unit, abs=1e-9)
 
 
-def test_layers():
-    document = dxf_document(text(MANY))
-    assert {"WHEEL", "BORE", "CRANK", "ROLLER", "PITCH", "GROOVE"} <= {
-        layer.dxf.name for layer in document.layers
-    }
-    lines = {layer.dxf.name: layer.dxf.linetype for layer in document.layers}
-    assert {name for name, linetype in lines.items() if linetype != "Continuous"} == {"PITCH"}
-    assert all(linetype in document.linetypes for linetype in lines.values())
-    colours = [document.layers.get(name).color for name in MANY.layers]
-    assert len(set(colours)) == len(colours)
-    assert {e.dxftype() for e in document.modelspace()} == {
-        "LWPOLYLINE",
-        "CIRCLE",
-        "SPLINE",
-        "ARC",
-        "LINE",
-    }  # and no text, which a shop would cut
-
-
 def test_audit_finds_nothing():
     for drawing in (MANY, of(bow()), of(smooth())):
         for units in ("mm", "inch"):
@@ -195,32 +166,6 @@ def test_audit_finds_nothing():
             _, audit = recover.read(io.BytesIO(written.encode()))
             assert not audit.errors
             assert not audit.fixes
-
-
-def floats(written):
-    lines = written.split("\n")
-    for code, value in zip(lines[::2], lines[1::2], strict=False):
-        if int(code) in FLOAT_CODES:
-            yield value
-
-
-def test_nothing_is_doubled_or_of_no_length():
-    contour = closed(
-        "WHEEL",
-        [
-            Line((0.0, 0.0), (10.0, 0.0)),
-            Line((10.0, 0.0), (10.0, 0.0)),
-            Arc((10.0, 0.0), (10.0, 1e-12), 0.3),
-            Line((10.0, 1e-12), (10.0, 10.0)),
-            Cubic(*[(10.0, 10.0)] * 4),
-            Line((10.0, 10.0), (0.0, 0.0)),
-        ],
-    )
-    none = Circle("BORE", (0.0, 0.0), 0.0)
-    bore = Circle("BORE", (5.0, 2.0), 1.0)
-    found = entities(of(contour, bore, none, contour, bore))
-    assert [e.dxftype() for e in found] == ["LWPOLYLINE", "CIRCLE"]
-    assert [p[:2] for p in found[0].get_points("xyb")] == [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0)]
 
 
 def test_the_title_is_a_comment_in_plain_letters():
@@ -252,9 +197,3 @@ def test_refusals():
         text(of(Circle("BORE", (0.0, 0.0), math.nan)))
     with pytest.raises(GenevaError, match="nothing to draw"):
         text(of())
-
-
-def test_a_nearly_straight_arc_keeps_its_ends_beside_cubics():
-    arc = Arc((0.0, 0.0), (100.0, 0.0), 1e-9)  # 5e-8 mm high: its centre is 25 000 km off
-    drawing = of(closed("WHEEL", [arc, Cubic((100.0, 0.0), (90.0, 50.0), (0.0, 50.0), (0.0, 0.0))]))
-    assert apart(dxf_shapes(text(drawing)), drawn_shapes(drawing)) < SAME

@@ -125,14 +125,12 @@ def test_a_figure_is_scaled():
     assert peak * si.pound_force == pytest.approx(202.5396, rel=1e-6)  # the digits of the tutorial
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("words", "wants"),
     [
         (["check", TURRET], "crank shaft stress 8.907 ksi at"),
         (["loads", TURRET], "2.456 to 158.9 lbf in, rms 51.47"),
-        (["report", TURRET], "centre distance 9.843 in, wheel Ø 18.21 in"),
-        (["profile", TURRET, "--part", "parts"], "9.84252    in"),
         (["profile", TURRET, "--samples", "3", "--format", "md"], "left_x_in"),
         (["compare", TURRET, "--pick", "sizes.center_distance_mm"], "sizes.center_distance_in"),
     ],
@@ -146,7 +144,6 @@ def test_commands_show_them(words, wants):
     ("words", "wants"),
     [
         (["loads", TURRET, "--format", "json"], "json is for programs, and in SI units"),
-        (["loads", TURRET, "--format", "csv"], "csv is for programs"),
         (["sweep", TURRET, "--vary", "wheel.z=6,8"], "csv and parquet are for programs"),
         (["compare", TURRET, "--ratio"], "ratios have no unit"),
     ],
@@ -161,8 +158,6 @@ def test_what_stays_in_si_units_is_refused(words, wants):
     [
         ("is 0.3024 kg m², 25.2 % of", f"is {0.3024 / ONE['lb in²']:.4g} lb in², 25.2 % of"),
         ("at Ø 12 mm, 0.045 to 1.2 mm,", "at Ø 0.4724 in, 0.001772 to 0.04724 in,"),
-        ("up to -5 N m at 12.3°", f"up to {-5.0 / ONE['lbf in']:.4g} lbf in at 12.3°"),
-        ("reduce slot_clearance_mm to 0.06", "reduce slot_clearance_mm to 0.06"),
         ("mass_kg = 15.6 and 2 m/s²", f"mass_kg = 15.6 and {2.0 / ONE['in/s²']:.4g} in/s²"),
         ("H11/c11 of ISO 286 in 5 min", "H11/c11 of ISO 286 in 5 min"),
     ],

@@ -10,17 +10,14 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import repo
-from drawing_witness import polygon
 from py_mini_racer import MiniRacer
-from sampling import some
-from shapely import LineString, affinity
 
 from geneva_cli import load
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.output import animate, page
 from geneva_cli.output.inks import INKS
-from geneva_cli.output.scene import body_pose, value_at
+from geneva_cli.output.scene import value_at
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
@@ -74,7 +71,7 @@ def wheel_by_core(design, at):
     return out - first, turned
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
     design = design_of(name)
@@ -100,7 +97,7 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
 PLATES = [path.stem for path in repo.wheels() if "spherical" not in path.stem]
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", PLATES)
 def test_the_roller_runs_in_the_slot_that_is_drawn(name):
     """In the wheel's frame its centre keeps to the slot's axis, or to the pitch curve."""
@@ -274,39 +271,3 @@ def test_a_machine_with_stops_goes_back_and_forth_between_them():
         wheel, crank, *_ = json.loads(engine.eval(f"JSON.stringify({ask})"))
         pose = Pose(np.array([wheel]), np.array([crank]), np.empty((1, 0, 2)))
         assert abs(gaps.locking(pose)[0]) < PLACE * data["size"]
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    ("name", "module"),
-    [
-        ("elliptical-gears", 4.07127),
-        ("elliptical-internal", 3.93675),
-        ("noncircular-gears", 3.02027),
-    ],
-)
-def test_teeth_of_gears_mesh_on_a_page(name, module):
-    """With backlash they never touch in a turn, and are nearer than it; without, they touch."""
-    for backlash in some((0.1, 0.0), (0.1,)):
-        keys = [f"size.gear_module_mm={module}", f"size.gear_backlash_mm={backlash}"]
-        driver, driven = (
-            body
-            for body in scene(load(str(repo.DESIGNS / f"{name}.toml"), keys)).bodies
-            if body.name.endswith("gear")
-        )
-        outlines = [polygon(gear.shapes[0], 1e-3) for gear in (driver, driven)]
-        mesh = LineString([driver.centre, driven.centre]).buffer(20.0)  # five modules
-        apart, common = math.inf, 0.0
-        for t in np.linspace(0.0, 360.0, some(61, 16)):
-            placed = []
-            for gear, outline in zip((driver, driven), outlines, strict=True):
-                x, y, angle = body_pose(gear, t)
-                own = affinity.rotate(outline, angle, origin=(0, 0), use_radians=True)
-                placed.append(affinity.translate(own, x, y).intersection(mesh))
-            apart = min(apart, placed[0].distance(placed[1]))
-            common = max(common, placed[0].intersection(placed[1]).area)
-        if backlash:
-            assert 0.0 < apart < backlash
-        else:  # curves within 0.01 mm overlap by no more along a pair of flanks of 8 mm
-            assert apart == 0.0
-            assert common < 0.08

@@ -4,7 +4,6 @@
 """
 
 import math
-import re
 
 import pytest
 import repo
@@ -211,14 +210,6 @@ def test_a_short_arc_is_part_of_the_spline_beside_it():
     assert [type(one).__name__ for one in pieces(corner)] == ["Arc", "Spline"]
 
 
-def test_nothing_of_the_day_or_place():
-    drawing = Design(External(6)).drawing("wheel")
-    written = "".join(chunks(drawing, "mm"))
-    assert written == "".join(chunks(drawing, "mm"))
-    assert "FILE_NAME('','',(''),(''),'','geneva','');" in written
-    assert not re.search(r"\d{4}-\d\d-\d\d", written)
-
-
 def test_titles_in_any_script():
     title = "Tür 'a' \\ Ω 😀"
     part = Group(title, (Member(Plate("p", "CRANK", HOLES[0], (), 0.0, 1.0)),))
@@ -240,20 +231,3 @@ def test_titles_in_any_script():
 def test_refused(drawing, units, said):
     with pytest.raises(GenevaError, match=said):
         list(chunks(drawing, units))
-
-
-@pytest.mark.parametrize(
-    ("was", "instead"),
-    [
-        (".F.);", ".T.);"),  # a face, an edge the other way round
-        ("(40.,30.,12.)", "(40.,31.,12.)"),
-        ("EDGE_LOOP('',(#", "EDGE_LOOP('',(#1"),
-    ],
-)
-def test_a_fault_would_be_noticed(was, instead):
-    plate = Plate("plate", "WHEEL", SQUARE, HOLES, 0.0, 12.0)
-    written = text(plate)
-    assert was in written
-    with pytest.raises((AssertionError, KeyError, ValueError)):
-        file = File(written.replace(was, instead, 1))
-        require_solid(file, *file.all("MANIFOLD_SOLID_BREP"), plate)

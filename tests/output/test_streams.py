@@ -7,8 +7,7 @@ import sys
 import pytest
 from repo import GENEVA, put
 
-SOME = [["--help"], ["--version"], ["table", "--help"], ["table"], ["peaks", "spec.toml"]]
-SOME += [["peaks", "spec.toml", "--format", "json"], ["motion", "spec.toml", "--samples", "20000"]]
+SOME = [["--help"], ["peaks", "spec.toml"], ["motion", "spec.toml", "--samples", "20000"]]
 
 some = pytest.mark.parametrize("arguments", SOME, ids=" ".join)
 full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")
@@ -38,7 +37,7 @@ def run(arguments, environment=None, **settings):
     )
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @full
 @some
 def test_full_disk(arguments, environment):
@@ -49,14 +48,13 @@ def test_full_disk(arguments, environment):
     assert found.stderr.count("\n") == 1
 
 
-STATUS = {"peaks spec.toml": 0, "peaks warns.toml": 0, "check fails.toml": 1, "peaks gone.toml": 2}
-STATUS |= {"peaks --zz": 2, "tabel": 2, "--zz": 2}
+STATUS = {"peaks warns.toml": 0, "check fails.toml": 1, "peaks gone.toml": 2, "tabel": 2}
 
 
 SAID = {}  # by a command line, with streams that can be written: the same in any folder
 
 
-@pytest.mark.sampled(10)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("arguments", STATUS)
 @pytest.mark.parametrize("kind", [pytest.param("full", marks=full), "pipe"])
 def test_messages_that_cannot_be_written(arguments, kind, environment):
@@ -75,7 +73,7 @@ def test_messages_that_cannot_be_written(arguments, kind, environment):
     assert found.stdout == plain.stdout
 
 
-CLOSED = ["<&-", ">&-", "2>&-", "<&- >&-", "<&- 2>&-", ">&- 2>&-", "<&- >&- 2>&-"]
+CLOSED = [">&-", "2>&-", "<&- >&- 2>&-"]
 
 
 def closed(arguments, streams):
@@ -86,7 +84,7 @@ def closed(arguments, streams):
     )
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("streams", CLOSED)
 @pytest.mark.parametrize("spec", ["spec.toml", "warns.toml"])
 def test_closed_streams(spec, streams):

@@ -10,8 +10,7 @@ import pytest
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import Design, External
-from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_disc, draw_roller
-from geneva_cli.drawings.sheet.link_views import draw_link
+from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_disc, draw_link, draw_roller
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.moments import moments

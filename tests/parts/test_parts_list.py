@@ -255,7 +255,7 @@ def in_gear(d):
     return found
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_a_machine_is_rebuilt_from_what_is_printed(path):
     _, pivots, d = printed(path)

@@ -50,7 +50,7 @@ def sheets():
     return made
 
 
-@pytest.mark.sampled(64)
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_text_of_a_design_stands_on_anything(path, sheets):
     design, found = sheets(path.stem)
@@ -119,7 +119,7 @@ def test_the_title_block_has_the_keys_of_drawing():
     assert under(found, "material") == "see list"
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_dimension_is_without_a_place_on_a_designs_sheet(path, sheets):
     """One that fits nowhere stands below its view, as a bare number or a diameter."""
@@ -130,7 +130,7 @@ def test_no_dimension_is_without_a_place_on_a_designs_sheet(path, sheets):
     assert below == []
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_each_item_of_the_list_has_one_balloon(path, sheets):
     design, found = sheets(path.stem)
@@ -170,7 +170,7 @@ LENGTHS = {
 }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", LENGTHS)
 def test_links_have_their_views(name, sheets):
     """Each link by its name, with the lengths of the list of parts as dimensions on paper."""

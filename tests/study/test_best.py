@@ -12,8 +12,7 @@ from geneva_cli import GenevaError, load
 from geneva_cli.parts.parts import Parts
 from geneva_cli.study.sweep import best as best_search
 from geneva_cli.study.sweep.best import best_spec
-from geneva_cli.study.sweep.outcome import Outcome
-from geneva_cli.study.sweep.request import request
+from geneva_cli.study.sweep.request import Outcome, request
 
 SPEC = os.path.join(os.path.dirname(__file__), *[os.pardir] * 2, "designs", "side-crank-z6.toml")
 

@@ -23,7 +23,7 @@ def test_kept_but_for_rounding():
     bound = constraint("dwell_s >= 0.8")
     kept = (0.8, 0.9, 0.8 * (1 - 1e-15), True)  # yes is 1
     assert [bound.kept(v) for v in (*kept, 0.79, False, None, "x")] == [True] * 4 + [False] * 4
-    assert bound.binds(0.8) and not bound.binds(0.81)
+    assert bound.standing(0.8) and not bound.standing(0.81)
     assert constraint("tau <= 2").margin(1.0) == 0.5
 
 

@@ -5,7 +5,6 @@ import json
 import re
 from collections.abc import Iterator
 from html.parser import HTMLParser
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -15,13 +14,12 @@ from typer.testing import CliRunner
 from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.output import jsonfile
-from geneva_cli.output.document import document_markdown, html
+from geneva_cli.output.document import html
 from geneva_cli.output.document.blocks import (
     Document,
     Fact,
     Facts,
     Grid,
-    Picture,
     value_text,
 )
 from geneva_cli.study.document import document
@@ -201,13 +199,3 @@ def test_inputs_say_what_is_a_default() -> None:
     assert isinstance(appendix, Facts)
     assert Fact("load.friction_at", "slot") in appendix.facts
     assert not {fact.name for fact in appendix.facts} & set(rows)
-
-
-def test_what_is_not_drawn_is_said_in_its_place(tmp_path: Path) -> None:
-    assert any(isinstance(block, Picture) for block in of("turret")[1].blocks)
-    (flat,) = (b for b in of("spherical-z6")[1].blocks if isinstance(b, Picture))
-    assert flat.drawing.title == "Wheel and crank, laid flat"
-    file = tmp_path / "spec.toml"
-    file.write_text("[wheel]\nz = 400\n", encoding="utf-8")
-    said_ = "".join(document_markdown.chunks(made(str(file))[1]))
-    assert "Not drawn: z = 400" in said_

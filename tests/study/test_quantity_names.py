@@ -11,8 +11,6 @@ from geneva_cli.cli.app import app
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.fields import pick
-from geneva_cli.study.survey import NAMES as TABLE
-from geneva_cli.study.synth.machine_rows import Candidate
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import GROUPS
 from geneva_cli.verdict.quantities.quantity_names import WORDS, whole_name
@@ -21,12 +19,6 @@ pytestmark = pytest.mark.usefixtures("made_once")
 LISTS = {  # of a report's names those of tables and lists, which are no quantities
     *("stations", "cycle.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
     *("tolerance.warnings", "wheels", "cranks", "both_ways"),
-}
-# Columns that tell what a machine is by keys of its spec, and of curves that no design has.
-KEYS = {
-    *("no", "A", "eccentricity", "phase", "alpha0_deg", "offset_mm", "planet_ratio", "fixed"),
-    *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
-    *("wheels", "sector_deg", "first_z", "parts", "C_v", "C_a", "C_j", "C_p"),
 }
 
 
@@ -76,22 +68,6 @@ def test_what_loads_shows_is_a_quantity(name):
         size = max(abs(shown.get(f"{key.rpartition('.')[0]}.{end}", own)) for end in ("min", "max"))
         near = 1e-6 if key.endswith("deg") else 1e-12 * max(size, abs(own))
         assert value == pytest.approx(own, rel=0.0, abs=near), key
-
-
-@pytest.mark.long
-def test_a_column_of_table_and_synth_is_named_alike_everywhere():
-    """But for the columns that are keys of a spec, which --vary names."""
-    known = {}
-    for name in {*TABLE, *Candidate._fields} - KEYS:
-        known[name] = whole_name(name)
-    assert known["acceleration_max"] == "acceleration.max"
-    assert known["acceleration_max_rad_s2"] == "acceleration.max_rad_s2"
-    assert known["acceleration_max_deg"] == "acceleration.at_deg"
-    assert known["jerk_entry"] == "jerk.entry"
-    assert (known["n_rpm"], known["dwell_deg"]) == ("inputs.drive.n_rpm", "timing.dwell_deg")
-    for name in KEYS - {"no", "parts"}:
-        with pytest.raises(GenevaError, match="no quantity of a design"):
-            whole_name(name)
 
 
 @pytest.mark.parametrize(

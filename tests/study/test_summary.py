@@ -1,7 +1,6 @@
 """Summaries: what a designer tells a colleague, in lines that fit and values that hold."""
 
 import math
-from pathlib import Path
 
 import pytest
 import repo
@@ -10,8 +9,7 @@ from geneva_cli.answer import PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.design import Design, load
 from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
 from geneva_cli.study.summary.load_lines import of_loads
-from geneva_cli.study.summary.report_summary import of_report
-from geneva_cli.study.summary.vibration_summary import of_tolerance, of_vibration
+from geneva_cli.study.summary.report_summary import of_report, of_tolerance, of_vibration
 
 pytestmark = pytest.mark.usefixtures("made_once")
 
@@ -50,15 +48,6 @@ def test_a_turret_gets_one_motor() -> None:
     assert len(sizes) == 6
     peak = 0.603613 * 1400.0 * math.tau / 60.0
     assert line(powers, f"{peak:.4g} W").text.startswith("greatest at the motor")
-
-
-def test_what_has_no_bound_gets_no_motor(tmp_path: Path) -> None:
-    """Friction holds the wheel of three slots at mid-motion, however hard the roller presses."""
-    file = tmp_path / "spec.toml"
-    file.write_text("[wheel]\nz = 3\n[load]\ntorque_Nm = 3\nfriction = 3\n", encoding="utf-8")
-    first, *_ = of_loads(load(str(file))).summaries
-    assert line(first, "motor").state == WARNS
-    assert "nothing bounds" in line(first, "motor").text
 
 
 @pytest.mark.parametrize("name", ["turret", "spherical-z6", "internal-curved-z8", "unequal-steps"])

@@ -29,25 +29,6 @@ def test_slots_of_an_unbalanced_wheel_on_a_carrier_vary_alone(tmp_path):
     assert [row[1] for row in rows] == pytest.approx(sizes, rel=1e-15)
 
 
-HORN = "[size]\nface_width_mm = 10\n[load]\ninertia_kgm2 = 0.3\n"
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        f'[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\nratio = "matched"\n{HORN}',
-        f'[wheel]\nz = 6\n[drive]\nkind = "cam"\n[motion]\nlaw = "cycloidal"\n{HORN}',
-        f'[wheel]\nz = 4\n[drive]\nkind = "epicyclic"\nplanet_ratio = "shockless"\n{HORN}',
-    ],
-)
-def test_horns_of_machines_that_differ_in_size_alone(tmp_path, text):
-    """Wheels of one shape and one load: the force goes with 1/L, and so does the stress, times
-    1/L² of the sections; the roller and its slot are L/20.
-    """
-    rows = swept(tmp_path, text, "size.center_distance_mm=100,110", pick="life.horn_stress_MPa")
-    assert rows[1][1] / rows[0][1] == pytest.approx(1.1**-2, rel=1e-9)
-
-
 @pytest.mark.parametrize(
     ("text", "vary", "refused"),
     [

@@ -84,20 +84,6 @@ def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path
     assert not [c for c in design.checks if c.passes is False]
 
 
-@pytest.mark.long
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("bound", ["velocity.max >= 0.51", "sizes.slot_bottom_radius_mm >= 40"])
-def test_bounds_hold_elsewhere_too(bound):
-    """On what is known of many designs together, and on what one is asked for alone."""
-    target = read_target(motion_deg="100..160", z="8", subject_to=[bound], **CURVED)
-    found = search(target)
-    (whole,) = found.requested.bounds
-    shown = turned(found, buildable=True)
-    assert [one for one in shown if one.row.candidate.law and one.row.candidate.drive == "crank"]
-    for _, row in shown:
-        assert whole.kept(row.extra[found.requested.names.index(whole.name)])
-
-
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("z", [9, 10])
 def test_a_larger_roller_holds_the_wheel_better(z):

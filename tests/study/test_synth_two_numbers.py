@@ -63,22 +63,3 @@ def test_no_dense_grid_of_two_numbers_finds_a_gentler_machine(z, low, high, boun
     # each of the numbers alone is worse, or keeps no bound
     others = [r.candidate for r in found if not r.candidate.of_two_numbers]
     assert all(c.acceleration_max > 1.01 * row.candidate.acceleration_max for c in others)
-
-
-def test_elliptical_gears_move_alike_on_shafts_at_any_angle():
-    """Why they are not looked for: tan(phi/4) of what gears and shafts make has one ratio."""
-    wheel = Wheel(6, "spherical", axes_deg=90.0)
-    b, quarter = np.pi / 6.0, np.radians(200.0 / 4.0)
-    axes = np.array([40.0, 75.0, 100.0])
-    # the plain motion of each, tan(phi/2) = cos b / (cos S sin b)
-    S = np.radians(axes)
-    plain = 2.0 * np.arctan2(np.cos(b), np.cos(S) * np.sin(b))
-    e = np.sin(quarter - plain / 4.0) / np.sin(quarter + plain / 4.0)
-    keys = Keys("elliptical-gears", 0.1, "slow")
-    found = many(
-        Spec(wheel, Drive("elliptical-gears"), keys),
-        {"wheel.axes_deg": axes, "drive.eccentricity": e},
-    )
-    names = ["timing.motion_deg", "velocity.max", "acceleration.max", "jerk.max"]
-    for value in columns(found.machine, names, 3):
-        assert value == pytest.approx(value[0], rel=1e-11)

@@ -31,8 +31,7 @@ def run(
     """
     from geneva_cli.output import is_watched, show_answer
     from geneva_cli.output.formats import table_as
-    from geneva_cli.study.summary.check_summary import of_checks
-    from geneva_cli.study.verdicts import verdicts
+    from geneva_cli.study.verdicts import of_checks, verdicts
 
     name = table_as(output, format)
     results = list(verdicts(specs, settings or (), proof))

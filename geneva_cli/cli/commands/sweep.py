@@ -11,8 +11,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
-    from geneva_cli.study.sweep.outcome import Outcome
-    from geneva_cli.study.sweep.request import SweepRequest
+    from geneva_cli.study.sweep.request import Outcome, SweepRequest
 
 Rows: TypeAlias = list[list[Any]]
 
@@ -71,8 +70,7 @@ def run(
     """
     from geneva_cli.output import show, show_text
     from geneva_cli.output.formats import FORMATS
-    from geneva_cli.study.sweep.outcome import Outcome
-    from geneva_cli.study.sweep.request import request
+    from geneva_cli.study.sweep.request import Outcome, request
     from geneva_cli.table import rows_table
 
     if format and format not in FORMATS:
@@ -128,7 +126,7 @@ def _write_rows(
     """
     from geneva_cli.output import is_seen, show
     from geneva_cli.output.growing import GrowingTable
-    from geneva_cli.study.sweep.outcome import Digest
+    from geneva_cli.study.sweep.request import Digest
     from geneva_cli.study.sweep.run import TEXTS
 
     sweep, shows_all = plan.sweep, is_seen(output)

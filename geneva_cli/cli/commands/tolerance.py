@@ -27,7 +27,7 @@ def run(
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer
     from geneva_cli.output.formats import is_for_people
-    from geneva_cli.study.summary.vibration_summary import of_tolerance
+    from geneva_cli.study.summary.report_summary import of_tolerance
 
     design = load(spec, settings or ())
     if histogram:

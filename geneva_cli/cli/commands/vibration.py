@@ -28,7 +28,7 @@ def run(
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer
     from geneva_cli.output.formats import table_as
-    from geneva_cli.study.summary.vibration_summary import of_vibration
+    from geneva_cli.study.summary.report_summary import of_vibration
 
     design = load(spec, settings or (), reverse)
     if table_as(output, format) == "csv":

@@ -6,10 +6,9 @@ most. The sheet is the smallest that fits. Above 1:1 the largest part is no wide
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import Any
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, TypeAlias
 
-from geneva_cli.drawings.sheet.pack import Box, is_overfull, packed
 from geneva_cli.drawings.sheet.paper import (
     FORMATS,
     LEFT,
@@ -28,7 +27,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.spec.materials import roller_material, wheel_material
-from geneva_cli.spec.tables import Material, TitleBlock
+from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock, workshop
 from geneva_cli.spec.written import is_metric, length, number
 
@@ -67,7 +66,6 @@ def on_paper(
 
 
 def _inside(paper: PaperSize) -> Box:
-    """Return the area inside the frame of a sheet."""
     return LEFT, MARGIN, paper.width - MARGIN, paper.height - MARGIN
 
 
@@ -78,7 +76,6 @@ def _composed(
     rows: list[dict[str, Any]],
     blocks: list[Block],
 ) -> Sheet | None:
-    """Return all blocks on one sheet; None where they do not fit."""
     area = _inside(paper)
     if is_overfull(blocks, area):
         return None
@@ -117,12 +114,13 @@ def _composed(
 
 
 def _fields(spec: Spec) -> list[dict[str, str]]:
-    """Return the rows of the title block on surfaces, and on the drawing itself."""
     own = spec.drawing
+    hard = f"{own.flank_hardness_HRC:g} HRC" if own.flank_hardness_HRC else ""
+    working = filter(None, (_rough(own.flank_roughness_um), hard))
     surfaces = {
         "roughness": _rough(own.roughness_um) or _micro(workshop(spec.size.process).roughness),
         "edges": edge_note(spec.size) or "free of burrs",
-        "faces that roll, slide, lock": _working(own),
+        "faces that roll, slide, lock": ", ".join(working),
     }
     names = {"drawing number": own.number, "revision": own.revision}
     names |= {"date": own.date, "author": own.author}
@@ -138,14 +136,7 @@ def _micro(roughness: str) -> str:
     return roughness if is_metric() or not roughness.startswith("Ra") else f"{roughness} µm"
 
 
-def _working(own: TitleBlock) -> str:
-    """Return roughness and hardness of the faces that work, as far as they are known."""
-    hard = f"{own.flank_hardness_HRC:g} HRC" if own.flank_hardness_HRC else ""
-    return ", ".join(filter(None, (_rough(own.flank_roughness_um), hard)))
-
-
 def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
-    """Return the list of items (ISO 7573), numbered from below."""
     own = {"material.wheel": materials[0], "material.roller": materials[1]}
     lines = [
         (
@@ -183,10 +174,76 @@ def _mass(kg: float) -> str:
 
 
 def _mass_unit() -> tuple[str, float]:
-    """Return the sheet's unit of mass, and its kilograms."""
     return ("kg", 1.0) if is_metric() else ("lb", 0.45359237)
 
 
 def _rounded(mass: float) -> str:
     """Return a number of four digits, without exponent."""
     return number(float(f"{mass:.4g}"), 9)
+
+
+Box: TypeAlias = tuple[float, float, float, float]  # x0, y0, x1, y1
+
+
+def is_overfull(blocks: Sequence[Block], area: Box) -> bool:
+    """Return True if blocks need more than an area, so that ``packed`` cannot place them."""
+    x0, y0, x1, y1 = area
+    apart = 7.9  # mm, a little less than ``packed`` keeps between blocks, and to the edge
+    needed = sum((block.width + apart) * (block.height + apart) for block in blocks)
+    return needed > (x1 - x0 - apart) * (y1 - y0 - apart)
+
+
+def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[Block] | None:
+    """Return the blocks at free positions in an area, clear of the ``taken`` ones.
+
+    None where they do not fit.
+    """
+    orders: tuple[Callable[[Block], float], ...] = (
+        lambda block: -block.width * block.height,
+        lambda block: -block.height,
+        lambda block: -block.width,
+    )
+    for order in orders:
+        result = packed_apart(blocks, taken, area, order, 8.0)  # mm between blocks
+        if result is None:
+            continue
+        for apart in (12.0, 18.0, 27.0, 40.0):
+            wider = packed_apart(blocks, taken, area, order, apart)
+            if wider is None:
+                break
+            result = wider
+        return result
+    return None
+
+
+def packed_apart(
+    blocks: Sequence[Block],
+    taken: Sequence[Block],
+    area: Box,
+    order: Callable[[Block], float],
+    apart: float,
+) -> list[Block] | None:
+    """Return the blocks as ``packed`` does, the least by ``order`` first, ``apart`` mm apart."""
+    x0, y0, x1, y1 = area
+    placed: dict[int, Block] = {}
+    around = [(b.x0, b.y0, b.x1, b.y1) for b in taken]
+    for i in sorted(range(len(blocks)), key=lambda k: order(blocks[k])):
+        block = blocks[i]
+        lefts = sorted({x0 + apart, *(box[2] + apart for box in around)})
+        tops = sorted({y1 - apart, *(box[1] - apart for box in around)}, reverse=True)
+        for top, left in ((top, left) for top in tops for left in lefts):
+            box = (left, top - block.height, left + block.width, top)
+            fits = box[2] <= x1 - apart and box[1] >= y0 + apart
+            if fits and not any(_meet(box, other, apart) for other in around):
+                break
+        else:
+            return None
+        placed[i] = block.moved(left - block.x0, top - block.y1)
+        around.append(box)
+    return [placed[i] for i in range(len(blocks))]
+
+
+def _meet(a: Box, b: Box, apart: float) -> bool:
+    gap = 0.999 * apart
+    separate = a[2] + gap <= b[0] or b[2] + gap <= a[0]
+    return not (separate or a[3] + gap <= b[1] or b[3] + gap <= a[1])

@@ -55,27 +55,44 @@ def shown_on_sheet(
     return SheetContent(members, together, rows, max(sizes), area, items, cut)
 
 
-class Views(NamedTuple):
-    """The views of a flat machine's sheet at a scale: of its parts, and of all of them together."""
+def sheet_of(
+    spec: Spec,
+    shown: SheetContent,
+    parts: Callable[[float], Iterator[View]],
+    together: Callable[[View], None],
+    axes: tuple[float, ...],
+    fixed: Sequence[Block] = (),
+) -> Sheet:
+    """Return a sheet of a flat machine, at half their scale the machine and its section if need be.
 
-    parts: Callable[[float], Iterator[View]]
-    together: Callable[[float], View]
-    axes: tuple[float, ...]  # the shafts' x, for the section
-
-
-def sheet_of(spec: Spec, shown: SheetContent, views: Views, fixed: Sequence[Block] = ()) -> Sheet:
-    """Return a sheet of views, at half their scale the machine and its section if need be.
-
-    ``fixed`` are tables, which have no scale. Raises GenevaError where no scale fits on one sheet.
+    ``parts`` returns the views of each part at a scale, and ``together`` draws the machine.
+    ``axes`` are the shafts' x, for the section. ``fixed`` are tables, which have no scale. Raises
+    GenevaError where no scale fits on one sheet.
     """
 
     @cache
     def whole(scale: float) -> Block:
-        return views.together(scale).block()
+        view = View(f"assembly ({scale_name(scale)})", scale)
+        together(view)
+        box = bounds_of(shown.together)
+        view.section((box.x0, 0.0), (box.x1, 0.0), "A")
+        marked = {shown.items[face.plate] for face in shown.cut}
+        tips: dict[int, list[Point]] = {}
+        for own, plate in in_place(shown.members):
+            if shown.items[own] not in marked:
+                tips.setdefault(shown.items[own], []).extend(_around(plate.outline))
+        _balloons(view, tips)
+        return view.block()
 
     @cache
     def cut(scale: float) -> Block:
-        return section(shown, views.axes, scale).block()
+        view = View(f"A-A ({scale_name(scale)})", scale)
+        _draw_section(view, shown.cut, axes)
+        sides: dict[int, list[Point]] = {}
+        for face in sorted(shown.cut, key=lambda f: f.left - f.right):
+            sides.setdefault(shown.items[face.plate], []).extend(face.sides)
+        _balloons(view, sides)
+        return view.block()
 
     def rest(scale: float) -> Iterator[list[Block]]:
         half = smaller(scale, 2.0)
@@ -83,25 +100,15 @@ def sheet_of(spec: Spec, shown: SheetContent, views: Views, fixed: Sequence[Bloc
             yield [cut(of_cut), whole(of_whole)]
 
     def blocks(scale: float) -> tuple[list[Block], Callable[[], Iterator[list[Block]]]]:
-        return [*(view.block() for view in views.parts(scale)), *fixed], partial(rest, scale)
+        return [*(view.block() for view in parts(scale)), *fixed], partial(rest, scale)
 
     return on_paper(spec, shown.rows, shown.largest, blocks, shown.area)
 
 
-def section(shown: SheetContent, axes: Iterable[float], scale: float) -> View:
-    """Return the section along the line of centres, with balloons; ``axes`` are the shafts' x."""
-    view = View(f"A-A ({scale_name(scale)})", scale)
-    draw_section(view, shown.cut, axes)
-    balloons_in_section(view, shown.cut, shown.items)
-    return view
-
-
-def mark_items(view: View, shown: SheetContent) -> None:
-    """Draw where the section is, and balloons of the items that it does not cut."""
-    box = bounds_of(shown.together)
-    view.section((box.x0, 0.0), (box.x1, 0.0), "A")
-    marked = {shown.items[face.plate] for face in shown.cut}
-    balloons(view, shown.members, shown.items, marked)
+def _balloons(view: View, tips: Mapping[int, Iterable[Point]]) -> None:
+    """Draw the balloon of each item at one of some places."""
+    for item, places in sorted(tips.items()):
+        view.balloon(places, str(item))
 
 
 class Face(NamedTuple):
@@ -141,11 +148,8 @@ def _spans(shapes: Iterable[Shape], scale: float) -> list[tuple[float, float]]:
     return [(a, b) for a, b in zip(ends[::2], ends[1::2], strict=True) if b - a > 1e-6]
 
 
-def draw_section(view: View, cut: list[Face], axes: Iterable[float]) -> None:
-    """Draw cut faces, hatched but for shafts, pins and rollers (ISO 128-3), and the whole height.
-
-    ``axes`` are the places of the shafts' axes on the line of centres.
-    """
+def _draw_section(view: View, cut: list[Face], axes: Iterable[float]) -> None:
+    """Draw cut faces and the height; all but rods are hatched (ISO 128-3)."""
     numbers = {plate: k for k, plate in enumerate(dict.fromkeys(face.plate for face in cut))}
     low, high = min(f.plate.low for f in cut), max(f.plate.high for f in cut)
     for face in cut:
@@ -177,29 +181,7 @@ def _hatch(view: View, face: Face, k: int) -> None:
             view.draw(line("", *ends), HATCH)
 
 
-def balloons_in_section(view: View, cut: list[Face], items: Mapping[Plate, int]) -> None:
-    """Draw a balloon at one face of each item."""
-    widest: dict[int, list[Face]] = {}
-    for face in sorted(cut, key=lambda f: f.left - f.right):
-        widest.setdefault(items[face.plate], []).append(face)
-    for item, some in sorted(widest.items()):
-        view.balloon([side for face in some for side in face.sides], str(item))
-
-
-def balloons(
-    view: View, members: Iterable[Member], items: Mapping[Plate, int], without: set[int]
-) -> None:
-    """Draw balloons at the outlines of the items that have none yet."""
-    tips: dict[int, list[Point]] = {}
-    for own, plate in in_place(members):
-        if items[own] not in without:
-            tips.setdefault(items[own], []).extend(_around(plate.outline))
-    for item, places in sorted(tips.items()):
-        view.balloon(places, str(item))
-
-
 def _around(shape: Shape) -> list[Point]:
-    """Return the middles of an outline's longest pieces."""
     pieces = two_arcs(shape) if isinstance(shape, Circle) else shape.segments
     longest = sorted(pieces, key=lambda piece: -math.dist(piece.start, piece.end))
     return [at(piece, 0.5) for piece in longest[:8]]

@@ -1,23 +1,30 @@
-"""The views of locking disc, arm, roller with pin, and of the assembled machine."""
+"""The views of locking disc, arm, roller with pin, links, and of the assembled machine."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 
 from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hub, holes_of
-from geneva_cli.drawings.sheet.view import View, grouped, times
+from geneva_cli.drawings.sheet.view import Block, View, grouped, times
 from geneva_cli.geometry.measure import at, legs
-from geneva_cli.geometry.plates import plates
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Shape
+from geneva_cli.geometry.plates import Member, Plate, plates
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape
 from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.arm import CrankArm
+from geneva_cli.parts.assembly import same
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.links.link_sizes import roller_pins
+from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.machine_sizes import drawn_pin_radius
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.shafts.bores import radius_of
+from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.shafts.held_hubs import hub_note
 from geneva_cli.spec.written import degrees, length
 
@@ -43,13 +50,12 @@ def draw_disc(view: View, parts: FlatParts) -> None:
         if max(math.hypot(*arc.centre), abs(arc.radius - sizes.lock)) < SAME_ON_SHEET
     ]
     _gaps(view, sizes.lock, locking)  # first, as their legs have no other place
-    view.of_arcs(locking, sized.lock(view.fits, mechanism, sizes.lock), whole=True)
+    view.of_arcs(locking, sized.made(view.fits, mechanism, "lock", sizes.lock), whole=True)
     _reliefs(view, [arc for arc in arcs if arc not in locking])
     bolted(view, screwed)
 
 
 def _reliefs(view: View, arcs: list[Arc]) -> None:
-    """Draw the radii of arcs, and how far those of reliefs are from the axis."""
     alike: dict[tuple[str, str], list[Arc]] = {}
     for arc in arcs:
         far = length(math.hypot(*at(arc, 0.5)))
@@ -58,12 +64,10 @@ def _reliefs(view: View, arcs: list[Arc]) -> None:
         view.of_arcs(some, times(len(some), radius))
         arc, middle = some[0], at(some[0], 0.5)
         if math.hypot(*arc.centre) > SAME_ON_SHEET and math.hypot(*middle) > SAME_ON_SHEET:
-            turn = math.atan2(middle[1], middle[0])
-            view.linear((0.0, 0.0), middle, turn, times(len(some), far), near=True)
+            view.radial(middle, times(len(some), far))
 
 
 def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
-    """Draw the angles between the locking arcs."""
     ends = sorted(legs(arc) for arc in _joined(locking))
     after = zip(ends, [*ends[1:], *ends[:1]], strict=True)
     gaps = ((end, (start - end) % math.tau) for (_, end), (start, _) in after)
@@ -94,25 +98,16 @@ def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
     deviation = mechanism.spec.tolerance.crank_radius_mm
     shown = ((sized.plain(math.hypot(*pin.centre), off=deviation), pin) for pin in arm.pins)
     for text, (pin, *_) in grouped(shown):
-        turn = math.atan2(pin.centre[1], pin.centre[0])
-        view.linear((0.0, 0.0), pin.centre, turn, text, near=True)
-    _between(view, arm)
+        view.radial(pin.centre, text)
+    angles = sorted(math.atan2(p.centre[1], p.centre[0]) for p in arm.pins)
+    reach = max(math.hypot(*p.centre) for p in arm.pins) + arm.eye
+    # the rest of a turn, and a straight line, need no dimension
+    view.steps(angles, reach, most=math.pi - SAME_ON_SHEET)
     bored(view, [arm.bore], mechanism.spec.size, "crank")
-    hole = sized.pin_hole(view.fits, mechanism, arm.pins[0].radius)
+    hole = sized.made(view.fits, mechanism, "pin hole", arm.pins[0].radius)
     view.diameter(arm.pins, times(len(arm.pins), hole))
     view.radii(arm.outline.segments)
     bolted(view, arm.bolts, tapped=True)
-
-
-def _between(view: View, arm: CrankArm) -> None:
-    """Draw the angles from one pin to the next."""
-    angles = sorted(math.atan2(p.centre[1], p.centre[0]) for p in arm.pins)
-    reach = max(math.hypot(*p.centre) for p in arm.pins) + arm.eye
-    pairs = zip(angles, [*angles[1:], angles[0] + math.tau], strict=True)
-    # the rest of a turn, and a straight line, need no dimension
-    bent = ((a, b) for a, b in pairs if b - a < math.pi - SAME_ON_SHEET)
-    for text, some in grouped((degrees(b - a), (a, b)) for a, b in bent):
-        view.angular(some, reach, reach, text)
 
 
 def draw_roller(view: View, mechanism: Mechanism) -> None:
@@ -123,9 +118,9 @@ def draw_roller(view: View, mechanism: Mechanism) -> None:
     circles = [Circle("", axis, roller)] + ([Circle("", axis, pin + loose)] if pin else [])
     view.draw_all(circles)
     view.cross(axis, roller)
-    view.diameter(circles[:1], sized.roller(view.fits, mechanism, roller))
+    view.diameter(circles[:1], sized.made(view.fits, mechanism, "roller", roller))
     if pin:
-        view.diameter(circles[1:], sized.roller_bore(view.fits, mechanism, pin + loose))
+        view.diameter(circles[1:], sized.made(view.fits, mechanism, "roller bore", pin + loose))
         view.remark(f"turns on its pin {sized.shaft(view.fits, pin)}, which is pressed in")
 
 
@@ -141,3 +136,112 @@ def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> Non
     for place in parts.assembly.full.crank_places:
         view.cross(place.at, max(parts.sizes.lock, 0.1 * L))
     view.linear((0.0, 0.0), (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
+
+
+UP = 0.5 * math.pi
+
+
+def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> None:
+    """Draw a link, or a block that slides in one, with dimensions from its first hole."""
+    plate = member.part
+    assert isinstance(plate, Plate)
+    view.draw_plate(plate)
+    holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
+    slots = [hole for hole in plate.holes if isinstance(hole, Contour) and hole.layer == "LINK"]
+    shaped = [hole for hole in plate.holes if isinstance(hole, Contour) and hole not in slots]
+    for hole in holes:
+        view.cross(hole.centre, 2.0 * hole.radius)
+    base = ORIGIN if shaped else _base(view, plate, holes)
+    for slot in slots:
+        _slot(view, slot, base)
+    view.places((hole.centre for hole in holes), base)
+    pressed = [centre for _, centre in roller_pins(mechanism)]  # in a link or in its block
+
+    def written(hole: Circle, there: Circle) -> str:
+        if plate.name in bars.standing:
+            return sized.screw_hole(hole.radius)
+        if any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed):
+            return sized.made(view.fits, mechanism, "pin hole", hole.radius)
+        return sized.bore(view.fits, hole.radius)
+
+    pairs = zip(holes, placed_holes(member), strict=True)
+    for text, some in grouped((written(hole, there), hole) for hole, there in pairs):
+        view.diameter(some, text)
+    if shaped:
+        view.cross(ORIGIN, 2.0 * radius_of(shaped[0]))
+        bored(view, shaped, mechanism.spec.size, "crank")  # no other shaft of links has a shape
+    _outline(view, plate, plate.name in bars.blocks)
+
+
+def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
+    """Return the origin of a link's dimensions: its own if on the link, else its first hole."""
+    assert isinstance(plate.outline, Contour)
+    eyes = (piece for piece in plate.outline.segments if isinstance(piece, Arc))
+    own = next((eye for eye in eyes if math.hypot(*eye.centre) < SAME_ON_SHEET), None)
+    nearest = sorted((hole.centre for hole in holes), key=lambda p: math.hypot(*p))
+    if nearest and (own is None or math.hypot(*nearest[0]) < SAME_ON_SHEET):
+        return nearest[0]
+    view.cross((0.0, 0.0), own.radius if own else 0.0)
+    view.remark("one piece with its shaft")
+    return 0.0, 0.0
+
+
+def _slot(view: View, slot: Contour, base: Point) -> None:
+    ends = [piece for piece in slot.segments if isinstance(piece, Arc)]
+    near, far = sorted(ends, key=lambda arc: math.dist(arc.centre, base))
+    (x0, y0), (x1, y1) = near.centre, far.centre
+    turn = math.atan2(y1 - y0, x1 - x0)
+    view.centre_line(at(near, 0.5), at(far, 0.5))
+    along = (x0 - base[0]) * math.cos(turn) + (y0 - base[1]) * math.sin(turn)
+    view.linear(base, near.centre, turn, sized.plain(abs(along)))
+    view.linear(near.centre, far.centre, turn, sized.plain(math.dist(near.centre, far.centre)))
+    half = near.radius
+    sides = [(x1 + s * half * math.sin(turn), y1 - s * half * math.cos(turn)) for s in (-1.0, 1.0)]
+    view.linear(sides[0], sides[1], turn + UP, sized.fitted(view.fits, 2.0 * half, "", "H7"))
+    off = abs(math.remainder(turn, math.tau))
+    if math.degrees(off) > SAME_ON_SHEET and math.hypot(*base) < SAME_ON_SHEET:
+        legs = (0.0, turn) if turn > 0.0 else (turn, 0.0)
+        reach = math.dist(base, near.centre)
+        view.angular([legs], 0.0, reach, degrees(off))
+
+
+def _outline(view: View, plate: Plate, slides: bool) -> None:
+    """Draw the radii of eyes; of a sliding block, its width in the slot and its length."""
+    assert isinstance(plate.outline, Contour)
+    arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
+    if slides:
+        half, (x, _) = arcs[0].radius, arcs[0].centre
+        end = abs(x) + half
+        view.linear((0.0, -half), (0.0, half), UP, sized.fitted(view.fits, 2.0 * half, "", "g6"))
+        view.linear((-end, 0.0), (end, 0.0), 0.0, sized.plain(2.0 * end))
+        return
+    view.radii(arcs)
+
+
+def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
+    """Return a table of the pins, washers, spacers and rollers between links, and on the frame."""
+    rows = list(_rows(members, mechanism))
+    if not rows:
+        return []
+    columns = (62.0, 44.0, 46.0, 16.0)  # mm
+    return [table(("round parts",), [("part", "outside", "bore", "length"), *rows], columns)]
+
+
+def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str, str, str, str]]:
+    for plate in dict.fromkeys(one.part for one in members if isinstance(one.part, Plate)):
+        assert isinstance(plate.outline, Circle)
+        fits = Fits(mechanism.spec.size.process, plate.thickness)
+        outer, bores = plate.outline.radius, [h for h in plate.holes if isinstance(h, Circle)]
+        rolls, on_screw = plate.layer == "ROLLER", plate.layer == "SHAFT"
+        outside = sized.plain(2.0 * outer, "Ø ")
+        if not bores:
+            outside = sized.shaft(fits, outer)
+        elif rolls:
+            outside = sized.made(fits, mechanism, "roller", outer)
+        inside = "".join(
+            sized.plain(2.0 * bore.radius, "Ø ")
+            if on_screw
+            else sized.made(fits, mechanism, "roller bore", bore.radius)
+            for bore in bores
+        )
+        yield plate.name, outside, inside, length(plate.thickness)

@@ -51,7 +51,6 @@ def draw_gear(view: View, gear: Gear, size: Size) -> None:
 
 
 def _teeth(view: View, gear: ToothedGear) -> None:
-    """Draw the circles of a gear's teeth, and write what cuts and measures them."""
     teeth, (over, span) = gear.teeth, gear.span
     reference = Circle("", (0.0, 0.0), teeth.radius)
     view.draw(reference, CENTRE)
@@ -83,7 +82,6 @@ def _draw_blank(view: View, gear: Gear) -> None:
 
 
 def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
-    """Draw the toothed arcs, their angles, and the hub's radius between them."""
     arcs = [piece for piece in outline.segments if isinstance(piece, Arc)]
     toothed = [arc for arc in arcs if abs(arc.radius - gear.radius) < SAME_ON_SHEET]
     hub = [arc for arc in arcs if arc not in toothed]

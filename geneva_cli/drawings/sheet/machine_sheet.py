@@ -9,18 +9,22 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TypeAlias
 
-from geneva_cli.drawings.machine_drawing import machine
-from geneva_cli.drawings.sheet import link_views, points, sized
+from geneva_cli.drawings.part_drawings import machine
+from geneva_cli.drawings.sheet import points, sized
 from geneva_cli.drawings.sheet.content import (
     SheetContent,
-    Views,
-    mark_items,
     sheet_of,
     shown_on_sheet,
 )
-from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_assembly, draw_disc, draw_roller
-from geneva_cli.drawings.sheet.link_views import draw_link
-from geneva_cli.drawings.sheet.paper import scale_name, table
+from geneva_cli.drawings.sheet.crank_views import (
+    draw_arm,
+    draw_assembly,
+    draw_disc,
+    draw_link,
+    draw_roller,
+    round_parts,
+)
+from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove, draw_shaft
 from geneva_cli.drawings.sheet.view import Block, View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
@@ -44,15 +48,18 @@ def sheet(parts: FlatParts) -> Sheet:
     fixed = [
         *points.tables(parts.outlines, tolerance),
         *points.gear_tables(mechanism, tolerance),
-        *link_views.round_parts((*parts.links.joined, *parts.spacers), mechanism),
+        *round_parts((*parts.links.joined, *parts.spacers), mechanism),
         *layout(mechanism),
     ]
-    views = Views(partial(_views, shown, parts), partial(_together, shown, parts), (0.0, L))
-    return sheet_of(mechanism.spec, shown, views, fixed)
+
+    def together(view: View) -> None:
+        draw_assembly(view, parts.outlines, shown.together)
+
+    views = partial(_views, shown, parts)
+    return sheet_of(mechanism.spec, shown, views, together, (0.0, L), fixed)
 
 
 def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View]:
-    """Yield a view of each part."""
     begin = titled(shown.rows, scale, parts)
     yield from _wheels(parts, begin)
     if parts.arm:
@@ -66,7 +73,6 @@ def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View
 
 
 def _wheels(parts: FlatParts, begin: Begin) -> Iterator[View]:
-    """Yield the views of wheels and locking discs; of two wheels in series, of both."""
     for front, of in zip(("", "first "), (parts, *parts.in_front), strict=False):
         view = begin(f"{front}wheel", f"{front}wheel's hub")
         draw_wheel(view, of)
@@ -80,7 +86,6 @@ def _wheels(parts: FlatParts, begin: Begin) -> Iterator[View]:
 
 
 def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
-    """Yield the views of shafts, and of the plates that stand still."""
     yield from shafted(begin, parts.shafts)
     grooved = flat_plates(parts.groove_plate)
     if grooved:
@@ -95,16 +100,12 @@ def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
         yield view
     (frame,) = flat_plates([parts.frame])
     view = begin(frame.name)
-    draw_frame(view, frame, screws=sized.threads(parts.frame_threads))
+    draw_frame(
+        view,
+        frame,
+        screws={h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads},
+    )
     yield view
-
-
-def _together(shown: SheetContent, parts: FlatParts, scale: float) -> View:
-    """Return the view of the assembled machine, with balloons of what the section does not cut."""
-    view = View(f"assembly ({scale_name(scale)})", scale)
-    draw_assembly(view, parts.outlines, shown.together)
-    mark_items(view, shown)
-    return view
 
 
 def layout(mechanism: Mechanism) -> list[Block]:

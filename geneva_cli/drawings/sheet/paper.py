@@ -100,17 +100,13 @@ def title_block(title: str, rows: Sequence[Mapping[str, str]]) -> Block:
 
 
 def _cells(fields: Mapping[str, str], long: float) -> list[float]:
-    """Return the widths of fields: what they need, and an equal part of what is left.
-
-    Where they need more than there is, each has as much less.
-    """
+    """Return the widths of fields: what they need, and an equal part of what is left."""
     needed = [max(width(value) * SMALL, width(name) * 1.8) + 4.0 for name, value in fields.items()]
     spare = (long - sum(needed)) / len(fields)
     return [need + spare for need in needed]
 
 
 def _field(at: Point, name: str, value: str, height: float, limit: float) -> list[Label]:
-    """Return a small heading and its value, cut to fit into ``limit``."""
     x, y = at[0] + 2.0, at[1]
     shown = cut_to(value, height, limit - 4.0)
     labels = [Label(name, (x, y + 8.4), 1.8)]

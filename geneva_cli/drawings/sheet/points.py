@@ -40,7 +40,7 @@ def tables(parts: Outlines, tolerance: float) -> list[Block]:
         last = 0.0 if symmetric else engagement.exit_deg
         points = polyline(centre, engagement.entry_deg, last, close)
         fits = Fits(assembly.mechanism.spec.size.process, parts.sizes.wheel_thickness)
-        width = sized.slot_width(fits, assembly.mechanism, parts.sizes.half_width)
+        width = sized.made(fits, assembly.mechanism, "slot", parts.sizes.half_width)
         what = f"{times(count, 'slot')}, {width} wide: points of its centre line, slot 1"
         more = MIRRORED if symmetric else ""
         blocks.append(point_table(what + more, points, close))

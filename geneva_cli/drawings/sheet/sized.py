@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
-from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.fits import Fits, toleranced
@@ -30,48 +27,29 @@ def fitted(fits: Fits, value: float, sign: str, fit: str, off: float = 0.0) -> s
     return shown if off else fits.text(value, shown, fit)
 
 
-def slot_width(fits: Fits, mechanism: Mechanism, half: float) -> str:
-    """Return the slot's width."""
-    return fitted(fits, 2.0 * half, "", "H7", mechanism.spec.tolerance.slot_width_mm)
+def made(fits: Fits, mechanism: Mechanism, what: str, half: float) -> str:
+    """Return the width or the diameter, twice ``half``, of what works in a machine.
 
-
-def roller(fits: Fits, mechanism: Mechanism, radius: float) -> str:
-    """Return the roller's diameter; its fit has play in the slot if the spec has no clearance."""
-    spec = mechanism.spec
-    fit = "h6" if spec.size.allowances.slot_clearance_mm else "g6"
-    return fitted(fits, 2.0 * radius, "Ø ", fit, spec.tolerance.roller_diameter_mm)
-
-
-def lock(fits: Fits, mechanism: Mechanism, radius: float) -> str:
-    """Return the locking disc's diameter; its fit has play unless the spec has a clearance."""
-    spec = mechanism.spec
-    fit = "h6" if spec.size.allowances.lock_clearance_mm else "g6"
-    return fitted(fits, 2.0 * radius, "Ø ", fit, 2.0 * spec.tolerance.lock_radius_mm)
-
-
-def recess(fits: Fits, mechanism: Mechanism, radius: float) -> str:
-    """Return the diameter of the wheel's recesses."""
-    return fitted(fits, 2.0 * radius, "Ø ", "H7", 2.0 * mechanism.spec.tolerance.recess_radius_mm)
-
-
-def pin_hole(fits: Fits, mechanism: Mechanism, radius: float) -> str:
-    """Return the diameter of the pin's hole: P7, or H7 if ``press_fit_mm`` makes it smaller.
-
-    No cut holds a press fit. By default it leaves a hole that is never wider than the pin, to ream.
+    ``what`` is slot, roller, lock, recess, "roller bore" or "pin hole". Fits have play where the
+    spec has no clearance. No cut holds a press fit: by default it leaves a pin's hole that is never
+    wider than the pin, to ream.
     """
-    size = mechanism.spec.size
-    smaller = size.allowances.press_fit_mm
-    hole = fitted(fits, 2.0 * radius, "Ø ", "H7" if smaller else "P7")
-    if size.press_fit_mm is not None or workshop(size.process).cut_mm is None:
-        return hole
-    pin = 2.0 * radius + smaller
-    return f"{hole}, drill and ream to {toleranced(pin, plain(pin, 'Ø ', fine=True), 'P7')}"
-
-
-def roller_bore(fits: Fits, mechanism: Mechanism, radius: float) -> str:
-    """Return the diameter of a bore that turns on a pin: F7, or H7 if already wider by a fit."""
-    wider = mechanism.spec.size.allowances.shaft_fit_mm
-    return fitted(fits, 2.0 * radius, "Ø ", "H7" if wider else "F7")
+    size, off = mechanism.spec.size, mechanism.spec.tolerance
+    clear = size.allowances
+    fit, deviation = {
+        "slot": ("H7", off.slot_width_mm),
+        "roller": ("h6" if clear.slot_clearance_mm else "g6", off.roller_diameter_mm),
+        "lock": ("h6" if clear.lock_clearance_mm else "g6", 2.0 * off.lock_radius_mm),
+        "recess": ("H7", 2.0 * off.recess_radius_mm),
+        "roller bore": ("H7" if clear.shaft_fit_mm else "F7", 0.0),
+        "pin hole": ("H7" if clear.press_fit_mm else "P7", 0.0),
+    }[what]
+    shown = fitted(fits, 2.0 * half, "" if what == "slot" else "Ø ", fit, deviation)
+    is_pressed = size.press_fit_mm is not None or workshop(size.process).cut_mm is None
+    if what != "pin hole" or is_pressed:
+        return shown
+    pin = 2.0 * half + clear.press_fit_mm
+    return f"{shown}, drill and ream to {toleranced(pin, plain(pin, 'Ø ', fine=True), 'P7')}"
 
 
 def bore(fits: Fits, radius: float) -> str:
@@ -91,11 +69,6 @@ def screw_hole(radius: float, tapped: bool = False) -> str:
         return f"{hole}, tapped M{thread:g}" if thread else hole
     screw = screw_through(2.0 * radius)
     return f"{hole} for M{screw.thread:g}" if screw else hole
-
-
-def threads(holes: Iterable[Circle]) -> dict[Circle, str]:
-    """Return the texts of tapped holes."""
-    return {hole: screw_hole(hole.radius, tapped=True) for hole in holes}
 
 
 def shaft(fits: Fits, radius: float) -> str:

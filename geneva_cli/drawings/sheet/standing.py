@@ -39,15 +39,8 @@ def draw_frame(
         view.cross(centre, radius)
     box = bounds(plate.outline)
     up = 0.5 * math.pi
-    # from the shortest to the longest, so that their lines do not cross; leaders find places later
-    for k, turn, way in ((0, 0.0, "across"), (1, up, "up")):
-        away = [(abs(hole.centre[k] - axis[k]), hole.centre) for hole in holes]
-        texts = {length(0.0)}
-        for far, centre in sorted(away, key=lambda one: one[0]):
-            text = length(far)
-            if text not in texts:
-                texts.add(text)
-                view.linear(axis, centre, turn, text, f"{way}, from {axis_name} to a hole")
+    where = f"from {axis_name} to a hole"
+    view.places((hole.centre for hole in holes), axis, (f"across, {where}", f"up, {where}"))
     corner = (box.x0, box.y0)
     if holes:
         to_left, to_low = length(axis[0] - box.x0), length(axis[1] - box.y0)

@@ -20,6 +20,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.shafts.shaft import FIX
+from geneva_cli.spec.written import degrees, length
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
 RANKS = 14  # rows of dimension lines that are tried
@@ -132,6 +133,35 @@ class View:
         value = abs((q[0] - p[0]) * math.cos(turn) + (q[1] - p[1]) * math.sin(turn))
         levels = list(self._levels(turn, ends if near else ()))
         self._put(marks.linear(ends, turn, levels, text, value), f"{text} {where}".rstrip())
+
+    def radial(self, p: Point, text: str, where: str = "") -> None:
+        """Draw the distance of a point from the origin, inside the part's outline."""
+        self.linear((0.0, 0.0), p, math.atan2(p[1], p[0]), text, where, near=True)
+
+    def places(
+        self, centres: Iterable[Point], base: Point, notes: tuple[str, str] = ("", "")
+    ) -> None:
+        """Draw the distances of points from a base across and up, each once; nearest ones first.
+
+        So their lines do not cross. ``notes`` are added to distances that stand as notes.
+        """
+        points = list(centres)
+        for k, turn in ((0, 0.0), (1, 0.5 * math.pi)):
+            texts = {length(0.0)}
+            for p in sorted(points, key=lambda p: abs(p[k] - base[k])):
+                text = length(abs(p[k] - base[k]))
+                if text not in texts:
+                    texts.add(text)
+                    self.linear(base, p, turn, text, notes[k])
+
+    def steps(
+        self, angles: Sequence[float], reach: float, off: str = "", most: float = math.tau
+    ) -> None:
+        """Draw the angles, below ``most``, from each direction to the next in a whole turn."""
+        pairs = zip(angles, [*angles[1:], angles[0] + math.tau], strict=True)
+        shown = ((degrees(b - a) + off, (a, b)) for a, b in pairs if b - a < most)
+        for text, some in grouped(shown):
+            self.angular(some, reach, reach, text)
 
     def angular(
         self, pairs: Iterable[tuple[float, float]], begin: float, radius: float, text: str
@@ -255,15 +285,12 @@ class View:
     def _at(self, p: Point) -> Point:
         return self.scale * p[0], self.scale * p[1]
 
-    def _long(self, length: float) -> float:
-        return self.scale * length
+    def _long(self, mm: float) -> float:
+        return self.scale * mm
 
 
 def _short_first(rows: Iterable[Iterator[Measure]]) -> Iterator[Measure]:
-    """Yield candidates of all rows, in the order of their leaders' length.
-
-    Each row is already in that order; equal lengths keep the order of rows.
-    """
+    """Yield candidates of all rows, in the order of their leaders' length."""
     return merge(*rows, key=lambda m: round(math.dist(*m.lines[0]), 6))
 
 

@@ -60,7 +60,6 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
 
 
 def _axes(view: View, parts: FlatParts) -> None:
-    """Draw the axes of straight slots, and the roller's path in a curved one."""
     outlines = parts.outlines
     for i, (engagement, direction) in enumerate(outlines.assembly.slots):
         if not engagement.slot.curved:
@@ -90,7 +89,6 @@ def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point
 
 
 def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
-    """Draw width, end and depth of a straight slot, and its offset from the wheel's centre."""
     direction = next(d for one, d in parts.assembly.slots if one is engagement)
     walls = turned(parts.slots[engagement], direction)
     ends = _ends(walls)
@@ -100,13 +98,14 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     corner = walls.segments[0].start
     count *= len(ends)
     if len(ends) == 1:
-        width = sized.slot_width(view.fits, parts.assembly.mechanism, parts.sizes.half_width)
+        width = sized.made(view.fits, parts.assembly.mechanism, "slot", parts.sizes.half_width)
         far = walls.segments[-1].end
         view.linear(corner, far, across, times(count, width), "slot's width")
     else:  # one wall each
         half = sized.plain(parts.sizes.half_width)
         view.linear(corner, mouth, across, times(count, half), "from a slot's wall to its axis")
-    foot = _foot(end, turn)
+    along = end[0] * math.cos(turn) + end[1] * math.sin(turn)
+    foot = end[0] - along * math.cos(turn), end[1] - along * math.sin(turn)
     inwards, deep = sized.plain(math.dist(foot, end)), sized.plain(math.dist(end, mouth))
     view.linear(foot, end, turn, inwards, "from the wheel's middle to a slot's end", near=True)
     view.linear(end, mouth, turn, times(count, deep), "from a slot's end to its mouth", near=True)
@@ -123,15 +122,7 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     view.of_arcs(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
 
 
-def _foot(p: Point, turn: float) -> Point:
-    """Return the point of a line that is nearest to the origin."""
-    c, s = math.cos(turn), math.sin(turn)
-    along = p[0] * c + p[1] * s
-    return p[0] - along * c, p[1] - along * s
-
-
 def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
-    """Draw the recesses and the distance of their centres."""
     assembly, sizes = parts.assembly, parts.sizes
     L = assembly.L
     if not sizes.recess:
@@ -140,16 +131,14 @@ def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
     own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME_ON_SHEET]
     deviation = assembly.mechanism.spec.tolerance.center_distance_mm
     centre = _recess_centre(parts)
-    turn = math.atan2(centre[1], centre[0])
-    view.linear((0.0, 0.0), centre, turn, sized.plain(L, off=deviation), near=True)
-    recess = sized.recess(view.fits, assembly.mechanism, sizes.recess)
+    view.radial(centre, sized.plain(L, off=deviation))
+    recess = sized.made(view.fits, assembly.mechanism, "recess", sizes.recess)
     view.of_arcs(own, times(len(own), recess), whole=True)
     for radius, some in _by_radius([arc for arc in about if arc not in own]).items():
         view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
 
 
 def _recess_centre(parts: Outlines) -> Point:
-    """Return the leftmost centre of a recess."""
     L = parts.assembly.L
     return min(
         ((L * math.cos(a), L * math.sin(a)) for a in parts.assembly.rests), key=lambda p: p[0]
@@ -157,7 +146,6 @@ def _recess_centre(parts: Outlines) -> Point:
 
 
 def _rims(view: View, arcs: list[Arc], reach: float) -> None:
-    """Draw arcs about the wheel's axis other than the outermost one."""
     own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME_ON_SHEET]
     for radius, some in _by_radius(own).items():
         if abs(radius - reach) > SAME_ON_SHEET:
@@ -165,7 +153,6 @@ def _rims(view: View, arcs: list[Arc], reach: float) -> None:
 
 
 def _steps(view: View, parts: Outlines, reach: float) -> None:
-    """Draw the angles between slots, and from a slot to the middle of a recess."""
     assembly = parts.assembly
     deviation = assembly.mechanism.spec.tolerance.slot_angle_deg
     angles = sorted(
@@ -174,9 +161,7 @@ def _steps(view: View, parts: Outlines, reach: float) -> None:
         for angle in _directions(parts, engagement, direction)
     )
     off = f" ±{deviation:g}°" if deviation else ""
-    steps = zip(angles, [*angles[1:], angles[0] + math.tau], strict=True)
-    for text, pairs in grouped((degrees(b - a) + off, (a, b)) for a, b in steps):
-        view.angular(pairs, reach, reach, text)
+    view.steps(angles, reach, off)
     rests = assembly.rests if parts.sizes.recess else ()
     halves = ((min((rest - angle) % math.tau for angle in angles), rest) for rest in rests)
     for text, pairs in grouped((degrees(half), (rest - half, rest)) for half, rest in halves):
@@ -184,7 +169,6 @@ def _steps(view: View, parts: Outlines, reach: float) -> None:
 
 
 def _directions(parts: Outlines, engagement: Engagement, direction: float) -> Iterator[float]:
-    """Yield the directions in the wheel of the axis of a slot, or of both slots of a pair."""
     if engagement.slot.curved:
         yield direction
         return

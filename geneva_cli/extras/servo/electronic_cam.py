@@ -139,8 +139,8 @@ def cam_pairs(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoin
     errors = []
     for stretch in own:
         inner = ends[(ends > stretch.begin_deg) & (ends < stretch.end_deg)]
-        nodes = np.concatenate([[stretch.begin_deg], inner, [stretch.end_deg]])
-        places = (nodes[:-1, None] + np.diff(nodes)[:, None] * INSIDE).ravel()
+        marks = np.concatenate([[stretch.begin_deg], inner, [stretch.end_deg]])
+        places = (marks[:-1, None] + np.diff(marks)[:, None] * INSIDE).ravel()
         off = abs(np.interp(places, ends, slave) - stretch.slave_deg(places))
         errors.append(BETWEEN * float(off.max()))
     error_deg = max(errors)

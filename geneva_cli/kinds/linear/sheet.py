@@ -9,14 +9,11 @@ from functools import partial
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.content import (
     SheetContent,
-    Views,
-    mark_items,
     sheet_of,
     shown_on_sheet,
 )
 from geneva_cli.drawings.sheet.crank_views import draw_arm
 from geneva_cli.drawings.sheet.machine_sheet import flat_plates, geared, rolling, shafted, titled
-from geneva_cli.drawings.sheet.paper import scale_name
 from geneva_cli.drawings.sheet.standing import bolted, circle_of, draw_frame, holes_of
 from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.geometry.measure import bounds
@@ -39,7 +36,7 @@ def sheet(parts: RackParts) -> Sheet:
     frames = flat_plates([parts.frame])  # behind links or gears the error says why there is none
     shown = shown_on_sheet(spec, parts.members, assembly(parts).shapes)
     views = partial(_views, shown, parts, frames)
-    return sheet_of(spec, shown, Views(views, partial(_together, shown, parts), (parts.sizes.arm,)))
+    return sheet_of(spec, shown, views, partial(_together, shown, parts), (parts.sizes.arm,))
 
 
 def _views(
@@ -71,7 +68,7 @@ def _views(
         yield view
     for plate in frames:
         view = begin(plate.name)
-        screws = sized.threads(parts.frame_threads)
+        screws = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads}
         draw_frame(view, plate, parts.axis, "the crank's axis", screws)
         yield view
 
@@ -90,7 +87,7 @@ def _draw_rack(view: View, parts: RackParts) -> None:
     up, corner, count = 0.5 * math.pi, (box.x0, box.y0), len(places)
     edge, recess = (sizes.edge, first), (sizes.arm, first - sizes.arm)
     view.linear((end, first), edge, 0.0, times(count, length(sizes.edge - end)), near=True)
-    width = sized.slot_width(view.fits, mechanism, sizes.half_width)
+    width = sized.made(view.fits, mechanism, "slot", sizes.half_width)
     walls = [(sizes.edge, places[-1] + side * sizes.half_width) for side in (-1.0, 1.0)]
     view.linear(walls[0], walls[1], up, times(count, width))
     view.linear(edge, (sizes.edge, second), up, times(count - 1, sized.plain(2.0 * sizes.arm)))
@@ -116,7 +113,7 @@ def _draw_arcs(view: View, parts: RackParts, rack: Plate) -> None:
     view.of_arcs(rounds, times(len(rounds), sized.plain(sizes.half_width, "R ")))
     recesses = [arc for arc in arcs if arc not in rounds]
     if recesses:
-        text = times(len(recesses), sized.recess(view.fits, mechanism, sizes.recess))
+        text = times(len(recesses), sized.made(view.fits, mechanism, "recess", sizes.recess))
         view.of_arcs(recesses, text, whole=True)
     screwed = holes_of([rack]).bolts
     if screwed:
@@ -136,21 +133,18 @@ def _draw_sector(view: View, parts: RackParts) -> None:
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.floor)
     outer, inner = (piece for piece in sector.outline.segments if isinstance(piece, Arc))
-    view.of_arcs([outer], sized.lock(view.fits, mechanism, sizes.lock), whole=True)
+    view.of_arcs([outer], sized.made(view.fits, mechanism, "lock", sizes.lock), whole=True)
     view.of_arcs([inner], sized.plain(sizes.floor, "R "))
     bolted(view, screwed)
 
 
-def _together(shown: SheetContent, parts: RackParts, scale: float) -> View:
-    """Return the view of the assembled machine, with the crank's radius."""
-    view = View(f"assembly ({scale_name(scale)})", scale)
+def _together(shown: SheetContent, parts: RackParts, view: View) -> None:
+    """Draw the assembled machine, with the crank's radius."""
     hidden = {"ARM": HIDDEN, "FRAME": HIDDEN}
     for shape in shown.together:
         view.draw(shape, hidden.get(shape.layer, OUTLINE))
     R = parts.sizes.arm
     view.cross(parts.axis, parts.sizes.lock or 0.2 * R)
     view.linear((0.0, 0.0), parts.axis, 0.0, sized.plain(R, "R = "))
-    mark_items(view, shown)
     between = length(parts.sizes.guide.bar + 2.0 * parts.sizes.guide.slide)
     view.remark(f"guide: {between} between rail and wall")
-    return view

@@ -1,8 +1,6 @@
 """The drawing sheet of a spherical machine: section, flat wheel and crank, and all angles.
 
-The section is in the plane of both shafts, with a roller at the end of its slot. The sphere's
-centre is the origin, and the wheel's axis points up. Flat views have the apex of their cone as the
-origin, if it is near.
+Flat views have the apex of their cone as the origin, if it is near.
 """
 
 from __future__ import annotations
@@ -88,7 +86,8 @@ def _arm(parts: SphereParts, arm: CapArm, flat: list[Contour], scale: float) -> 
     view.title = "arm, laid flat"
     view.fits = Fits(parts.mechanism.spec.size.process)
     hole, pin = arm.pins[0].radius, ball.pin_mm
-    text = f"{sized.pin_hole(view.fits, parts.mechanism, hole)} through, to the sphere's centre"
+    text = sized.made(view.fits, parts.mechanism, "pin hole", hole)
+    text += " through, to the sphere's centre"
     view.remark(f"pins: {times(len(arm.pins), text)}; pin {sized.shaft(view.fits, pin)}")
     view.remark(f"hub: {sized.plain(2.0 * arm.hub, 'Ø ')} through, about the crank's axis")
     if arm.bolts:

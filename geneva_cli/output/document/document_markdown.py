@@ -20,7 +20,7 @@ from geneva_cli.output.document.blocks import (
 )
 from geneva_cli.output.markdown import escaped
 from geneva_cli.output.notes import span_text
-from geneva_cli.output.plot.ticks import mark_text, named
+from geneva_cli.output.plot.plot_layout import mark_text, named
 
 
 def chunks(document: Document) -> Iterator[str]:
@@ -55,7 +55,6 @@ def _block(block: Block) -> Iterator[str]:
 
 
 def _peaks(curves: Curves) -> Grid:
-    """The marks of a figure, which describe its curves."""
     rows = tuple(
         (named(panel.y), mark_text(mark))
         for panel in curves.figure.panels

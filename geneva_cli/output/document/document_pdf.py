@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from geneva_cli.answer import FAILS, PASSES, WARNS
 from geneva_cli.errors import clean
 from geneva_cli.output.document.blocks import (
+    BAD,
+    NO_BREAK,
     Block,
     Curves,
     Document,
@@ -16,13 +18,16 @@ from geneva_cli.output.document.blocks import (
     Picture,
     Prose,
     TextList,
+    is_number,
+    is_short,
+    value_text,
 )
-from geneva_cli.output.document.pdf_table import caption, facts, grid
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf import pdf_file
 from geneva_cli.output.pdf.pdf_drawing import drawing
 from geneva_cli.output.pdf.pdf_pages import (
     AMBER,
+    BAND,
     BODY,
     GREEN,
     INK,
@@ -30,12 +35,15 @@ from geneva_cli.output.pdf.pdf_pages import (
     LEFT,
     LINE,
     RED,
+    SMALL,
+    SOFT,
     WIDE,
     Item,
     box,
     lines,
     pages,
     rule,
+    wide,
     words,
 )
 from geneva_cli.output.plot import plot_pdf
@@ -121,7 +129,6 @@ def _heading(text: str) -> Item:
 
 
 def _barred(text: str, size: float, ink: str, bold: bool = False, mark: str = "") -> Item:
-    """A line of the verdict, or of a reason, with a bar in the verdict's colour."""
     high = LEADING * size
     x = LEFT + MARK + (0.0 if bold else MARK)
 
@@ -130,5 +137,127 @@ def _barred(text: str, size: float, ink: str, bold: bool = False, mark: str = ""
         before = words(mark, (LEFT + MARK + 1.0, y), size) if mark else ""
         bar = box(LEFT, top - high, 1.6, high, ink)
         return bar + before + words(text, (x, y), size, bold, ink if bold else INK)
+
+    return Item(high, draw)
+
+
+PAD = 1.3  # left and right of a cell's text
+SPACE = 0.55  # above and below it
+STEP = LEADING * SMALL
+
+
+def grid(table: Grid) -> Iterator[Item]:
+    """A table with a head, which is repeated on each page."""
+    columns = list(zip(*table.rows, strict=True))
+    right = [all(map(is_number, column)) for column in columns]
+    spaces = [NO_BREAK if is_short(column) else " " for column in columns]
+    rows = [
+        [value_text(value).replace(" ", space) for value, space in zip(row, spaces, strict=True)]
+        for row in table.rows
+    ]
+    widths = _widths(table.heads, rows)
+    head = _row(table.heads, right, widths, bold=True)
+    yield from caption(table.caption)
+    has_head = any(table.heads)
+    if has_head:
+        yield head._replace(keeps=True)
+    for row in rows:
+        yield _row(row, right, widths)._replace(head=head if has_head else None)
+    yield _space()
+
+
+def facts(table: Facts) -> Iterator[Item]:
+    """Names and values, in two columns read downwards."""
+    texts = [(fact.name, value_text(fact.value, fact.unit)) for fact in table.facts]
+    half = (len(texts) + 1) // 2
+    yield from caption(table.caption)
+    gap = 6.0  # between facts side by side
+    long = 0.5 * (WIDE - gap)
+    for i in range(half):
+        pair = [(LEFT, texts[i])]
+        pair += [(LEFT + long + gap, texts[half + i])] if half + i < len(texts) else []
+        item = _pair(pair, long)
+        yield item._replace(keeps=i == 0 and half > 1)
+    yield _space()
+
+
+def caption(text: str) -> Iterator[Item]:
+    """The line above a table or a picture; nothing without a text."""
+    if text:
+        yield Item(
+            STEP + 1.4,
+            lambda top: words(text, (LEFT, top - SMALL), SMALL, bold=True, ink=SOFT),
+            keeps=True,
+        )
+
+
+def _space() -> Item:
+    return Item(4.0, lambda top: "")
+
+
+def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
+    """The columns' widths: those that they want, or fractions above their longest words."""
+    needs, wants = [], []
+    whole_word = 42.0  # the longest word that stays whole
+    head_max = 30.0  # width of a head before it breaks
+    for head, *cells in zip(heads, *rows, strict=True):
+        longest = [max((wide(w, SMALL, True) for w in head.split()), default=0.0)]
+        least = longest + [wide(w, SMALL) for cell in cells for w in cell.split(" ")]
+        most = [min(wide(head, SMALL, True), head_max), *longest, *(wide(c, SMALL) for c in cells)]
+        needs.append(min(max(least), whole_word) + 2.0 * PAD)
+        wants.append(max(max(most) + 2.0 * PAD, needs[-1]))
+    more = sum(wants) - sum(needs)
+    left = WIDE - sum(needs)
+    if left < 0.0:
+        return [need * WIDE / sum(needs) for need in needs]
+    fraction = min(1.0, left / more) if more > 0.0 else 0.0
+    return [need + fraction * (want - need) for need, want in zip(needs, wants, strict=True)]
+
+
+def _row(
+    texts: Sequence[str], right: Sequence[bool], widths: Sequence[float], bold: bool = False
+) -> Item:
+    cells = [
+        lines(text, SMALL, wide_ - 2.0 * PAD + 1e-6, bold)
+        for text, wide_ in zip(texts, widths, strict=True)
+    ]
+    high = max(map(len, cells)) * STEP + 2.0 * SPACE
+
+    def draw(top: float) -> str:
+        out = box(LEFT, top - high, sum(widths), high, BAND) if bold else ""
+        x = LEFT
+        for cell, is_right, long in zip(cells, right, widths, strict=True):
+            out += _cell(cell, x + PAD, top, long - 2.0 * PAD, is_right, bold)
+            x += long
+        return out + rule(LEFT, top - high, sum(widths), ink=LINE)
+
+    return Item(high, draw)
+
+
+def _cell(texts: list[str], x: float, top: float, width: float, right: bool, bold: bool) -> str:
+    out = ""
+    ink, bold = (RED, True) if texts == [BAD] else (INK, bold)
+    for i, text in enumerate(texts):
+        at = x + width - wide(text, SMALL, bold) if right else x
+        out += words(text, (at, top - SPACE - 0.95 * SMALL - i * STEP), SMALL, bold, ink)
+    return out
+
+
+def _pair(pair: list[tuple[float, tuple[str, str]]], long: float) -> Item:
+    cells = []
+    name_fraction = 0.62  # fraction of a fact's width for its name
+    for x, (name, value) in pair:
+        needs = min(wide(value, SMALL), (1.0 - 0.5 * name_fraction) * long)
+        width = long - 2.0 * PAD - needs
+        cells.append((x, lines(name, SMALL, width), lines(value, SMALL, needs + 1e-6)))
+    high = max(max(len(a), len(b)) for _, a, b in cells) * STEP + 2.0 * SPACE
+
+    def draw(top: float) -> str:
+        out = ""
+        for x, name, value in cells:
+            out += _cell(name, x, top, long, False, False)
+            out += _cell(value, x, top, long, True, False)
+            out += rule(x, top - high, long, ink=LINE)
+        return out
 
     return Item(high, draw)

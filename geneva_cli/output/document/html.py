@@ -75,14 +75,11 @@ def _scoped(style: str, name: str) -> str:
     style = dark_mode.sub("@media screen and (prefers-color-scheme: dark)", style)
     lines = style.splitlines(keepends=True)
     rule = re.compile(r"([^{}\n]+?) \{")
-    return "".join(
-        line if line.startswith("@") else rule.sub(lambda m: f"{_all(m[1], name)} {{", line)
-        for line in lines
-    )
 
+    def scoped(match: re.Match[str]) -> str:
+        return ", ".join(f"#{name} {one.strip()}" for one in match[1].split(",")) + " {"
 
-def _all(selectors: str, name: str) -> str:
-    return ", ".join(f"#{name} {one.strip()}" for one in selectors.split(","))
+    return "".join(line if line.startswith("@") else rule.sub(scoped, line) for line in lines)
 
 
 def _style() -> str:

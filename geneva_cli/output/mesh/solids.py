@@ -79,7 +79,6 @@ def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
 
 
 def _placed(part: Part, at: Place) -> Iterator[tuple[Solid, Place]]:
-    """Yield every solid of a part at its position."""
     if not isinstance(part, Group):
         yield part, at
         return
@@ -97,7 +96,6 @@ def _turn(member: Member) -> Array:
 
 @lru_cache(maxsize=32)  # an export writes each solid by itself, and all of them together
 def _surface(solid: Solid, tolerance: float) -> Surface:
-    """Return the surface of a solid, which must not be changed."""
     if not tolerance > 0.0:
         raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
     if isinstance(solid, Shell):
@@ -123,7 +121,11 @@ def _plate(plate: Plate, tolerance: float) -> m3.Manifold:
     sections = [edge.at(k / steps) for k in range(steps + 1)] if edge.size else [(0.0, 0.0)]
     levels = [(depth, plate.low + edge.size - high) for depth, high in sections[::-1]]
     levels += [(depth, plate.high - edge.size + high) for depth, high in sections]
-    insets = [_insets(contour, sections) for contour in contours]
+    insets = [[contour.segments] for contour in contours]
+    if edge.size:
+        walls = [lines_and_arcs(contour) for contour in contours]
+        deeper = [depth for depth, _ in sections[1:]]
+        insets = [[tuple(w), *(inset(w, "", d).segments for d in deeper)] for w in walls]
     counts = [[_chords(piece, tolerance) for piece in contour[0]] for contour in insets]
     around = sum(map(sum, counts))
     _require_few(around * len(levels), plate.name)
@@ -158,14 +160,6 @@ def _strips(ring: Numbers, up: int) -> list[Numbers]:
     ]
 
 
-def _insets(contour: Contour, sections: list[tuple[float, float]]) -> list[tuple[Segment, ...]]:
-    """Return the pieces of a contour at the depth of each section; all have as many."""
-    if len(sections) == 1:
-        return [contour.segments]
-    own = lines_and_arcs(contour)
-    return [inset(own, "", depth).segments if depth else tuple(own) for depth, _ in sections]
-
-
 def _triangles(loops: list[Array], name: str) -> Numbers:
     """Return the triangles of an outline with holes; raises GenevaError for loops that cross."""
     triangles = m3.triangulate(loops)
@@ -177,7 +171,6 @@ def _triangles(loops: list[Array], name: str) -> Numbers:
 
 
 def _drill(hole: CrossHole, contours: list[Contour], tolerance: float) -> m3.Manifold:
-    """Return the cylinder of a hole across a plate, which ends beyond the two walls."""
     low, high = hole.openings(contours)
     over = -hole.radius, 0.0, hole.radius
     start = min(low.x(y) for y in over) - hole.radius
@@ -241,7 +234,6 @@ def _block(shell: Shell, middle: Vector, reach: float, tolerance: float) -> m3.M
 
 
 def _frame(axis: Vector) -> Array:
-    """Return three perpendicular unit vectors, the last of which is an axis."""
     x = square_to(axis)
     return np.array((x, cross(axis, x), axis))
 
@@ -259,7 +251,6 @@ def arc_chords(radius: float, sweep: float, tolerance: float) -> int:
 
 
 def _chords(segment: Segment, tolerance: float) -> int:
-    """Return the number of chords of a segment that keep a tolerance, mm."""
     if isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
         return arc_chords(segment.radius, segment.sweep, tolerance)
     if isinstance(segment, Cubic):
@@ -271,7 +262,6 @@ def _chords(segment: Segment, tolerance: float) -> int:
 
 
 def _corners(pieces: tuple[Segment, ...], counts: list[int]) -> Array:
-    """Return the starts of a contour's chords, (n, 2)."""
     flat = [p for piece, n in zip(pieces, counts, strict=True) for p in points(piece, n)[:-1]]
     return np.array(flat)
 
@@ -281,7 +271,6 @@ def _raised(flat: Array, z: float) -> Array:
 
 
 def _rounded(corners: Array) -> Array:
-    """Return corners with DECIMALS, and without negative zeros."""
     return np.round(corners, DECIMALS) + 0.0
 
 

@@ -32,10 +32,7 @@ def data(drawing: Drawing, units: str) -> Iterator[bytes]:
 
 
 def _records(corners: Array) -> npt.NDArray[Any]:
-    """Return the records of triangles, (m, 3, 3), in mm.
-
-    Corners nearer than the format's seven digits become one, and a triangle of two is left out.
-    """
+    """Return the records of triangles, (m, 3, 3), in mm."""
     single = corners.astype("<f4")
     p, q, r = (single[:, k] for k in range(3))
     flat = (p == q).all(axis=1) | (q == r).all(axis=1) | (r == p).all(axis=1)
@@ -43,13 +40,8 @@ def _records(corners: Array) -> npt.NDArray[Any]:
     record = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
     records = np.zeros(len(single), dtype=record)
     records["corners"] = single
-    records["normal"] = _normals(corners[~flat])
-    return records
-
-
-def _normals(corners: Array) -> Array:
-    """Return the unit normals of triangles; zeros for one without an area."""
-    p, q, r = (corners[:, k] for k in range(3))
+    p, q, r = (corners[~flat, k] for k in range(3))
     out = np.cross(q - p, r - p)
     length = np.sqrt((out * out).sum(axis=1, keepdims=True))
-    return out / np.where(length > 0.0, length, 1.0)
+    records["normal"] = out / np.where(length > 0.0, length, 1.0)  # none without an area
+    return records

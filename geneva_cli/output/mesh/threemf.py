@@ -51,7 +51,6 @@ def data(drawing: Drawing, units: str) -> Iterator[bytes]:
 
 
 def _model(title: str, kinds: list[Body]) -> Iterator[str]:
-    """Yield the text of the model."""
     core = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
     yield f'{XML}<model unit="millimeter" xml:lang="en" xmlns="{core}">\n'
     yield f'<metadata name="Title">{_text(title)}</metadata>\n<resources>\n'

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 from geneva_cli.errors import clean
 from geneva_cli.figure import Curve, Panel
 from geneva_cli.output.inks import INKS
-from geneva_cli.output.plot.ticks import labels, ticks
+from geneva_cli.output.plot.plot_layout import labels, ticks
 from geneva_cli.output.svg.drawing_svg import element
 
 if TYPE_CHECKING:
-    from geneva_cli.output.scene import Bar, Body, Scene, Track
+    from geneva_cli.output.scene import Bar, Body, Place, Scene, Track
 
 
 def chunks(scene: Scene) -> Iterator[str]:
@@ -44,7 +44,6 @@ def _file(name: str) -> str:
 
 
 def _view(scene: Scene) -> str:
-    """The view box of the drawing with a margin; y points down."""
     x0, y0, x1, y1 = scene.box
     margin = 0.02 * max(x1 - x0, y1 - y0)
     box = (x0 - margin, -y1 - margin, x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin)
@@ -59,7 +58,6 @@ def _group(body: Body) -> str:
 
 
 def _links(number: int, bar: Bar) -> str:
-    """The plates of a link, each as a group."""
     return "".join(
         f'<g id="link-{number}-{i}" class="link">'
         + "".join(
@@ -72,7 +70,6 @@ def _links(number: int, bar: Bar) -> str:
 
 
 def _data(scene: Scene) -> dict[str, Any]:
-    """The data for the page's script."""
     x0, y0, x1, y1 = scene.box
     return {
         "start": scene.start_deg,
@@ -90,8 +87,16 @@ def _data(scene: Scene) -> dict[str, Any]:
             for b in scene.bodies
         ],
         "frame": scene.frame and {"centre": scene.frame.centre, "angle": _track(scene.frame.angle)},
-        "bars": [_bar(bar) for bar in scene.bars],
-        "rollers": [[_track(t) for t in place] for place in scene.rollers],
+        "bars": [
+            {
+                "name": bar.name,
+                "joints": list(map(_place, bar.joints)),
+                "radius": bar.radius,
+                "plates": [plate.joint for plate in bar.plates],
+            }
+            for bar in scene.bars
+        ],
+        "rollers": list(map(_place, scene.rollers)),
         "radius": scene.roller_radius,
         "pushes": [[[_short(v) for v in column] for column in push] for push in scene.pushes],
         "states": [[_short(s.start), _short(s.end), s.moves, s.words] for s in scene.states],
@@ -110,10 +115,8 @@ def _track(track: Track) -> dict[str, Any]:
     return {**named, "g": track.gain} if track.gain else named
 
 
-def _bar(bar: Bar) -> dict[str, Any]:
-    joints = [[_track(t) for t in place] for place in bar.joints]
-    plates = [plate.joint for plate in bar.plates]
-    return {"name": bar.name, "joints": joints, "radius": bar.radius, "plates": plates}
+def _place(place: Place) -> list[dict[str, Any]]:
+    return [_track(track) for track in place]
 
 
 def _panel(panel: Panel) -> dict[str, Any]:
@@ -129,7 +132,6 @@ def _panel(panel: Panel) -> dict[str, Any]:
 
 
 def _ticks(low: float, high: float, most: int, unit: str = "") -> list[tuple[float, str]]:
-    """Round places of an axis, and their labels."""
     places = ticks(low, high, most, unit)
     degree = "°" if unit == "deg" else ""
     return [(x, text + degree) for x, text in zip(places, labels(places), strict=True)]
@@ -150,5 +152,4 @@ def _viewed(values: Sequence[float]) -> list[float]:
 
 
 def _short(value: float) -> float:
-    """A value that is only viewed."""
     return float(f"{value:.5g}")

@@ -5,14 +5,15 @@ Lengths are in px of a page 820 px wide, y downwards.
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Literal, NamedTuple, TypeAlias
 
 from geneva_cli.errors import clean, cut
-from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
+from geneva_cli.figure import LINE, POINTS, Axis, Curve, Figure, Mark, Panel
+from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.output.letters import LETTER, width
-from geneva_cli.output.plot.ticks import labels, mark_text, named, ticks
 
 Point: TypeAlias = tuple[float, float]
 Path: TypeAlias = Sequence[Point]
@@ -115,7 +116,10 @@ def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool
         _marks(figure, panel, frame, several, pen)
         pen.end()
         if is_last:
-            _below(figure, frame, across, pen)
+            for value, label in zip(across, labels(across), strict=True):
+                pen.text((frame.x(value), frame.bottom + 15.0), label, look="middle")
+            place = LEFT + 0.5 * wide, frame.bottom + 34.0
+            pen.text(place, named(figure.x), look="middle")
         if is_first:
             _dwell(figure, frame, pen)
 
@@ -139,7 +143,6 @@ def _head(figure: Figure, legend: list[tuple[Curve, float, float, str]], pen: Pe
 
 
 def _legend(curves: Iterable[Curve]) -> list[tuple[Curve, float, float, str]]:
-    """Return curves with their places and names, in lines below the title."""
     out, x, y = [], RIGHT, TITLE + 14.0 + LINE_HEIGHT
     for curve in curves:
         name = cut(clean(curve.name), 48)
@@ -160,7 +163,6 @@ def _sample(curve: Curve, x: float, y: float, long: float, pen: Pen) -> None:
 
 
 def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: Pen) -> None:
-    """Draw dwells, grid, axes and curves."""
     up = ticks(*frame.span, int(frame.high / 24.0), panel.y.unit)
     right = LEFT + frame.wide
     for a, b in figure.shaded:
@@ -207,13 +209,6 @@ def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) 
             y += LINE_HEIGHT
 
 
-def _below(figure: Figure, frame: Frame, across: list[float], pen: Pen) -> None:
-    """Write the numbers and the name of the x axis."""
-    for value, label in zip(across, labels(across), strict=True):
-        pen.text((frame.x(value), frame.bottom + 15.0), label, look="middle")
-    pen.text((LEFT + 0.5 * frame.wide, frame.bottom + 34.0), named(figure.x), look="middle")
-
-
 def _dwell(figure: Figure, frame: Frame, pen: Pen) -> None:
     """Write "dwell" above the first dwell that is wide enough and clear of the panel's name."""
     needs = TEXT * width("dwell")
@@ -223,3 +218,59 @@ def _dwell(figure: Figure, frame: Frame, pen: Pen) -> None:
         if frame.x(b) - frame.x(a) > needs and middle - needs > taken:
             pen.text((middle, frame.top - 7.0), "dwell", look="middle")
             return
+
+
+SHOWN_DIGITS = 6  # a peak's value has these; an axis has more if labels are equal
+
+
+def ticks(low: float, high: float, most: int, unit: str = "") -> list[float]:
+    """Multiples of a round step from ``low`` to ``high``, about ``most`` and never more.
+
+    >>> ticks(-0.3, 1.2, 5), ticks(-60.0, 300.0, 9, "deg")
+    ([0.0, 0.5, 1.0], [-45.0, 0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0])
+    """
+    width = high - low
+    if not width > 0.0:
+        return [low]
+    power = 10.0 ** math.floor(math.log10(width / most))
+    steps = [n * power for n in (1.0, 2.0, 2.5, 5.0, 10.0, 20.0, 25.0, 50.0, 100.0)]
+    if unit == "deg" and width > 40.0:
+        steps = [5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0]  # degrees that people use
+        steps += [360.0 * 2**n for n in range(60)]
+    for step in steps:
+        first, last = math.ceil(low / step - ROUNDED), math.floor(high / step + ROUNDED)
+        if last - first < most:
+            break
+    return [float(f"{n * step:.12g}") + 0.0 for n in range(first, last + 1)]
+
+
+def labels(at: Sequence[float]) -> list[str]:
+    """The numbers of an axis, with enough digits that no two are equal.
+
+    >>> labels([0.0, 0.5, 1.0]), labels([0.0, 2e9]), labels([1e7, 1e7 + 0.5])
+    (['0', '0.5', '1'], ['0', '2e+09'], ['10000000', '10000000.5'])
+    """
+    texts: list[str] = []
+    for digits in range(SHOWN_DIGITS, 18):
+        texts = [f"{x:.{digits}g}" for x in at]
+        if len(set(texts)) == len(set(at)):
+            break
+    return texts
+
+
+def named(axis: Axis) -> str:
+    """An axis with its unit, such as ``Pin force (N)``."""
+    return f"{axis.label} ({axis.unit.replace('deg', '°')})" if axis.unit else axis.label
+
+
+def mark_text(mark: Mark, unit: str = "°") -> str:
+    """A mark as text: its value and its place.
+
+    >>> mark_text(Mark("max", -22.903061866, 649.007123))
+    'max 649.007 at -22.90°'
+    """
+    # A larger place is written with an exponent.
+    at = f"{mark.x:.2f}" if abs(mark.x) < 1e5 else f"{mark.x:.{SHOWN_DIGITS}g}"
+    at = "0.00" if at == "-0.00" else at
+    value = "no bound" if mark.y is None else f"{mark.word} {mark.y + 0.0:.{SHOWN_DIGITS}g}"
+    return f"{value} at {at}{unit}"

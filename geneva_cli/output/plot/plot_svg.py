@@ -22,8 +22,8 @@ from geneva_cli.output.plot.plot_layout import (
     Pen,
     Point,
     blocks,
+    named,
 )
-from geneva_cli.output.plot.ticks import named
 from geneva_cli.table import in_decimals
 
 
@@ -134,5 +134,4 @@ def _at(place: Point) -> str:
 
 
 def _n(value: float) -> str:
-    """A number with at most two decimals, without a negative zero."""
     return in_decimals(value, 2)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
-from geneva_cli.output.plot.ticks import labels, mark_text, ticks
+from geneva_cli.output.plot.plot_layout import labels, mark_text, ticks
 from geneva_cli.output.terminal.layout import width_of, wrapped
 
 MARKS = "*o+x#@%&=~^$"  # letters of several curves in a panel, and of one curve in ASCII
@@ -52,7 +52,6 @@ def _lines(text: str, columns: int) -> Iterator[str]:
 
 
 def _heading(panel: Panel, columns: int, several: bool, unit: str) -> Iterator[str]:
-    """The name of the quantity, and its peaks."""
     name = panel.y.name
     if several:
         yield from _lines(name, columns)
@@ -67,7 +66,6 @@ def _heading(panel: Panel, columns: int, several: bool, unit: str) -> Iterator[s
 
 
 def _grid(figure: Figure, panel: Panel, wide: int, high: int, unicode: bool) -> Iterator[str]:
-    """The panel's lines: numbers of the axis, and the curves."""
     low, top = panel.span()
     if not top > low:
         low, top = low - (0.5 * abs(low) or 1.0), top + (0.5 * abs(top) or 1.0)
@@ -137,7 +135,6 @@ def _column(x: float, figure: Figure, wide: int) -> int:
 
 
 def _below(figure: Figure, wide: int) -> Iterator[str]:
-    """The numbers below the panels, and the axis' name."""
     at = ticks(*figure.window, max(wide // 12, 2), figure.x.unit)
     line = [" "] * (wide + 1)
     free = 0

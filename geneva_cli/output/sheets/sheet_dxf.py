@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry.shapes import Contour, Layer
-from geneva_cli.geometry.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Arrow, Label, Measure, Sheet
+from geneva_cli.geometry.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Label, Measure, Sheet
 from geneva_cli.output.dxf import USUAL, draw, dxf_text, extents, linetype
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace
 
@@ -52,7 +52,6 @@ def _layers(document: Document) -> None:
 
 
 def _measure(document: Document, space: Modelspace, measure: Measure, unit_mm: float) -> None:
-    """A dimension, whose value is in the unit of its text."""
     if measure.kind != "angular":
         measure = measure._replace(value=measure.value / unit_mm)
     if measure.kind not in KINDS:
@@ -79,7 +78,6 @@ def _measure(document: Document, space: Modelspace, measure: Measure, unit_mm: f
 
 
 def _style(document: Document, measure: Measure) -> str:
-    """The style of a dimension's scale."""
     factor = 1.0
     if measure.kind != "angular":
         a, b = measure.points[:2]
@@ -110,17 +108,12 @@ def _style(document: Document, measure: Measure) -> str:
 
 
 def _drawn(space: BaseLayout, measure: Measure) -> None:
-    """Lines, arrows and text of a dimension."""
     for piece in measure.lines:
         draw(space, Contour(DIMENSION, (piece,), closed=False))
     for arrow in measure.arrows:
-        _arrow(space, arrow)
+        tip, left, right = arrow.corners
+        space.add_solid([tip, left, right, right], dxfattribs={"layer": DIMENSION})
     _text(space, measure.label, DIMENSION)
-
-
-def _arrow(space: BaseLayout, arrow: Arrow) -> None:
-    tip, left, right = arrow.corners
-    space.add_solid([tip, left, right, right], dxfattribs={"layer": DIMENSION})
 
 
 def _text(space: BaseLayout, label: Label, layer: Layer) -> None:

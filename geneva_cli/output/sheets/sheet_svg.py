@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from html import escape
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Arrow, Label, Sheet
+from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Label, Sheet
 from geneva_cli.output.svg.drawing_svg import element, number, place, point
 
 STYLE = """<style>
@@ -43,14 +43,11 @@ def chunks(sheet: Sheet) -> Iterator[str]:
         yield from map(element, shapes)
         yield "</g>\n"
     yield '<g id="ARROWS" class="full">\n'
-    yield from map(_arrow, sheet.arrows)
+    for arrow in sheet.arrows:
+        yield f'<path d="M {" L ".join(map(point, arrow.corners))} Z"/>\n'
     yield '</g>\n<g id="TEXTS">\n'
     yield from map(_text, sheet.texts)
     yield "</g>\n</g>\n</svg>\n"
-
-
-def _arrow(arrow: Arrow) -> str:
-    return f'<path d="M {" L ".join(map(point, arrow.corners))} Z"/>\n'
 
 
 def _text(label: Label) -> str:

@@ -1,17 +1,143 @@
-"""STEP AP214 (ISO 10303-214): the parts of a drawing as closed solids, with names and colours.
+"""STEP AP214 (ISO 10303-214): parts as closed solids with names and colours, and their assembly.
 
 The output is equal on every run: its time stamp is empty, for a design has no date.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from geneva_cli.errors import clean
+from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid, solids
 from geneva_cli.geometry.sheet import Drawing
+from geneva_cli.output.inks import Ink, inks
 from geneva_cli.output.solid_part import solid_part
-from geneva_cli.output.step.entities import Entities, words
-from geneva_cli.output.step.step_product import Products
+from geneva_cli.output.step.entities import Entities, listed, real, words
+from geneva_cli.output.step.shell import shell_solid
+from geneva_cli.output.step.solid import solid, stack_solid
+
+
+class Product(NamedTuple):
+    """A part's definition and its shape."""
+
+    definition: str
+    shape: str
+
+
+class Products:
+    """The products of one file; equal parts are one product in several places."""
+
+    def __init__(self, file: Entities, whole: Part) -> None:
+        self.file = file
+        self.inks = inks(tuple(dict.fromkeys(one.layer for one in solids(whole))))
+        self.known: dict[Part, Product] = {}
+        self.styled: list[str] = []
+        application = file.add("APPLICATION_CONTEXT('automotive design')")
+        file.add(
+            "APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,"
+            f"{application})"
+        )
+        self.context = file.add(f"PRODUCT_CONTEXT('',{application},'mechanical')")
+        self.design = file.add(
+            f"PRODUCT_DEFINITION_CONTEXT('part definition',{application},'design')"
+        )
+        self.space = _space(file)
+        self.product(whole)
+        file.add(
+            f"MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',{listed(self.styled)},"
+            f"{self.space})"
+        )
+
+    def product(self, part: Part) -> Product:
+        """The product of a part, written at its first use."""
+        if part not in self.known:
+            product = self._group(part) if isinstance(part, Group) else self._solid(part)
+            self.known[part] = product
+        return self.known[part]
+
+    def _solid(self, one: Solid) -> Product:
+        if isinstance(one, Shell):
+            body = shell_solid(self.file, one)
+        else:
+            body = solid(self.file, one) if isinstance(one, Plate) else stack_solid(self.file, one)
+        self.styled.append(self._styled(body, self.inks[one.layer]))
+        return self._defined(
+            one.name,
+            f"ADVANCED_BREP_SHAPE_REPRESENTATION('',({self.file.origin},{body}),{self.space})",
+        )
+
+    def _group(self, group: Group) -> Product:
+        parts = [self.product(member.part) for member in group.members]
+        places = [self._place(member) for member in group.members]
+        frames = listed(list(dict.fromkeys([self.file.origin, *places])))
+        whole = self._defined(group.name, f"SHAPE_REPRESENTATION('',{frames},{self.space})")
+        for number, (member, part, place) in enumerate(
+            zip(group.members, parts, places, strict=True), 1
+        ):
+            self._put(number, member, part, place, whole)
+        return whole
+
+    def _defined(self, name: str, shape: str) -> Product:
+        file, named = self.file, words(name)
+        number = file.add(f"PRODUCT({named},{named},'',({self.context}))")
+        file.add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({number}))")
+        formation = file.add(f"PRODUCT_DEFINITION_FORMATION('','',{number})")
+        definition = file.add(f"PRODUCT_DEFINITION('design','',{formation},{self.design})")
+        product = Product(definition, file.add(shape))
+        whole = file.add(f"PRODUCT_DEFINITION_SHAPE('','',{definition})")
+        file.add(f"SHAPE_DEFINITION_REPRESENTATION({whole},{product.shape})")
+        return product
+
+    def _place(self, member: Member) -> str:
+        if member.frame:
+            axis, ahead = (self.file.direction(*v) for v in (member.frame.z, member.frame.x))
+            return self.file.placement(member.at, 0.0, axis, ahead)
+        c, s = math.cos(member.turn), math.sin(member.turn)
+        return self.file.placement(member.at, 0.0, ahead=self.file.direction(c, s))
+
+    def _put(self, number: int, member: Member, part: Product, place: str, whole: Product) -> None:
+        file = self.file
+        use = file.add(
+            f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{number}',{words(member.part.name)},'',"
+            f"{whole.definition},{part.definition},$)"
+        )
+        used = file.add(f"PRODUCT_DEFINITION_SHAPE('','',{use})")
+        moved = file.add(f"ITEM_DEFINED_TRANSFORMATION('','',{file.origin},{place})")
+        related = file.add(
+            f"(REPRESENTATION_RELATIONSHIP('','',{part.shape},{whole.shape})"
+            f"REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION({moved})"
+            "SHAPE_REPRESENTATION_RELATIONSHIP())"
+        )
+        file.add(f"CONTEXT_DEPENDENT_SHAPE_REPRESENTATION({related},{used})")
+
+    def _styled(self, body: str, ink: Ink) -> str:
+        file = self.file
+        parts = ",".join(real(int(ink.rgb[i : i + 2], 16) / 255.0, 6) for i in (1, 3, 5))
+        colour = file.shared(f"COLOUR_RGB('',{parts})")
+        fill = file.shared(f"FILL_AREA_STYLE_COLOUR('',{colour})")
+        fill = file.shared(f"FILL_AREA_STYLE('',({fill}))")
+        fill = file.shared(f"SURFACE_STYLE_FILL_AREA({fill})")
+        side = file.shared(f"SURFACE_SIDE_STYLE('',({fill}))")
+        used = file.shared(f"SURFACE_STYLE_USAGE(.BOTH.,{side})")
+        style = file.shared(f"PRESENTATION_STYLE_ASSIGNMENT(({used}))")
+        return file.add(f"STYLED_ITEM('',({style}),{body})")
+
+
+def _space(file: Entities) -> str:
+    length = file.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))")
+    angle = file.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
+    solid_angle = file.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
+    near = file.add(
+        f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-06),{length},"
+        "'distance_accuracy_value','')"
+    )
+    return file.add(
+        f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(({near}))"
+        f"GLOBAL_UNIT_ASSIGNED_CONTEXT(({length},{angle},{solid_angle}))"
+        "REPRESENTATION_CONTEXT('',''))"
+    )
 
 
 def chunks(drawing: Drawing, units: str) -> Iterator[str]:

@@ -96,7 +96,6 @@ class _ShellWriter:
         return WallFace(face(file, [bound], surface, False), low, high, True)
 
     def _side(self, arc: SphereArc) -> ShellEdges:
-        """The edges over an arc, perhaps known already from the adjacent region."""
         back = self.sides.get(arc.back.key)
         if back is not None:
             return back._replace(along=False)
@@ -118,7 +117,6 @@ class _ShellWriter:
         return self.corners[at]
 
     def _rise(self, at: Vector) -> str:
-        """The edge between a corner's vertices, where walls meet."""
         if at not in self.rises:
             corner, low = self.corners[at], self._point(at, self.shell.inner)
             vector = self.file.shared(f"VECTOR('',{self.file.direction(*at)},1.)")
@@ -126,10 +124,7 @@ class _ShellWriter:
         return self.rises[at]
 
     def _wall(self, arc: SphereArc, side: ShellEdges) -> str:
-        """The wall over an arc.
-
-        From outside, its bound is the inner edge, up at its end, the outer edge back, and down.
-        """
+        """The wall over an arc."""
         bound = loop(
             self.file,
             [
@@ -151,7 +146,6 @@ class _ShellWriter:
         return face(self.file, [bound], self.file.add(surface), not _wide(arc))
 
     def _circle(self, arc: SphereArc, radius: float) -> str:
-        """The circle of an arc, about the cone's axis, which is the nearer end."""
         axis, angle = (opposite(arc.axis), math.pi - arc.angle) if _wide(arc) else arc[:2]
         frame = self._frame(_times(axis, radius * math.cos(angle)), axis, arc.ahead)
         return f"CIRCLE('',{frame},{real(radius * math.sin(angle))})"

@@ -6,9 +6,11 @@ counterclockwise: the lower edge, up at its end, the upper edge back, and down a
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from geneva_cli.geometry.moments import with_material_left
 from geneva_cli.geometry.plates import Plate, Stack
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point
+from geneva_cli.geometry.shapes import Arc, Circle, Line, Point
 from geneva_cli.geometry.stacks import Level, Side, levels, outline_of, sides
 from geneva_cli.output.solid_part import plate_contours
 from geneva_cli.output.splines import Piece, pieces
@@ -48,8 +50,12 @@ def solid(file: Entities, plate: Plate) -> str:
             walls = [_round(file, walled, shape, outside)]
         else:
             contour = with_material_left(shape, outside)
-            ends = [_place(file, walled, piece.start) for piece in pieces(contour.segments)]
-            walls = _walls(file, walled, contour, ends, bored.loops)
+            own = pieces(contour.segments)
+            ends = [_place(file, walled, piece.start) for piece in own]
+            walls = [
+                _wall(file, walled, piece, pair, bored.loops.get(piece, []))
+                for piece, pair in zip(own, pairwise([*ends, ends[0]]), strict=True)
+            ]
             if taken:
                 edges = edge_faces(file, plate, contour, ends, walls)
                 faces += edges.faces
@@ -65,20 +71,6 @@ def solid(file: Entities, plate: Plate) -> str:
     faces.append(face(file, lower, level(file, plate.low), False))
     faces.append(face(file, upper, level(file, plate.high), True))
     return closed_solid(file, faces)
-
-
-def _walls(
-    file: Entities,
-    plate: Plate,
-    contour: Contour,
-    corners: list[SolidCorner],
-    bored: dict[Piece, list[str]],
-) -> list[WallFace]:
-    pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
-    return [
-        _wall(file, plate, piece, ends, bored.get(piece, []))
-        for piece, ends in zip(pieces(contour.segments), pairs, strict=True)
-    ]
 
 
 def _place(file: Entities, plate: Plate, at: Point) -> SolidCorner:
@@ -106,7 +98,6 @@ def _wall(
 
 
 def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> WallFace:
-    """The wall of a whole circle, cut open along a seam."""
     (x, y), r = circle.centre, circle.radius
     seam = _place(file, plate, (x + r, y))
     low, high = (
@@ -183,7 +174,6 @@ class _StackWriter:
         return face(self.file, [around], surface(self.file, side, plate), is_along(side))
 
     def _along(self, side: Side, z: float) -> str:
-        """The edge along a piece at a height."""
         if (side, z) not in self._edges:
             ends = self._vertex(side.start, z), self._vertex(side.end, z)
             line = curve(self.file, side, z)
@@ -191,7 +181,6 @@ class _StackWriter:
         return self._edges[side, z]
 
     def _rise(self, at: Point, plate: Plate) -> str:
-        """The edge up a corner of a step."""
         if (at, plate.low) not in self._edges:
             ends = self._vertex(at, plate.low), self._vertex(at, plate.high)
             line = f"LINE('',{self.file.point(at, plate.low)},{self.file.rise})"

@@ -99,7 +99,6 @@ def edge_faces(
 
 
 def _slope(file: Entities, piece: Line | Arc, side: Side) -> str:
-    """Write the plane or the cone of a chamfer."""
     if isinstance(piece, Line):
         (x, y), tilt = unit_of(piece), math.sqrt(0.5)
         axis = file.direction(tilt * y, -tilt * x, tilt * side.up)
@@ -128,7 +127,6 @@ def _rounding(file: Entities, piece: Line | Arc, side: Side) -> str:
 
 
 def _rise(file: Entities, pieces: tuple[Line | Arc, Line | Arc], side: Side, own: Edge) -> str:
-    """Return the curve of the edge from a wall's corner to that of the face."""
     before, after = pieces
     start, end = after.start, corner(before, after, own.size)
     across = (end[0] - start[0]) / own.size, (end[1] - start[1]) / own.size  # per depth
@@ -199,7 +197,6 @@ def _ahead(file: Entities, hole: CrossHole) -> str:
 
 
 def _rim(file: Entities, hole: CrossHole, opening: Opening) -> Rim:
-    """Write the edge of a hole in a wall, counterclockwise about the hole's direction."""
     r, step = hole.radius, math.tau / CUBICS
     c, s = math.cos(hole.turn), math.sin(hole.turn)
     places, slopes = [], []

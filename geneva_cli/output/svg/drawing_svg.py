@@ -69,7 +69,6 @@ def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
 
 
 def _layers(drawing: Drawing, mm: float) -> Iterator[str]:
-    """Yield the shapes by their layers; ``mm`` is a millimetre of the page in the file's unit."""
     for layer, ink in inks(drawing.layers).items():
         dashes, stroke = "", mm * STROKE * (1.6 if drawing.look else 1.0)  # wider lines to view
         if layer in CENTRE_LINES:
@@ -209,7 +208,7 @@ def style(layers: tuple[str, ...], plates: tuple[Layer, ...], frame: Box, margin
     ``plates`` are the layers of its filled plates.
     """
     dark = "".join(
-        f"g[id='{layer}'] {{ stroke: {brighter(ink.rgb)} }}\n"
+        f"g[id='{layer}'] {{ stroke: {mixed(ink.rgb, 0.55, '#ffffff')} }}\n"
         for layer, ink in inks(layers).items()
     )
     dark += "".join(
@@ -241,8 +240,3 @@ def noted(shown: Notes, mm: float) -> Iterator[str]:
     for at, text in shown.texts:
         yield f"<text {place(at)}>{escape(text, quote=False)}</text>\n"
     yield "</g>\n"
-
-
-def brighter(rgb: str) -> str:
-    """An ink for a dark page: 0.45 of the step to white is added."""
-    return mixed(rgb, 0.55, "#ffffff")

@@ -62,7 +62,6 @@ def chunks(scene: Scene) -> Iterator[str]:
 
 
 def _placed(scene: Scene, t: float) -> Iterator[_PlacedShape]:
-    """Yield all shapes at an input angle, in the frame of the picture."""
     for body in scene.bodies:
         at = body_pose(body, t)
         yield from (_of_body(shape, at) for shape in body.shapes)
@@ -106,7 +105,6 @@ def _of_bar(bar: Bar, t: float, joint: float) -> Iterator[_PlacedShape]:
 
 
 def _group(placed: _PlacedShape, line: float) -> str:
-    """A shape in its place, with its colours; ``line`` is the width of its line."""
     x, y, angle = placed.pose
     down, turned = 0.0 - y, 0.0 - math.degrees(angle)  # y points down, and 0 has no sign
     paint = f' stroke="{placed.ink}"' + (f' fill="{placed.fill}"' if placed.fill else "")

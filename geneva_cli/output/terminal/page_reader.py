@@ -89,7 +89,6 @@ def _broken(line: str, width: int) -> list[str]:
 
 
 def _table(block: list[str], window: Window) -> Iterator[str]:
-    """A table; if it is too wide, its rows one after the other."""
     rows = [[_bare(cell.strip()) for cell in line.strip("|").split("|")] for line in block]
     rule = re.compile(r"\|[-:| ]+")  # the line below the headings
     names, *rows = [r for r, line in zip(rows, block, strict=True) if not rule.fullmatch(line)]
@@ -109,7 +108,6 @@ def _table(block: list[str], window: Window) -> Iterator[str]:
 
 
 def _bare(text: str) -> str:
-    """A line of text without Markdown."""
     return CODE.sub(lambda match: match[1] or match[2], LINK.sub(r"\1", text))
 
 

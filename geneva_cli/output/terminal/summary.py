@@ -85,7 +85,6 @@ def _wrapped(text: str, width: int, look: Window) -> list[str]:
 
 
 def _letters(text: str, look: Window) -> str:
-    """A text in the letters of the stream."""
     if look.unicode:
         return text
     lowered = {raised: plain for plain, raised in RAISED.items()}

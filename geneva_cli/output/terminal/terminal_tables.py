@@ -76,7 +76,6 @@ def _values(record: Table, window: Window) -> Iterator[str]:
 
 
 def _paragraphs(cell: Any, unit: str) -> list[str]:
-    """The paragraphs of a value."""
     if not isinstance(cell, tuple):
         return [value(cell, unit)]
     if all(isinstance(one, (int, float)) for one in cell) and cell:
@@ -155,10 +154,7 @@ def _other_layout(
     window: Window,
     is_inner: bool,
 ) -> list[str]:
-    """The lines of columns that do not all fit, transposed or stacked; empty where rows are better.
-
-    ``kept`` would be shown, and ``lost`` would not.
-    """
+    """The lines of columns that do not all fit, transposed or stacked."""
     few = 3 if is_inner or 3 * len(kept) < len(columns) else 1  # rows that may be transposed
     if len(kept[0].cells) <= few and (lines := transposed(columns, window.columns)):
         return lines
@@ -168,7 +164,6 @@ def _other_layout(
 
 
 def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
-    """The line that names the omitted columns, and how to see them."""
     if not columns:
         return
     one = "1 more column" if len(columns) == 1 else f"{len(columns)} more columns"
@@ -181,7 +176,6 @@ def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
 
 
 def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
-    """All columns of some rows."""
     rows = block if table.mixed else without_noise(block)
     columns = []
     naming = ("quantity", "dimension", "check")  # columns whose cells are names with units

@@ -85,7 +85,7 @@ def _gears(turn: MachineTurn, teeth: DrawnTeeth) -> Iterator[Body]:
 
 def _pitch_curves(machine: Mechanism, sign: float) -> list[tuple[Shape, ...]]:
     table = gears_table(machine, 0.001, 241).to_dict()
-    curves = []
+    curves: list[tuple[Shape, ...]] = []
     for gear in ("driven", "driver"):  # the table turns as an external wheel does
         x, y = -table[f"{gear}_x_mm"][:-1], -sign * table[f"{gear}_y_mm"][:-1]
         curves.append((polygon("GEAR", list(zip(x.tolist(), y.tolist(), strict=True))),))

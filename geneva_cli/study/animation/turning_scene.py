@@ -31,7 +31,7 @@ from geneva_cli.output.scene import (
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.animation.animated_turn import MachineTurn
+from geneva_cli.study.animation.animated_turn import MachineTurn, pushes
 from geneva_cli.study.animation.bodies import (
     DrawnTeeth,
     bodies,
@@ -39,7 +39,6 @@ from geneva_cli.study.animation.bodies import (
     drawn_teeth,
     wheels_of,
 )
-from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.verdict.report import words
 
@@ -68,6 +67,10 @@ def scene(design: Design) -> Scene:
     loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
     turning = tuple(body for body in parts if not body.travel)
     box = _box(turning, bars, rollers, mechanism.roller_radius_mm, turn.turn_deg)
+    if frame:  # it makes whole turns
+        x, y = frame.centre
+        reach = max(math.dist(b.centre, frame.centre) + max(map(_reach, b.shapes)) for b in parts)
+        box = x - reach, y - reach, x + reach, y + reach
     return Scene(
         title=title,
         caption=words(mechanism) + _remark(design, bars, teeth),
@@ -82,7 +85,7 @@ def scene(design: Design) -> Scene:
         pushes=tuple(pushes(design.cycle, turn)),
         states=tuple(_states(design, turn)),
         figure=design.figure(("velocity", "acceleration", *loads)),
-        box=_swept(parts, frame) if frame else wheels.view(parts[0], box, turn),
+        box=wheels.view(parts[0], box, turn),
         stops=wheels.stops(outlines, turn),
         frame=frame,
     )
@@ -122,7 +125,11 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     else:
         rest += f", locked by the {holder.split()[-1]}" if holder else "; nothing holds it"
     if design.spec.drive.wheels_on_carrier > 1:
-        yield from _wheels_in_turn(design, turn)
+        (only,), places = turn.passages, design.mechanism.wheel_places
+        for place in places:
+            a, b = place.behind_deg, place.behind_deg + only.engagement.motion_deg
+            yield Phase(a, b, True, f"the finger turns wheel {place.number} on the carrier")
+            yield Phase(b, a + turn.turn_deg / len(places), False, "all wheels rest on the carrier")
         return
     last, cranks = turn.passages[-1], len(design.mechanism.crank_places)
     following = (*turn.passages[1:], None)
@@ -142,23 +149,6 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
         if end > b + 1e-9:
             yield Phase(b, end, False, rest)
     assert last.exit <= turn.end + 1e-9
-
-
-def _wheels_in_turn(design: Design, turn: MachineTurn) -> Iterator[Phase]:
-    (one,), places = turn.passages, design.mechanism.wheel_places
-    for place in places:
-        start, end = place.behind_deg, place.behind_deg + one.engagement.motion_deg
-        yield Phase(start, end, True, f"the finger turns wheel {place.number} on the carrier")
-        yield Phase(
-            end, start + turn.turn_deg / len(places), False, "all wheels rest on the carrier"
-        )
-
-
-def _swept(parts: tuple[Body, ...], frame: Rotation) -> Box:
-    """The bounding box of bodies in a frame that makes whole turns."""
-    x, y = frame.centre
-    reach = max(math.dist(b.centre, frame.centre) + max(map(_reach, b.shapes)) for b in parts)
-    return x - reach, y - reach, x + reach, y + reach
 
 
 def _box(

@@ -10,7 +10,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.manual.explained import entries
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.output.document.blocks import (
     BAD,
@@ -117,11 +116,12 @@ def timing(left: RemainingValues, n_rpm: float, output: Output) -> Iterator[Bloc
     width = 6  # engagements that fit on a page side by side
     for start in range(0, len(each), width):
         group = each[start : start + width]
-        heads = ("Of the engagement", "Unit", *(str(start + i + 1) for i in range(len(group))))
+        numbers = (str(start + i + 1) for i in range(len(group)))
         names = [fact(name) for name in stations.names] if stations else []
         columns = zip(names, zip(*group, strict=True), strict=True)
         lines = [(one.name, one.unit, *values) for one, values in columns]
-        yield Grid("Engagement by engagement", heads, tuple(lines))
+        heads_of_group = ("Of the engagement", "Unit", *numbers)
+        yield Grid("Engagement by engagement", heads_of_group, tuple(lines))
 
 
 def curves(design: Design) -> Iterator[Block]:
@@ -248,13 +248,11 @@ def remarks(design: Design, left: RemainingValues) -> Iterator[Block]:
     yield from section("Other answers", list(left.rest()))
     texts = [TextList(tuple(unknown))] if unknown else []
     yield from section("What is not known, and the key that would give it", texts)
-    yield Heading("Sources of the formulas")
-    yield TextList((*_own_sources(design.spec), *SOURCES))
-
-
-def _own_sources(spec: Spec) -> list[str]:
+    spec = design.spec
     before = [spec.drive_before.NAME] if spec.drive_before else []
     laws = [spec.motion.law.NAME] if spec.motion else []
     names = [spec.wheel.NAME, spec.drive.NAME, *before, *laws]
-    known = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
-    return [f"{name[0].upper()}{name[1:]}: {known[name]}." for name in names if known.get(name)]
+    source = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
+    own = [f"{name[0].upper()}{name[1:]}: {source[name]}." for name in names if source.get(name)]
+    yield Heading("Sources of the formulas")
+    yield TextList((*own, *SOURCES))

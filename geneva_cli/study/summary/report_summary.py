@@ -1,4 +1,4 @@
-"""Summary of ``geneva report``: the verdict, six key figures and the motor."""
+"""Summaries of ``geneva report``, ``vibration`` and ``tolerance``."""
 
 from __future__ import annotations
 
@@ -7,8 +7,12 @@ from typing import Any
 
 from geneva_cli.answer import Answer, Summary, SummaryLine
 from geneva_cli.design import Design
-from geneva_cli.study.summary.load_lines import cycle_lines, motor_line, title_of
+from geneva_cli.errors import is_warning
+from geneva_cli.names import spoken
+from geneva_cli.study.summary.load_lines import cycle_lines, motor_line, record_answer, title_of
+from geneva_cli.table import Table
 from geneva_cli.verdict.headline import (
+    bare,
     below_summary,
     both_ways_lines,
     failure_lines,
@@ -79,3 +83,78 @@ def _size(values: dict[str, Any]) -> SummaryLine:
     rim = values["sizes.wheel_radius_mm"]
     text += "" if rim is None else f", wheel Ø {measured(2.0 * rim, 'mm')}"
     return SummaryLine("size", f"{text}{roller}")
+
+
+def of_vibration(design: Design, record: Table) -> Answer:
+    """The answer of ``geneva vibration``, from the record of ``Design.vibration``."""
+    values = record.to_dict()
+    warnings = [text for text in values["warnings"] if is_warning(text)]
+    return record_answer(design, record, _swing_lines(values), warnings)
+
+
+def _swing_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
+    if values["period_ratio"] is None:
+        for text in values["warnings"]:
+            yield SummaryLine("vibration", text.replace("no value is computed", "not known"))
+        return
+    ratio = measured(values["period_ratio"])
+    damping = measured(values["damping_ratio"])
+    hertz = values["natural_Hz"]
+    natural = "" if hertz is None else f" of {measured(hertz, 'Hz')}"
+    yield SummaryLine("motion", f"lasts {ratio} natural periods{natural}, damping ratio {damping}")
+    residual = measured(values["residual_share"])
+    swing = "an index leaves the load swinging"
+    if values["residual_deg"] is not None:
+        swing += f" by {measured(values['residual_deg'], 'deg')}"
+    if values["residual_share"] < 1e-6:  # of a step of 90°, a third of an arc second
+        swing = "an index leaves the load practically at rest"
+    yield SummaryLine("residual", f"{swing}, {residual} of the step")
+    if values["residual_share_worst"] is not None:
+        worst = measured(values["residual_share_worst"])
+        yield SummaryLine("worst", f"{worst} of the step, with a stiffness off by up to 20 %")
+    text = f"accelerated {measured(values['dynamic_factor'])} times as hard as the wheel"
+    if values["windup_deg"] is not None:
+        text += f"; the shaft winds up by {measured(values['windup_deg'], 'deg')}"
+    yield SummaryLine("load", text)
+    avoid = ", ".join(map(measured, values["speeds_to_avoid_rpm"]))
+    text = f"{avoid} rpm" if avoid else "no speed from half to twice the design's"
+    yield SummaryLine("avoid", text)
+
+
+def of_tolerance(design: Design, record: Table) -> Answer:
+    """The answer of ``geneva tolerance``, from the record of ``Design.tolerance``."""
+    values = record.to_dict()
+    warnings = [*design.motion_warnings, *filter(is_warning, values["warnings"])]
+    return record_answer(design, record, _error_lines(values), warnings)
+
+
+def _error_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
+    yield _angle("dwell", "place of the wheel", "dwell_position", values)
+    yield _angle("motion", "play of the wheel", "motion_play", values)
+    rows = values["contributions"]
+    most = max(rows, key=lambda row: row["share"] or 0.0, default=None)
+    if most and most["share"]:
+        words, _ = spoken(most["dimension"])
+        percent = measured(100.0 * most["share"], "%", 3)
+        yield SummaryLine("greatest", f"{words} contributes {percent} of the dwell's variance")
+    if values["entry_jump.worst"] is not None:
+        jump = measured(values["entry_jump.worst"])
+        yield SummaryLine("entry", f"the wheel's velocity jumps by up to {jump} of the input's")
+    turns = {True: "every machine turns", False: "not every machine turns", None: "not known"}
+    parts = [
+        f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {bare(needed, 'mm')}"
+        for part in ("slot", "lock")
+        if (needed := values[f"clearances.{part}_needed_mm"]) is not None
+    ]
+    text = "; ".join([turns[values["clearances.turns"]], *parts])
+    yield SummaryLine("clearances", text)
+
+
+def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> SummaryLine:
+    worst = values[f"{name}.worst_deg"]
+    if worst is None:
+        return SummaryLine(label, f"{what} is not known")
+    most = measured(values[f"{name}.p997_deg"], "deg")
+    most += f" ({measured(values[f'{name}.p997_arcsec'], 'arc seconds', 3)})"
+    text = f"{what} within {most} in 99.7 % of machines, {measured(worst, 'deg')} at worst"
+    return SummaryLine(label, text)

@@ -16,8 +16,7 @@ from geneva_cli.spec.schema import TEXT_MAX
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.constraints import Nearness, is_number
-from geneva_cli.study.sweep.outcome import Outcome, Rows
-from geneva_cli.study.sweep.request import SweepRequest
+from geneva_cli.study.sweep.request import Outcome, Rows, SweepRequest
 from geneva_cli.study.sweep.values import Value
 
 Row: TypeAlias = Sequence[Cell]

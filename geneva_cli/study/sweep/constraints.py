@@ -38,15 +38,12 @@ class Constraint(NamedTuple):
         margin = value - self.bound if self.sign == ">=" else self.bound - value
         return margin / (abs(self.bound) or 1.0)
 
-    def binds(self, value: float) -> bool:
-        """Return True if a value is at the bound."""
-        return abs(self.margin(value)) <= 1e-6  # the optimiser leaves it less than this
-
     def standing(self, value: float) -> str:
         """A remark on a value that keeps the bound; empty for a value well inside."""
-        if self.margin(value) < 0.0:
+        margin = self.margin(value)
+        if margin < 0.0:
             return " (binds, met to rounding)"
-        return " (binds)" if self.binds(value) else ""
+        return " (binds)" if margin <= 1e-6 else ""  # the optimiser leaves it less than this
 
 
 def is_number(value: object) -> TypeGuard[float]:

@@ -31,6 +31,7 @@ def front(
 
 def best(costs: Array) -> list[int]:
     """The numbers of the rows of costs (n, d) that no other row dominates, ascending."""
+    kept: Mask
     rows, same = np.unique(costs, axis=0, return_inverse=True)
     # in lexicographic order nothing later dominates anything earlier
     if rows.shape[1] <= 2:
@@ -40,7 +41,7 @@ def best(costs: Array) -> list[int]:
         kept = np.zeros(len(rows), dtype=bool)
         for start in range(0, len(rows), BLOCK):
             block = rows[start : start + BLOCK]
-            beaten = _pairs(block, rows[:start][kept[:start]]).any(axis=1)
+            beaten: Mask = _pairs(block, rows[:start][kept[:start]]).any(axis=1)
             left = block[~beaten]
             beaten[~beaten] = _pairs(left, left).sum(axis=1) > 1
             kept[start : start + BLOCK] = ~beaten

@@ -32,30 +32,28 @@ class SweepPlan(NamedTuple):
 
     def sample(self, most: int) -> Iterator[tuple[Value, ...]]:
         """At most ``most`` designs spread over the sweep, the first one included."""
-        if self.random:
-            yield from self.rows(0, min(most, len(self)))
-            return
         count = min(most, len(self))
+        if self.random:
+            yield from self.rows(0, count)
+            return
         for i in range(count):
             at = i * len(self) // count
             yield from self.rows(at, at + 1)
 
     def rows(self, start: int, stop: int) -> list[tuple[Value, ...]]:
         """The values of the keys of the designs ``start`` to ``stop - 1``."""
-        return list(self._drawn(start, stop) if self.random else self._grid(start, stop))
-
-    def _grid(self, start: int, stop: int) -> Iterator[tuple[Value, ...]]:
+        if self.random:
+            points = _sobol(len(self.axes), self.seed, start, stop).tolist()
+            return [tuple(map(_at, self.axes, point)) for point in points]
+        out: list[tuple[Value, ...]] = []
         sizes = [len(a.values) for a in self.axes]
         for i in range(start, stop):
-            out: list[Value] = []
+            row: list[Value] = []
             for a, size in zip(reversed(self.axes), reversed(sizes), strict=True):
                 i, at = divmod(i, size)
-                out.append(a.values[at])
-            yield tuple(reversed(out))
-
-    def _drawn(self, start: int, stop: int) -> Iterator[tuple[Value, ...]]:
-        for point in _sobol(len(self.axes), self.seed, start, stop).tolist():
-            yield tuple(_at(a, x) for a, x in zip(self.axes, point, strict=True))
+                row.append(a.values[at])
+            out.append(tuple(reversed(row)))
+        return out
 
 
 def _at(axis: VariedKey, x: float) -> Value:

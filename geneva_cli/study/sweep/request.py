@@ -1,20 +1,23 @@
-"""A request for a sweep, read from the options of the command line."""
+"""A request for a sweep, read from options; its rows, counted, and those that a terminal shows."""
 
 from __future__ import annotations
 
+import heapq
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.columns import digest
-from geneva_cli.specfile.reader import Text, read
+from geneva_cli.specfile.reader import read
 from geneva_cli.study.fields import Cell, Pick
 from geneva_cli.study.fields import pick as pick_of
 from geneva_cli.study.sweep.constraints import (
     Constraint,
+    Nearness,
     Objective,
     constraint,
+    is_number,
     objective,
     refuse_contradictions,
     refuse_opposites,
@@ -23,7 +26,10 @@ from geneva_cli.study.sweep.constraints import (
 from geneva_cli.study.sweep.plan import WHOLE, plan
 from geneva_cli.study.sweep.plan import shard as share
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
-from geneva_cli.study.sweep.values import VariedKey, axis, refuse_twice
+from geneva_cli.study.sweep.values import axis, refuse_twice
+from geneva_cli.table import Table, rows_table
+
+Rows: TypeAlias = list[list[Cell]]
 
 
 class SweepRequest(NamedTuple):
@@ -56,11 +62,11 @@ class SweepRequest(NamedTuple):
         words = [v for a in self.sweep.plan.axes for v in a.values if isinstance(v, str)]
         return (*self.files, *(os.path.join(folder, word) for word in words))
 
-    def blocks(self, done: int = 0) -> Iterator[list[list[Cell]]]:
+    def blocks(self, done: int = 0) -> Iterator[Rows]:
         """All rows, in blocks; the first ``done`` rows are skipped."""
         return blocks(self.sweep, done, self.jobs)
 
-    def chosen(self, row_blocks: Iterable[list[list[Cell]]]) -> Iterator[list[list[Cell]]]:
+    def chosen(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """The rows that keep all bounds and, of these, the Pareto front."""
         names = self.sweep.names
         bounds = [(names.index(c.name), c) for c in self.constraints]
@@ -72,7 +78,7 @@ class SweepRequest(NamedTuple):
 
         at = [names.index(o.name) for o in self.objectives]
         signs = [o.sign for o in self.objectives]
-        rows, size = list[list[Cell]](), 0  # the front so far, its size, and the rows after it
+        rows, size = Rows(), 0  # the front so far, its size, and the rows after it
         for block in kept:  # a row that the front dominates never returns
             rows += block
             if len(rows) >= 2 * size:  # not for a few rows more, if the front is long
@@ -110,21 +116,29 @@ def request(
     try:  # report an error in the file before errors in the options
         files = text.spec().files
     except GenevaError as error:
-        files = _files(text, axes, error)
+        middle = [a.values[len(a.values) // 2] for a in axes]
+        try:  # a spec that is invalid on its own
+            files = with_values(text, axes, middle).spec().files
+        except GenevaError:
+            raise error from None
     refuse_twice(axes, text.set_keys)
     if best and random is None and any(a.span for a in axes):
         random = 4096  # designs that --best scans
     if seed is not None and random is None:
         raise GenevaError(f"--seed {cut(seed)}: it needs --random N; a grid has no random draw")
     bounds = [constraint(text) for text in subject_to]
-    goals = _objectives(pareto, best)
+    if pareto and best:
+        raise GenevaError("--pareto with --best: a front, or one design; choose one of them")
+    option = "--best" if best else "--pareto"
+    texts = [best] if best else pareto.split(",") if pareto else []
+    goals = [objective(one, option) for one in texts]
     part = share(shard) if shard else WHOLE
     if shard and goals:
         raise GenevaError("--shard: each shard has a front of its own; join all rows, then choose")
     names = [name.strip() for name in pick.split(",")] if pick else []
     if not names and not goals:
         names = list(DEFAULT)
-    by = dict.fromkeys([o.name for o in goals], "--best" if best else "--pareto")
+    by = dict.fromkeys([o.name for o in goals], option)
     needed = [*by, *(c.name for c in bounds)]
     names += ["checks.passes", "checks.failed"] if check else []
     of_best, picks = (pick_of(names), needed) if best else (Pick(), [*needed, *names])
@@ -137,17 +151,109 @@ def request(
     return SweepRequest(swept, tuple(bounds), tuple(goals), jobs, files, of_best)
 
 
-def _files(text: Text, axes: Sequence[VariedKey], error: GenevaError) -> tuple[str, ...]:
-    """The files of a spec that is invalid on its own, with varied keys at their middle values."""
-    try:
-        return with_values(text, axes, [a.values[len(a.values) // 2] for a in axes]).spec().files
-    except GenevaError:
-        raise error from None
+class Outcome:
+    """Counts of rows as they arrive: all, those that cannot be built, and those that are kept."""
+
+    def __init__(self, request: SweepRequest) -> None:
+        self.request = request
+        self.all = self.failed = self.left = 0
+        self._first = ""  # why the first of them cannot be built
+        names = request.sweep.names
+        self._nearness = Nearness([(names.index(c.name), c) for c in request.constraints])
+        self._unknown = {names.index(o.name): o.name for o in request.objectives}
+
+    def rows(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
+        """The rows of the request, counted: all of them, or those that it chooses."""
+        counted = self.counted(row_blocks)
+        for block in self.request.chosen(counted) if self.request.chooses else counted:
+            self.left += len(block)
+            yield block
+
+    def counted(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
+        """All rows, counted."""
+        for block in row_blocks:
+            failed = [str(row[-1]) for row in block if row[-1] is not None]
+            self.all += len(block)
+            self.failed += len(failed)
+            self._first = self._first or (failed[0] if failed else "")
+            self._nearness.add(block)
+            for i in list(self._unknown):
+                if any(is_number(row[i]) for row in block):
+                    del self._unknown[i]
+            yield block
+
+    def refused(self) -> list[str]:
+        """The number of designs that cannot be built, with the first reason or where to find it."""
+        if not self.failed:
+            return []
+        why = f"the first: {self._first}" if self.request.chooses else "column error says why"
+        return [f"{self.failed:,} of {self.all:,} designs cannot be built: {why}"]
+
+    def notes(self) -> list[str]:
+        """Notes for the user besides the rows."""
+        notes = self.refused()
+        if self.all and not self.left:
+            unknown = [f"no design has a value of {name}" for name in self._unknown.values()]
+            why = dict.fromkeys([*unknown, *self._nearness.phrases()])
+            notes.append(f"none of {self.all:,} rows is left: {'; '.join(why)}")
+        return notes
 
 
-def _objectives(pareto: str, best: str) -> list[Objective]:
-    if pareto and best:
-        raise GenevaError("--pareto with --best: a front, or one design; choose one of them")
-    if best:
-        return [objective(best, "--best")]
-    return [objective(text, "--pareto") for text in pareto.split(",")] if pareto else []
+ROWS = 5  # the first rows, and as many of the best; up to twice as many are all shown
+
+Numbered = tuple[Cell, ...]  # a row behind its number, counted from 1
+
+
+class Digest:
+    """The first rows, the best rows and their count, updated as rows arrive in bounded memory.
+
+    The best have the least, or the greatest, of the first goal of --pareto; without --pareto, the
+    least of the first numeric quantity. ``place`` names the file with all rows.
+    """
+
+    def __init__(self, request: SweepRequest, place: str = "-o FILE.csv") -> None:
+        self.place = place
+        self.names = request.sweep.names
+        self.goal = request.objectives[0] if request.objectives else None
+        self.quantities = request.sweep.pick.names
+        self.count = 0
+        self.first: list[Numbered] = []
+        self.best: list[tuple[float, Numbered]] = []  # the best first
+
+    def add(self, rows: Sequence[Sequence[Cell]]) -> None:
+        """Add rows, which are numbered in their order."""
+        numbered = [(self.count + i, *row) for i, row in enumerate(rows, 1)]
+        self.count += len(rows)
+        self.first += numbered[: 2 * ROWS - len(self.first)]
+        self.goal = self.goal or self._goal(rows)
+        if self.goal:
+            sign, at = self.goal.sign, 1 + self.names.index(self.goal.name)
+            costs = ((sign * x, row) for row in numbered if is_number(x := row[at]))
+            self.best = heapq.nsmallest(
+                ROWS, [*self.best, *costs], key=lambda costed: (costed[0], costed[1][0])
+            )
+
+    def _goal(self, rows: Sequence[Sequence[Cell]]) -> Objective | None:
+        """The first quantity that is a number in some row, to be minimised."""
+        for name in self.quantities:
+            at = self.names.index(name)
+            if any(is_number(row[at]) and not isinstance(row[at], bool) for row in rows):
+                return Objective(1.0, name)
+        return None
+
+    def tables(self) -> Iterator[Table]:
+        """One table with all rows if they are few; otherwise the first rows and the best."""
+        if self.count <= 2 * ROWS:
+            yield self._table(self.first, "")
+            return
+        rest = f"All {self.count:,} rows: {self.place}"
+        yield self._table(self.first[:ROWS], f"The first {ROWS} rows. {rest}")
+        if self.goal:
+            best = [row for _, row in self.best]
+            yield self._table(best, f"The {len(best)} rows with the {self.goal}")
+
+    def _table(self, rows: Sequence[Numbered], title: str) -> Table:
+        names = ("row", *self.names)
+        kept = [i for i in range(len(names)) if any(row[i] is not None for row in rows)]
+        shown = [tuple(row[i] for i in kept) for row in rows]
+        return rows_table([names[i] for i in kept], shown, title)

@@ -7,7 +7,6 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from functools import partial
 from typing import NamedTuple
 
 from geneva_cli import __version__
@@ -59,6 +58,10 @@ class Sweep(NamedTuple):
     def rows(self, start: int, stop: int) -> list[list[Cell]]:
         """The rows of the designs ``start`` to ``stop - 1``."""
         return self.rows_of(self.plan.rows(start, stop))
+
+    def block(self, start: int) -> list[list[Cell]]:
+        """The rows of one task of this shard, from a design on."""
+        return self.rows(start, min(start + self.task_size, self.span[1]))
 
     def rows_of(self, designs: Sequence[Sequence[Value]]) -> list[list[Cell]]:
         """The rows of designs by the values of their keys."""
@@ -218,8 +221,4 @@ def blocks(run: Sweep, done: int = 0, workers: int | None = None) -> Iterator[li
     start, stop = run.span
     starts = range(start + done, stop, run.task_size)
     count = min(len(starts), cores() if workers is None else workers)
-    yield from mapped(partial(_block, run, stop), starts, count)
-
-
-def _block(run: Sweep, stop: int, start: int) -> list[list[Cell]]:
-    return run.rows(start, min(start + run.task_size, stop))
+    yield from mapped(run.block, starts, count)

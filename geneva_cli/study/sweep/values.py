@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from decimal import Decimal, InvalidOperation
-from typing import NamedTuple, TypeAlias, overload
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.spec.rules import RangeText, range_text
@@ -67,7 +68,10 @@ def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
     if len(parts) == 1 and (ends := range_text(text, option)):
         ends = _ends_in_unit_of(key, ends, option)
         if random and not ends.step and not (_whole(ends[:2]) and is_whole(key)):
-            return VariedKey(key, _span(ends, option), span=True)
+            low, high = float(_decimal(ends.low, option)), float(_decimal(ends.high, option))
+            if low >= high:
+                raise GenevaError(f"{option}: the first number must be below the second")
+            return VariedKey(key, (low, high), span=True)
         return VariedKey(key, _range(ends, option))
     values: list[Value] = []
     for part in parts:
@@ -86,26 +90,26 @@ def _whole(parts: Iterable[str]) -> bool:
     return all(re.fullmatch(r"[+-]?\d{1,99}", part) for part in parts)
 
 
-def _span(ends: RangeText, option: str) -> tuple[float, float]:
-    """The two ends of a span. Raises GenevaError if the first is not below the second."""
-    low, high = float(_decimal(ends.low, option)), float(_decimal(ends.high, option))
-    if low >= high:
-        raise GenevaError(f"{option}: the first number must be below the second")
-    return low, high
-
-
 def _range(ends: RangeText, option: str) -> Sequence[float]:
     """The values from LOW to HIGH by STEP; whole numbers need no step."""
     if _whole(filter(None, ends)) and ends.low and ends.high:
-        first, last, step = int(ends.low), int(ends.high), int(ends.step or 1)
-        if step:
-            _refuse_many(option, abs((last - first) / step) + 1)
-        if step and (numbers := range(first, last + (1 if step > 0 else -1), step)):
-            return numbers
+        first, last, by = int(ends.low), int(ends.high), int(ends.step or 1)
+        if by:
+            _refuse_many(option, abs((last - first) / by) + 1)
+            if numbers := range(first, last + (1 if by > 0 else -1), by):
+                return numbers
     low, high = _decimal(ends.low, option), _decimal(ends.high, option)
     if not ends.step and not _whole(ends[:2]):
         raise GenevaError(f"{option}: a range of fractions needs its step: LOW..HIGH:STEP")
-    return _steps(low, high, _decimal(ends.step or "1", option), option)
+    step = _decimal(ends.step or "1", option)
+    if not step or (high - low) / step < 0:
+        raise GenevaError(
+            f"{option}: a step of {step:g} does not lead from {low:g} to {high:g}; "
+            "give LOW..HIGH:STEP"
+        )
+    count = (high - low) / step
+    _refuse_many(option, count + 1)
+    return Steps(low, step, math.floor(count) + 1)
 
 
 def _in_unit_of(key: str, text: str, option: str) -> str:
@@ -116,11 +120,8 @@ def _in_unit_of(key: str, text: str, option: str) -> str:
     """
     if not text.strip()[-1:].isalnum() or not unit_key(key):
         return text
-    try:
+    with suppress(ValueError):
         float(text)
-    except ValueError:
-        pass
-    else:
         return text
     try:
         return repr(in_unit_of(key, text))
@@ -172,31 +173,13 @@ class Steps(Sequence[float]):
     def __len__(self) -> int:
         return self.length
 
-    @overload
-    def __getitem__(self, at: int) -> float: ...
-    @overload
-    def __getitem__(self, at: slice) -> list[float]: ...
-    def __getitem__(self, at: int | slice) -> float | list[float]:
-        if isinstance(at, slice):
-            return [self[i] for i in range(*at.indices(self.length))]
+    def __getitem__(self, at: int) -> float:  # type: ignore[override]
         if not 0 <= at < self.length:
             raise IndexError(at)
         return float(self.low + self.step * at)
 
     def __repr__(self) -> str:
         return f"Steps({self.low}, {self.step}, {self.length})"
-
-
-def _steps(low: Decimal, high: Decimal, step: Decimal, option: str) -> Steps:
-    """The values from LOW up to HIGH. Raises GenevaError if there are none, or too many."""
-    if not step or (high - low) / step < 0:
-        raise GenevaError(
-            f"{option}: a step of {step:g} does not lead from {low:g} to {high:g}; "
-            "give LOW..HIGH:STEP"
-        )
-    count = (high - low) / step
-    _refuse_many(option, count + 1)
-    return Steps(low, step, math.floor(count) + 1)
 
 
 def _refuse_many(option: str, count: float | Decimal, most: int = POINTS_MAX) -> None:

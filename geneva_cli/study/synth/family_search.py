@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from geneva_cli.study.synth.optimiser import BROKEN, SETTLED, Places, Zoom, samp
 from geneva_cli.study.target import Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
+FamilyMachine: TypeAlias = tuple[Spec, Family]
 GRID = 24  # intervals of the span of one number, sampled first
 QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
 # Of one number: samples on both sides of the best, each time four times as close.
@@ -41,17 +42,10 @@ def _ring(number: int) -> Array:
 RING = Zoom(_ring, 0.1, 1.4, 0.5, 40)
 
 
-class FamilyMachine(NamedTuple):
-    """A machine and its family."""
-
-    spec: Spec
-    family: Family
-
-
 def best(
     families: Sequence[Family], target: Target, how_near: bool = False
 ) -> tuple[list[FamilyMachine], list[FamilyMachine]]:
-    """The best machine of each family, divided into those that keep the bounds and the others.
+    """The best machine of each family, with it: those that keep the bounds, and the others.
 
     The others break the bounds least, with ``how_near`` to the last digit.
     """
@@ -74,7 +68,7 @@ def best(
         alike = zip(place, f.known, f.low, f.high, strict=False)
         is_known = f.known and all(abs(x - y) <= 1e-4 * (b - a) for x, y, a, b in alike)
         if not is_known and (spec := f.at(place)):  # known: of another family
-            (kept if keeps else broken_ones).append(FamilyMachine(spec, f))
+            (kept if keeps else broken_ones).append((spec, f))
     return kept, broken_ones
 
 

@@ -75,14 +75,9 @@ def kinds(target: Target) -> list[tuple[Kind, Target]]:
     alone = target.only_acceleration
     return [
         *((kind, one) for kind in families_of_kinds("alone") for one in some),
-        *((_straight, one.by_bounds if alone else one) for one in each),
+        *((straight, one.by_bounds if alone else one) for one in each),
         *((with_laws, one._replace(laws=(law,))) for law in target.laws for one in each),
     ]
-
-
-def _straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
-    for wheel in wheels:
-        yield from straight(target, wheel)
 
 
 def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> KindRows:
@@ -93,8 +88,8 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
         # the search cannot see them: they are computed for the best of several pieces of a family
         families = pieces(families, 120)
     one_each, near = best(families, target, how_near)
-    of = {one.spec: one.family for one in reversed([*one_each, *near])}
-    specs = [*dict.fromkeys(one.spec for one in one_each)]
+    of = dict(reversed([*one_each, *near]))
+    specs = [*dict.fromkeys(spec for spec, _ in one_each)]
     # the bounds that do not depend on the roller; None where a machine is computed alone
     bounds = [b for b in target.known_bounds if not b.name.startswith("loads.")]
     keep: list[bool | None] = [True] * len(specs)
@@ -107,7 +102,7 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
     shown = [spec for spec, keeps in zip(specs, keep, strict=True) if keeps is not False]
     if how_near:
         shown += [spec for spec, keeps in zip(specs, keep, strict=True) if keeps is False]
-        shown += [one.spec for one in near]
+        shown += [spec for spec, _ in near]
     errors: list[str] = []
     found = [
         row._replace(family=of[spec].whole) if of[spec].can_vary else row

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import namedtuple
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -22,8 +23,8 @@ from geneva_cli.verdict.checks.motion_checks import GROOVE_MAX_DEG, driven_fract
 
 NEAR_DEG = 3.0  # below its limit, within which the pressure angle is searched between samples
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
-
-
+# Known with a cycle time: the input speed, times, and the peak in rad/s² or of a rack in m/s².
+TIMED = ("n_rpm", "motion_s", "dwell_s", "acceleration_max_rad_s2", "acceleration_max_m_s2")
 # Keys of wheel and drive that only some machines have, and that describe a row.
 OWN_KEYS = (
     *("A", "eccentricity", "phase", "axes_deg", "offset_mm", "planet_ratio", "fixed"),
@@ -32,49 +33,19 @@ OWN_KEYS = (
 )
 
 
-class Candidate(NamedTuple):
-    """One machine as a row: its description, then its costs (invariants)."""
+class Candidate(
+    namedtuple(  # values are None where they do not apply, or without a cycle time
+        "Candidate",
+        "z gearing rollers drive A eccentricity phase axes_deg alpha0_deg law ratio motion_deg "
+        "dwell_deg tau k velocity_max acceleration_max acceleration_entry jerk_max power_max n_rpm "
+        "acceleration_max_rad_s2 parts offset_mm planet_ratio fixed motion_s dwell_s crank_mm "
+        "ground_mm coupler_mm rocker_mm point_mm point_deg entry_deg sector_deg first_z index_mm "
+        "acceleration_max_m_s2 wheels",
+    )
+):
+    """One machine as a row: its description, costs (invariants), and whether it can be built."""
 
-    z: int
-    gearing: str
-    rollers: int
-    drive: str
-    A: float | None
-    eccentricity: float | None
-    phase: str | None
-    axes_deg: float | None
-    alpha0_deg: float | None
-    law: str | None
-    ratio: float
-    motion_deg: float
-    dwell_deg: float
-    tau: float
-    k: float
-    velocity_max: float
-    acceleration_max: float
-    acceleration_entry: float
-    jerk_max: float
-    power_max: float
-    n_rpm: float | None  # with a cycle time: the input speed, and the peak in rad/s²
-    acceleration_max_rad_s2: float | None
-    parts: str | None  # whether they can be built; None if they are not drawn
-    offset_mm: float | None
-    planet_ratio: float | str | None
-    fixed: str | None
-    motion_s: float | None  # with a cycle time
-    dwell_s: float | None
-    crank_mm: float | None  # a four-bar's keys
-    ground_mm: float | None
-    coupler_mm: float | None
-    rocker_mm: float | None
-    point_mm: float | None
-    point_deg: float | None
-    entry_deg: float | None
-    sector_deg: float | None
-    first_z: int | None
-    index_mm: float | None  # of a rack
-    acceleration_max_m_s2: float | None
-    wheels: int | None  # on a carrier
+    __slots__ = ()
 
     @property
     def is_driven(self) -> bool:
@@ -207,14 +178,19 @@ def _slot_failure(machine: Mechanism) -> str:
 def _candidate(
     machine: Mechanism, target: Target, costs: Sequence[float], parts: str | None
 ) -> Candidate:
-    spec, time, motion = machine.spec, timings(machine)[0], machine.spec.motion
+    spec, time, output = machine.spec, timings(machine)[0], machine.output
+    motion = spec.motion
     keys = spec.wheel.as_dict() | spec.drive.as_dict()
     own = {name: keys.get(name) for name in OWN_KEYS}
+    own |= {key: getattr(time, key) for key in ("motion_deg", "dwell_deg", "tau", "k", "index_mm")}
+    own |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=True)}
     own["offset_mm"] = own["offset_mm"] or None
-    n = spec.drive.n_rpm if target.timed else None
-    velocity, acceleration, entry, jerk, power = costs
-    output = machine.output
-    rate = acceleration * omega(n) ** 2 * output.rate_per_radian if n else None
+    timed = dict.fromkeys(TIMED)
+    if target.timed:
+        n = spec.drive.n_rpm
+        timed |= {"n_rpm": n, "motion_s": time.motion_s, "dwell_s": time.dwell_s}
+        rate = costs[1] * omega(n) ** 2 * output.rate_per_radian
+        timed[f"acceleration_max_{output.rate_unit}_s2"] = rate
     return Candidate(
         z=spec.wheel.z,
         gearing=spec.wheel.NAME,
@@ -223,21 +199,7 @@ def _candidate(
         alpha0_deg=motion.alpha0_deg if motion else None,
         law=motion.law.NAME if motion else None,
         ratio=machine.ratio,
-        motion_deg=time.motion_deg,
-        dwell_deg=time.dwell_deg,
-        tau=time.tau,
-        k=time.k,
-        velocity_max=velocity,
-        acceleration_max=acceleration,
-        acceleration_entry=entry,
-        jerk_max=jerk,
-        power_max=power,
-        n_rpm=n,
-        acceleration_max_rad_s2=rate if output.turns else None,
         parts=parts,
-        motion_s=time.motion_s if n else None,
-        dwell_s=time.dwell_s if n else None,
-        index_mm=time.index_mm,
-        acceleration_max_m_s2=None if output.turns else rate,
         **own,
+        **timed,
     )

@@ -117,21 +117,23 @@ def _computed(specs: Sequence[Spec], machine: Mechanism) -> list[PartsData]:
     least = 0.5 * np.hypot(fx - fx[:, ::-1], fy - fy[:, ::-1]).max(axis=1)
     least = least if engagement.slot.curved else np.zeros(len(specs))
     z = np.broadcast_to(machine.spec.wheel.z, (len(specs), 1))[:, 0]
-    between = [_between(*points) for points in zip(fx[:, ::2], fy[:, ::2], z, strict=True)]
+    between = np.empty(len(specs))
+    for i, (u, v) in enumerate(zip(fx[:, ::2], fy[:, ::2], strict=True)):
+        b = math.tau / z[i]
+        c, s = math.cos(b), math.sin(b)
+        dx, dy = u[:, None] - (c * u - s * v), v[:, None] - (s * u + c * v)
+        between[i] = math.sqrt(float((dx * dx + dy * dy).min()))
     pressure = groove.pressure_deg if groove else np.zeros(len(specs))
     walls = outer_walls(machine, UNDERCUT_SAMPLES)
     back = None if machine.spec.drive.LOCKS else _places_at_rest(machine)
     columns = np.broadcast_arrays(ends, arm, between, least, pressure)
-    return [
-        PartsData(
-            spec,
-            RollerPaths((row[0],), row[1]),
-            *row[2:],
-            walls and (walls[0].of(i), walls[1].of(i)),
-            back and (back[0][i], back[1][i]),
-        )
-        for i, (spec, row) in enumerate(zip(specs, np.column_stack(columns).tolist(), strict=True))
-    ]
+    out = []
+    for i, (spec, row) in enumerate(zip(specs, np.column_stack(columns).tolist(), strict=True)):
+        end, near, apart, radius, steep = row
+        own = walls and (walls[0].of(i), walls[1].of(i))
+        away = back and (back[0][i], back[1][i])
+        out.append(PartsData(spec, RollerPaths((end,), near), apart, radius, steep, own, away))
+    return out
 
 
 def _places_at_rest(machine: Mechanism) -> tuple[Array, Array]:
@@ -155,10 +157,3 @@ def _arm(machine: Mechanism) -> Array:
     x, y = (c.c[0] for c in engagement.path(np.atleast_2d(at), 0))
     away = np.hypot(x - 1.0, y)
     return np.ravel(machine.center_distance_mm * away.min(axis=1, keepdims=True))
-
-
-def _between(x: Array, y: Array, z: int) -> float:
-    b = math.tau / z
-    u, v = math.cos(b) * x - math.sin(b) * y, math.sin(b) * x + math.cos(b) * y
-    dx, dy = x[:, None] - u, y[:, None] - v
-    return math.sqrt(float((dx * dx + dy * dy).min()))

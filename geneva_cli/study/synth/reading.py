@@ -170,11 +170,9 @@ def _gearings(
         return chosen or able
     if frame is None or not frame.wheel.stopped:
         return chosen or GEARINGS
-    stopped = tuple(
-        name
-        for name in chosen or GEARINGS
-        if any(field.key == "stop" for field in fields(registry.gearing(name)))
-    )
+    several = chosen or GEARINGS
+    keys = {name: fields(registry.gearing(name)) for name in several}
+    stopped = tuple(g for g in several if any(field.key == "stop" for field in keys[g]))
     if not stopped:
         raise GenevaError(f"--{chosen[0]}: the spec has a stop, which this wheel cannot have")
     return stopped

@@ -12,31 +12,22 @@ from geneva_cli.table import Reading, Table
 
 # Columns and their short names, the least important last; empty ones are left out. Rows are sorted
 # by the peak acceleration, and --write takes their number: a narrow window keeps both.
-HEADS = {
-    "no": "no",
-    "machine": "machine",
+SHORT = {
     "acceleration_max": "accel_max",
-    "z": "z",
     "gearing": "wheel",
-    "parts": "parts",
     "n_rpm": "rpm",
     "extra": "",
-    "rollers": "rollers",
-    "motion_deg": "motion_deg",
-    "dwell_s": "dwell_s",
     "acceleration_max_rad_s2": "accel_rad/s2",
     "acceleration_max_m_s2": "accel_m/s2",
-    "index_mm": "index_mm",
     "acceleration_entry": "accel_entry",
-    "velocity_max": "velocity_max",
-    "jerk_max": "jerk_max",
-    "tau": "tau",
-    "power_max": "power_max",
-    "motion_s": "motion_s",
-    "dwell_deg": "dwell_deg",
-    "k": "k",
-    "ratio": "ratio",
 }
+RANKED = (
+    *("no", "machine", "acceleration_max", "z", "gearing", "parts", "n_rpm", "extra", "rollers"),
+    *("motion_deg", "dwell_s", "acceleration_max_rad_s2", "acceleration_max_m_s2", "index_mm"),
+    *("acceleration_entry", "velocity_max", "jerk_max", "tau", "power_max", "motion_s"),
+    *("dwell_deg", "k", "ratio"),
+)
+HEADS = {name: SHORT.get(name, name) for name in RANKED}
 ORDER = (
     *("no", "z", "gearing", "rollers", "machine", "ratio", "index_mm", "motion_deg", "dwell_deg"),
     *("motion_s", "dwell_s", "tau", "k", "n_rpm", "velocity_max", "acceleration_max"),
@@ -48,7 +39,7 @@ ORDER = (
 LINKS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm")
 
 
-class SynthesisColumn(NamedTuple):
+class _Column(NamedTuple):
     """A column for people: its source, its heading and its cells."""
 
     source: str
@@ -103,22 +94,22 @@ def for_people(table: Table) -> Table:
 
 def _columns(
     rows: list[dict[str, Any]], names: tuple[str, ...], several: bool
-) -> Iterator[SynthesisColumn]:
+) -> Iterator[_Column]:
     # the machine's description has the keys
     known = {*HEADS, "drive", "law", "alpha0_deg", *OWN_KEYS}
     for source in ORDER:
         if source == "machine":
-            yield SynthesisColumn(source, source, [_machine(row, several) for row in rows])
+            yield _Column(source, source, [_machine(row, several) for row in rows])
         elif source == "extra":
             for name in (name for name in names if name not in known):
-                yield SynthesisColumn(source, name.replace(".", "_"), [row[name] for row in rows])
+                yield _Column(source, name.replace(".", "_"), [row[name] for row in rows])
         elif source == "parts":
-            yield SynthesisColumn(source, source, [_parts_entry(row["parts"]) for row in rows])
+            yield _Column(source, source, [_parts_entry(row["parts"]) for row in rows])
         else:
             cells = [row[source] for row in rows]
             if source == "gearing":  # ext, int, sph
                 cells = [word[:3] for word in cells]
-            yield SynthesisColumn(source, HEADS[source], cells)
+            yield _Column(source, HEADS[source], cells)
 
 
 def _machine(row: dict[str, Any], several: bool) -> str:
@@ -139,7 +130,7 @@ def _machine(row: dict[str, Any], several: bool) -> str:
     return " ".join([row["drive"], *filter(None, own)])
 
 
-def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
+def _fitting(columns: list[_Column]) -> list[_Column]:
     rank = _ranks(columns)
     # letters with a frame's gap between two columns; headings are broken at underscores
     wide = [
@@ -151,7 +142,7 @@ def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
     return [columns[i] for i in kept]
 
 
-def _ranks(columns: list[SynthesisColumn]) -> dict[str, float]:
+def _ranks(columns: list[_Column]) -> dict[str, float]:
     rank: dict[str, float] = {source: i for i, source in enumerate(HEADS)}
     named = [c.cells for c in columns if c.source in ("z", "gearing", "machine")]
     names = [*zip(*named, strict=True)]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
@@ -17,8 +17,8 @@ from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.study.fields import Cell, Pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint, Nearness, is_number
-from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.family import natural_deg
+from geneva_cli.study.synth.families.straight_slots import MOST
 from geneva_cli.study.synth.group_search import all_kinds, replacement_rows, with_batch_values
 from geneva_cli.study.synth.machine_rows import MachineRow
 from geneva_cli.study.target import TURNS, Target
@@ -73,7 +73,7 @@ def search(target: Target) -> Ranking:
         found = all_kinds(strict, target.names, which=which)
         within = [row for kind in found for row in kind.rows if not row.breaks_limit]
         with suppress(GenevaError):  # none keeps the bounds as well
-            ranked = with_replacements(ranked, _ranked(target, within))
+            ranked = _with_replacements(ranked, _ranked(target, within))
         ranked.sort(key=partial(_rank, target))
     ranking = Ranking(ranked, narrowed, target)
     others = map(ranking.in_turn, replacement_rows(narrowed, ranked[:TURNED], ranked))
@@ -85,7 +85,7 @@ def search(target: Target) -> Ranking:
 def _ranked(target: Target, rows: list[MachineRow]) -> list[MachineRow]:
     rows = _worthwhile(target, _bounded(target, rows) if target.names else rows)
     rows.sort(key=partial(_rank, target))
-    return first_of_each(rows, linkages=in_batch(target.quantities))
+    return _first_of_each(rows, linkages=in_batch(target.quantities))
 
 
 def _rank(target: Target, row: MachineRow) -> tuple[object, ...]:
@@ -169,12 +169,12 @@ def _out_of_reach(target: Target, errors: list[str]) -> str:
     if not target.output.turns:
         return (
             f"{target.words}: out of reach of a rack: no drive goes beyond A or eccentricity "
-            f"{closed.PARAMETER_MAX}{first}"
+            f"{MOST}{first}"
         )
     return (
         f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: curved "
         "slots turn an internal wheel at most half as fast as the crank"
-        + (f", and no drive goes beyond A or eccentricity {closed.PARAMETER_MAX}" if m == 1 else "")
+        + (f", and no drive goes beyond A or eccentricity {MOST}" if m == 1 else "")
         + f"; use more slots or a longer motion{first}"
     )
 
@@ -194,20 +194,19 @@ def _kind(row: MachineRow) -> tuple[object, ...]:
     return one.gearing, one.z, one.drive, one.law, one.fixed, one.rollers
 
 
-def first_of_each(rows: Sequence[MachineRow], linkages: bool = False) -> list[MachineRow]:
+def _first_of_each(rows: Sequence[MachineRow], linkages: bool = False) -> list[MachineRow]:
     """The first row of every kind, or the first that may be built if that one cannot."""
     kept: list[MachineRow] = []
-    can_be: dict[Any, bool] = {}  # by kind, whether one of the kept rows may be built
+    can_be: dict[object, bool] = {}  # by kind, whether one of the kept rows may be built
     for i, row in enumerate(rows):
-        apart = linkages and row.candidate.crank_mm is None
-        own = i if apart else _kind(row)
+        own = i if linkages and row.candidate.crank_mm is None else _kind(row)
         if own not in can_be or (not can_be[own] and not row.is_impossible):
             kept.append(row)
             can_be[own] = not row.is_impossible
     return kept
 
 
-def with_replacements(rows: Sequence[MachineRow], kept: Sequence[MachineRow]) -> list[MachineRow]:
+def _with_replacements(rows: Sequence[MachineRow], kept: Sequence[MachineRow]) -> list[MachineRow]:
     """The rows, with those that break a limit replaced by rows ``kept`` of their kind."""
     broken = {_kind(row) for row in rows if row.breaks_limit}
     instead = [row for row in kept if _kind(row) in broken and not row.breaks_limit]

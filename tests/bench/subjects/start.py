@@ -28,7 +28,7 @@ SCRIPTS = {
     "def table(z: int = 6): row(z)\n"
     "app()\n",
 }
-MODULES = {"ezdxf": "geneva_cli.output.ezdxf_alone"}  # without fonts and queries
+MODULES = {"ezdxf": "geneva_cli.output.ezdxf_alone"}
 
 
 def subject(quick: bool) -> Subject:

@@ -18,8 +18,6 @@ from geneva_cli import (
     Motion,
     SideCrank,
     SineConstantCosine,
-    Size,
-    Spherical,
 )
 from geneva_cli.cli.app import app
 from geneva_cli.design import load
@@ -70,61 +68,6 @@ def test_the_bounds_hold_a_closed_form():
             assert found.about == "the decimals as written"
             assert found.low <= l / (1 - l) <= found.high
             assert found.where == "unique"
-
-
-# Machines, and the wheel's angle at an input angle in 50 digits, from decimals.
-def _crank(l, a):
-    return mpmath.atan2(l * mpmath.sin(a), 1 - l * mpmath.cos(a))
-
-
-def _offset(a):
-    b, e = mpmath.pi / 6, mpmath.mpf("7.3") / 90
-    l = mpmath.sin(b) * mpmath.cos(mpmath.asin(e / mpmath.cos(b)))
-    x, y = 1 - l * mpmath.cos(a), l * mpmath.sin(a)
-    return mpmath.atan2(y, x) + mpmath.asin(e / mpmath.hypot(x, y))
-
-
-def _spherical(a):
-    S = mpmath.radians(mpmath.mpf("61.7"))
-    th = mpmath.asin(mpmath.sin(S) * mpmath.sin(mpmath.pi / 5))
-    x = mpmath.sin(S) * mpmath.cos(th) - mpmath.cos(S) * mpmath.sin(th) * mpmath.cos(a)
-    return mpmath.atan2(mpmath.sin(th) * mpmath.sin(a), x)
-
-
-def _side_crank(a):
-    return _crank(
-        mpmath.sin(mpmath.pi / 7), mpmath.atan2(mpmath.sin(a), mpmath.cos(a) + mpmath.mpf("0.1"))
-    )
-
-
-def _elliptical(a):
-    e = mpmath.mpf("0.3")
-    return _crank(mpmath.sin(mpmath.pi / 6), 2 * mpmath.atan((1 - e) / (1 + e) * mpmath.tan(a / 2)))
-
-
-DECIMALS = {
-    "offset": (Design(External(6, offset_mm=7.3), size=Size(center_distance_mm=90)), _offset),
-    "spherical": (Design(Spherical(5, axes_deg=61.7)), _spherical),
-    "side-crank": (Design(External(7), SideCrank(A=0.1)), _side_crank),
-    "elliptical": (Design(External(6), EllipticalGears(eccentricity=0.3)), _elliptical),
-}
-
-
-@pytest.mark.parametrize("name", DECIMALS)
-def test_the_bounds_hold_the_decimals(name):
-    """Each peak, to 40 digits by differences of 80 digits about the place in the certificate."""
-    machine, angle = DECIMALS[name]
-    for order, quantity in enumerate(("velocity", "acceleration", "jerk"), 1):
-        found = machine.certificate(quantity)
-        assert found.proved and found.about == "the decimals as written"
-        with mpmath.workdps(80):
-            at = mpmath.radians(mpmath.mpf(found.at_deg))
-            if found.at_deg > machine.mechanism.engagements[0].entry_deg + 1e-6:
-                at = mpmath.findroot(lambda a, n=order: mpmath.diff(angle, a, n + 1), at, tol=1e-30)
-            exact = abs(mpmath.diff(angle, at, order))
-            assert found.low <= exact <= found.high
-            for share in (mpmath.mpf(1e-9), mpmath.mpf(-1e-9)):
-                assert not found.low <= exact * (1 + share) <= found.high
 
 
 def test_a_peak_at_a_jump_and_a_plateau():

@@ -21,8 +21,7 @@ from geneva_cli.loads.impacts.arrival import arrival, greatest_drag
 from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.wheel_body import wheel_body
-from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.pushes import pushes
+from geneva_cli.study.animation.animated_turn import MachineTurn, pushes
 from geneva_cli.study.animation.turning_scene import scene
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import single_check

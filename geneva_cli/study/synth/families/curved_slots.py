@@ -20,10 +20,10 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import MARGIN
 from geneva_cli.study.law_values import Characteristic, characteristic
-from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.family import (
     OPEN_END,
     Family,
@@ -73,12 +73,10 @@ class _LawLine(NamedTuple):
 
     def spec(self, m: int, motion_deg: float) -> Spec:
         alpha0 = _alpha0(self.target, self.natural, motion_deg)
-        if self.grooved:
-            kind, motion = Cam, Motion(self.law, alpha0_deg=alpha0)
-        else:
-            kind, motion = Crank, Motion(self.law, alpha0_deg=alpha0, ratio="matched")
+        motion = Motion(self.law, alpha0_deg=alpha0, ratio=None if self.grooved else "matched")
 
         def drive(n_rpm: float) -> Cam | Crank:
+            kind = Cam if self.grooved else Crank
             return kind(n_rpm=n_rpm, rollers=m)
 
         return machine(self.target, self.wheel, drive, m, motion_deg, motion)
@@ -120,8 +118,8 @@ class _LawLine(NamedTuple):
         """The machines below a limit of acceleration; the nearest to the plain crank is best."""
         step, limit = 2.0 * math.pi / self.wheel.z, self.target.acceleration_max
         least = 0.0
-        if limit:
-            least = closed.law_motion_deg(step, self.cost.acceleration, limit * (1.0 - MARGIN))
+        if limit:  # the law's peak is step C_a / motion²
+            least = math.sqrt(step * self.cost.acceleration / (limit * (1.0 - MARGIN))) / DEGREE
         most = longest_deg(m)
         best = max(least, min(self.natural, most))
         # where an internal wheel turns half as fast as the crank, R/L is 1; at 0.45 it is 9/11
@@ -151,7 +149,19 @@ def _alpha0(target: Target, natural: float, motion: float) -> float:
     spare = 2e-15 * natural  # the rounding of a difference of two angles
     # A motion that is shorter, by however little, would break a limit that it just keeps.
     most = alpha0 if target.acceleration_max else alpha0 + spare
-    return closed.shortest(alpha0 - spare, most)
+    return _shortest(alpha0 - spare, most)
+
+
+def _shortest(low: float, high: float) -> float:
+    """The number of fewest digits near the middle of an interval; 0 if that lies in it."""
+    if low <= 0.0 <= high:
+        return 0.0
+    middle = 0.5 * (low + high)
+    for digits in range(1, 17):
+        x = float(f"{middle:.{digits}g}")
+        if low <= x <= high:
+            return x
+    return middle
 
 
 def _more_rollers(target: Target, lines: Sequence[_LawLine]) -> list[list[Spec]]:

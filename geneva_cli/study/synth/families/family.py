@@ -92,21 +92,16 @@ def pieces(families: Sequence[Family], most: int) -> list[Family]:
     """
     free = [f.keys is not None and len(f.low) == 1 and f.is_free for f in families]
     count = max(1, min(8, most // max(sum(free), 1)))
-    return [
-        part
-        for f, cut in zip(families, free, strict=True)
-        for part in (_cut(f, count) if cut else [f])
-    ]
-
-
-def _cut(family: Family, count: int) -> list[Family]:
-    (low,), (high,) = family.low, family.high
-    ends = [low + (high - low) * k / count for k in range(count)]
-    return [
-        family._replace(low=(a,), high=(b,), ends=(family.low, family.high))
-        for a, b in pairwise([*ends, high])
-        if a < b
-    ]
+    out: list[Family] = []
+    for f, is_free in zip(families, free, strict=True):
+        if not is_free:
+            out.append(f)
+            continue
+        (low,), (high,) = f.low, f.high
+        ends = [*(low + (high - low) * k / count for k in range(count)), high]
+        whole = f._replace(ends=(f.low, f.high))
+        out += [whole._replace(low=(a,), high=(b,)) for a, b in pairwise(ends) if a < b]
+    return out
 
 
 def speeds(target: Target, m: float, motion_deg: Sequence[float]) -> dict[str, Array]:
@@ -126,19 +121,12 @@ def machine(
 ) -> Spec:
     """A machine with the sizes, loads and limits of the requirement's frame.
 
-    ``drive`` makes the drive for an input speed, which follows from the requirement for m motions
-    of ``motion_deg`` in a turn.
+    ``drive`` makes the drive for the input speed of m motions of ``motion_deg`` in a turn.
     """
-    own = target.frame or BARE
-    own_drive = drive(target.n_rpm(m, motion_deg))
+    own, made = target.frame or BARE, drive(target.n_rpm(m, motion_deg))
+    size = own.size.replace(center_distance_mm=center_distance_mm(target))
     return own.replace(
-        wheel=wheel,
-        drive=own_drive,
-        motion=motion,
-        size=own.size.replace(center_distance_mm=center_distance_mm(target)),
-        title="",
-        path="",
-        files=(),
+        wheel=wheel, drive=made, motion=motion, size=size, title="", path="", files=()
     )
 
 
@@ -184,11 +172,11 @@ def longest_deg(m: float) -> float:
 def closed_span(motion: AllowedSpan, m: int) -> AllowedSpan | None:
     """The range with open ends replaced by values near their limits; None if it is empty."""
     whole = 360.0 / m
-    low = motion.low if motion.low > 0.0 else OPEN_END * whole
-    high = motion.high if motion.high < whole else longest_deg(m)
     if motion.low >= whole or motion.high <= 0.0 or motion.empty:
         return None
-    return AllowedSpan(min(low, high), high) if not motion.exact else motion
+    low = motion.low if motion.low > 0.0 else OPEN_END * whole
+    high = motion.high if motion.high < whole else longest_deg(m)
+    return motion if motion.exact else AllowedSpan(min(low, high), high)
 
 
 def rollers(target: Target, natural: float) -> range:

@@ -5,11 +5,17 @@ differently. On a sphere the angle between the shafts determines the motion. Wit
 front of inclined shafts, two free numbers are gentler than either alone. With elliptical gears the
 motion depends on its length only, not on the shafts' angle, as the tangents of the quarters of both
 angles have a constant ratio: they are tried if more than times and peaks is required.
+
+A natural motion phi_2 is that of the plain crank, 180 deg - 2b outside and 180 deg + 2b inside;
+phi_1 is the required one. All angles are input angles in degrees. Sources: the law of sines in the
+coulisse's triangle (formula (1) of Polyudov and Kandyak, "Kinematics of the Maltese cross mechanism
+with a side-crank drive"), and the focal property of equal ellipses.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import math
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -24,9 +30,8 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.records import families_of_kinds
 from geneva_cli.motion.wheels.classic import half_motion_deg, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.study.synth.families import closed
 from geneva_cli.study.synth.families.family import (
     Family,
     allowed_motions,
@@ -43,7 +48,63 @@ from geneva_cli.study.synth.families.family import (
 from geneva_cli.study.target import AllowedSpan, Target
 from geneva_cli.verdict.quantities.quantity_names import is_motion
 
-MOST = closed.PARAMETER_MAX
+AXES = AllowedSpan(1.0, 179.0)  # angles between the shafts of a spherical wheel, degrees
+MOST = 0.9999  # greatest |A| and eccentricity: beyond, the drive nearly stops or jumps
+
+
+def side_crank(natural_deg: float, motion_deg: float) -> float:
+    """A = sin((phi_1 - phi_2)/2) / sin(phi_2/2), which increases with the motion.
+
+    Infinite if no A makes a motion of this length.
+    """
+    turn = 0.5 * (motion_deg - natural_deg) * DEGREE  # angle between input crank and coulisse
+    if not abs(turn) < 0.5 * math.pi:
+        return math.copysign(math.inf, turn)
+    return math.sin(turn) / math.sin(0.5 * natural_deg * DEGREE)
+
+
+def side_crank_motion(natural_deg: float, A: float) -> float:
+    """The motion that a side-crank makes: phi_1 = phi_2 + 2 asin(A sin(phi_2/2))."""
+    return natural_deg + 2.0 * math.asin(A * math.sin(0.5 * natural_deg * DEGREE)) / DEGREE
+
+
+def axes(z: int, motion_deg: float) -> float:
+    """Angle between a spherical wheel's shafts, degrees: cos S = cot b cot(phi_1/2).
+
+    It follows from cos(phi_1/2) = tan th / tan S and sin th = sin S sin b (th: the crank's cone).
+    The code uses sin S as well, so that small angles keep their digits: -cos(phi_1/2 + b)
+    cos(phi_1/2 - b) is the square of sin S sin b sin(phi_1/2). The angle increases with the motion,
+    from 0 for that of parallel shafts outside, 180 deg - 2b, to 180 for that inside.
+    """
+    a, (b, (_, cos_b)) = 0.5 * motion_deg * DEGREE, (math.pi / z, sin_cos_pi(1, z))
+    square = -math.cos(a + b) * math.cos(a - b)
+    if square <= 0.0:
+        return 0.0 if motion_deg < 180.0 else 180.0
+    return math.atan2(math.sqrt(square), math.cos(a) * cos_b) / DEGREE
+
+
+def axes_motion(z: int, axes_deg: float) -> float:
+    """The motion of a spherical wheel: cos(phi_1/2) = cos S sin b / sqrt(1 - (sin S sin b)²)."""
+    (sin_b, cos_b), S = sin_cos_pi(1, z), axes_deg * DEGREE
+    return 2.0 * math.atan2(cos_b, math.cos(S) * sin_b) / DEGREE
+
+
+def eccentricity(natural_deg: float, motion_deg: float) -> float:
+    """Eccentricity of equal ellipses: tan(phi_1/4) = (1+e)/(1-e) tan(phi_2/4).
+
+    It is negative in the quick phase. Solved for e: sin((phi_1 - phi_2)/4) / sin((phi_1 +
+    phi_2)/4), which holds for phi_2 above 180 too.
+    """
+    quarter = 0.25 * DEGREE
+    return math.sin((motion_deg - natural_deg) * quarter) / math.sin(
+        (motion_deg + natural_deg) * quarter
+    )
+
+
+def gears_motion(natural_deg: float, e: float) -> float:
+    """The motion that equal ellipses make, degrees."""
+    tangent = (1.0 + e) / (1.0 - e) * math.tan(0.25 * natural_deg * DEGREE)
+    return 4.0 * math.atan(tangent) / DEGREE
 
 
 class _InFront(NamedTuple):
@@ -68,13 +129,13 @@ class _InFront(NamedTuple):
         return parameter if self.low * self.high else abs(parameter)
 
 
-SIDE_CRANK = _InFront(SideCrank(A=0.0), "drive.A", closed.side_crank, closed.side_crank_motion)
+SIDE_CRANK = _InFront(SideCrank(A=0.0), "drive.A", side_crank, side_crank_motion)
 GEARS = tuple(
     _InFront(
         EllipticalGears(eccentricity=0.1, phase=phase),
         "drive.eccentricity",
-        closed.eccentricity,
-        closed.gears_motion,
+        eccentricity,
+        gears_motion,
         *span,
         "gear_distance_mm",
     )
@@ -82,18 +143,16 @@ GEARS = tuple(
 )
 
 
-def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
+def straight(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """The families with straight slots."""
-    natural = natural_deg(wheel)
-    for m in _natural_rollers(target, natural):
-        yield Family(plain(target, wheel, m))
-        if m == 1:
-            yield from planets(target, wheel)
-    yield from driven(target, wheel)
-    for own in families_of_kinds("wheel", wheel.NAME):
-        yield from own(target, wheel)
-    if target.rollers in (None, 1):
-        for kind in families_of_kinds("straight"):
+    for wheel in wheels:
+        for m in _natural_rollers(target, natural_deg(wheel)):
+            yield Family(plain(target, wheel, m))
+            if m == 1:
+                yield from planets(target, wheel)
+        yield from driven(target, wheel)
+        kinds = families_of_kinds("straight") if target.rollers in (None, 1) else ()
+        for kind in (*families_of_kinds("wheel", wheel.NAME), *kinds):
             yield from kind(target, wheel)
 
 
@@ -186,29 +245,29 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
         free = closed_span(allowed_motions(target, m, 180.0), m)
         if free is None or (free.exact and allows(free, 180.0)):
             continue
-        span = AllowedSpan(*(closed.axes(z, x) for x in free)).within(closed.AXES)
+        span = AllowedSpan(*(axes(z, x) for x in free)).within(AXES)
         if not span.empty:
             right = (90.0,) if allows(free, 180.0) else ()
             keys = partial(_on_axes, target, z, m)
             yield line(plain(target, wheel, m), keys, span, known=right, plain=(90.0,))
     motion = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
     if target.rollers in (None, 1) and motion:
-        low, high = zip(motion, closed.AXES, strict=True)
+        low, high = zip(motion, AXES, strict=True)
         moved = all(map(is_motion, target.quantities))
-        scale, at_right = (180.0, closed.AXES.high - closed.AXES.low), (natural_deg(wheel), 90.0)
+        scale, at_right = (180.0, AXES.high - AXES.low), (natural_deg(wheel), 90.0)
         for one in (SIDE_CRANK,) if moved else (SIDE_CRANK, *GEARS):
             keys, spec = partial(_both, target, z, one), one.spec(target, wheel)
             yield Family(spec, keys, low, high, at_right, scale, known=at_right)
 
 
 def _on_axes(target: Target, z: int, m: int, at: Array) -> dict[str, Array]:
-    motions = [closed.axes_motion(z, x) for x in at[:, 0].tolist()]
+    motions = [axes_motion(z, x) for x in at[:, 0].tolist()]
     return {"wheel.axes_deg": at[:, 0], **speeds(target, m, motions)}
 
 
 def _both(target: Target, z: int, one: _InFront, at: Array) -> dict[str, Array]:
     """A drive in front of inclined shafts, at motion angles and angles of the shafts."""
-    x = np.array([one.parameter(closed.axes_motion(z, axes), m) for m, axes in at.tolist()])
+    x = np.array([one.parameter(axes_motion(z, axes), m) for m, axes in at.tolist()])
     x = np.where((x >= one.low) & (x <= one.high), x, np.nan)
     motions = speeds(target, 1, at[:, 0].tolist())
     return {one.key: one.size(x), "wheel.axes_deg": at[:, 1], **motions}
