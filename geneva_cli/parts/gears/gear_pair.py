@@ -204,11 +204,14 @@ def _pitch_curve(gears: Gears, sense: float, driver: bool, phi: Array) -> tuple[
     i, slope = (array(c) for c in ratio.derivatives()[:2])
     C = gears.distance_mm
     direction: NDArray[np.clongdouble]
+    spin: NDArray[np.complexfloating] | complex
     if driver:
-        r, change, spin = C * i / (1.0 + i), C * slope / (1.0 + i) ** 2, 1j * sense
+        r, change = C * i / (1.0 + i), C * slope / (1.0 + i) ** 2
+        spin = 1j * sense
         direction = -np.exp(1j * sense * phi.astype(np.longdouble))
     else:
-        r, change, spin = C / (1.0 + i), -C * slope / (1.0 + i) ** 2, -1j * sense * i
+        r, change = C / (1.0 + i), -C * slope / (1.0 + i) ** 2
+        spin = -1j * sense * i
         direction = (turned.real - 1j * sense * turned.imag).astype(np.clongdouble)
     place, speed = r * direction, (change + spin * r) * direction
     tangent = speed / np.abs(speed)
