@@ -7,6 +7,7 @@ The driven gear is on the crank's axis, the driver at the distance C from it. Wi
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -190,35 +191,31 @@ def driven_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, A
     It is a function of the input's angle in radians. ``sense`` is the crank's, 1 for
     counterclockwise.
     """
-
-    def curve(phi: Array) -> tuple[Array, Array]:
-        ratio, turned = ratio_and_turn(gears, phi)
-        i, slope = (array(c) for c in ratio.derivatives()[:2])
-        C = gears.distance_mm
-        r, change = C / (1.0 + i), -C * slope / (1.0 + i) ** 2
-        direction = (turned.real - 1j * sense * turned.imag).astype(np.clongdouble)
-        return _points(r * direction, (change - 1j * sense * i * r) * direction)
-
-    return curve
+    return partial(_pitch_curve, gears, sense, False)
 
 
 def driver_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, Array]]:
     """Return the pitch curve of the driver, which turns against the crank, and its tangents."""
+    return partial(_pitch_curve, gears, sense, True)
 
-    def curve(phi: Array) -> tuple[Array, Array]:
-        ratio, _ = ratio_and_turn(gears, phi)
-        i, slope = (array(c) for c in ratio.derivatives()[:2])
-        C = gears.distance_mm
+
+def _pitch_curve(gears: Gears, sense: float, driver: bool, phi: Array) -> tuple[Array, Array]:
+    ratio, turned = ratio_and_turn(gears, phi)
+    i, slope = (array(c) for c in ratio.derivatives()[:2])
+    C = gears.distance_mm
+    direction: NDArray[np.clongdouble]
+    spin: NDArray[np.complexfloating] | complex
+    if driver:
         r, change = C * i / (1.0 + i), C * slope / (1.0 + i) ** 2
-        direction: NDArray[np.clongdouble] = -np.exp(1j * sense * phi.astype(np.longdouble))
-        return _points(r * direction, (change + 1j * sense * r) * direction)
-
-    return curve
-
-
-def _points(place: NDArray[np.clongdouble], speed: NDArray[np.clongdouble]) -> tuple[Array, Array]:
-    """Points and unit tangents as doubles; processors differ in products of complex doubles."""
+        spin = 1j * sense
+        direction = -np.exp(1j * sense * phi.astype(np.longdouble))
+    else:
+        r, change = C / (1.0 + i), -C * slope / (1.0 + i) ** 2
+        spin = -1j * sense * i
+        direction = (turned.real - 1j * sense * turned.imag).astype(np.clongdouble)
+    place, speed = r * direction, (change + spin * r) * direction
     tangent = speed / np.abs(speed)
+    # as doubles; processors differ in products of complex doubles
     return (
         np.column_stack((place.real, place.imag)).astype(np.float64),
         np.column_stack((tangent.real, tangent.imag)).astype(np.float64),

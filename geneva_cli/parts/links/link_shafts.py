@@ -61,7 +61,7 @@ def link_shafts(
             low, high = shaft_ends(size, whose, low, high)
             name = f"{whose}'s {'shaft' if turns else 'pivot'}"
             yield Shaft(name, whose, bore, seats, low, high, axis.at, direction, turns=turns)
-        elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # ``link_pins`` has the pins
+        elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those are pins between links
             name = f"shaft of {', '.join(axis.names)}"
             yield Shaft(name, axis.names[0], bore, seats, low, high, axis.at, turns=False)
 
