@@ -235,9 +235,8 @@ class Design:
     def backwards(self) -> Design:
         """The same machine turning the other way, as one that turns forwards seen from behind.
 
-        Entry and exit change places, and angles are counted in the direction of rotation. Sizes
-        that the spec leaves out hold the loads of both directions. Warnings are those of this
-        direction.
+        Entry and exit change places. Sizes that the spec leaves out hold the loads of both
+        directions; warnings are those of this one.
 
         >>> offset = Design(External(6, offset_mm=12.0))
         >>> [round(d.peaks.ends.acceleration_entry, 4) for d in (offset, offset.backwards)]
@@ -255,12 +254,10 @@ class Design:
     def size(self) -> Size:
         """The sizes, with the machine's values for those that the spec leaves out; mm.
 
-        None remains for sizes that the machine lacks, and for a few details that only its parts
-        know.
+        None remains for sizes that the machine lacks, and for details that only its parts know.
 
-        >>> size = Design(External(6)).size
-        >>> size.center_distance_mm, size.wheel_thickness_mm
-        (100.0, 10.0)
+        >>> Design(External(6)).size.wheel_thickness_mm
+        10.0
         """
         from geneva_cli.parts.machine_sizes import built
 
@@ -292,10 +289,8 @@ class Design:
 
         Invariants: derivatives by the input's angle in radians. Angles are input angles in degrees.
 
-        >>> peaks = Design(External(6)).peaks
-        >>> peaks.jerk
-        Peak(max=6.0, at_deg=0.0)
-        >>> round(peaks.acceleration.max, 12), round(peaks.acceleration.at_deg, 9)
+        >>> peak = Design(External(6)).peaks.acceleration
+        >>> round(peak.max, 12), round(peak.at_deg, 9)
         (1.349637275902, -22.903061866)
         """
         from geneva_cli.motion.peaks import worst
@@ -336,10 +331,7 @@ class Design:
 
         Each is a row of a table; ``for_people`` it is a line of text.
 
-        >>> design = Design(External(6))
-        >>> [row["proved"] for row in design.certified_peaks().to_dict()["certificate"]]
-        [True, True, True, True]
-        >>> design.certified_peaks(for_people=True).to_dict()["certificate"][2]
+        >>> Design(External(6)).certified_peaks(for_people=True).to_dict()["certificate"][2]
         'jerk.max in [5.99999999999999, 6.00000000000001], unique, proved'
         """
         prove = load_extra("certify", "peaks")
@@ -451,9 +443,8 @@ class Design:
 
         None without ``face_width_mm`` or ``wheel_thickness_mm``, or if it has no parts.
 
-        >>> wheel = Design(External(6), size=Size(face_width_mm=20)).wheel_plate
-        >>> round(wheel.mass_kg, 3), round(1e3 * wheel.inertia_kgm2, 3)
-        (2.087, 5.157)
+        >>> round(Design(External(6), size=Size(face_width_mm=20)).wheel_plate.mass_kg, 3)
+        2.087
         """
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
@@ -476,8 +467,7 @@ class Design:
     def strength(self) -> Strength:
         """The strength of pin, horn, lock and shafts, and the life, by the names of a report.
 
-        >>> wide = Size(face_width_mm=20)
-        >>> held = Design(External(6), size=wide, load=Load(inertia_kgm2=0.4, torque_Nm=15))
+        >>> held = Design(External(6), size=Size(face_width_mm=20), load=Load(0.4, torque_Nm=15))
         >>> round(held.strength["strength.pin.stress_MPa"], 1)
         192.7
         """
@@ -489,9 +479,8 @@ class Design:
     def loads_page(self) -> Table:
         """The loads for people: one row for each quantity, and notes on unknown ones; no warnings.
 
-        >>> page = Design(External(6), load=Load(0.4, 15)).loads_page.to_dict()
-        >>> page["loads"][0]["quantity"], round(page["loads"][0]["max"], 12)
-        ('omega_rad_s', 6.28318530718)
+        >>> Design(External(6), load=Load(0.4, 15)).loads_page.to_dict()["loads"][0]["quantity"]
+        'omega_rad_s'
         """
         from geneva_cli.verdict.headline import below_summary
 
@@ -516,8 +505,7 @@ class Design:
         ``damping`` (ratio) replace its values. Shares are fractions of the wheel's step. Raises
         GenevaError if no stiffness is known.
 
-        >>> found = Design(External(3)).vibration(0.5, damping=0.02).to_dict()
-        >>> round(found["residual_share"], 12)
+        >>> round(Design(External(3)).vibration(0.5, damping=0.02)["residual_share"], 12)
         0.871288725706
         """
         from geneva_cli.loads.vibration.oscillator import oscillator
@@ -531,9 +519,8 @@ class Design:
     ) -> Table:
         """The vibration after an index, over speeds from half to twice the design's.
 
-        >>> table = Design(External(6)).spectrum(3, period_ratio=10.0).to_dict()
-        >>> [round(float(n), 9) for n in table["n_rpm"]]
-        [30.0, 60.0, 120.0]
+        >>> Design(External(6)).spectrum(3, period_ratio=10.0)["n_rpm"].round(9)
+        array([ 30.,  60., 120.])
         """
         from geneva_cli.loads.vibration.oscillator import required_oscillator
         from geneva_cli.loads.vibration.vibration_answers import spectrum
@@ -682,11 +669,10 @@ class Design:
     ) -> None:
         """Write a part to a file, as ``geneva profile`` does; the extension gives the format.
 
-        ``part`` is one of its parts. Without it, the file's name decides (``wheel.dxf``,
-        ``sheet.pdf``, ``slot.csv``), else the assembly is written. ``tolerance_mm`` is the greatest
-        distance from the true curve, by default 0.001, and 0.01 in meshes. Raises GenevaError if
-        the part cannot be drawn, or the file cannot be written. Also raises it if the machine
-        jams, unless ``force``.
+        Without ``part``, the file's name decides (``wheel.dxf``, ``sheet.pdf``, ``slot.csv``), else
+        the assembly is written. ``tolerance_mm`` is the greatest distance from the true curve, by
+        default 0.001, and 0.01 in meshes. Raises GenevaError if the part cannot be drawn, the file
+        cannot be written, or the machine jams, unless ``force``.
 
         >>> import tempfile
         >>> with tempfile.TemporaryDirectory() as folder:
@@ -784,7 +770,7 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import parts_having
         from geneva_cli.verdict.advice import judged
-        from geneva_cli.verdict.failures import failures
+        from geneva_cli.verdict.headline import failures
 
         parts = parts_having(self.parts, part)
         if parts.mechanism.spec.is_flat:
@@ -813,9 +799,8 @@ class Design:
 
         >>> from geneva_cli import Design, External, Tolerance
         >>> indexed = Design(External(6), tolerance=Tolerance(slot_angle_deg=0.02))
-        >>> found = indexed.tolerance_histogram(1024).to_dict()
-        >>> len(found["dwell_position_deg"]), float(sum(found["dwell_position_share"]))
-        (60, 1.0)
+        >>> float(sum(indexed.tolerance_histogram(1024).to_dict()["dwell_position_share"]))
+        1.0
         """
         from geneva_cli.verdict.tolerance.study import histogram_table
 
@@ -825,9 +810,8 @@ class Design:
     def motion_warnings(self) -> list[Notice]:
         """Warnings about the motion and the slots, which need neither loads nor parts.
 
-        >>> shock = Design(External(6), motion=Motion(Harmonic(), ratio="matched"))
-        >>> shock.motion_warnings[0]
-        'the law "harmonic" starts and stops with a jump in acceleration: a soft shock at both ends'
+        >>> [text.name for text in Design(External(30)).motion_warnings]
+        ['many-slots']
         """
         from geneva_cli.verdict.motion_warnings import motion_warnings
 
@@ -850,9 +834,8 @@ class Design:
     def report(self) -> Report:
         """The whole page: a record of named values, whether all checks pass, and the warnings.
 
-        >>> page = Design(External(6)).report
-        >>> page.passes, page.table.to_dict()["timing.k_r"]
-        (True, 0.5)
+        >>> Design(External(6)).report.table["timing.k_r"]
+        0.5
         """
         from geneva_cli.verdict.report import report
 

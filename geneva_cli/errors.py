@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from contextvars import ContextVar
+from contextvars import ContextVar
+from typing import Any
 
 
 class GenevaError(Exception):
@@ -56,7 +54,7 @@ def is_warning(text: str) -> bool:
     return isinstance(text, Notice) and text.name != "not-known"
 
 
-_marks: list[ContextVar[list[Any]]] = []  # at most one, created at the first use of ``marking``
+_marks: ContextVar[list[Any] | None] = ContextVar("marks", default=None)
 
 
 def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
@@ -69,7 +67,7 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
         if where:
             raise error()
         return
-    marks = _marks[0].get(None) if _marks else None
+    marks = _marks.get()
     if marks is None:
         raise GenevaError("an array of designs is built by geneva_cli.motion.many")
     marks.append(where)
@@ -78,16 +76,12 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
 @contextmanager
 def marking() -> Iterator[list[Any]]:
     """Collect the masks of designs that ``refuse`` marks within the block."""
-    from contextvars import ContextVar  # not at the start of every run
-
-    if not _marks:
-        _marks.append(ContextVar("marks"))
     marks: list[Any] = []
-    token = _marks[0].set(marks)
+    token = _marks.set(marks)
     try:
         yield marks
     finally:
-        _marks[0].reset(token)
+        _marks.reset(token)
 
 
 def clean(text: str) -> str:
@@ -138,7 +132,7 @@ def few(word: Any, known: Iterable[str]) -> str:
     from difflib import SequenceMatcher
 
     matcher = SequenceMatcher(b=cut(word).casefold())
-    unlike = []
+    unlike: list[tuple[float, int, str]] = []
     for one in words:
         matcher.set_seq1(one.casefold())
         unlike.append((-matcher.ratio(), len(unlike), one))

@@ -1,8 +1,6 @@
 """The standard streams of a run, and its reaction if they cannot be written.
 
-Many writers use them: commands, Typer's help and error messages, the interpreter's last flush. So
-write errors are handled in the streams themselves, whoever writes and whenever the buffer is
-flushed.
+Write errors are handled in the streams themselves, whoever writes and whenever a buffer is flushed.
 """
 
 from __future__ import annotations

@@ -204,10 +204,7 @@ def test_a_wrong_question_is_refused(ask, said):
 # What if
 
 FULL = Design(
-    External(6),
-    Crank(),
-    Motion(SineGroup(lambda_=0.1), alpha0_deg=-10),
-    load=Load(torque_Nm=5),
+    External(6), Crank(), Motion(SineGroup(lambda_=0.1), alpha0_deg=-10), load=Load(torque_Nm=5)
 )
 
 
@@ -430,7 +427,7 @@ def test_a_design_is_saved_as_the_command_writes_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     spec = str(repo.DESIGNS / "offset-slots.toml")
     made = load(spec)
-    for file, part in [("wheel.dxf", ""), ("slot.csv", ""), ("a.svg", "crank"), ("sheet.pdf", "")]:
+    for file, part in [("slot.csv", ""), ("a.svg", "crank"), ("sheet.pdf", "")]:
         made.save(file, part)
         part = part or file.partition(".")[0]
         run = CliRunner().invoke(app, ["profile", spec, "--part", part, "-o", f"c-{file}"])

@@ -1,8 +1,7 @@
 """The command line: commands that load when chosen, and the one place where errors become text.
 
-Start-up is measured (`make bench-start`). The group below knows each command by name and one line
-of help, so that --help, completion and suggestions import no command. A command imports only what
-it shows. Annotations are objects here and in the commands, as Typer reads them.
+The group knows each command by name and one line of help, so that --help, completion and
+suggestions import no command. Annotations are objects here and in the commands, for Typer.
 """
 
 import importlib

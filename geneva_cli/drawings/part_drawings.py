@@ -28,8 +28,8 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import arm_plate, crank_arm
+from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.links.link_positions import links_at
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import EdgedParts

@@ -15,10 +15,11 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import Anchor, ConstantRate, Engagement, Vector, cross
+from geneva_cli.motion.engagement import Anchor, ConstantRate, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth
 from geneva_cli.motion.wheels.classic import gap
+from geneva_cli.motion.wheels.poses import PinPose, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, choose, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine
@@ -82,14 +83,15 @@ class Epicyclic(PinPath, kw_only=True):
         R0 = l + rp
         half = wheel.half_motion_deg(step)
 
-        def both(slope: float, bend: float, planet: float) -> tuple[tuple[float, float], ...]:
-            return ((R0 * slope, R0 * bend), (planet * slope, planet * bend))
-
-        # At the ends the planet's arm points back along the carrier, at mid-motion outwards.
-        anchors = (
-            Anchor(-half, -step.b, cos_b, Arms(-1.0, 0.0, both(1.0, 1.0, -rp), c)),
-            Anchor(0.0, 0.0, gap(1.0, *step) - 2.0 * rp, Arms(0.0, 1.0, both(1.0, 1.0, rp), c)),
-            Anchor(half, step.b, cos_b, Arms(1.0, 0.0, both(1.0, -1.0, -rp), c)),
+        # At the ends the planet's arm points back along the carrier, at mid-motion outwards. A pose
+        # is that of an arm of length 1.
+        anchors = tuple(
+            Anchor(pose.crank_deg, pose.wheel, pose.along, _Arms(pose, R0, planet, c))
+            for pose, planet in (
+                (PinPose(-half, -step.b, cos_b, (-1.0, 0.0), (0.0, 1.0)), -rp),
+                (middle(1.0, 1.0, gap(1.0, *step) - 2.0 * rp), rp),
+                (PinPose(half, step.b, cos_b, (1.0, 0.0), (0.0, -1.0)), -rp),
+            )
         )
         path = AnchoredPath(anchors)
         followed = StraightSlotMotion(path, step.b)
@@ -152,7 +154,7 @@ class PlanetReactions(NamedTuple):
     c: float
 
     def __call__(
-        self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
+        self, input_deg: Number, path: Vector, loads: Sequence[Load]
     ) -> list[tuple[Vector, Vector]]:
         """Reactions of the carrier's shaft, and of the fixed gear, to each load."""
         turn = Jet.variable(radians(input_deg), path[0].order - 1)
@@ -166,29 +168,19 @@ class PlanetReactions(NamedTuple):
         return out
 
 
-class Arms(NamedTuple):
-    """Carrier and planet about a pose: their slopes and bends, and the planet's rate c.
+class _Arms(NamedTuple):
+    """The roller's displacement from a pose, by the carrier R0 and the planet's arm rp."""
 
-    ``radial`` is the sense of their speed along the ray; ``level`` is 1 if the speed is across it.
-    """
+    pose: PinPose
+    R0: float
+    rp: float
+    c: float  # the planet's rate
 
-    radial: float
-    level: float
-    arms: tuple[tuple[float, float], ...]
-    c: float
-
-    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """The pin's displacement since the pose, along the ray and across it."""
-        u: Jet | None = None
-        v: Jet | None = None
-        for (slope, bend), rate in zip(self.arms, (1.0, self.c), strict=True):
-            sine, versine = sine_versine(Jet.variable(tau, order) * rate)
-            # In the ray's frame the speed is along it at the ends, and across it at mid-motion.
-            du = sine * (slope * self.radial) + versine * (bend * self.level)
-            dv = sine * (slope * self.level) + versine * (bend * (1.0 - self.level))
-            u, v = (du, dv) if u is None or v is None else (u + du, v + dv)
-        assert u is not None and v is not None
-        return u, v
+    def __call__(self, tau: Number, order: int) -> Vector:
+        turn = Jet.variable(tau, order)
+        x, y = self.pose.displacement(*sine_versine(turn))
+        u, v = self.pose.displacement(*sine_versine(turn * self.c))
+        return x * self.R0 + u * self.rp, y * self.R0 + v * self.rp
 
 
 def _refuse_reach(l: float, rp: float, teeth: int, c: float) -> None:

@@ -185,12 +185,7 @@ def _through(
 
 
 def _since(crank: PiecewisePolynomial, starts_deg: list[float], phi: float) -> PiecewisePolynomial:
-    """The crank's rotation since the input angle phi, by the input's rotation, over three turns.
-
-    The piece about phi is in powers of the input's rotation, so that the smallest angle has all its
-    digits. The other pieces' rotations are summed from there outwards. ``starts_deg`` are the
-    pieces' first angles over a turn: turns add to them without rounding.
-    """
+    """The crank's rotation since the input angle phi, by the input's rotation, over three turns."""
     import numpy as np
 
     from geneva_cli.numerics.spline import SPLINE_DEGREE, PiecewisePolynomial, taylor

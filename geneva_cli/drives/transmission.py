@@ -115,7 +115,7 @@ class Transmission(Drive, kw_only=True):
             return self._curved(wheel, motion, L)
         rollers = places(wheel, self, L)
         self._refuse_reach(wheel, rollers[0].reach_deg)
-        engagements = tuple(self._follows(wheel, place, L) for place in rollers)
+        engagements = tuple(self.follows(wheel, place, L) for place in rollers)
         turn = 360.0 * self.turns
         period = turn / self.rollers if len(rollers) == 1 else turn
         most = rollers_max(2.0 * rollers[0].half_motion_deg)
@@ -128,7 +128,7 @@ class Transmission(Drive, kw_only=True):
         """
         return None
 
-    def _follows(self, wheel: Gearing, place: RollerPlace, L: float) -> Engagement:
+    def follows(self, wheel: Gearing, place: RollerPlace, L: float) -> Engagement:
         """The engagement of a straight slot with one of the rollers."""
         here = self.about(place.crank_deg)
         anchors = tuple(

@@ -1,8 +1,4 @@
-"""The lines and texts that are already on a drawing, to keep new ones clear of them.
-
-Lines are stored as short chords. A new dimension comes as several candidates, each with all its
-lines and texts. Of the free candidates the one is used that crosses the fewest dimensions.
-"""
+"""The lines and texts that are already on a drawing, as chords, to keep new ones clear of them."""
 
 from __future__ import annotations
 

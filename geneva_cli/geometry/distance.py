@@ -1,7 +1,6 @@
 """Exact distances of many points from outlines of lines and arcs.
 
-Polygons are not accurate enough here. A wheel that is 0.2 mm too large collides by less than a
-micrometre. The locking disc lies in its recess without any play.
+Polygons are not accurate enough: the locking disc lies in its recess without any play.
 """
 
 from __future__ import annotations

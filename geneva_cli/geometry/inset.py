@@ -1,8 +1,4 @@
-"""Contours parallel to a contour of lines and arcs, inside its material.
-
-Lines and arcs have parallel lines and arcs. At a corner both parallels are carried on until they
-meet. A cubic has no parallel cubic.
-"""
+"""Contours parallel to a contour of lines and arcs, inside its material."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
 """The path of a cutter along an outline: its true offset, of lines and arcs as the outline is.
 
-A laser's beam removes half its kerf on either side of its path. So the path runs that far outside
-outlines and inside holes. Round an outer corner the path is an arc about it. In an inner corner
-adjacent pieces end where they meet, and the beam leaves its own radius.
+Round an outer corner the path is an arc about it. In an inner corner adjacent pieces end where they
+meet, and the beam leaves its own radius.
 """
 
 from __future__ import annotations

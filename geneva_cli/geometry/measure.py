@@ -107,27 +107,16 @@ def at(segment: Segment, t: float) -> Point:
     if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
         (x0, y0), (x1, y1) = segment.start, segment.end
         return x0 + t * (x1 - x0), y0 + t * (y1 - y0)
-    return _on_arc(segment, [t])[0]
+    # the chord to a point is the whole chord, rotated and shortened
+    (x0, y0), (x1, y1), half = segment.start, segment.end, 0.5 * segment.sweep
+    turn, scale = (t - 1.0) * half, math.sin(t * half) / math.sin(half)
+    u, v, c, s = x1 - x0, y1 - y0, scale * math.cos(turn), scale * math.sin(turn)
+    return x0 + c * u - s * v, y0 + s * u + c * v
 
 
 def points(segment: Segment, count: int) -> list[Point]:
     """``count`` + 1 points at even parameters, both ends included."""
-    inner = [i / count for i in range(1, count)]
-    if isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
-        return [segment.start, *_on_arc(segment, inner), segment.end]
-    return [segment.start, *(at(segment, t) for t in inner), segment.end]
-
-
-def _on_arc(arc: Arc, parameters: Iterable[float]) -> list[Point]:
-    """Points of an arc: the chord to a point is the whole chord, rotated and shortened."""
-    (x0, y0), (x1, y1) = arc.start, arc.end
-    u, v, half = x1 - x0, y1 - y0, 0.5 * arc.sweep
-    sine, out = math.sin(half), list[Point]()
-    for t in parameters:
-        turn, scale = (t - 1.0) * half, math.sin(t * half) / sine
-        c, s = scale * math.cos(turn), scale * math.sin(turn)
-        out.append((x0 + c * u - s * v, y0 + s * u + c * v))
-    return out
+    return [at(segment, i / count) for i in range(count + 1)]
 
 
 def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:

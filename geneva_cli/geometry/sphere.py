@@ -6,7 +6,7 @@ Points are unit vectors (x, y, z). A region lies to the left of its boundary, se
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -116,11 +116,8 @@ class Rotation(NamedTuple):
     def __call__(self, v: Vector) -> Vector:
         """Image of a vector."""
         a, b, c = v
-        return (
-            a * self.x[0] + b * self.y[0] + c * self.z[0],
-            a * self.x[1] + b * self.y[1] + c * self.z[1],
-            a * self.x[2] + b * self.y[2] + c * self.z[2],
-        )
+        x, y, z = (a * p + b * q + c * r for p, q, r in zip(*self, strict=True))
+        return x, y, z
 
 
 class Region(NamedTuple):
@@ -141,8 +138,12 @@ class Region(NamedTuple):
         >>> abs(cap.area - math.tau * (1.0 - math.cos(0.5))) < 1e-15
         True
         """
-        turned = math.fsum(math.cos(arc.angle) * arc.sweep for arc in self.boundary)
-        return math.tau - turned - math.fsum(self._corners())
+        turned = [math.cos(arc.angle) * arc.sweep for arc in self.boundary]
+        for arc, after in zip(self.boundary, (*self.boundary[1:], self.boundary[0]), strict=True):
+            if arc.start != arc.end:
+                back, on = arc.travel(arc.end), after.travel(after.start)
+                turned.append(math.atan2(dot(cross(back, on), arc.end), dot(back, on)))
+        return math.tau - math.fsum(turned)
 
     @property
     def moments(self) -> tuple[Array, Array]:
@@ -167,14 +168,6 @@ class Region(NamedTuple):
     def turned(self, turn: Rotation) -> Region:
         """The region rotated with the sphere."""
         return Region(tuple(arc.turned(turn) for arc in self.boundary), turn(self.middle))
-
-    def _corners(self) -> Iterator[float]:
-        """Angle by which the boundary turns to the left at each corner."""
-        for arc, after in zip(self.boundary, (*self.boundary[1:], self.boundary[0]), strict=True):
-            if arc.start == arc.end:
-                continue
-            back, on = arc.travel(arc.end), after.travel(after.start)
-            yield math.atan2(dot(cross(back, on), arc.end), dot(back, on))
 
 
 def place(polar: float, azimuth: float) -> Vector:

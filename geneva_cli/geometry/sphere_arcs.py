@@ -18,14 +18,15 @@ from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 
-def half_chords(off: Array, across: Array, beyond: Array) -> Array:
-    """Return the squares of half the chords between points and the nearest points of arcs.
+def _distances(off: Array, across: Array, beyond: Array) -> Array:
+    """Return the angles between points and the nearest points of arcs.
 
     ``off`` is the angle of a point from the arc's circle, ``beyond`` the angle about the axis by
     which it is past the arc's end. ``across`` is the product of the sines of both angles from the
     axis. In the triangle of axis, point and end this needs no difference of near numbers.
     """
-    return np.sin(0.5 * off) ** 2 + across * np.sin(0.5 * beyond) ** 2
+    square = np.sin(0.5 * off) ** 2 + across * np.sin(0.5 * beyond) ** 2
+    return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
 
 
 class SphereArcs:
@@ -71,10 +72,9 @@ class SphereArcs:
 
     def signed(self, points: Array) -> Array:
         """Distances of points (n, 3) from the boundary, radians, negative inside."""
-        off, past, short, square = self._nearest(points)
-        near, row = np.argmin(square, axis=1), np.arange(len(points))
-        away = 2.0 * np.arcsin(np.sqrt(np.minimum(square[row, near], 1.0)))
-        past, short = past[row, near], short[row, near]
+        off, past, short, away = self._nearest(points)
+        near, row = np.argmin(away, axis=1), np.arange(len(points))
+        past, short, away = (each[row, near] for each in (past, short, away))
         corner = np.where(short < past, self.first[near], self.last[near])
         corner = np.where((past > 0.0) & (np.abs(corner) > SAME_ANGLE), corner, 0.0)
         outside = np.where(corner != 0.0, corner > 0.0, off[row, near] > 0.0)
@@ -82,18 +82,17 @@ class SphereArcs:
 
     def distances(self, points: Array) -> Array:
         """Distances of points (n, 3) from each arc, radians, (n, k)."""
-        *_, square = self._nearest(points)
-        return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
+        return self._nearest(points)[-1]
 
     def _nearest(self, points: Array) -> tuple[Array, Array, Array, Array]:
-        """Angles off circles, past the arcs' ends, short of their starts; half chords squared."""
+        """Angles off circles, past the arcs' ends, short of their starts; distances."""
         along, sideways = points @ self.x.T, points @ self.y.T
         across = np.hypot(along, sideways)
         off = np.arctan2(across, points @ self.axis.T) - self.angle
         turn = np.remainder(np.arctan2(sideways, along), 2.0 * np.pi)
         past, short = turn - self.sweep, 2.0 * np.pi - turn
         beyond = np.where(past <= 0.0, 0.0, np.minimum(past, short))
-        return off, past, short, half_chords(off, np.sin(self.angle) * across, beyond)
+        return off, past, short, _distances(off, np.sin(self.angle) * across, beyond)
 
     def facing(self, which: Whole, towards: Array) -> tuple[Whole, Array]:
         """Points of some of the arcs that face directions (n, 3), or face away from them.
@@ -144,31 +143,23 @@ def farthest(boundary: SphereArcs, points: Array) -> Array:
     return math.pi - boundary.distances(-points)
 
 
-class FromCircle:
-    """Distances of arcs of one circle from a boundary, which they do not cross."""
+def from_circle(boundary: SphereArcs, circle: Circle, middle: Array, half: Array) -> Array:
+    """Return the least distances of arcs of a circle from a boundary that they do not cross, (n,).
 
-    def __init__(self, boundary: SphereArcs, circle: Circle) -> None:
-        self.boundary, self.circle = boundary, circle
-        # Two circles are nearest to each other on the great circle through both axes.
-        every = np.arange(len(boundary))
-        _, facing = boundary.facing(every, np.tile(circle.axis, (len(every), 1)))
-        points = np.concatenate((boundary.start, facing))
-        self.polar, self.azimuth = circle.seen(points)
-
-    def __call__(self, middle: Array, half: Array) -> Array:
-        """Return the least distances of arcs from azimuths ``middle - half`` to ``middle + half``.
-
-        They are at a corner of the boundary, or at one of its points that face the circle's axis,
-        or at an end of the arc.
-        """
-        away = np.remainder(self.azimuth - middle[:, None] + math.pi, math.tau) - math.pi
-        beyond = np.maximum(np.abs(away) - half[:, None], 0.0)
-        across = math.sin(self.circle.angle) * np.sin(self.polar)
-        square = half_chords(self.polar - self.circle.angle, across, beyond).min(axis=1)
-        from_points = 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
-        ends = [self.circle.at(end) for end in (middle - half, middle + half)]
-        from_ends = [self.boundary.distances(end).min(axis=1) for end in ends]
-        return np.minimum.reduce((from_points, *from_ends))
+    The arcs are from azimuths ``middle - half`` to ``middle + half``. The distance is at a corner
+    of the boundary, at one of its points that face the circle's axis, or at an end of the arc.
+    """
+    # two circles are nearest to each other on the great circle through both axes
+    every = np.arange(len(boundary))
+    _, facing = boundary.facing(every, np.tile(circle.axis, (len(every), 1)))
+    polar, azimuth = circle.seen(np.concatenate((boundary.start, facing)))
+    away = np.remainder(azimuth - middle[:, None] + math.pi, math.tau) - math.pi
+    beyond = np.maximum(np.abs(away) - half[:, None], 0.0)
+    across = math.sin(circle.angle) * np.sin(polar)
+    from_points = _distances(polar - circle.angle, across, beyond).min(axis=1)
+    ends = [circle.at(end) for end in (middle - half, middle + half)]
+    from_ends = [boundary.distances(end).min(axis=1) for end in ends]
+    return np.minimum.reduce((from_points, *from_ends))
 
 
 def short_arcs(regions: Iterable[Region], step: float) -> SphereArcs:

@@ -19,20 +19,20 @@ def weight_kg(mass: Mass) -> float:
     if mass.mass_kg is not None:
         return mass.mass_kg
     assert mass.density_kgm3 is not None and mass.thickness_mm is not None  # Mass has checked this
-    return mass.density_kgm3 * _face_m2(mass) * mass.thickness_mm * MM
+    D, d, a, c = _face_m(mass)
+    face = a * c if a else 0.25 * math.pi * (D - d) * (D + d)
+    return mass.density_kgm3 * face * mass.thickness_mm * MM
 
 
-def _face_m2(mass: Mass) -> float:
-    """Area of a body's face, perpendicular to the wheel's axis, m²."""
-    D, d = (mass.diameter_mm or 0.0) * MM, (mass.bore_mm or 0.0) * MM
-    a, c = (mass.length_mm or 0.0) * MM, (mass.width_mm or 0.0) * MM
-    return a * c if a else 0.25 * math.pi * (D - d) * (D + d)
+def _face_m(mass: Mass) -> list[float]:
+    """Diameter and bore of a body's face, perpendicular to the wheel's axis, or its sides; m."""
+    sizes = mass.diameter_mm, mass.bore_mm, mass.length_mm, mass.width_mm
+    return [(size or 0.0) * MM for size in sizes]
 
 
 def body_inertia_kgm2(mass: Mass) -> float:
     """Inertia of one body about its own axis: m (D² + d²)/8; of a block m (a² + c²)/12."""
-    D, d = (mass.diameter_mm or 0.0) * MM, (mass.bore_mm or 0.0) * MM
-    a, c = (mass.length_mm or 0.0) * MM, (mass.width_mm or 0.0) * MM
+    D, d, a, c = _face_m(mass)
     return weight_kg(mass) * ((D * D + d * d) / 8.0 + (a * a + c * c) / 12.0)
 
 
@@ -75,13 +75,11 @@ def carried_kg(spec: Spec) -> float:
 
 def farthest_mm(spec: Spec) -> float:
     """Radius about the wheel's axis that contains all bodies on the table; 0 without bodies."""
-    return max((one.radius_mm + _reach_mm(one) for one in spec.mass), default=0.0)
-
-
-def _reach_mm(mass: Mass) -> float:
-    """Radius about a body's own axis that contains it."""
-    sides = mass.length_mm or 0.0, mass.width_mm or 0.0
-    return 0.5 * max(mass.diameter_mm or 0.0, math.hypot(*sides))
+    reaches = [0.0]
+    for one in spec.mass:
+        sides = one.length_mm or 0.0, one.width_mm or 0.0
+        reaches.append(one.radius_mm + 0.5 * max(one.diameter_mm or 0.0, math.hypot(*sides)))
+    return max(reaches)
 
 
 def support_torque_Nm(spec: Spec) -> float:

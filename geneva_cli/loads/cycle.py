@@ -61,11 +61,6 @@ class Cycle:
         """Return True if an inertia or a resisting torque is known."""
         return self.mechanism.spec.is_loaded
 
-    @property
-    def period(self) -> float:
-        """Input angle of the period, radians."""
-        return self.mechanism.period_deg * DEGREE
-
     def states(self, input_deg: Array) -> Instant[Array]:
         """Arrays at ascending input angles of a period from the first entry; 0 in the dwells.
 
@@ -146,8 +141,7 @@ class Cycle:
     def integrals(self, *of: Integrand) -> list[float]:
         """The integral of each function over a period by the input angle in radians.
 
-        For a torque it is work in joules; divided by ``period``, it is a mean over the cycle. The
-        integral of an unbounded function is infinite.
+        For a torque it is work in joules. The integral of an unbounded function is infinite.
         """
         total = np.zeros((len(of), 1))
         for engagement in self.mechanism.engagements:

@@ -204,11 +204,7 @@ def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> M
 
 
 def _peak(
-    machine: Mechanism,
-    name: str,
-    row: int,
-    stages: Sequence[Stage],
-    window: tuple[float, float],
+    machine: Mechanism, name: str, row: int, stages: Sequence[Stage], window: tuple[float, float]
 ) -> tuple[Mark, ...]:
     """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle."""
     if name == machine.output.column:

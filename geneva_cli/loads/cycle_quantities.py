@@ -81,7 +81,7 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
     shaft, turns = mechanism.spec.shaft, mechanism.output.turns
     flat = mechanism.spec.wheel.FLAT or not turns
     out: dict[str, tuple[str, float | None, str]] = {
-        "power_W": (TORQUE, load_case(mechanism).speed_rad_s, ""),
+        "power_W": (TORQUE, load_case(mechanism).speed_rad_s, "")
     }
     out |= {name: (*of, "") for name, of in mechanism.output.loads.items()}
     crank = ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm)

@@ -15,21 +15,20 @@ body, rubs along the wall:
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Generic, Self
+from typing import Generic, Protocol, Self
 
 import numpy as np
 
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.forces import Contact, LoadCase, QuantityValue, contact_values, lesser, value
 from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
+from geneva_cli.numerics.jet import Array, Jet, Number, V
 
 # Names of an instant's quantities.
 INSTANT_QUANTITIES = (
     *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N", "stress_squared"),
-    *("sliding_m_s", "input_torque_Nm", "power_W", "friction_W", "wheel_bearing_N"),
-    *("crank_bearing_squared", "guide_squared", "drives", "slides", "feeds"),
-    *("grip", "friction_margin", "edge"),
+    *("sliding_m_s", "input_torque_Nm", "rubbed_Nm", "wheel_bearing_N", "crank_bearing_squared"),
+    *("guide_squared", "drives", "slides", "feeds", "grip", "friction_margin", "edge"),
 )
 
 
@@ -258,16 +257,6 @@ class Instant(Generic[V]):
         return self.slot_torque_Nm * self._losses / self.at.crank
 
     @cached_property
-    def power_W(self) -> V:
-        """Power of the input, W: its torque times its speed."""
-        return self.input_torque_Nm * self.case.speed_rad_s
-
-    @cached_property
-    def friction_W(self) -> V:
-        """Power that friction turns to heat, in the slot and in a rack's guide, W."""
-        return self.rubbed_Nm * self.case.speed_rad_s
-
-    @cached_property
     def wheel_bearing_N(self) -> V:
         """Size of the force on the wheel, and so of its shaft's reaction, N."""
         return self.force_N * (1.0 + self._rub * self._rub) ** 0.5
@@ -291,16 +280,6 @@ class Instant(Generic[V]):
             return None
         free = self.case.all_friction == 0.0  # designs of the batch, whose margin is infinite
         return self.grip + np.where(free, np.inf, 0.0) if np.any(free) else self.grip
-
-    @property
-    def crank_bearing_N(self) -> V:
-        """Size of the force on the crank's shaft, and so of its bearings' reaction, N."""
-        return _root(self.crank_bearing_squared)
-
-    @property
-    def guide_force_N(self) -> V | None:
-        """Size of the guide's force, N; None without a guide."""
-        return None if self.guide_squared is None else _root(self.guide_squared)
 
     @property
     def stress(self) -> QuantityValue[V]:
@@ -351,10 +330,6 @@ class Instant(Generic[V]):
         return self.force_N * self.force_N * (x * x + y * y)
 
 
-def _root(square: V) -> V:
-    return sqrt(square) if isinstance(square, Jet) else np.sqrt(square)
-
-
 def bounded(here: Instant[Array]) -> Instant[Array]:
     """Values with infinity where a force is unbounded, and 0 where no force is needed there."""
     with np.errstate(all="ignore"):
@@ -363,7 +338,7 @@ def bounded(here: Instant[Array]) -> Instant[Array]:
         endless = ["wheel_bearing_N", "crank_bearing_squared"]
         endless += [] if here.guide_squared is None else ["guide_squared"]
         if here.friction_margin is not None:
-            endless += ["input_torque_Nm", "power_W", "friction_W"]
+            endless += ["input_torque_Nm", "rubbed_Nm"]
         out |= {name: np.where(is_held, getattr(here, name), bound) for name in endless}
         out["pin_force_N"] = np.where(is_held, here.pin_force_N, bound * here.drives)
         if here.edge is not None and here.stress_squared is not None:
@@ -381,3 +356,10 @@ def bounded_loads(
     """
     with np.errstate(all="ignore"):
         return bounded(Instant(case, at).signed(drives))
+
+
+class LoadQuantity(Protocol):
+    """A function that holds no numbers, or a tuple whose numbers may be arrays (m, 1)."""
+
+    def __call__(self, i: Instant[Jet], /) -> QuantityValue[Jet]:
+        """A quantity, and the margin that bounds it."""

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from types import MappingProxyType
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from geneva_cli.kept import cached_property
 from geneva_cli.loads.contact import NEAR_CUSP, contact
 from geneva_cli.loads.cycle_quantities import PV, QUANTITIES
 from geneva_cli.loads.forces import NEGLIGIBLE, LoadCase, QuantityValue
-from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.mid_motion import at_mid_motion
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
@@ -43,16 +43,6 @@ SIGN_FUNCTIONS: dict[str, Callable[[Instant[Jet]], Jet | None]] = {
 MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is unbounded
 # The greatest fraction of the step between two adjacent angles: the loads then keep six digits.
 FEWEST_DIGITS = 1e-10
-
-
-class LoadQuantity(Protocol):
-    """A quantity as a function of an instant of jets.
-
-    The function is a tuple whose numbers may be arrays (m, 1), or holds no numbers.
-    """
-
-    def __call__(self, i: Instant[Jet], /) -> QuantityValue[Jet]:
-        """The quantity, and its margin."""
 
 
 NO_MORE: Mapping[str, LoadQuantity] = MappingProxyType({})  # no quantities besides the named ones

@@ -34,8 +34,9 @@ from geneva_cli.loads.cycle_quantities import (
     sources,
 )
 from geneva_cli.loads.forces import LoadCase
+from geneva_cli.loads.instant import LoadQuantity
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import NO_MORE, LoadFunctions, LoadQuantity, on_breaks
+from geneva_cli.loads.load_functions import NO_MORE, LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
@@ -169,19 +170,14 @@ def _summaries(
         )
         most, least = _ends_of(name, most, -less)
         best[name] = LoadSummary(most, most_at, least, less_at, *means.get(name, (None, None)))
-    return {
-        name: _multiple(best[source], np.ravel(factor))
-        for name, (source, factor) in every.items()
-        if factor is not None
-    }
-
-
-def _multiple(one: LoadSummary[Array], factor: Array) -> LoadSummary[Array]:
-    """The summary of a multiple of the quantity."""
-    mean, rms = (None if v is None else v * factor for v in one[4:])
-    return LoadSummary(
-        one.max * factor, one.max_at_deg, one.min * factor, one.min_at_deg, mean, rms
-    )
+    out = {}
+    for name, (source, ratio) in every.items():
+        if ratio is not None:
+            factor, one = np.ravel(ratio), best[source]
+            mean, rms = (None if v is None else v * factor for v in one[4:])
+            most, least = one.max * factor, one.min * factor
+            out[name] = LoadSummary(most, one.max_at_deg, least, one.min_at_deg, mean, rms)
+    return out
 
 
 def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
@@ -209,10 +205,8 @@ def _means(
     Without ``plain`` the mean is None.
     """
     of_wheel = ("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N")
-    cranks, wheels = (
-        len(mechanism.spec.drive.cranks),
-        max(1, mechanism.spec.drive.wheels_on_carrier),
-    )
+    drive = mechanism.spec.drive
+    cranks, wheels = len(drive.cranks), max(1, drive.wheels_on_carrier)
     total: Array = np.sum(each, axis=0)
     for i in range(len(total)):
         if names[i % len(names)] in of_wheel:

@@ -6,27 +6,26 @@ it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
 
 from geneva_cli.loads.contact import NEAR_CUSP, contact
-from geneva_cli.loads.forces import NEGLIGIBLE, LoadCase, QuantityValue, value
-from geneva_cli.loads.instant import Instant, bounded
+from geneva_cli.loads.forces import NEGLIGIBLE, LoadCase, value
+from geneva_cli.loads.instant import Instant, LoadQuantity, bounded
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Number, array
 from geneva_cli.numerics.jet import Array, Jet
 
-Quantities: TypeAlias = "Sequence[Callable[[Instant[Jet]], QuantityValue[Jet]]]"
 # Number of a quantity, and for n designs its place and value, (n,); NaN where undefined.
 Known: TypeAlias = "tuple[int, Array, Array]"
 
 
 def at_mid_motion(
-    engagement: Engagement, case: LoadCase, quantities: Quantities, n: int
+    engagement: Engagement, case: LoadCase, quantities: Sequence[LoadQuantity], n: int
 ) -> list[Known]:
     """The quantities of n designs at mid-motion, and nearer to it than any stretch.
 

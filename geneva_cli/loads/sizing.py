@@ -15,15 +15,17 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2, support_torque_Nm, working_torque_Nm
 from geneva_cli.loads.cycle_quantities import TORQUE
-from geneva_cli.loads.fluctuation import fluctuations
+from geneva_cli.loads.forces import QuantityValue
 from geneva_cli.loads.indexer_formula import ShaftLoad, indexer_formula
+from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.machine_spec import Spec
@@ -31,44 +33,33 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
 from geneva_cli.motion.timing import cam_factors
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.arrays import Array, Number, choose_record, parameter
+from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, choose_record, parameter
+from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
 if TYPE_CHECKING:
     from geneva_cli.loads.cycle import Cycle
 
 CARRIED = ("inertia_kgm2", "motor_rpm")
-CAM_FACTORS = ("acceleration_rad_s2", "Am", "Vm", "Qm")
-KNOWN_UNLOADED = (*CARRIED, *CAM_FACTORS)  # known without a load
-INDEXER_FORMULA = (
-    *("inertia_torque_Nm", "friction_torque_Nm", "total_torque_Nm", "design_torque_Nm"),
-    *("input_torque_Nm", "power_W"),
-)
+KNOWN_UNLOADED = (*CARRIED, "acceleration_rad_s2", "Am", "Vm", "Qm")  # known without a load
 CYCLE_SUMS = (
-    "energy_fluctuation_J",
-    "flywheel_kgm2",
-    "flywheel_to_add_kgm2",
-    "motor_torque_rms_Nm",
+    *("energy_fluctuation_J", "flywheel_kgm2"),
+    *("flywheel_to_add_kgm2", "motor_torque_rms_Nm"),
 )
 EXTREMES = ("motor_torque_max_Nm", "input_torque_ratio")
 ROTOR = ("inertia_ratio", "coasting_speed_share")
-# all but the wheel's own inertia, which follows from its outline
-SIZING_NAMES = (*CARRIED, *CAM_FACTORS, *INDEXER_FORMULA, *CYCLE_SUMS, *EXTREMES, *ROTOR)
-WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizing``
+WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizings``
 # In the order shown: the inertia at the wheel's shaft, and the wheel's own; the cam-indexer
 # formula, for the engagement with the greatest torque at the input; the exact cycle.
 SHOWN_SIZING = (
-    *(
-        "inertia_kgm2",
-        WHEEL_INERTIA,
-        "acceleration_rad_s2",
-        "inertia_torque_Nm",
-        "friction_torque_Nm",
-    ),
+    *("inertia_kgm2", WHEEL_INERTIA, "acceleration_rad_s2"),
+    *("inertia_torque_Nm", "friction_torque_Nm"),
     *("total_torque_Nm", "design_torque_Nm", "input_torque_Nm", "power_W", "Am", "Vm", "Qm"),
     *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
     *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2", "coasting_speed_share"),
     "input_torque_ratio",
 )
+SIZING_NAMES = tuple(name for name in SHOWN_SIZING if name != WHEEL_INERTIA)
 
 
 @lru_cache(maxsize=16)
@@ -128,7 +119,7 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
         "inertia_kgm2": _some(inertia_kgm2(spec)),
         "motor_rpm": spec.drive.n_rpm * spec.motor.ratio,
     }
-    if names & {*CAM_FACTORS, *INDEXER_FORMULA, "input_torque_ratio"}:
+    if names - {*CARRIED, *CYCLE_SUMS, *ROTOR, "motor_torque_max_Nm"}:
         values |= _by_formula(whole)
     if names & {*CYCLE_SUMS, *EXTREMES}:
         means = ("mean", "rms") if names & set(CYCLE_SUMS) else ()
@@ -211,10 +202,10 @@ def _exact(
     # A mean whose square is less than 1e-26 of the mean square is rounding, as for an inertia
     # alone.
     mean = np.where(torque.mean**2 > 1e-26 * square, torque.mean, 0.0 * square)
-    swings = fluctuations(mechanism, mean)
-    energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
+    swing_J, back = fluctuations(mechanism, mean)
+    energy = np.where(bounded, swing_J, np.nan)[:, None]
     # the part of the mean square where the wheel drives the input
-    returned = (swings.returned / np.ravel(mechanism.period_deg * DEGREE))[:, None]
+    returned = (back / np.ravel(mechanism.period_deg * DEGREE))[:, None]
     spent = np.maximum(square[:, None] - returned, 0.0)
     out["energy_fluctuation_J"] = energy
     out["motor_torque_rms_Nm"] = np.sqrt(spent / eta**2 + returned * eta**2) / motor.ratio
@@ -247,3 +238,67 @@ def _rotor(mechanism: Mechanism) -> dict[str, Number]:
     # a body off the wheel's axis stores and returns energy, which these do not count
     known = (np.asarray(spec.motor.inertia_kgm2) > 0.0) & (not mechanism.unbalanced)
     return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
+
+
+class Unevenness(NamedTuple):
+    """The input's torque less its mean, which is (m, 1)."""
+
+    mean: Array
+
+    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
+        """The quantity, and the margin that bounds it."""
+        return QuantityValue(i.input_torque_Nm - self.mean, i.friction_margin)
+
+
+def fluctuations(mechanism: Mechanism, mean: Array) -> tuple[Array, Array]:
+    """The fluctuation of designs, from the means (m,) of their input torque: (m,) each.
+
+    It is the greatest minus the least of the cumulated work less its mean line, J, and the integral
+    over the period of the torque's square where the wheel drives.
+
+    The work has its extremes where the torque equals its mean. Motions are divided there too, and
+    integrated between to the last digits. The mean of an unbounded torque must be infinite.
+
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.motion.mechanism import build
+    >>> machine = build(Spec(External(4), load=Load(inertia_kgm2=2.0)))
+    >>> fluctuations(machine, np.zeros(1))[0].round(6)  # I (w psi1max)²/2
+    array([230.09708])
+    """
+    bounded = np.isfinite(mean)
+    mean = np.where(bounded, mean, 0.0)[:, None]
+    case, end = load_case(mechanism), None
+    each, returned = [0.0 * mean], np.zeros(len(mean))
+    for engagement in mechanism.engagements:
+        if end is not None:
+            each.append(-mean * (engagement.mid_deg + engagement.entry_deg - end) * DEGREE)
+        own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
+        load = LoadFunctions(engagement, case, tuple(own), own, ("feeds", "wanted"))
+        works, back = _works(load, bounded)
+        each.append(works)
+        returned += back
+        end = engagement.mid_deg + engagement.exit_deg
+    sums = np.cumsum(np.hstack(each), axis=1)
+    energy = sums.max(axis=1) - sums.min(axis=1)
+    return np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf)
+
+
+def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
+    """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
+    design, _, (a, b), positive = load.stretches()
+    signs, n = np.where(positive, 1.0, -1.0), len(bounded)
+
+    def rows(x: Array, which: Whole) -> Array:
+        (here, *_), (uneven,) = load.at(x, design[which], 0, signs[:, which, None])
+        back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
+        return np.stack(np.broadcast_arrays(uneven(here).value.c[0], back * back))
+
+    needed = np.stack((bounded, bounded))
+    with np.errstate(all="ignore"):
+        each = span_integrals(Integrands(rows, a, b, True), design, needed, apart=True) * DEGREE
+    number = np.arange(len(design)) - np.searchsorted(design, design)
+    works = np.zeros((n, int(number.max()) + 1))
+    works[design, number] = each[0]
+    returned = np.zeros(n)
+    np.add.at(returned, design, each[1])
+    return works, returned

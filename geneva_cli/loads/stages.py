@@ -118,10 +118,7 @@ def _dwell(mechanism: Mechanism, i: int, values: Sequence[float]) -> Iterator[St
 
 
 def pieces(
-    stages: Sequence[Stage],
-    period: float,
-    window: tuple[float, float],
-    rise: Sequence[float],
+    stages: Sequence[Stage], period: float, window: tuple[float, float], rise: Sequence[float]
 ) -> list[list[Piece]]:
     """The pieces of each curve over a window, with the period's stages repeated.
 

@@ -106,13 +106,13 @@ def search(word: str) -> list[Hit]:
     >>> {hit.topic for hit in search("taplo")}
     {'spec'}
     """
-    whole = _search(word)
-    first, *others = word.split() or [""]
-    if whole or not others:
+    whole, words = _search(word), word.split()
+    if whole or len(words) < 2:
         return whole
     # sections with all of the words
-    sections = [{hit[:2] for hit in _search(other)} for other in others]
-    return [hit for hit in _search(first) if all(hit[:2] in one for one in sections)]
+    first, *others = map(_search, words)
+    sections = [{hit[:2] for hit in hits} for hits in others]
+    return [hit for hit in first if all(hit[:2] in one for one in sections)]
 
 
 def _search(word: str) -> list[Hit]:
@@ -149,12 +149,12 @@ def contents() -> str:
     >>> contents().startswith("## ")
     True
     """
-    parts = []
+    lines = []
     for group, pages in GROUPS.items():
-        lines = [f"- {topic}: {about}" for topic, about in pages.items()]
-        parts.append("\n".join([f"## {TITLES[group]}", "", *lines, ""]))
+        own = [f"- {topic}: {about}" for topic, about in pages.items()]
+        lines += [f"## {TITLES[group]}", "", *own, ""]
     return "\n".join(
-        [*parts, "`geneva help TOPIC` shows a page; another word is searched for.", ""]
+        [*lines, "`geneva help TOPIC` shows a page; another word is searched for.", ""]
     )
 
 

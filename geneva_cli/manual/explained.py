@@ -1,9 +1,8 @@
 """Entries of the reference pages: what each word of the output means.
 
-The pages in ``reference`` are the only source. A ``## `` heading names what an entry explains, or
-several names of one thing; a name that begins with a dot is an ending of others, as ``.max``. The
-first paragraph is the meaning. Items with a label have the fields: ``- Formula: ...``. Links hold
-for later entries too whose names begin with the same word.
+A ``## `` heading names what an entry explains, or several names of one thing; a name that begins
+with a dot is an ending of others, as ``.max``. The first paragraph is the meaning. Items with a
+label have the fields: ``- Formula: ...``. Links hold for later entries of the same first word too.
 """
 
 import os

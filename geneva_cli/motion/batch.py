@@ -49,10 +49,7 @@ def designs_in(thing: object) -> int:
 
 
 def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
-    """Copy a record and change the columns in it; the record itself if it has none.
-
-    What several records share is copied once, in ``done``: it stays shared.
-    """
+    """Copy a record and change the columns in it; the record itself if it has none."""
     kind: type = type(thing)
     if isinstance(thing, np.ndarray):
         return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
@@ -64,8 +61,9 @@ def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
     copy = thing
     if any(a is not b for a, b in zip(new, old, strict=True)):
         if own is not None:
-            copy = object.__new__(kind)
-            vars(copy).update(zip(own, new, strict=True))
+            fresh: object = object.__new__(kind)
+            vars(fresh).update(zip(own, new, strict=True))
+            copy = fresh
         else:
             copy = record_of(thing, new) if isinstance(thing, tuple) else new
     done[id(thing)] = copy

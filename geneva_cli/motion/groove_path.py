@@ -94,11 +94,7 @@ def back(groove: Groove, input_deg: Array, order: int) -> list[Array]:
 def _eased(
     end: Sequence[Number], length: float, t: Array, sense: float
 ) -> tuple[Array, Array, Array, Number]:
-    """Return distance and two derivatives ``t`` beyond an end, and the distance it fades to.
-
-    The slope is a cubic. At the end it has the end's value and derivative, at ``length`` both are
-    0.
-    """
+    """Return distance and two derivatives ``t`` beyond an end, and the distance it fades to."""
     R, slope, bend = end[0], sense * end[1], end[2]
     u = np.minimum(t / length, 1.0)
     m = bend * length

@@ -67,24 +67,15 @@ def attribute(table: str) -> str:
 
 
 # Fields of ``Spec`` that hold a table, their type, and an example for the error message.
-_TABLE_TYPES: tuple[tuple[str, type, str], ...] = (
-    ("wheel", Gearing, "External(6)"),
-    ("drive", Drive, "Crank(n_rpm=60)"),
-    ("drive_before", Drive, "SideCrank(A=0.6)"),
-    ("motion", Motion, "Motion(Cycloidal())"),
-    *(
-        (attribute(n), table, f"{table.__name__}(...)")
-        for n, table in PLAIN.items()
-        if n not in LISTS
-    ),
-)
-
-
-def _no_load(key: str, keys: str) -> GenevaError:
-    return GenevaError(
-        f"{key} needs a load, and without one there is nothing to limit: set {keys}",
-        ("limits", key),
-    )
+_TABLE_TYPES: dict[str, tuple[type, str]] = {
+    "wheel": (Gearing, "External(6)"),
+    "drive": (Drive, "Crank(n_rpm=60)"),
+    "drive_before": (Drive, "SideCrank(A=0.6)"),
+    "motion": (Motion, "Motion(Cycloidal())"),
+}
+for _name, _table in PLAIN.items():
+    if _name not in LISTS:
+        _TABLE_TYPES[_name.replace(".", "_")] = (_table, f"{_table.__name__}(...)")
 
 
 class Spec(SpecTable):
@@ -118,14 +109,14 @@ class Spec(SpecTable):
     drive_before: Drive | None = None
 
     def __post_init__(self) -> None:
-        for name, kind, example in _TABLE_TYPES:
+        for name, (kind, example) in _TABLE_TYPES.items():
             value = vars(self)[name]
             if value is not None or name not in ("drive_before", "motion"):
                 refuse_kind(value, name, kind, example)
-        if not isinstance(self.mass, tuple):
-            vars(self)["mass"] = tuple(self.mass)
-        if not all(isinstance(one, Mass) for one in self.mass):
-            raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
+        vars(self)["mass"] = tuple(self.mass)
+        for one in self.mass:
+            if not isinstance(one, Mass):
+                raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
@@ -138,7 +129,8 @@ class Spec(SpecTable):
             )
         for key in LOADED:
             if limits[key] is not None:
-                refuse(self._unloaded, partial(_no_load, key, self.load_keys))
+                text = f"{key} needs a load, and without one there is nothing to limit: set "
+                refuse(self._unloaded, partial(GenevaError, text + self.load_keys, ("limits", key)))
 
     def table(self, name: str) -> dict[str, Any]:
         """Values of a table by key; those of ``motion`` include the keys of its law.
@@ -155,15 +147,13 @@ class Spec(SpecTable):
 
     def _part(self, name: str) -> SpecTable | None:
         """Table by its name in the file (``mass.0`` is the first of a list), or None if absent."""
-        if name in ("wheel", "drive", BEFORE, "motion"):
-            part: SpecTable | None = vars(self)[attribute(name)]
-            return part
-        if name in PLAIN and name not in LISTS:
-            plain: SpecTable = vars(self)[attribute(name)]
-            return plain
         table, _, number = name.partition(".")
-        several = vars(self)[table] if table in LISTS else ()
-        return several[int(number)] if number.isdecimal() and int(number) < len(several) else None
+        if table in LISTS:
+            several = vars(self)[table]
+            known = number.isdecimal() and int(number) < len(several)
+            return several[int(number)] if known else None
+        part = vars(self).get(attribute(name)) if "_" not in name else None
+        return part if isinstance(part, SpecTable) else None
 
     def with_(self, key: str, value: object) -> Self:
         """Return a copy with one key changed, written ``table.key``; None sets its default.

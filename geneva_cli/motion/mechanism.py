@@ -93,27 +93,18 @@ class Mechanism(NamedTuple):
         Of several cranks it has the axes behind the first. Pivots have places only in a plane that
         also has the axes of wheel and crank.
         """
-        layout = self._whole_layout
-        if self.axes:
-            return layout
-        return tuple(one for one in layout if not isinstance(one, Pivot))
-
-    @property
-    def _whole_layout(self) -> Layout:
-        """The layout, with all pivots."""
         spec, plan = self.spec, self.plan
         own = spec.drive.layout(plan, spec.wheel.SIGN)
         _, *others = self.crank_places
         own = (*own, *(Pivot(f"axis of crank {place.number}", *place.at) for place in others))
-        if spec.drive_before is None:
-            return own
         shift, names = self.own_shaft.x_mm - self.center_distance_mm, {one.name for one in own}
-        for one in spec.drive_before.layout(plan, spec.wheel.SIGN):
+        before = spec.drive_before.layout(plan, spec.wheel.SIGN) if spec.drive_before else ()
+        for one in before:
             here = one._replace(name=f"first {one.name}" if one.name in names else one.name)
             if isinstance(here, Pivot):
                 here = here._replace(x_mm=here.x_mm + shift)
             own = (*own, here)
-        return own
+        return own if self.axes else tuple(one for one in own if not isinstance(one, Pivot))
 
     def own_deg(self, input_deg: Array) -> Array:
         """Angle of the drive's own input shaft at input angles within half a period of mid-motion.

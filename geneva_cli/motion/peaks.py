@@ -74,7 +74,7 @@ def placed_peaks(mechanism: Mechanism, engagement: Engagement) -> Peaks:
     own = peaks(engagement)
     mid = engagement.mid_deg
     placed = [Peak(one.max, mechanism.shown_deg(mid + one.at_deg)) for one in own[:-1]]
-    return Peaks(*placed, own.ends)
+    return Peaks._make((*placed, own.ends))
 
 
 def worst(mechanism: Mechanism) -> Peaks:
@@ -84,7 +84,8 @@ def worst(mechanism: Mechanism) -> Peaks:
 
 def _greatest(each: Sequence[Peaks]) -> Peaks:
     greatest = [Peak(*greatest_at(same)) for same in zip(*[e[:-1] for e in each], strict=True)]
-    return Peaks(*greatest, EndSizes(*map(max, zip(*[e.ends for e in each], strict=True))))
+    ends = EndSizes(*map(max, zip(*[e.ends for e in each], strict=True)))
+    return Peaks._make((*greatest, ends))
 
 
 def worst_of(mechanism: Mechanism, quantity: str) -> Peak[float]:

@@ -26,8 +26,9 @@ def places(wheel: Gearing, drive: Drive, L: float) -> list[RollerPlace]:
     """
     m = drive.rollers
     angles = drive.roller_angles_deg
-    if wheel.steps:
-        rollers = _of_steps(wheel, L)
+    if wheel.steps:  # on different arms: R_i = L sin b_i
+        rollers = [wheel.place(HalfStep.of_deg(0.5 * step), L) for step in wheel.steps]
+        _refuse_no_dwell(rollers, ("wheel", "steps_deg"))
         return _at_angles(angles, rollers) if angles else _equal_dwells(rollers)
     one = wheel.place(wheel.step, L)
     if angles:
@@ -67,14 +68,6 @@ def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> None:
             key,
         ),
     )
-
-
-def _of_steps(wheel: Gearing, L: float) -> list[RollerPlace]:
-    """Rollers of unequal steps, on different arms: R_i = L sin b_i."""
-    ratios = (degrees.as_integer_ratio() for degrees in wheel.steps)
-    rollers = [wheel.place(HalfStep(p, 360 * q), L) for p, q in ratios]
-    _refuse_no_dwell(rollers, ("wheel", "steps_deg"))
-    return rollers
 
 
 def _equal_dwells(rollers: list[RollerPlace]) -> list[RollerPlace]:

@@ -11,7 +11,7 @@ import math
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.numerics.arrays import choose, smaller
+from geneva_cli.numerics.arrays import Truth, choose, smaller
 
 # keys below twice the centre distance, and below twice the crank's arm
 _IN_WHEEL = (
@@ -23,8 +23,8 @@ _IN_CRANK = (
 )
 
 
-def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:
-    return GenevaError(f"{key} = {value:g}: it must be below {below:.6g}, {what}", ("size", key))
+def _refuse(when: Truth, key: tuple[str, str], text: str, **values: object) -> None:
+    refuse(when, lambda: GenevaError(text.format(key=key[1], **values), key))
 
 
 def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
@@ -58,10 +58,8 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
             value = allowed.get(key, own)
             if value is not None:
                 by = "" if own is not None else f'; the value comes from process = "{size.process}"'
-                refuse(
-                    value >= below,
-                    lambda key=key, x=value, y=below, z=meaning + by: _too_large(key, x, y, z),
-                )
+                text = "{key} = {value:g}: it must be below {below:.6g}, " + meaning + by
+                _refuse(value >= below, ("size", key), text, value=value, below=below)
     if size.face_width_mm is not None and size.wheel_thickness_mm is not None:
         edge = size.edge_mm
         refuse(
@@ -76,14 +74,12 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     for part in ("wheel", "crank"):
         bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
         if bore is not None and hub is not None:
-            refuse(
-                (hub > 0.0) & (hub < bore),
-                lambda part=part, hub=hub, bore=bore: GenevaError(
-                    f"{part}_hub_mm = {hub:g}: a hub must be larger than its bore: at least "
-                    f"{part}_bore_mm = {bore:g}, or 0 for none",
-                    ("size", f"{part}_hub_mm"),
-                ),
+            text = (
+                "{key} = {hub:g}: a hub must be larger than its bore: at least "
+                f"{part}_bore_mm = {{bore:g}}, or 0 for none"
             )
+            inside = (hub > 0.0) & (hub < bore)
+            _refuse(inside, ("size", f"{part}_hub_mm"), text, hub=hub, bore=bore)
 
 
 def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
@@ -97,13 +93,9 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
     slot = roller + 2.0 * spec.size.allowances.slot_clearance_mm
     disc = arm if lock is None else choose(lock == 0.0, arm, lock)
     for key in ("lock_radius_mm", "recess_radius_mm"):
-        refuse(
-            unlocked & (values[key] != 0.0),
-            lambda key=key: GenevaError(
-                f"{key} = {values[key]:g}: this machine has no locking disc; remove it",
-                ("tolerance", key),
-            ),
-        )
+        text = "{key} = {value:g}: this machine has no locking disc; remove it"
+        value = values[key]
+        _refuse(unlocked & (value != 0.0), ("tolerance", key), text, value=value)
     for key, below, what in (
         ("center_distance_mm", L, "the centre distance"),
         ("crank_radius_mm", arm, "the crank's radius"),
@@ -113,11 +105,7 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
         ("lock_radius_mm", disc, "the locking disc's radius, or the crank's"),
         ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
     ):
-        refuse(
-            values[key] >= below,
-            lambda key=key, below=below, what=what: GenevaError(
-                f"{key} = ±{values[key]:g} is as large as the dimension itself: it must be below "
-                f"{below:.6g}, {what}",
-                ("tolerance", key),
-            ),
-        )
+        text = "{key} = ±{value:g} is as large as the dimension itself: it must be below "
+        value = values[key]
+        text += "{below:.6g}, " + what
+        _refuse(value >= below, ("tolerance", key), text, value=value, below=below)

@@ -67,11 +67,9 @@ class Undecided(ArithmeticError):
 
 
 class Enclosed:
-    """A single number that is known by two bounds; it brings its own functions.
+    """A single number that is known by two bounds: a ``balls.Ball`` or an ``intervals.Interval``.
 
-    These are ``balls.Ball`` and ``intervals.Interval``.
-
-    To the type checker it is a float, as all numbers of formulas are.
+    It brings its own functions. To the type checker it is a float, as all numbers of formulas are.
     """
 
     __slots__ = ()

@@ -1,9 +1,8 @@
 """Division of many designs' spans into pieces on which no sign changes.
 
-A row is a part of a design's span. It is sampled at Chebyshev points with all signs held as in its
-middle, so that every function is smooth on the whole row. The row is cut where a function whose
-sign matters is zero. Beyond the cut the functions are evaluated with the other sign. A row is
-halved if a series does not show where its zeros are.
+A row, a part of a span, is sampled with all signs held as in its middle, so that every function is
+smooth on it. It is cut at the zeros of the functions whose signs matter, and halved if a series
+does not show where they are.
 """
 
 from __future__ import annotations
@@ -27,21 +26,13 @@ NEWTON_STEPS = 6  # of Newton's method, from the zero of a series
 class Functions(Protocol):
     """The functions of designs: first those whose signs matter, then the wanted ones.
 
-    Each of the first is smooth while those before it keep their signs. The wanted ones are smooth
-    while all do.
+    Each of the first is smooth while those before it keep their signs, the wanted ones while all
+    do. ``poled`` are the numbers of those that behave as 1/x at the place 0.
     """
 
-    @property
-    def signs(self) -> int:
-        """Number of the functions whose signs matter."""
-
-    @property
-    def wanted(self) -> int:
-        """Number of the wanted functions."""
-
-    @property
-    def poled(self) -> Sequence[int]:
-        """Numbers of the functions whose signs matter and that behave as 1/x at the place 0."""
+    signs: int  # number of the functions whose signs matter
+    wanted: int  # number of the wanted ones
+    poled: Sequence[int]
 
     def __call__(
         self,
@@ -53,10 +44,9 @@ class Functions(Protocol):
     ) -> tuple[Mask, list[Array]]:
         """Masks of positive signs, (signs, m, k), and Taylor coefficients (functions, m, k).
 
-        They are those of some designs at places (m, k), by the place. ``held`` are known
-        signs, 1.0 or -1.0; where it is NaN they are computed. ``requested`` are the numbers of the
-        wanted functions to evaluate, all by default. A function without a bound is infinite, and
-        its slope 0.
+        They are those of some designs at places (m, k), by the place. ``held`` are known signs, 1.0
+        or -1.0, NaN where they are computed. ``requested`` are the numbers of the wanted functions
+        to evaluate, all by default. A function without a bound is infinite, and its slope 0.
         """
 
 

@@ -1,9 +1,8 @@
 """Greatest and least values of functions of many designs, and the places where signs change.
 
-Functions are smooth only while certain signs do not change. For example, a load jumps where the
-roller's sliding reverses, and has a kink where the torque does. Each design's spans are sampled at
-Chebyshev points and cut where signs change (``cuts``). The series between cuts show where a
-function may exceed the known values; there the function itself is evaluated, by Newton steps.
+Functions are smooth only while certain signs do not change: a load jumps where the roller's sliding
+reverses. Series between the cuts (``cuts``) show where a function may exceed the known values;
+there the function itself is evaluated, by Newton steps.
 """
 
 from __future__ import annotations
@@ -60,11 +59,11 @@ class Smooth:
     """Functions of designs without kinks and jumps, from their derivatives.
 
     ``derivatives(x, which, order, requested)`` returns value and derivatives of each requested
-    function; their number may be higher than the order. The first ``signs`` functions are those
-    whose signs matter. ``unit`` is that of the places over the derivatives'.
+    function, ``order`` of them or more. The signs of the first ``signs`` functions matter. ``unit``
+    is that of the places over the derivatives'.
     """
 
-    poled = ()
+    poled: Sequence[int] = ()
 
     def __init__(
         self,
@@ -155,6 +154,20 @@ class _Candidates(NamedTuple):
     near: Array  # the longest step from there
     uphill: Array  # 1 for a maximum, -1 for a minimum, 0 for the value there
     reach: Array  # a bound of the value, with its sign by the side
+
+
+class _Turns(NamedTuple):
+    """Positions where curves turn or end."""
+
+    side: Whole  # of the result: (m,)
+    curve: Whole  # its number
+    t: Array  # from -1 to 1
+    uphill: Array  # 1 for a maximum, -1 for a minimum, 0 for the value there
+    top: Array  # a bound of the value, with its sign by the side, but for the error of its series
+
+
+def _turns(side: int, curve: Whole, t: Array | float, uphill: float, top: Array) -> _Turns:
+    return _Turns(*np.broadcast_arrays(side, curve, t, uphill, top))
 
 
 class _Extremes:
@@ -265,33 +278,31 @@ class _Extremes:
         loose = np.flatnonzero(varied & ~(left <= 1e-11 * size))
         out = []
         for sense in (1.0, -1.0):
-            side = 0 if self.sized or sense > 0.0 else 1
+            to = 0 if self.sized or sense > 0.0 else 1
             g, d = sense * value, sense * slope
             cell, of = np.nonzero((d[:-1] > 0.0) & (d[1:] <= 0.0) & varied)
             before, after = d[cell, of], d[cell + 1, of]
             t = GRID[cell] + (GRID[cell + 1] - GRID[cell]) * before / (before - after)
             top = 2.0 * sense * chebyshev.at(terms[:, of], t)
-            top -= np.minimum(g[cell, of], g[cell + 1, of])
-            out.append((side, of, t, sense, top))
+            out.append(_turns(to, of, t, sense, top - np.minimum(g[cell, of], g[cell + 1, of])))
             for end, there in ((-1.0, every), (1.0, np.flatnonzero(varied))):
-                top = sense * samples[0 if end < 0.0 else -1]
-                out.append((side, there, end, 0.0, top[there]))
-                out.append((side, loose, end, sense, top[loose] + 1e-3 * size[loose]))
-        columns = zip(*(np.broadcast_arrays(*row) for row in out), strict=True)
-        side, of, t, uphill, top = (np.concatenate(column) for column in columns)
-        reach = top + UNFINISHED * left[of]
-        least = self._bar(side, number[of], rows.design[of])
+                at_end = sense * samples[0 if end < 0.0 else -1]
+                out.append(_turns(to, there, end, 0.0, at_end[there]))
+                out.append(_turns(to, loose, end, sense, at_end[loose] + 1e-3 * size[loose]))
+        turns = joined(out)
+        reach = turns.top + UNFINISHED * left[turns.curve]
+        least = self._bar(turns.side, number[turns.curve], rows.design[turns.curve])
         kept = np.flatnonzero(~(reach < least) & (least < np.inf))
-        side, of, t, uphill, top, reach = (c[kept] for c in (side, of, t, uphill, top, reach))
+        side, of, t, uphill, top = record_taken(turns, kept)
         own, w = rows.take(of), self.cutter.w[rows.design[of]]
         before, x, after = (gathered(own.at(t + by), w).clip(*own.x) for by in (-0.1, 0.0, 0.1))
         x = np.where(t == -1.0, own.x[0], np.where(t == 1.0, own.x[1], x))
         # the sample at the end of a whole row is the value there
         exact = (uphill == 0.0) & whole[of]
         row = side, number[of], own.design
-        self.known.append(tuple(c[exact] for c in (*row, x, top)))
+        self.known.append(record_taken((*row, x, top), exact))
         sign = pieces.sign.take(piece[of], axis=1)
-        found = _Candidates(*row, sign, own.x, x, after - before, uphill, reach)
+        found = _Candidates(*row, sign, own.x, x, after - before, uphill, reach[kept])
         self.candidates.append(record_taken(found, ~exact))
 
     def refine(self) -> None:

@@ -1,8 +1,7 @@
 """Intervals of doubles: two bounds, rounded outwards at each step, for many numbers at once.
 
-A formula of intervals gives intervals that hold every value of the formula. They are wider than
-balls of Arb (``balls``), and need no library. They never become floats, and never answer a
-comparison whose answer is not the same for all of them.
+They are wider than balls of Arb (``balls``), and need no library. They never become floats, and
+never answer a comparison whose answer is not the same for all of them.
 
 R. E. Moore, R. B. Kearfott and M. J. Cloud, Introduction to Interval Analysis (2009).
 """
@@ -236,7 +235,12 @@ def _each(f: Callable[..., float], *x: Bound) -> Array:
 
 def _rising(f: Callable[[float], float]) -> Callable[[object, Interval | float], Interval]:
     """A function that rises everywhere in its domain."""
-    return lambda _, x: _outwards(*(_each(f, end) for end in _ends(x)), LIBRARY_UNITS)
+
+    def of(_: object, x: Interval | float) -> Interval:
+        low, high = _ends(x)
+        return _outwards(_each(f, low), _each(f, high), LIBRARY_UNITS)
+
+    return of
 
 
 class _Intervals:

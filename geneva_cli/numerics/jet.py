@@ -1,11 +1,8 @@
 """Jets: numbers that carry their first derivatives (truncated Taylor arithmetic).
 
-A jet of order n holds the Taylor coefficients c[0..n] of a function of one variable at a point,
-c[k] = f^(k)/k!. Coefficients are floats, or NumPy arrays of compatible shapes. The same formula
-then runs on one angle with ``math``, without importing NumPy, or on a million with ``numpy``.
-
-The recurrences are the classical ones of automatic differentiation (Griewank and Walther,
-Evaluating Derivatives, 2nd ed., section 13.2).
+A jet of order n holds the Taylor coefficients c[k] = f^(k)/k! of a function at a point: floats, or
+NumPy arrays of compatible shapes. The recurrences are those of Griewank and Walther, Evaluating
+Derivatives, 2nd ed., section 13.2.
 """
 
 from __future__ import annotations

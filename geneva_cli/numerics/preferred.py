@@ -19,10 +19,9 @@ def rounded_below(most: float) -> float:
     >>> rounded_below(41.0), rounded_below(8.3), rounded_below(10.0)
     (40.0, 8.0, 10.0)
     """
-    if most <= 0.0:
-        return 0.0
-    numbers = _rounded(most, most)
-    return numbers[bisect_right(numbers, most * (1.0 + ROUNDED)) - 1]
+    numbers = _rounded()
+    i = bisect_right(numbers, most * (1.0 + ROUNDED))
+    return numbers[i - 1] if i else 0.0
 
 
 def rounded_from(least: float, most: float) -> list[float]:
@@ -31,10 +30,7 @@ def rounded_from(least: float, most: float) -> list[float]:
     >>> rounded_from(10.0, 15.0)
     [10.0, 11.0, 12.0, 14.0]
     """
-    if not 0.0 < least < most:
-        return [least]
-    above, end = least * (1.0 + ROUNDED), most * (1.0 + ROUNDED)
-    return [least, *(n for n in _rounded(least, most) if above < n <= end)]
+    return _from(_rounded(), least, most)
 
 
 def bores_from(least: float, most: float) -> list[float]:
@@ -44,10 +40,14 @@ def bores_from(least: float, most: float) -> list[float]:
     [15.0, 17.0, 20.0, 25.0]
     """
     bores = _bores()
-    if not bores[0] <= least <= most <= bores[-1]:
-        return rounded_from(least, most)
-    first, end = (bisect_right(bores, d * (1.0 + ROUNDED)) for d in (least, most))
-    return [least, *bores[first:end]]
+    return _from(bores if bores[0] <= least <= most <= bores[-1] else _rounded(), least, most)
+
+
+def _from(numbers: tuple[float, ...], least: float, most: float) -> list[float]:
+    if not 0.0 < least < most:
+        return [least]
+    first, end = (bisect_right(numbers, x * (1.0 + ROUNDED)) for x in (least, most))
+    return [least, *numbers[first:end]]
 
 
 def gear_modules() -> list[float]:
@@ -80,22 +80,15 @@ def bore_radius(most: float) -> float:
     """
     bores, widest = _bores(), 2.0 * most
     if not bores[0] <= widest <= bores[-1]:
-        return 0.5 * rounded_below(widest)
+        return rounded_radius(most)
     return 0.5 * bores[bisect_right(bores, widest * (1.0 + ROUNDED)) - 1]
 
 
-def _rounded(low: float, high: float) -> list[float]:
-    """Return the rounded numbers of all decades from that of ``low`` to that of ``high``."""
-    # decades by their powers of ten; one more at either end, for powers that are rounded
-    first, last = math.floor(math.log10(low)) - 2, math.ceil(math.log10(high))
-    return [n for k in range(first, last + 1) for n in _decade(k)]
-
-
 @cache
-def _decade(power: int) -> tuple[float, ...]:
-    """Return the rounded numbers from 10 to 90 times a power of ten."""
+def _rounded() -> tuple[float, ...]:
+    """Return the rounded numbers of all decades of sizes, 10 to 90 times each power of ten."""
     tens = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90)
-    return tuple(float(f"{n}e{power}") for n in tens)
+    return tuple(float(f"{n}e{power}") for power in range(-20, 16) for n in tens)
 
 
 @cache

@@ -1,9 +1,7 @@
 """Integrals of functions of designs by Gauss-Legendre rules, halved where a series has not ended.
 
-The values at the rule's n nodes give the first n terms of a function's Legendre series. The error
-of the rule is about the size of term 2 n. So the last of the n terms bound it, and no second rule
-is needed. Their rate of decay proves nothing about later terms: those of a narrow feature are
-hidden below larger ones, which decay sooner.
+The values at n nodes give the first n terms of a Legendre series. The error of the rule is about
+the size of term 2 n, so the last of the n terms bound it; of a narrow feature they prove nothing.
 
 >>> x, weight = rule(4)
 >>> round(float(np.cos(x) @ weight - 2.0 * np.sin(1.0)), 6)

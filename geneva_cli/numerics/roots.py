@@ -17,8 +17,7 @@ def root(
     """The root of ``slope`` (value, derivative) in [a, b], by Newton's method within the bracket.
 
     ``before`` has the sign just after a, if that differs from the sign at a. The search bisects
-    where Newton leaves the bracket or shrinks it too slowly, so it takes at most about a hundred
-    steps. It stops when the bracket or the step is one unit in the last place.
+    where Newton leaves the bracket or shrinks it too slowly, down to one unit in the last place.
     """
     f_a = slope(a)[0] if before is None else before
     x, step = 0.5 * (a + b), b - a
@@ -98,8 +97,8 @@ def boundary(
 def boundary_by_sections(margin: Callable[[Array], Array], good: float, bad: float) -> float:
     """The last number from ``good`` towards ``bad`` at which a margin is positive.
 
-    The margin is evaluated at an array of numbers at once: all over the bracket, and ever closer to
-    the root of the line through its ends. So four or five calls reach the last bit.
+    The margin is evaluated at many numbers at once, most of them near the root of the line through
+    the bracket's ends. So four or five calls reach the last bit.
 
     >>> boundary_by_sections(lambda x: 2.0 - x * x, 1.0, 2.0)
     1.414213562373095

@@ -1,11 +1,8 @@
 """Sobol's sequence, scrambled: points that fill a cube more evenly than random ones.
 
-SciPy has it in ``scipy.stats``, whose import takes three times as long as a short run. The points
-of ``tolerance`` and of ``sweep --random`` are these.
-
-Digits are binary. Digit k of a coordinate is the sum, modulo 2, of those digits of the point's
-number that the direction numbers of its dimension choose. A random lower triangular matrix, then a
-random shift, scramble the digits of each dimension (Matousek, J. Complexity 14, 1998, 527-556).
+SciPy's is in ``scipy.stats``, whose import takes three times as long as a short run. A random lower
+triangular matrix, then a random shift, scramble the binary digits of each dimension (Matousek, J.
+Complexity 14, 1998, 527-556).
 """
 
 from __future__ import annotations

@@ -18,9 +18,14 @@ from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape
 from geneva_cli.geometry.stacks import least_wall
-from geneva_cli.parts.outlines.crank_outline import crank_circles
+from geneva_cli.parts.outlines.crank_outline import (
+    crank_circles,
+    is_whole,
+    keyway_direction,
+    reliefs,
+    sectors,
+)
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.reliefs import is_whole, keyway_direction, reliefs, sectors
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole, wall_of_bolts

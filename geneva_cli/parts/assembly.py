@@ -1,4 +1,4 @@
-"""The positions of wheel, crank and rollers through a whole turn, in mm and radians.
+"""The positions of wheel, crank, rollers and links through a whole turn, in mm and radians.
 
 The wheel's axis is the origin, and the crank's axis is at (L, 0). A drive in front of the crank
 changes when the crank reaches a position, but not which positions it goes through. So such a
@@ -8,16 +8,19 @@ machine is turned by its crank, like a plain one.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.shapes import Point
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array, Mask
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:
@@ -147,18 +150,16 @@ class Assembly(NamedTuple):
         turns = np.floor((input_deg - self.start_deg) / self.turn_deg)
         within = input_deg - turns * self.turn_deg
         out = 2.0 * sum(engagement.half_step for engagement, _ in self.motions) * turns
+        begins = np.array([one.entry for one in self.motions])
+        # rounding may put an angle before the turn
+        number = np.maximum(np.searchsorted(begins, within, side="right") - 1, 0)
         turned = 0.0
         for i, (engagement, mid) in enumerate(self.motions):
-            begins = mid + engagement.entry_deg
-            after = self.motions[i + 1] if i + 1 < len(self.motions) else None
-            ends = after[1] + after[0].entry_deg if after else np.inf
-            here = (within >= begins) & (within < ends)
-            if i == 0:  # rounding may put an angle before the turn
-                here |= within < begins
-            at = np.maximum(within[here] - mid, engagement.entry_deg)
-            at = np.minimum(at, engagement.exit_deg)
+            here = number == i
+            at = np.clip(within[here] - mid, engagement.entry_deg, engagement.exit_deg)
+            turned += engagement.half_step if i else 0.0
             out[here] += turned + engagement.motion(at, 0).c[0]
-            turned += engagement.half_step + (after[0].half_step if after else 0.0)
+            turned += engagement.half_step
         return out
 
     @property
@@ -209,20 +210,15 @@ def assembled(mechanism: Mechanism) -> Assembly:
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
         plain = spec.replace(drive_before=None, size=no_gears)
     turned = mechanism if plain == spec else build(plain)
-    return _turned(turned, mechanism, input_of(mechanism))
+    return assembled_by_input(turned)._replace(full=mechanism, to_input=input_of(mechanism))
 
 
 def assembled_by_input(mechanism: Mechanism) -> Assembly:
     """Return the assembly of a machine by the angle of its own input shaft."""
-    return _turned(mechanism, mechanism, _same)
-
-
-def _turned(mechanism: Mechanism, full: Mechanism, to_input: Callable[[float], float]) -> Assembly:
     turn = 360.0 * mechanism.spec.turns
-    periods = round(turn / mechanism.period_deg)
     motions = tuple(
         Passage(engagement, engagement.mid_deg + k * mechanism.period_deg)
-        for k in range(periods)
+        for k in range(round(turn / mechanism.period_deg))
         for engagement in mechanism.engagements
     )
     rollers = tuple(
@@ -230,10 +226,32 @@ def _turned(mechanism: Mechanism, full: Mechanism, to_input: Callable[[float], f
         for engagement, behind in motions
         for passage, ahead in engagement.passages
     )
-    L, wheel = mechanism.center_distance_mm, mechanism.spec.wheel
-    around, moves = _around(mechanism), wheel.plane_motion(L)
+    L, wheel, engagements = (
+        mechanism.center_distance_mm,
+        mechanism.spec.wheel,
+        mechanism.engagements,
+    )
+    # around the wheel counterclockwise; later slots follow clockwise
+    z, several = wheel.z, len(engagements) if wheel.steps else 1
+    kinds = [engagements[k % several] for k in range(z)]
+    slots, rests, at = [], [], 0.0
+    for k, engagement in enumerate(kinds):
+        slots.append((engagement, at % math.tau))
+        rests.append((at - engagement.half_step) % math.tau)
+        at -= engagement.half_step + kinds[(k + 1) % z].half_step
     return Assembly(
-        mechanism, L, wheel.SIGN, turn, turn, motions, rollers, *around, full, to_input, moves
+        mechanism,
+        L,
+        wheel.SIGN,
+        turn,
+        turn,
+        motions,
+        rollers,
+        tuple(sorted(slots, key=lambda slot: slot[1])),
+        tuple(sorted(rests)),
+        mechanism,
+        _same,
+        wheel.plane_motion(L),
     )
 
 
@@ -241,15 +259,85 @@ def _same(input_deg: float) -> float:
     return input_deg
 
 
-def _around(mechanism: Mechanism) -> tuple[tuple[tuple[Engagement, float], ...], tuple[float, ...]]:
-    """Return slots and rests around the wheel, counterclockwise; later slots follow clockwise."""
-    engagements, z = mechanism.engagements, mechanism.spec.wheel.z
-    steps = mechanism.spec.wheel.steps
-    kinds_ = [engagements[k % len(engagements)] if steps else engagements[0] for k in range(z)]
-    slots, rests, at = [], [], 0.0
-    for k, engagement in enumerate(kinds_):
-        slots.append((engagement, at % math.tau))
-        rests.append((at - engagement.half_step) % math.tau)
-        at -= engagement.half_step + kinds_[(k + 1) % z].half_step
-    order = sorted(range(z), key=lambda k: slots[k][1])
-    return tuple(slots[k] for k in order), tuple(sorted(rests))
+def turn_deg(mechanism: Mechanism) -> Array:
+    """Return input angles of a whole turn, a quarter of a degree apart; 0 is in the middle."""
+    turns = mechanism.spec.turns
+    return np.linspace(-180.0 * turns, 180.0 * turns, 1440 * turns + 1)
+
+
+def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
+    """Return a machine's links at input angles (n,), in degrees within half a period of mid-motion.
+
+    They are the links of the drive and of the one before it and, for a cam-Geneva, the crank along
+    which its rollers slide. The drive cannot describe that crank: in the dwell the rollers follow
+    the groove as it is cut.
+    """
+    own, spec = _own_links(mechanism, input_deg), mechanism.spec
+    if spec.drive_before is None:
+        return own
+    # the links of the drive before are on the shaft that it turns, below all others
+    shaft, sign, names = mechanism.own_shaft, spec.wheel.SIGN, {link.name for link in own}
+    mirror, shift = -sign * shaft.sense, shaft.x_mm - mechanism.center_distance_mm
+    below = _deepest(mechanism, own)
+    before = (
+        link._replace(
+            name=f"first {link.name}" if link.name in names else link.name,
+            joints=tuple((x + shift, y * mirror) for x, y in link.joints),
+            plane=link.plane - 1 + below,
+        )
+        for link in spec.drive_before.links(mechanism.plan, sign, input_deg)
+    )
+    return (*own, *before)
+
+
+def _own_links(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
+    """Return the links of the drive itself."""
+    sign, own_deg = mechanism.spec.wheel.SIGN, mechanism.own_deg(input_deg)
+    own = mechanism.spec.drive.links(mechanism.plan, sign, own_deg)
+    groove = mechanism.engagements[0].groove
+    if groove is None:
+        return own
+    from geneva_cli.motion.groove_path import roller_in_groove
+
+    L, m, still = mechanism.center_distance_mm, mechanism.spec.drive.rollers, 0.0 * input_deg
+    joints = [(still + L, still)]
+    for k in range(m):
+        x, y = L * roller_in_groove(groove, own_deg - 360.0 * k / m).T
+        joints.append((x, y))
+    return (*own, Link("crank", tuple(joints), (Joint.SHAFT, *[Joint.CARRIED] * m), 1))
+
+
+def _deepest(mechanism: Mechanism, own: Iterable[Link]) -> int:
+    """Return the number of the lowest plane of the arm, the drive's links, or a groove plate."""
+    if mechanism.engagements[0].groove is not None:
+        return 3  # of its base, below the groove and the crank
+    return max((link.plane for link in own), default=1)
+
+
+def gear_plane(mechanism: Mechanism) -> int:
+    """Return the number of the plane of noncircular gears: below the arm and the drive's links."""
+    return 1 + _deepest(mechanism, _own_links(mechanism, np.zeros(1)))
+
+
+def is_bridged(mechanism: Mechanism) -> bool:
+    """Return True if a bridge bears the crank's shaft, because a link turns over its axis below."""
+    spec, size, L = mechanism.spec, mechanism.spec.size, mechanism.center_distance_mm
+    single = len(mechanism.wheel_places) == len(mechanism.crank_places) == 1
+    own_ends = size.crank_shaft_low_mm is None and size.crank_shaft_high_mm is None
+    if spec.drive_before or spec.wheel.SIGN < 0.0 or not (single and own_ends):
+        return False
+    bars = [link for link in links_at(mechanism, np.array([-180.0, 0.0])) if not link.radius_mm]
+    joints = {link.name: [x + 1j * y - L for x, y in link.joints] for link in bars}
+    near = SAME_LENGTH * L
+    on_shaft = [link.plane for link in bars if np.abs(joints[link.name][0]).max() < near]
+    below = (link for link in bars if link.plane > max(on_shaft, default=math.inf))
+    # the axis lies between the ends of the link, with which it is in line
+    return any(
+        bool(np.any((np.abs(np.imag(p * np.conj(q))) < near * L) & (np.real(p * np.conj(q)) < 0.0)))
+        for p, q, *_ in (joints[link.name] for link in below)
+    )
+
+
+def same(p: Point, q: Point, L: float) -> bool:
+    """Return True if two points coincide, with the centre distance L."""
+    return abs(complex(*p) - complex(*q)) < SAME_LENGTH * L

@@ -21,7 +21,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
-from geneva_cli.parts.links.link_positions import is_bridged, links_at, same, turn_deg
+from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
 from geneva_cli.parts.links.link_shafts import carried, crank_stop, link_shafts, outside_links
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
@@ -69,7 +69,12 @@ def framed(
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     others = (*first, *([Member(base)] if base else []))
     adjacent = list(_passing(mechanism, outlines, bars, others))
-    free = _lowest(mechanism, outlines, adjacent) - size.washer_mm
+    lows = [-size.allowances.pin_gap_mm, *(one.low for one in adjacent)]
+    if outlines:
+        lows[0] -= outlines.sizes.arm_thickness if outlines.has_arm else 0.0
+        hub = wheel_hub(outlines.assembly, outlines.sizes)
+        lows += [hub.low] if hub else []
+    free = min(lows) - size.washer_mm
     top = free - shoulder_length(size, L)
     thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
     own = list(_all_shafts(mechanism, outlines, bars, top - thick, first))
@@ -93,7 +98,13 @@ def framed(
             screwed = placed_holes(Member(plate, (L, 0.0)))
             fixed += [(hole, plate) for hole in screwed if not same(hole.centre, (L, 0.0), L)]
     holes = [*drilled, *(tapped(hole) for hole, _ in fixed)]
-    spacers = [_spacer(hole, part, top) for hole, part in fixed if part.low - top > SAME_LENGTH * L]
+    spacers = []
+    for hole, part in fixed:
+        if part.low - top > SAME_LENGTH * L:
+            # a ring twice as wide, turned from a rod: often it is higher than wide
+            ring, bore = Circle("SHAFT", ORIGIN, 2.0 * hole.radius), hole._replace(centre=ORIGIN)
+            name = f"spacer of the {part.name}"
+            spacers.append(Member(Plate(name, "SHAFT", ring, (bore,), top, part.low), hole.centre))
     eye = corner_radius(size, L)
     if mechanism.frame > 0.0:
         reach = max((c.radius for c in holes), default=0.0) + eye
@@ -206,21 +217,6 @@ def _fixed(bars: Links) -> Iterator[tuple[Circle, Plate]]:
         for hole in gear.bolts:
             (x, y), (u, v) = gear.at, hole.centre
             yield Circle("BORE", (x + u, y + v), hole.radius), gear.plate
-
-
-def _spacer(screw: Circle, part: Plate, top: float) -> Member:
-    """Return the ring about a screw, twice as wide, between the frame and the fixed part."""
-    outline, bore = Circle("SHAFT", ORIGIN, 2.0 * screw.radius), screw._replace(centre=ORIGIN)
-    plate = Plate(f"spacer of the {part.name}", "SHAFT", outline, (bore,), top, part.low)
-    return Member(plate, screw.centre)
-
-
-def _lowest(mechanism: Mechanism, parts: Outlines | None, others: Sequence[Seat]) -> float:
-    """Return the lowest point, along the axis, of the wheel's hub, the arm, and other parts."""
-    hub = wheel_hub(parts.assembly, parts.sizes) if parts else None
-    arm = parts.sizes.arm_thickness if parts and parts.has_arm else 0.0
-    stands = -mechanism.spec.size.allowances.pin_gap_mm
-    return min([stands - arm, *([hub.low] if hub else []), *(one.low for one in others)])
 
 
 def _all_shafts(

@@ -16,8 +16,8 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.assembly import Assembly, assembly
+from geneva_cli.parts.outlines.crank_outline import arc_floor, has_arcs
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
-from geneva_cli.parts.outlines.reliefs import arc_floor, has_arcs
 from geneva_cli.parts.sizes import (
     Sizes,
     arm_bore,

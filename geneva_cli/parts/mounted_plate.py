@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 from typing import NamedTuple
@@ -136,16 +137,9 @@ class FrameAndShafts(NamedTuple):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws that fix parts to the frame, and those of its mounting holes."""
-        kinds = dict.fromkeys((one.part, one.hole.radius) for one in self.screwed)
-        fixed = (
-            Screws(
-                part,
-                sum((one.part, one.hole.radius) == (part, radius) for one in self.screwed),
-                2.0 * radius,
-                "the frame",
-            )
-            for part, radius in kinds
-        )
+        kinds = Counter((one.part, one.hole.radius) for one in self.screwed)
+        fixed = [Screws(part, n, 2.0 * r, "the frame") for (part, r), n in kinds.items()]
         mounts = mounts_of(self.plate)
-        own = Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base") if mounts else None
-        return (*fixed, own) if own else tuple(fixed)
+        if mounts:
+            fixed.append(Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base"))
+        return tuple(fixed)

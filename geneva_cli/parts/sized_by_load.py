@@ -22,6 +22,7 @@ import numpy as np
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.impacts.shock_force import forces_N
+from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength.arm_strength import arm_stress_MPa
 from geneva_cli.loads.strength.horn import horns
@@ -31,7 +32,6 @@ from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.pin import PinSize, pin
 from geneva_cli.loads.strength.shaft_stress import shear_MPa
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.loads.unbalance import centrifugal_N
 from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
@@ -40,8 +40,7 @@ from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.assembly import Assembly, links_at
 from geneva_cli.parts.sizes import (
     FirstSizes,
     Sizes,
@@ -181,31 +180,32 @@ def horn_MPa(
 def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     """Return the sizes with a bore of the wheel whose shaft and key hold."""
     spec, end, wall = assembly.full.spec, sizes.slot_end, sizes.wall_min
-    size = spec.size
-    fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
+    fixed = spec.size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
     if fixed or not sizes.wheel_bore:
         return sizes
 
     def bored(d: float) -> Sizes:
-        reach, hub = wheel_reach_and_hub(size, 0.5 * d, wall, end)
+        reach, hub = wheel_reach_and_hub(spec.size, 0.5 * d, wall, end)
         return sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
 
     def holds(trial: Sizes) -> bool:
-        parts = stressed(assembly, trial)
-        shaft = shaft_holds_both(
-            spec, "wheel", parts.wheel_shaft, loads.wheel_shaft_N, loads.wheel_Nm
-        )
-        return shaft and key_holds(spec, parts.wheel_key, loads.wheel_Nm)
+        parts, force, torque = stressed(assembly, trial), loads.wheel_shaft_N, loads.wheel_Nm
+        shaft = shaft_holds_both(spec, "wheel", parts.wheel_shaft, force, torque)
+        return shaft and key_holds(spec, parts.wheel_key, torque)
 
     # a third of the wheel up to its slots is left as a wall
-    most = min(end * 2.0 / 3.0, end - wall, within_hub(size, "wheel"))
+    most = min(end * 2.0 / 3.0, end - wall, within_hub(spec.size, "wheel"))
     return first_that(map(bored, bores_from(2.0 * sizes.wheel_bore, 2.0 * most)), holds)
 
 
 def _crank_bored(
     assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float, keyed: bool
 ) -> Sizes:
-    """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there."""
+    """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
+
+    Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
+    Unless ``keyed``, the bore is not sized by its key.
+    """
     spec = assembly.full.spec
     size = spec.size
     own = (size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm)
@@ -295,26 +295,21 @@ def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
 def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:
     """Return the spec of the first wheel and its crank, with the sizes that it shares."""
     spec, size = mechanism.spec, mechanism.spec.size
-    shared = Size(
+    shared = ("process", "slot_clearance_mm", "lock_clearance_mm", "press_fit_mm", "shaft_fit_mm")
+    own = Size(
         center_distance_mm=first.distance_mm,
         roller_radius_mm=mechanism.roller_radius_mm,
-        process=size.process,
-        slot_clearance_mm=size.slot_clearance_mm,
-        lock_clearance_mm=size.lock_clearance_mm,
-        press_fit_mm=size.press_fit_mm,
-        shaft_fit_mm=size.shaft_fit_mm,
-        pin_gap_mm=size.pin_gap_mm,
-        pin_mm=size.pin_mm,
         wheel_thickness_mm=size.link_thickness_mm,
         arm_thickness_mm=size.link_thickness_mm,
         arm_bore_mm=size.link_bore_mm,
         lock_bolts=0,  # the link below its disc has no holes for them
+        **{key: vars(size)[key] for key in (*shared, "pin_gap_mm", "pin_mm")},
     )
     torque = single_loads(mechanism).crank_Nm if spec.is_loaded else 0.0
     return Spec(
         External(first.z),
         Crank(n_rpm=spec.drive.n_rpm),
-        size=shared,
+        size=own,
         load=Load(torque_Nm=torque if math.isfinite(torque) else 0.0),
         shaft=spec.shaft.replace(wheel_diameter_mm=None, crank_diameter_mm=None),
         material_wheel=spec.material_wheel,

@@ -17,9 +17,8 @@ from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
 from geneva_cli.loads.strength.key_strength import NO_KEY, KeyDimensions
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.links.link_positions import gear_plane, is_bridged, links_at
-from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import (
     Sizes,
@@ -63,28 +62,38 @@ class Stressed(NamedTuple):
 
 def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     """Return the dimensions of a machine's parts, for parts of these sizes."""
-    spec = assembly.full.spec
-    size = spec.size
-    contact = value_or(size.face_width_mm, sizes.wheel_thickness)
-    crank = sizes.arm_bore or sizes.crank_bore
-    length = 0.0  # of the wheel's hub
+    spec, L = assembly.full.spec, assembly.L
+    size, thick, wide = spec.size, sizes.arm_thickness, sizes.wheel_thickness
+    contact = value_or(size.face_width_mm, wide)
+    hub_mm = 0.0  # length of the wheel's hub
     if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
-        usual = size.allowances.pin_gap_mm + sizes.arm_thickness
-        length = value_or(size.wheel_hub_length_mm, usual)
-    end = (_to_frame(assembly, sizes, length), sizes.arm_thickness, assembly.L)
+        hub_mm = value_or(size.wheel_hub_length_mm, size.allowances.pin_gap_mm + thick)
+    end = _to_frame(assembly, sizes, hub_mm), thick, L
+    crank = sizes.arm_bore or sizes.crank_bore
     crank_shaft = shaft_of(spec, "crank", crank, *end)
     if sizes.crank_bore and is_bridged(assembly.full):
-        middle = bridge_low(size, sizes) + 0.5 * (sizes.arm_thickness - sizes.wheel_thickness)
+        middle = bridge_low(size, sizes) + 0.5 * (thick - wide)
         own = spec.shaft.crank_diameter_mm, spec.shaft.crank_overhang_mm
         crank_shaft = ShaftSize(value_or(own[0], 2.0 * crank), value_or(own[1], middle))
+    arm = NO_ARM
+    if sizes.arm_bore and sizes.pin:
+        _, long = sizes.reaches
+        standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
+        hole = hole_radius(size, sizes.pin)
+        bored = reach_or_bore(size, "crank", sizes.arm_bore)
+        hub = arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
+        passing = sizes.passing_eye(L - long)
+        eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
+        offset = 0.5 * (contact + thick) + size.allowances.pin_gap_mm
+        arm = ArmDimensions(long, hub, eye, bored, hole, thick, offset)
     return Stressed(
         contact,
         2.0 * sizes.pin,
         shaft_of(spec, "wheel", sizes.wheel_bore, *end),
         crank_shaft,
-        _arm(assembly, sizes, contact),
-        key_of(size.wheel_keyway, sizes.wheel_bore, sizes.wheel_thickness + length),
-        key_of(size.crank_keyway, sizes.arm_bore, sizes.arm_thickness),
+        arm,
+        key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm),
+        key_of(size.crank_keyway, sizes.arm_bore, thick),
     )
 
 
@@ -125,23 +134,6 @@ def _to_frame(assembly: Assembly, sizes: Sizes, hub_mm: float) -> float:
     if machine.engagements[0].groove is not None:  # as ``groove_plate`` has its base
         lows.append(low(3) if spec.drive_before else low(2) - arm)
     return 0.5 * sizes.wheel_thickness - min(lows) + washer
-
-
-def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
-    """Return the arm's dimensions; NaN without an arm."""
-    size = assembly.full.spec.size
-    if not (sizes.arm_bore and sizes.pin):
-        return NO_ARM
-    _, length = sizes.reaches
-    passing = sizes.passing_eye(assembly.L - length)
-    standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
-    hole = hole_radius(size, sizes.pin)
-    bored = reach_or_bore(size, "crank", sizes.arm_bore)
-    hub = arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
-    eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
-    offset = 0.5 * (contact + sizes.arm_thickness) + size.allowances.pin_gap_mm
-    rows = length, hub, eye, bored, hole, sizes.arm_thickness, offset
-    return ArmDimensions(*rows)
 
 
 def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:

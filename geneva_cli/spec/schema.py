@@ -1,7 +1,6 @@
 """Tables of a spec: frozen records whose fields are their keys, checked when they are created.
 
-A field is annotated with its type, its rule and its meaning. The reader, the writer, the template
-and Python users all use that line:
+A field is annotated with its type, its rule and its meaning:
 
     A: Annotated[float, Range(-1.0, 1.0, "()"), "base offset / crank length"]
 
@@ -15,7 +14,6 @@ import dataclasses
 import inspect
 import math
 from collections.abc import Iterable, Sequence
-from functools import cache
 from types import NoneType, UnionType
 from typing import (
     Annotated,
@@ -79,8 +77,8 @@ class _Signature:
 
     def __get__(self, table: object, kind: type[SpecTable]) -> inspect.Signature:
         def parameter(one: dataclasses.Field[object]) -> inspect.Parameter:
-            place = inspect.Parameter.KEYWORD_ONLY
-            place = place if one.kw_only else inspect.Parameter.POSITIONAL_OR_KEYWORD
+            kinds = inspect.Parameter
+            place = kinds.KEYWORD_ONLY if one.kw_only else kinds.POSITIONAL_OR_KEYWORD
             default = inspect.Parameter.empty if one.default is REQUIRED else one.default
             return inspect.Parameter(one.name, place, default=default, annotation=one.type)
 
@@ -229,19 +227,28 @@ def shortly(record: object) -> str:
     return f"{type(record).__name__}({', '.join(arguments)})"
 
 
-@cache
+# by class; mypy takes no class with a hash of its own as an argument of functools.cache
+_parameters_of: dict[type, tuple[dataclasses.Field[object], ...]] = {}
+_names_of: dict[type, list[str]] = {}
+_fields_of: dict[type, tuple[Field, ...]] = {}
+
+
 def _parameters(kind: type) -> tuple[dataclasses.Field[object], ...]:
-    return dataclasses.fields(kind)
+    if kind not in _parameters_of:
+        _parameters_of[kind] = dataclasses.fields(kind)
+    return _parameters_of[kind]
 
 
-@cache
 def _names(kind: type) -> list[str]:
-    return [one.name for one in _parameters(kind)]
+    if kind not in _names_of:
+        _names_of[kind] = [one.name for one in _parameters(kind)]
+    return _names_of[kind]
 
 
-@cache
 def fields(table: type[SpecTable]) -> tuple[Field, ...]:
     """Keys of a table, in their order."""
+    if table in _fields_of:
+        return _fields_of[table]
     known: dict[str, Field] = {}
     for base in table.__bases__:
         if issubclass(base, SpecTable) and base is not SpecTable:
@@ -256,7 +263,8 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
             types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
             key = rule.key if isinstance(rule, Csv) else one.name.rstrip("_")
             known[one.name] = Field(key, one.name, types, rule, one.default, meaning)
-    return tuple([known[name] for name in _names(table) if name in known])
+    _fields_of[table] = tuple([known[name] for name in _names(table) if name in known])
+    return _fields_of[table]
 
 
 def checked(table: str, field: Field, value: Any) -> Any:

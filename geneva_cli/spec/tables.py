@@ -391,25 +391,31 @@ class Mass(SpecTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        needed = self.SIZES[self.shape]
+        if fault := self._fault():
+            message, *key = fault
+            raise GenevaError(message, (self.TABLE, *key))
+
+    def _fault(self) -> tuple[str, ...]:
+        """What is wrong with the sizes, the mass or the density, and its key; or nothing."""
+        shape, own, needed = self.shape, vars(self), self.SIZES[self.shape]
         for key in ("diameter_mm", "bore_mm", "length_mm", "width_mm"):
-            has_key = getattr(self, key) is not None
-            if has_key and key not in needed:
-                raise GenevaError(f"a {self.shape} has no {key}: remove it", (self.TABLE, key))
-            if not has_key and key in needed:
-                raise GenevaError(f"a {self.shape} needs {' and '.join(needed)}", (self.TABLE,))
-        if self.shape == "point" and not self.radius_mm:
-            raise GenevaError(
-                "a point on the wheel's axis has no inertia: set radius_mm, or set its weight as "
-                "force_N in [support]",
-                (self.TABLE,),
-            )
-        self._refuse_weight()
+            if own[key] is not None and key not in needed:
+                return f"a {shape} has no {key}: remove it", key
+            if own[key] is None and key in needed:
+                return (f"a {shape} needs {' and '.join(needed)}",)
+        if shape == "point" and not self.radius_mm:
+            fault = "a point on the wheel's axis has no inertia: set radius_mm, or set its weight"
+            return (f"{fault} as force_N in [support]",)
+        if (self.mass_kg is None) == (self.density_kgm3 is None):
+            return ("set either mass_kg, or density_kgm3 with all sizes",)
+        if self.density_kgm3 is not None and shape == "point":
+            return "a point has no sizes: set mass_kg instead", "density_kgm3"
+        if self.density_kgm3 is not None and self.thickness_mm is None:
+            return "density_kgm3 needs thickness_mm; or set mass_kg instead", "density_kgm3"
         if self.bore_mm and self.diameter_mm and not self.bore_mm < self.diameter_mm:
-            raise GenevaError(
-                f"bore_mm = {self.bore_mm:g} must be below diameter_mm = {self.diameter_mm:g}",
-                (self.TABLE, "bore_mm"),
-            )
+            below = f"must be below diameter_mm = {self.diameter_mm:g}"
+            return f"bore_mm = {self.bore_mm:g} {below}", "bore_mm"
+        return ()
 
     @property
     def backwards(self) -> Self:
@@ -419,20 +425,6 @@ class Mass(SpecTable):
         -30.0
         """
         return self.replace(angle_deg=0.0 - self.angle_deg)
-
-    def _refuse_weight(self) -> None:
-        """Raise GenevaError unless exactly one of mass and density is set, with its sizes."""
-        if (self.mass_kg is None) == (self.density_kgm3 is None):
-            raise GenevaError("set either mass_kg, or density_kgm3 with all sizes", (self.TABLE,))
-        if self.density_kgm3 is not None and self.shape == "point":
-            raise GenevaError(
-                "a point has no sizes: set mass_kg instead", (self.TABLE, "density_kgm3")
-            )
-        if self.density_kgm3 is not None and self.thickness_mm is None:
-            raise GenevaError(
-                "density_kgm3 needs thickness_mm; or set mass_kg instead",
-                (self.TABLE, "density_kgm3"),
-            )
 
 
 class Support(SpecTable):

@@ -1,11 +1,8 @@
 """Ways to make the parts, selected by ``[size] process``: their clearances, and their limits.
 
-Drawings speak to the workshop of a process by its fits, tolerances and roughness. Its clearances
-are the least that two parts need if they are as accurate as the source says. The fit coupon shows
-if a particular machine does better. The gap between wheel and arm is as thick as a shim ring of
-DIN 988, which fills it.
-
-Thermal cuts deviate by ISO 9013:2017, tolerance class 1, which lasers keep.
+Clearances are the least that two parts need if they are as accurate as the source says. The gap
+between wheel and arm is as thick as a shim ring of DIN 988. Thermal cuts deviate by ISO 9013:2017,
+tolerance class 1, which lasers keep.
 """
 
 from __future__ import annotations

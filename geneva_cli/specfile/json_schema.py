@@ -1,7 +1,6 @@
 """A spec's tables and keys as JSON Schema, for editors, from the reader's own definitions.
 
-The schema describes the values that depend on the kind of machine. Some rules are left to `geneva
-check`: keys that need others (a limit on force needs a load), whole numbers written 6.0, nan, and
+Some rules are left to `geneva check`: keys that need others, whole numbers written 6.0, nan, and
 the kind and range of a value with a unit.
 """
 

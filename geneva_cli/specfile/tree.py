@@ -25,7 +25,6 @@ from geneva_cli.spec.schema import (
     unknown,
 )
 from geneva_cli.spec.tables import LISTS, PLAIN
-from geneva_cli.spec.units import with_unit
 from geneva_cli.specfile.writer import DRIVES, LAWS, WHEELS, KindTable, drives_before, kind_tables
 
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
@@ -238,6 +237,8 @@ def _hint(typed: str, value: object, known: Iterable[Field]) -> str:
 
     Nothing too where a known key is spelt like it: that one is named without this hint.
     """
+    from geneva_cli.spec.units import with_unit  # only for messages
+
     for field in known:
         if right := with_unit(typed, value, field.key):
             return f" (another unit goes with the value: {right})"

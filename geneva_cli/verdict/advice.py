@@ -185,7 +185,7 @@ class Adviser:
 
     def _aim(self, wanted: tuple[Check, ...], stop: int) -> None:
         """Search for these checks, the quick ones first, until so many trials are left."""
-        by_cost = sorted(wanted, key=lambda c: (c.name in OF_TURN, c.name not in QUICK))
+        by_cost = sorted(wanted, key=lambda c: _cost(c.name))
         self.units = {c.name: -c.spare if c.spare > -math.inf else 1.0 for c in by_cost}
         self.may_fail = {c.name for c in self.failing}
         self.stop = stop
@@ -220,19 +220,19 @@ class Adviser:
     def _margin(self, spec: Spec | None, every: bool, turn: bool) -> float:
         """The least margin of the wanted checks, relative to its present violation.
 
-        It is that of checks without parts if one of them fails. A spec that makes no machine has
+        Checks that cost more are left out if one fails. A spec that makes no machine has
         -inf. With ``every`` all checks are made, in the ``turn`` too, and another one that begins
         to fail gives ``OTHER``.
         """
         from geneva_cli.parts.turn.pairs import WorkLimit
 
-        least = math.inf
+        least, cost = math.inf, 0
         try:
             trial = self._trial(spec)
             for name, unit in self.units.items():
-                if least < 0.0 and name not in QUICK:
+                if least < 0.0 and _cost(name) > cost:
                     break
-                least = min(least, trial.spare(name) / unit)
+                least, cost = min(least, trial.spare(name) / unit), _cost(name)
             if every and least >= 0.0:
                 parts = self.parts and ("parts" in self.units or "parts" not in self.may_fail)
                 for check in trial.rows(parts, turn):
@@ -256,6 +256,11 @@ class Adviser:
                 raise OutOfTrials
             self._last = Trial(spec, self.mechanism)
         return self._last
+
+
+def _cost(name: str) -> int:
+    """The order of checks: of the motion and its limits, of parts at rest, of the whole turn."""
+    return 0 if name in QUICK else 2 if name in OF_TURN else 1
 
 
 def _edge(

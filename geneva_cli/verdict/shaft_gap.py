@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from itertools import product
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -25,7 +26,6 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.gears.gear_curves import pair_teeth
 from geneva_cli.parts.gears.gear_pair import gear_seats, pitch_radii
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.verdict.checks.check import ShaftGap as ShaftGap
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
 
@@ -33,7 +33,6 @@ Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for ea
 class Ring(NamedTuple):
     """The ring that a plate sweeps about the axis that it turns on."""
 
-    name: str
     layer: Layer
     axis: Point
     inner: float
@@ -54,46 +53,37 @@ def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Mea
     return gap - radius
 
 
-def shaft_gap(parts: FlatParts) -> ShaftGap | None:
-    """Return the least gap of all parts; None where nothing passes a hub or shaft.
+def shaft_gaps(parts: FlatParts) -> Iterator[float]:
+    """Yield the gaps of parts to the hubs and shafts that they pass, mm, negative at an overlap.
 
     Raises GenevaError for sizes that leave no parts.
     """
     turning = rings_of((parts.wheel, parts.crank))
     others = rings_of((*parts.first, *parts.groove_plate))
-    return least_gap(parts.mechanism, turning, [*turning, *others], parts.shafts)
+    yield from ring_gaps(parts.mechanism, turning, [*turning, *others], parts.shafts)
 
 
-def gear_gap(parts: FlatParts) -> ShaftGap | None:
-    """Return the least gap of noncircular gears to hubs, shafts and spacers; None without those.
+def gear_gaps(parts: FlatParts) -> Iterator[float]:
+    """Yield the gaps of noncircular gears to hubs, shafts and spacers, mm.
 
-    The spacers are those of a fixed gear or a guide above the gears.
-
-    Raises GenevaError for sizes that leave no parts.
+    The spacers are those of a fixed gear or a guide above the gears. Raises GenevaError for sizes
+    that leave no parts.
     """
     turning = rings_of((parts.wheel, parts.crank))
     rings = list(gear_rings(parts.mechanism, parts.drawn))
-    return least_gap(parts.mechanism, turning, rings, (*parts.shafts, *parts.spacers))
+    yield from ring_gaps(parts.mechanism, turning, rings, (*parts.shafts, *parts.spacers))
 
 
-def least_gap(
+def ring_gaps(
     mechanism: Mechanism, turning: list[Ring], rings: list[Ring], shafts: Iterable[Member]
-) -> ShaftGap | None:
-    """Return the least gap of rings to shafts, and to the hubs of wheel and crank."""
+) -> Iterator[float]:
+    """Yield the gaps of rings to shafts, and to the hubs of wheel and crank, mm."""
     near = SAME_LENGTH * mechanism.center_distance_mm
     axes = [ring for ring in turning if ring.layer == "HUB"] + rings_of(shafts)
-    return min(
-        (
-            ShaftGap(
-                float(ring_gap(apart, ring.inner, ring.outer, shaft.outer)), shaft.name, ring.name
-            )
-            for shaft in axes
-            for ring in rings
-            if (apart := math.dist(ring.axis, shaft.axis)) > near
-            and min(ring.high, shaft.high) - max(ring.low, shaft.low) > near
-        ),
-        default=None,
-    )
+    for shaft, ring in product(axes, rings):
+        apart = math.dist(ring.axis, shaft.axis)
+        if apart > near and min(ring.high, shaft.high) - max(ring.low, shaft.low) > near:
+            yield float(ring_gap(apart, ring.inner, ring.outer, shaft.outer))
 
 
 def gear_rings(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:
@@ -108,7 +98,7 @@ def gear_rings(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:
     tips = teeth.tips if teeth else (0.0, 0.0)
     gears = zip(gear_seats(mechanism, drawn), places, pitch_radii(pair), tips, strict=True)
     for seat, place, (_, pitch), tip in gears:
-        yield Ring(seat.part, "PITCH", (place, 0.0), 0.0, pitch + tip, seat.low, seat.high)
+        yield Ring("PITCH", (place, 0.0), 0.0, pitch + tip, seat.low, seat.high)
 
 
 def rings_of(members: Iterable[Member]) -> list[Ring]:
@@ -122,7 +112,7 @@ def _rings(member: Member) -> Iterator[Ring]:
         contours = oriented(plate.outline, plate.holes)
         inner = max(0.0, float(Polyarc(contours).signed(np.zeros((1, 2)))[0]))
         outer = max(math.hypot(*p) for piece in contours[0].segments for p in _far(piece))
-        yield Ring(plate.name, plate.layer, member.at, inner, outer, plate.low, plate.high)
+        yield Ring(plate.layer, member.at, inner, outer, plate.low, plate.high)
 
 
 def _far(piece: Segment) -> Iterator[Point]:

@@ -7,6 +7,7 @@ import repo
 from drawing_witness import polygon, vertices
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import some
 from shapely.geometry import LinearRing
 from words import Spec, Wheel
 
@@ -108,7 +109,7 @@ def tried(corners, kerf, outside):
     return "path"
 
 
-@settings(max_examples=60)
+@settings(max_examples=some(60, 25))
 @given(
     st.lists(st.tuples(st.floats(5.0, 30.0), st.floats(-0.5, 0.7)), min_size=3, max_size=9),
     st.floats(0.05, 4.0),

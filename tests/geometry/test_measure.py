@@ -17,7 +17,7 @@ from geneva_cli.geometry.shapes import Arc, Contour, about
 
 FINE = 1e-5  # mm, of the witnesses' polygons
 # Few examples: the whole file stays within seconds, and each is compared in several ways.
-QUICK = settings(max_examples=some(60, 20))
+QUICK = settings(max_examples=some(60, 12))
 
 
 def winding_area(points):

@@ -26,8 +26,8 @@ QUANTITIES = (
     "sliding_m_s",
     "input_torque_Nm",
     "wheel_bearing_N",
-    "crank_bearing_N",
-    "guide_force_N",
+    "crank_bearing_squared",
+    "guide_squared",
 )
 
 
@@ -52,8 +52,8 @@ def planar(mechanism, number, x):
         true.sliding * w,
         true.shaft,
         true.wheel_bearing,
-        true.crank_bearing,
-        true.guide,
+        true.crank_bearing**2,
+        None if true.guide is None else true.guide**2,
     )
     return dict(zip(QUANTITIES, values, strict=True))
 
@@ -88,4 +88,5 @@ def test_loads_of_a_design(name):
             size = abs(getattr(whole, quantity))
             peak = size[np.isfinite(size)].max()
             off = abs(load_witness.mp.mpf(float(found[0])) - exact)
-            assert off <= within * ULP * peak, (quantity, x, float(off / (ULP * peak)))
+            most = within * (2.0 if quantity.endswith("squared") else 1.0)
+            assert off <= most * ULP * peak, (quantity, x, float(off / (ULP * peak)))

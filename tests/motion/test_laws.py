@@ -186,7 +186,7 @@ def sampled(tmp_path):
 
 def test_table_reproduces_what_was_sampled(sampled):
     law = sampled.motion.law
-    u = np.linspace(0.0, 1.0, 1001)
+    u = np.linspace(0.0, 1.0, 207)
     got = law(u, 3).derivatives()
     exact = np.array([[float(v) for v in WITNESS["4-5-6-7"](t, 3)] for t in u.tolist()]).T
     # A quintic spline with knots h apart errs by c h^(6-k) times the sixth derivative, which is

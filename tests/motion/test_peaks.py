@@ -116,7 +116,7 @@ def test_against_roots_at_50_digits(machine, gearing, A):
 def test_none_is_missed_as_A_nears_1(machine, gearing, gap, sign):
     """All that happens happens within some gap of an end or of the middle."""
     A = sign * (1.0 - gap)
-    for z in (3, 4, 6, 9, 24):
+    for z in (3, 6, 24):
         m = machine(z, gearing, A)
         found, w = peaks(m.engagements[0]), Geneva(z, gearing, A)
         for name in NAMES:

@@ -124,8 +124,8 @@ def test_extremes_of_polynomials(sized):
 
     That of no real root is a value of the function as well, so it is never above.
     """
-    c = np.random.default_rng(3).normal(size=(3000, 8))
-    most, x, _ = search(polynomials(c), [(column([-1.5] * 3000), column([1.5] * 3000))], sized)
+    c = np.random.default_rng(3).normal(size=(600, 8))
+    most, x, _ = search(polynomials(c), [(column([-1.5] * 600), column([1.5] * 600))], sized)
     for i, own in enumerate(c):
         roots = polynomial.polyroots(polynomial.polyder(own)).real
         values = polynomial.polyval([-1.5, 1.5, *roots[abs(roots) < 1.5]], own)

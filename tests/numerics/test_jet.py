@@ -34,10 +34,7 @@ COMPOSED = {
         lambda x: atan2(sin(x) * 0.5, 1.0 - cos(x) * 0.5),
         lambda x: mp.atan2(mp.sin(x) / 2, 1 - mp.cos(x) / 2),
     ),
-    "angle behind": (
-        lambda x: atan2(x - 3.0, -1.0 - x * x),
-        lambda x: mp.atan2(x - 3, -1 - x * x),
-    ),
+    "angle behind": (lambda x: atan2(x - 3.0, -1.0 - x * x), lambda x: mp.atan2(x - 3, -1 - x * x)),
     "chain": (
         lambda x: sin(sqrt(cos(x) + 1.5) / (x * x + 1.0)),
         lambda x: mp.sin(mp.sqrt(mp.cos(x) + mp.mpf(1.5)) / (x * x + 1)),

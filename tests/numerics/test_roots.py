@@ -38,21 +38,11 @@ def test_root(f, a, b, exact):
     assert len(seen) < 120
 
 
-def test_root_without_a_slope_is_bisected():
-    g, seen = calls(lambda x: (x - 0.1, 0.0))
-    assert root(g, 0.0, 1.0) == near(0.1, 2.3e-16)
-    assert len(seen) < 70  # 53 halvings and a few
-
-
 def test_root_with_a_misleading_slope():
     """A slope that always throws Newton out of the bracket costs bisection, no more."""
     g, seen = calls(lambda x: (x - 0.1, 1e-9))
     assert root(g, -1.0, 1.0) == near(0.1, 2.3e-16)
     assert len(seen) < 120
-
-
-def test_root_exactly_hit():
-    assert root(lambda x: (x, 1.0), -1.0, 1.0) == 0.0
 
 
 def test_triple_root_at_zero_ends():

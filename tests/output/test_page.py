@@ -18,7 +18,7 @@ from geneva_cli.motion.pivots import Joint
 from geneva_cli.output import animate, page
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.scene import value_at
-from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.pairs import Pose
 from geneva_cli.study.animation.animated_turn import MachineTurn

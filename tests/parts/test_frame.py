@@ -15,7 +15,7 @@ from geneva_cli import load
 from geneva_cli.geometry.plates import in_place, plates
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.stacks import least_wall
-from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.stressed import stressed
 from geneva_cli.spec.least_wall import wall_min

@@ -21,7 +21,7 @@ from words import LAWS, Motion
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Contour, Line, about, closed
-from geneva_cli.parts.outlines.reliefs import reliefs
+from geneva_cli.parts.outlines.crank_outline import reliefs
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import Gaps

@@ -13,7 +13,7 @@ from geneva_cli import load
 from geneva_cli.cli.app import app
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
-from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.links.links import drawn_links
 
 # rounding of a few sines of lengths of some hundred mm

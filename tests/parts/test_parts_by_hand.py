@@ -19,8 +19,8 @@ from geneva_cli.geometry.shapes import Arc
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.outlines.crank_outline import arc_floor, lock_of, reliefs, widened
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs, drawn
-from geneva_cli.parts.outlines.reliefs import arc_floor, lock_of, reliefs, widened
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.slots.roller_paths import mouth_corners
 from geneva_cli.spec.tables import Size
@@ -219,9 +219,9 @@ def test_the_dimensions_of_a_wheel():
     ],
 )
 def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
-    """All points of the wheel's outline, turned in steps of 0.002 degrees of the crank.
+    """All points of the wheel's outline, turned in steps of 0.005 degrees of the crank.
 
-    In a step the wheel turns up to 20 times as far, by 0.04 degrees. A horn reaches farthest where
+    In a step the wheel turns up to 20 times as far, by 0.1 degrees. A horn reaches farthest where
     it leaves the disc, so that its last point inside comes less far by about half of that.
     """
     parts = drawn(*machine_sizes(Design(wheel, size=Size(100.0, 4.0)).mechanism))
@@ -230,10 +230,10 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
     wide = {one.motion: one for one in widened(assembly, sizes, mouths)}
     for one in reliefs(assembly):
         middle = 0.5 * (one.start + one.end)
-        x, y = parts.gaps.swept(one.motion, 0.002)
+        x, y = parts.gaps.swept(one.motion, 0.005)
         off = np.abs(np.remainder(np.arctan2(y, x) - middle + math.pi, math.tau) - math.pi).max()
         assert (off > one.half + 1e-6) == (one.motion in passed)
         reach = off + sizes.relief / sizes.lock if one.motion in passed else one.half
-        assert wide[one.motion].half == pytest.approx(reach, abs=math.radians(0.02))
+        assert wide[one.motion].half == pytest.approx(reach, abs=math.radians(0.05))
     cut = [arc.sweep for arc in cut_arcs(parts.crank, sizes.lock, 0.0, 1e-6)]
     assert lock_of(assembly, sizes).half == pytest.approx(0.5 * min(map(abs, cut)), rel=1e-12)

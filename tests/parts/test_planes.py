@@ -10,7 +10,7 @@ from shapely import affinity
 from shapely.geometry import Point
 
 from geneva_cli import load
-from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.links.links import drawn_links
 

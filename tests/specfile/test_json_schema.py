@@ -58,9 +58,9 @@ def test_it_agrees_with_the_reader_on_mutated_specs(tmp_path, monkeypatch):
     for name, content in schema_agrees.FILES.items():
         (tmp_path / name).write_text(content)
     rng = random.Random(7)
-    texts = [schema_agrees.spec(rng) for _ in range(150)]
+    texts = [schema_agrees.spec(rng) for _ in range(60)]
     sound = sum(not faults(text) for text in texts)
-    assert 15 < sound < 135
+    assert 6 < sound < 54
     assert [said for text in texts if (said := schema_agrees.disagreement(text))] == []
 
 

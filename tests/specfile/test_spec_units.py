@@ -6,8 +6,6 @@ import tomllib
 
 import pytest
 import schema_agrees
-from hypothesis import given
-from hypothesis import strategies as st
 from scipy import constants as si
 from typer.testing import CliRunner
 
@@ -101,12 +99,11 @@ def same_kind():
                 yield from ((endings[own], own, other) for other in units)
 
 
-@pytest.mark.sampled(12)
-@pytest.mark.parametrize(("key", "own", "unit"), list(same_kind()))
-@given(number=st.floats(-1e6, 1e6, allow_subnormal=False))
-def test_units_against_codata(key, own, unit, number):
-    expected = number * (ONE[unit] / ONE[own])
-    assert in_unit_of(key, f"{number!r} {unit}") == pytest.approx(expected, rel=CLOSE, abs=1e-300)
+def test_units_against_codata():
+    for key, own, unit in same_kind():
+        for number in (-1e6, 0.1, 3.0, 1.7e5):
+            expected = number * (ONE[unit] / ONE[own])
+            assert in_unit_of(key, f"{number!r} {unit}") == pytest.approx(expected, rel=CLOSE)
 
 
 @pytest.mark.parametrize(("key", "unit", "one"), PRODUCTS)

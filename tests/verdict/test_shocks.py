@@ -22,7 +22,7 @@ from geneva_cli import (
     Tolerance,
 )
 from geneva_cli.loads.impacts import change_of_sides
-from geneva_cli.loads.impacts.mouth import mouth_contacts
+from geneva_cli.loads.impacts.shock import mouth_contacts
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.many import many
 from geneva_cli.parts.machine_sizes import built

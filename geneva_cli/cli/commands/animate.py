@@ -1,5 +1,6 @@
 """``geneva animate``."""
 
+import os
 from typing import Annotated
 
 from geneva_cli.cli.options import Reverse, Settings, SpecPath, flag, output_option, warn
@@ -26,8 +27,6 @@ def run(
     It shows parts, gears, contact force and curves, and plays or follows a slider. An .svg does
     not move. --open prints the page's path if there is no browser.
     """
-    import os
-
     from geneva_cli.design import load
     from geneva_cli.output import animate
     from geneva_cli.study.animation.turning_scene import scene
@@ -35,9 +34,8 @@ def run(
     if open_ and output != "-" and not output.endswith(".html"):
         raise GenevaError(f'-o "{output}": --open opens a page: it must end in .html')
     design = load(spec, settings or (), reverse)
-    machine = scene(design)
     place = os.path.join(_folder(), "machine.html") if open_ and output == "-" else output
-    animate(machine, place, design.spec.files)
+    animate(scene(design), place, design.spec.files)
     warn(design)
     if open_:
         _open(os.path.abspath(place))
@@ -45,7 +43,6 @@ def run(
 
 def _open(place: str) -> None:
     """Open a page in the desktop's browser, and print its path."""
-    import os
     import webbrowser
 
     has_display = "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ or os.name != "posix"
@@ -55,7 +52,6 @@ def _open(place: str) -> None:
 
 def _folder() -> str:
     """The user's own folder for the page, which the next run replaces so that no pages pile up."""
-    import os
     import stat
     import tempfile
     from contextlib import suppress

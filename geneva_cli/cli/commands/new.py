@@ -40,7 +40,9 @@ def run(
     An existing file is kept, unless --force is given. For editors: `geneva help spec`.
     """
     from geneva_cli.output import show
-    from geneva_cli.specfile.template import KINDS, example
+    from geneva_cli.specfile.designs import design, titles
+    from geneva_cli.specfile.json_schema import FILE
+    from geneva_cli.specfile.template import KINDS, example, template
     from geneva_cli.table import Reading, rows_table
 
     if bool(kind) + bool(from_design) + list_ != 1:
@@ -48,47 +50,35 @@ def run(
     if all_ and not kind:
         raise GenevaError("--all goes with KIND")
     if list_:
-        from geneva_cli.specfile.designs import titles
-
         kinds = [(name, "new", example(name).about) for name in KINDS]
         designs = [(name, "new --from-design", title) for name, title in titles().items()]
         table = rows_table(("name", "command", "about"), kinds + designs)
         show(table.replaced(reading=Reading(("name", "about"))), output)
     elif kind:
-        _new(kind, output, all_, force)
+        # the spec names the JSON Schema only if that is in its folder
+        is_beside = output != "-" and os.path.isfile(os.path.join(os.path.dirname(output), FILE))
+        _write(template(kind, is_beside, all_), output, {}, force)
     else:
-        _copy(from_design, output, force)
+        text, files = design(from_design)
+        if files and output == "-":
+            raise GenevaError(
+                f"--from-design {from_design}: it needs {', '.join(files)} in its folder; "
+                "give -o FILE"
+            )
+        _write(text, output, files, force)
 
 
-def _new(kind: str, output: str, whole: bool, force: bool) -> None:
-    """Write a kind's spec, which names the JSON Schema only if that is in its folder."""
+def _write(text: str, output: str, files: dict[str, str], force: bool) -> None:
+    """Write a spec, and the files that it names into its folder."""
     from geneva_cli.output import refuse_existing, show_text
-    from geneva_cli.specfile.json_schema import FILE
-    from geneva_cli.specfile.template import template
 
+    places = {os.path.join(os.path.dirname(output), file): files[file] for file in files}
     if not force:
         refuse_existing(output)
-    is_beside = output != "-" and os.path.isfile(os.path.join(os.path.dirname(output), FILE))
-    show_text(template(kind, is_beside, whole), output)
-
-
-def _copy(name: str, output: str, force: bool) -> None:
-    """Write a design's spec, and the files that it names into its folder."""
-    from geneva_cli.output import refuse_existing, show_text
-    from geneva_cli.specfile.designs import design
-
-    text, files = design(name)
-    if files and output == "-":
-        raise GenevaError(
-            f"--from-design {name}: it needs {', '.join(files)} in its folder; give -o FILE"
-        )
-    named_files = {os.path.join(os.path.dirname(output), file): files[file] for file in files}
-    if not force:
-        refuse_existing(output)
-        for place, content in named_files.items():
+        for place, content in places.items():
             if not _holds(place, content):
                 refuse_existing(place)
-    for place, content in named_files.items():
+    for place, content in places.items():
         show_text(content, place)
     show_text(text, output)
 

@@ -49,7 +49,12 @@ def run(
     plotted_as(output, format)  # refuse a wrong format before any computation
     tables = [path for path in specs if path.lower().endswith(".csv")]
     if tables:
-        _refuse_with_csv(tables[0], specs, {"--pick": pick, "--set": settings, "--vary": vary})
+        name = cut(tables[0], 300)
+        if len(specs) > 1:
+            raise GenevaError(f"{name}: a csv is plotted by itself, without other files")
+        for option_, value in {"--pick": pick, "--set": settings, "--vary": vary}.items():
+            if value:
+                raise GenevaError(f"{option_} is for specs; for {name} give --x and --y")
         show_figure(of_table(tables[0], x, _names(y)), output, format, tables)
         return
     if x or y:
@@ -64,12 +69,3 @@ def run(
 
 def _names(texts: str) -> list[str]:
     return [name.strip() for name in texts.split(",") if name.strip()]
-
-
-def _refuse_with_csv(table: str, specs: list[str], options: dict[str, object]) -> None:
-    """Refuse other files and options with a csv, which is plotted by itself."""
-    if len(specs) > 1:
-        raise GenevaError(f"{cut(table, 300)}: a csv is plotted by itself, without other files")
-    for name, value in options.items():
-        if value:
-            raise GenevaError(f"{name} is for specs; for {cut(table, 300)} give --x and --y")

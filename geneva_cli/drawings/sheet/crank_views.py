@@ -16,13 +16,13 @@ from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.arm import CrankArm
+from geneva_cli.parts.assembly import same
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.links.link_positions import same
 from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.machine_sizes import drawn_pin_radius
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.reliefs import is_whole
 from geneva_cli.parts.shafts.bores import radius_of
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.shafts.held_hubs import hub_note

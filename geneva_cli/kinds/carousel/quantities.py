@@ -6,10 +6,10 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.carried import carried_kg
-from geneva_cli.loads.unbalance import centrifugal_N, held_unbalance_Nm
+from geneva_cli.loads.load_case import centrifugal_N, held_unbalance_Nm
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.checks.crank_checks import reach_mm
+from geneva_cli.verdict.checks.walls import reach_mm
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, Values
 
 

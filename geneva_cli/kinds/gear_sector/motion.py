@@ -15,14 +15,13 @@ the slot would still accelerate the wheel. In gear the roller then moves into th
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
 from geneva_cli.drives.pin_path import PinPath
-from geneva_cli.drives.transmission import same
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import Anchor, Engagement, Path, Slot, SlotAxis, WheelMotion
-from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
+from geneva_cli.motion.engagement import Engagement, Path, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.motion.wheels import poses
 from geneva_cli.numerics.angles import radians
@@ -33,6 +32,7 @@ from geneva_cli.spec.rules import POSITIVE, Range, Words
 from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
+    from geneva_cli.drives.transmission import Transmission
     from geneva_cli.motion.motion import Motion
     from geneva_cli.motion.wheels.gearing import Gearing
 
@@ -72,7 +72,10 @@ class GearSector(PinPath, kw_only=True):
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""
         b, u, handover, _ = self._solved(math.pi / wheel.z)
-        engagement = SectorEngagement(*_slot(b), handover, self.sector_deg, u)
+        place = wheel.place(poses.HalfStep.of_deg(library(b).degrees(b)), L)
+        crank = cast("Transmission", registry.drive("crank")())
+        slot = crank.follows(wheel, place, L)
+        engagement = SectorEngagement(slot, handover, self.sector_deg, u)
         return self.planned(engagement, library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
@@ -180,7 +183,7 @@ def _handover(u: float, x: float) -> Handover:
     return Handover(b, u, a, m.atan2(l * m.sin(a), short + 2.0 * l * sine * sine))
 
 
-class SectorMotion(WheelMotion):
+class _SectorMotion(WheelMotion):
     """The slot's motion at both ends, and the gears' motion between them."""
 
     def __init__(self, inner: WheelMotion, handover: float, sector_deg: float, u: float) -> None:
@@ -194,12 +197,10 @@ class SectorMotion(WheelMotion):
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
-        """Entry, both handovers with mid-motion between them, and exit, in degrees."""
         return (self.entry_deg, -self.half_sector, 0.0, self.half_sector, self.exit_deg)
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
-        """Those of the slot's motion at both ends, and those of ``breaks_deg``."""
         before, after = self.entry_deg - self.inner.entry_deg, self.exit_deg - self.inner.exit_deg
         places = {at + before for at in self.inner.seams_deg if at + before < -self.half_sector}
         places |= {at + after for at in self.inner.seams_deg if at + after > self.half_sector}
@@ -211,8 +212,6 @@ class SectorMotion(WheelMotion):
         return library(out, input_deg).copysign(out, input_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """Wheel angle: the slot's motion, with the gears' motion inserted at the handover."""
-
         def before(x: Number) -> Jet:
             at = self.inner.entry_deg + (x - self.entry_deg)
             return self.inner(at, order) + (self.inner.half_step - self.half_step)
@@ -227,37 +226,35 @@ class SectorMotion(WheelMotion):
         return piecewise(input_deg, (-self.half_sector, self.half_sector), (before, gears, after))
 
 
-class SectorPath(NamedTuple):
+class _SectorPath(NamedTuple):
     """The roller's path in its slot; while the gears drive it stays at the handover."""
 
     inner: Path
-    motion: SectorMotion
+    motion: _SectorMotion
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """Roller centre (x, y) at input angles in degrees."""
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         return self.inner(self.motion.slot_deg(input_deg), order)
 
 
-class SectorSlot(Slot):
-    """The slot, and the gears' pitch circle while they drive."""
+class _SectorSlot(Slot):
+    """The slot, and the gears' pitch circle L/(1+u) while they drive, without sliding."""
 
     relieved = True
 
-    def __init__(self, inner: RadialSlot, motion: SectorMotion) -> None:
+    def __init__(self, inner: Slot, motion: _SectorMotion) -> None:
         self.inner, self.motion = inner, motion
 
-    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """Pin (x, y) in the wheel, on the slot's straight axis."""
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         return self.inner(self.motion.slot_deg(input_deg), order)
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """The slot's lever and speed; in gear the pitch radius L/(1+u), and no sliding."""
-        lever, along = self.inner.axis(self.motion.slot_deg(input_deg), order)
+        axis = self.inner.axis(self.motion.slot_deg(input_deg), order)
+        assert axis is not None  # it is straight
         slot = self.touches(input_deg)
-        return SlotAxis(lever * slot + (1.0 - slot) / (1.0 + self.motion.u), along * slot)
+        lever = axis.lever * slot + (1.0 - slot) / (1.0 + self.motion.u)
+        return SlotAxis(lever, axis.along * slot)
 
     def touches(self, input_deg: Number) -> Number:
-        """0 while the gears drive, else 1."""
         slot = size(input_deg) >= self.motion.half_sector
         return float(slot) if isinstance(slot, bool) else slot.astype(float)
 
@@ -265,12 +262,11 @@ class SectorSlot(Slot):
 class SectorEngagement(Engagement):
     """The engagement of slot, gears and slot: the passages of two rollers as one."""
 
-    def __init__(
-        self, inner: Engagement, slot: RadialSlot, handover: float, sector_deg: float, u: float
-    ) -> None:
-        motion = SectorMotion(inner.motion, handover, sector_deg, u)
-        path = SectorPath(inner.path, motion)
-        super().__init__(0.0, path, SectorSlot(slot, motion), motion)
+    def __init__(self, inner: Engagement, handover: float, sector_deg: float, u: float) -> None:
+        motion = _SectorMotion(inner.motion, handover, sector_deg, u)
+        super().__init__(
+            0.0, _SectorPath(inner.path, motion), _SectorSlot(inner.slot, motion), motion
+        )
         self._inner, self._sector = inner, motion
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:
@@ -289,21 +285,3 @@ class SectorEngagement(Engagement):
         a = self._sector.handover_deg
         turn = parameter(self._inner.motion(a, 0).c[0])
         return 2.0 * (turn - self._sector.u * radians(a))
-
-
-def _slot(b: float) -> tuple[Engagement, RadialSlot]:
-    """The straight slot of half angle b, on a plain crank."""
-    degrees = library(b).degrees(b)
-    if isinstance(degrees, float):
-        p, q = degrees.as_integer_ratio()
-        step = poses.HalfStep(p, 180 * q)
-    else:
-        step = poses.HalfStep(degrees, 180)
-
-    entry, middle, exit_ = (
-        Anchor(pose.crank_deg, pose.wheel, pose.along, poses.PinTravel(pose, same))
-        for pose in poses.radial(1.0, step)
-    )
-    path = AnchoredPath((entry, middle, exit_))
-    slot = RadialSlot(path)
-    return Engagement(0.0, path, slot, StraightSlotMotion(path, step.b)), slot

@@ -9,7 +9,6 @@ from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.plates import Group
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
-from geneva_cli.kinds.linear.frame import rack_dimensions
 from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.kinds.linear.rack import rack_arm, rack_sizes, slot_walls
 from geneva_cli.motion.pivots import Dimension
@@ -66,7 +65,25 @@ def assembly(parts: RackParts) -> Drawing:
 
 def dimensions(parts: RackParts) -> Iterator[Dimension | Missing]:
     """Yield the dimensions of the rack, or the reason why there are none."""
-    return or_missing("dimensions of the rack", lambda: rack_dimensions(parts.sizes))
+
+    def listed() -> Iterator[Dimension]:
+        sizes = parts.sizes
+        lock = {
+            "recess radius": sizes.recess,
+            "locking sector: outer radius": sizes.lock,
+            "locking sector: inner radius": sizes.floor,
+        }
+        named = {
+            "distance of the slots": 2.0 * sizes.arm,
+            "edge, from the deepest roller": sizes.edge,
+            **(lock if sizes.lock else {}),
+            "guide bar: width": sizes.guide.bar,
+            "guide: clearance on either side": sizes.guide.slide,
+            "guide: length": 2.0 * sizes.guide.half,
+        }
+        return (Dimension(name, value, "mm") for name, value in named.items())
+
+    return or_missing("dimensions of the rack", listed)
 
 
 class RackScene(WheelScene):

@@ -3,10 +3,6 @@
 A bar is bolted under the rack's back, and reaches a little beyond it. It slides between a rail, on
 which the rack lies, and a wall. A cover on the wall keeps the rack from lifting. All of them lie
 beyond the sweep of the crank's arm, and are screwed to the frame.
-
-The rack covers its guide in each of its steps. At the start of the first one it ends R - w past the
-crank's axis, w being half a slot. On the other side it does so at the end of the last one. So the
-guide is 2 (R - w) long.
 """
 
 from __future__ import annotations
@@ -30,7 +26,6 @@ from geneva_cli.kinds.linear.rack import (
 from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
 from geneva_cli.loads.strength.key_strength import NO_KEY
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import Dimension
 from geneva_cli.parts.gears.gear_pair import gear_seats, gear_shafts
 from geneva_cli.parts.mounted_plate import (
     FrameAndShafts,
@@ -98,8 +93,8 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     if not rack_bore(mechanism):
         diameter = mechanism.spec.shaft.crank_diameter_mm
         bored.insert(0, hole_without_shaft(diameter, mechanism.crank_shaft.at, L))
-    rows = zip(("guide rail", "guide wall"), _rows(sizes), strict=True)
-    screwed = tuple(Screwed(hole, name) for name, at in rows for hole in _row(sizes, at))
+    rows = zip(("guide rail", "guide wall"), _screws(sizes), strict=True)
+    screwed = tuple(Screwed(hole, name) for name, row in rows for hole in row)
     within = [*bored, *(tapped(one.hole) for one in screwed)]
     holes, screwed = [one for one in within if one.radius], screwed if _bolt(sizes) else ()
     frame = mounted_plate(holes, within, corner_radius(size, L), (bottom, heights.top))
@@ -156,7 +151,7 @@ def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
             ("size", "roller_radius_mm"),
         )
     over = heights.rack + mechanism.spec.size.allowances.pin_gap_mm
-    on_rail, on_wall = (tuple(one for one in _row(sizes, at) if one.radius) for at in _rows(sizes))
+    on_rail, on_wall = (tuple(one for one in row if one.radius) for row in _screws(sizes))
     rail = rectangle("FRAME", x + bar + slide, -half, x + 2.0 * bar + slide, half)
     wall = rectangle("FRAME", x - slide - 2.0 * bar, -half, x - slide, half)
     # the cover ends a tenth of a bar inside the edges of wall and bar
@@ -168,36 +163,12 @@ def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
     )
 
 
-def rack_dimensions(sizes: RackSizes) -> Iterator[Dimension]:
-    """Yield the dimensions of rack, locking sector and guide."""
-    lock = {
-        "recess radius": sizes.recess,
-        "locking sector: outer radius": sizes.lock,
-        "locking sector: inner radius": sizes.floor,
-    }
-    named = {
-        "distance of the slots": 2.0 * sizes.arm,
-        "edge, from the deepest roller": sizes.edge,
-        **(lock if sizes.lock else {}),
-        "guide bar: width": sizes.guide.bar,
-        "guide: clearance on either side": sizes.guide.slide,
-        "guide: length": 2.0 * sizes.guide.half,
-    }
-    for name, value in named.items():
-        yield Dimension(name, value, "mm")
-
-
-def _rows(sizes: RackSizes) -> tuple[float, float]:
-    """Return the x of the screws of rail and wall."""
-    place = sizes.guide
-    return place.back + 1.5 * place.bar + place.slide, place.back - place.slide - place.bar
-
-
-def _row(sizes: RackSizes, x: float) -> Iterator[Circle]:
-    """Yield three screws' holes along the guide, half a bar's width from its ends."""
-    far = sizes.guide.half - 0.5 * sizes.guide.bar
-    for y in (-far, 0.0, far):
-        yield Circle("BORE", (x, y), _bolt(sizes))
+def _screws(sizes: RackSizes) -> list[tuple[Circle, ...]]:
+    """Return three screws' holes in rail and in wall; of no width where no screw is so thin."""
+    place, r = sizes.guide, _bolt(sizes)
+    far = place.half - 0.5 * place.bar  # half a bar's width from the ends
+    rows = place.back + 1.5 * place.bar + place.slide, place.back - place.slide - place.bar
+    return [tuple(Circle("BORE", (x, y), r) for y in (-far, 0.0, far)) for x in rows]
 
 
 def _bolt(sizes: RackSizes) -> float:

@@ -96,7 +96,7 @@ class RackGuide(NamedTuple):
     def lever(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
         """Lever of the force on a rack about its guide's middle, over L, for a roller that drives.
 
-        The formula is that of ``guide_forces``, over d. The crank turns against the rack,
+        It is M/F of this file's head, over d. The crank turns against the rack,
         at the rate ``spin``, so that cos a is -velocity/spin, and sin a -along/spin.
         """
         lever = at.velocity / at.spin + (1.0 - self.middle)

@@ -1,9 +1,7 @@
 """All parts of a rack's machine at their positions, at input angle 0.
 
 In the machine's frame the rack's slots run along x, the roller is at the origin, and the crank's
-axis is at (R, 0). Each part is built once, on first use. Drawing, solid, list of parts and sheet
-are projections of them. Their outlines are lines and arcs, which no tolerance changes, but those of
-noncircular gears.
+axis is at (R, 0).
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sizes import drawn_thicknesses
 from geneva_cli.verdict.checks.check import Check, gap
 from geneva_cli.verdict.checks.clearances import cut_width, plate_thickness
-from geneva_cli.verdict.shaft_gap import Ring, ShaftGap, gear_rings, least_gap, rings_of
+from geneva_cli.verdict.shaft_gap import Ring, gear_rings, ring_gaps, rings_of
 
 
 def passing_shafts(name: str, parts: RackParts) -> Check | None:
@@ -27,29 +27,25 @@ def passing_shafts(name: str, parts: RackParts) -> Check | None:
         return None  # without a frame there are no shafts
     L = parts.mechanism.center_distance_mm
 
-    def least() -> ShaftGap | None:
+    def gaps() -> Iterator[float]:
         (rack,) = plates(parts.wheel.part)
         edge = bounds(rack.outline).x1
-        gaps = (
-            ShaftGap(shaft.axis[0] - shaft.outer - edge, shaft.name, rack.name)
-            for shaft in rings_of(parts.shafts)
-            if shaft.high - rack.low > SAME_LENGTH * L
-        )
-        return min(gaps, default=None)
+        for shaft in rings_of(parts.shafts):
+            if shaft.high - rack.low > SAME_LENGTH * L:
+                yield shaft.axis[0] - shaft.outer - edge
 
-    return gap(name, least, L)
+    return gap(name, gaps, L)
 
 
 def passing_gears(name: str, parts: RackParts) -> Check | None:
     """The least gap of gears before a rack's crank to its guide and to shafts."""
 
-    def least() -> ShaftGap | None:
+    def gaps() -> Iterator[float]:
         rings = list(gear_rings(parts.mechanism, None))
-        to_shafts = least_gap(parts.mechanism, [], rings, parts.shafts)
-        gaps = [*_guide_gaps(parts, rings), *([to_shafts] if to_shafts else [])]
-        return min(gaps, default=None)
+        yield from ring_gaps(parts.mechanism, [], rings, parts.shafts)
+        yield from _guide_gaps(parts, rings)
 
-    return gap(name, least, parts.mechanism.center_distance_mm)
+    return gap(name, gaps, parts.mechanism.center_distance_mm)
 
 
 def thickest_plate(name: str, parts: RackParts) -> Check | None:
@@ -67,7 +63,7 @@ def slot_width(name: str, parts: RackParts) -> Check | None:
     return cut_width(name, parts.mechanism, 2.0 * parts.sizes.half_width, thick)
 
 
-def _guide_gaps(parts: RackParts, rings: list[Ring]) -> Iterator[ShaftGap]:
+def _guide_gaps(parts: RackParts, rings: list[Ring]) -> Iterator[float]:
     """Yield the gaps of rings to the plates of a rack's guide at their heights."""
     near = SAME_LENGTH * parts.mechanism.center_distance_mm
     for plate in (plate for one in parts.guide for plate in plates(one.part)):
@@ -75,4 +71,4 @@ def _guide_gaps(parts: RackParts, rings: list[Ring]) -> Iterator[ShaftGap]:
         for ring in rings:
             if min(ring.high, plate.high) - max(ring.low, plate.low) > near:
                 away = float(outline.signed(np.array([ring.axis]))[0])
-                yield ShaftGap(away - ring.outer, plate.name, ring.name)
+                yield away - ring.outer

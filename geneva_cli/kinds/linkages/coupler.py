@@ -15,26 +15,15 @@ which is no solution; the other one is the solution.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.kinds.linkages.link_path import LinkPath
+from geneva_cli.kinds.linkages.tangent_pairs import taken
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
-from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
+from geneva_cli.numerics.jet import Jet, atan2, sin_cos
 from geneva_cli.study.synth.parts_data import distances_at_rest
-
-
-class FourBarLinks(NamedTuple):
-    """Crank, ground, coupler and rocker; the coupler on the positive side. Shapes (n, 1)."""
-
-    a: Array
-    g: Array
-    b: Array
-    c: Array
-
-    def select(self, which: Any) -> FourBarLinks:
-        """Some of the linkages."""
-        return FourBarLinks(*(x[which] for x in self))
 
 
 class CouplerMotion(NamedTuple):
@@ -52,10 +41,6 @@ class CouplerDrive(NamedTuple):
     sense: Array
     w: Complex
 
-    def select(self, which: Any) -> CouplerDrive:
-        """Some of the drives."""
-        return CouplerDrive(*(x[which] for x in self))
-
 
 class DrivenWheels(NamedTuple):
     """Wheels that are driven and let the roller pass on its way back.
@@ -71,16 +56,10 @@ class DrivenWheels(NamedTuple):
     reach: Array
 
 
-def coupler_motion(links: FourBarLinks, phi: Array, order: int) -> CouplerMotion:
+def coupler_motion(links: LinkPath, phi: Array, order: int) -> CouplerMotion:
     """The coupler's motion at crank angles ``phi`` in radians, to the derivatives of ``order``."""
-    a, g, b, c = links
-    sine, cosine = sin_cos(Jet.variable(phi, order))
-    dx, dy = g - cosine * a, sine * -a
-    D = dx * dx + dy * dy
-    along = (D + (b - c) * (b + c)) / (D * (2.0 * b))
-    across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) / (D * (2.0 * b))
-    ex, ey = dx * along - dy * across, dy * along + dx * across
-    return CouplerMotion(_complex(cosine * a, sine * a), _complex(ex, ey))
+    direction = sin_cos(Jet.variable(phi, order))
+    return CouplerMotion(_complex(*links.joint(*direction)), _complex(*links.link(*direction)))
 
 
 def _complex(x: Jet, y: Jet) -> list[Complex]:
@@ -93,7 +72,7 @@ def _complex(x: Jet, y: Jet) -> list[Complex]:
 
 
 def coupler_drive(
-    links: FourBarLinks, entry: Array, motion: Array, b: Number, sense: Array
+    links: LinkPath, entry: Array, motion: Array, b: Number, sense: Array
 ) -> CouplerDrive:
     """The roller's place that makes the motion, (n, 1).
 
@@ -123,7 +102,7 @@ def coupler_drive(
 
 
 def driven_wheels(
-    links: FourBarLinks, drive: CouplerDrive, b: Array, roller: Array, order: int, places: int
+    links: LinkPath, drive: CouplerDrive, b: Array, roller: Array, order: int, places: int
 ) -> DrivenWheels:
     """The wheels that pass the test at samples of the motion and of the way back.
 
@@ -144,15 +123,17 @@ def driven_wheels(
     drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + half_wall) * L)[:, 0]
     which = np.flatnonzero(drives)
     # the way back is tested for these only
-    links, (entry, motion, sense, w) = links.select(which), drive.select(which)
+    links, (entry, motion, sense, w) = links.of(which), taken(drive, which)
     away = np.arange(1, 2 * places) / (2 * places)  # the way back has twice the motion's samples
     rest = coupler_motion(links, entry + motion + (math.tau - motion) * away, 0)
     pin = rest.pin[0] + w * rest.along[0]
     place = (pin - centre[which]) / (p - centre)[which]
     passes = _passes(place, (roller * L / rho)[which], b[which])
-    joint = (motion_path.pin[0][which] + links.b * motion_path.along[0][which], pins[0][which])
-    back = (rest.pin[0] + links.b * rest.along[0], pin)
-    reach = np.maximum.reduce([np.abs(z).max(axis=1) for z in (*joint, *back)] + [links.g[:, 0]])
+    _, ground, coupler, *_ = links.numbers
+    joint = (motion_path.pin[0][which] + coupler * motion_path.along[0][which], pins[0][which])
+    back = (rest.pin[0] + coupler * rest.along[0], pin)
+    reach = np.maximum.reduce([np.abs(z).max(axis=1) for z in (*joint, *back)])
+    reach = np.maximum(reach, np.ravel(ground))
     kept = which[passes]
     rays = [ray[kept], *(pin[kept] for pin in pins[1:])]
     x, y = Jet([z.real for z in rays]), Jet([z.imag for z in rays])

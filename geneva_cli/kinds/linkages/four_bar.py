@@ -113,7 +113,10 @@ class FourBar(Linkage, kw_only=True):
     @property
     def roller_path(self) -> "CouplerPath":
         """Path of the coupler point that carries the roller."""
-        return CouplerPath(self)
+        lengths = (self.crank_mm, self.ground_mm, self.coupler_mm, self.rocker_mm)
+        path = CouplerPath(*lengths, reach_mm=self.point_mm, angle_deg=self.point_deg)
+        path.side = 1 if self.branch == "+" else -1
+        return path
 
 
 class CouplerPath(LinkPath):
@@ -128,10 +131,7 @@ class CouplerPath(LinkPath):
     ground, coupler, rocker, and the point's coordinates on the coupler: a, g, b, c, p, q.
     """
 
-    def __init__(self, keys: FourBar) -> None:
-        lengths = (keys.crank_mm, keys.ground_mm, keys.coupler_mm, keys.rocker_mm)
-        super().__init__(*lengths, reach_mm=keys.point_mm, angle_deg=keys.point_deg)
-        self.side = 1 if keys.branch == "+" else -1
+    side = 1  # on which the coupler is of the crank's line, or -1
 
     def link(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
         """Unit vector along the coupler, from A towards B."""

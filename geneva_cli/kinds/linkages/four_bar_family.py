@@ -89,11 +89,7 @@ def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
 
 
 def _searched(target: Target, tasks: Sequence[WheelGoal]) -> Sequence[_Found | None]:
-    """The best four-bars, if any, of each wheel.
-
-    If any motion is allowed and there is no goal, the gentlest ones with the plain crank's motion
-    are taken; if none of these keeps the bounds, those of any motion.
-    """
+    """The best four-bars, if any, of each wheel."""
     bounds = tuple(b for b in target.limits if is_known(b.name))
     goal = Goal(target, (), bounds, target.peak)
     if target.sort and is_known(target.sort.name):
@@ -129,10 +125,7 @@ _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
 
 
 def _spec(target: Target, found: _Found, number: int) -> Spec | None:
-    """The machine of a number in a search, scaled to the frame's size.
-
-    None if its links differ too much in length, or if the roller leaves its slot.
-    """
+    """The machine of a number in a search, scaled to the frame's size."""
     one = found.places.take(slice(number, number + 1))
     with np.errstate(all="ignore"):
         machine = four_bars_at(found.goal, one.of, one.at)
@@ -143,7 +136,7 @@ def _spec(target: Target, found: _Found, number: int) -> Spec | None:
     scale = (target.frame or BARE).given_distance_mm / float(machine.distance[0])
     for _ in range(4):  # until the motion has its digits
         w = complex(coupler_drive(links, entry, wide, b, sense).w[0, 0]) * scale
-        crank, ground, coupler, rocker = (float(x[0, 0]) * scale for x in links)
+        crank, ground, coupler, rocker = (float(np.ravel(x)[0]) * scale for x in links.numbers[:4])
         try:
             keys = FourBar(
                 crank_mm=crank,

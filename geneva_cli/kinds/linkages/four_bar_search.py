@@ -13,13 +13,14 @@ import numpy as np
 
 from geneva_cli.kinds.linkages.coupler import (
     CouplerDrive,
-    FourBarLinks,
     coupler_drive,
     driven_wheels,
 )
 from geneva_cli.kinds.linkages.coupler_costs import Costs, order
+from geneva_cli.kinds.linkages.four_bar import CouplerPath
+from geneva_cli.kinds.linkages.tangent_pairs import taken
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array, Whole, parameter
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.optimiser import Places, Zoom, sampled, zoom
 from geneva_cli.study.target import AllowedSpan, Target
@@ -52,7 +53,7 @@ class FourBars(NamedTuple):
     """Machines of the search: which of the places have one, and their links, drive and costs."""
 
     which: Whole
-    links: FourBarLinks
+    links: CouplerPath
     drive: CouplerDrive
     distance: Array
     violation: Array
@@ -96,10 +97,7 @@ def search_four_bars(goal: Goal) -> list[Places]:
 
 
 def _spread(count: int, start: int = 0) -> Array:
-    """Points spread evenly in the unit cube: Roberts' sequence, multiples of the powers of g.
-
-    g is the root of g^6 = g + 1.
-    """
+    """Points spread evenly in the unit cube: Roberts' sequence, multiples of the powers of g."""
     g = 1.1347241384015194
     powers = g ** -np.arange(1.0, 6.0)
     numbers = np.arange(1 + start * count, 1 + (start + 1) * count)
@@ -129,14 +127,15 @@ def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBa
         np.minimum(np.minimum(g, b), c), g + b + c - 2.0 * np.maximum(np.maximum(g, b), c)
     )
     # the crank is 0.05 to 0.97 times as long as the longest that turns fully
-    links = FourBarLinks(longest * (0.05 + (0.97 - 0.05) * u[2]), g, b, c)
+    lengths = (longest * (0.05 + (0.97 - 0.05) * u[2]), g, b, c)
+    links = CouplerPath(*map(parameter, lengths), reach_mm=0.0, angle_deg=0.0)
     # the gentlest is often at an end of a range: a sixth of all places is at either
     fraction = np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
     degrees = low + (high - low) * fraction
     drive = coupler_drive(links, math.tau * u[3], np.radians(degrees), half, sense)
     # the further tests run on few places
     able = np.flatnonzero((longest > 0.0) & np.isfinite(drive.w))
-    links, drive = links.select(able), drive.select(able)
+    links, drive = links.of(able), taken(drive, able)
     # coarse samples miss the nearest places, which a larger roller makes up for
     roller = radius[able] * (1.15 if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
@@ -146,7 +145,7 @@ def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBa
     costs = Costs(goal.target, (360.0 / slots[able])[:, 0], passing.derivatives, degrees[able, 0])
     cost = goal.sign * costs.of(goal.least)
     violation = np.where(within & np.isfinite(cost), costs.broken(goal.bounds), np.inf)
-    kept = links.select(passing.which), drive.select(passing.which)
+    kept = links.of(passing.which), taken(drive, passing.which)
     return FourBars(able, *kept, passing.distance, violation, cost)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import NamedTuple, Protocol, cast
+from typing import NamedTuple, Protocol, Self, cast
 
 from geneva_cli.motion.engagement import Vector, cross
 from geneva_cli.numerics.angles import radians, sin_cos_deg
@@ -32,7 +32,7 @@ class LinkPath(Batchable, ABC):
         sine, cosine = sin_cos_deg(angle_deg)
         self.numbers = (*lengths, reach_mm * cosine, reach_mm * sine)
 
-    def of(self, which: Which) -> LinkPath:
+    def of(self, which: Which) -> Self:
         """Paths of some of the designs."""
         some = copy.copy(self)
         some.numbers = tuple(

@@ -20,7 +20,7 @@ from geneva_cli.kinds.linkages.tangent_pairs import (
     newton,
     residual,
 )
-from geneva_cli.motion.engagement import Anchor, Engagement
+from geneva_cli.motion.engagement import Anchor, Engagement, Vector
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.poses import HalfStep
 from geneva_cli.numerics.angles import DEGREE
@@ -46,20 +46,18 @@ def solve(path: LinkPath, step: HalfStep, wanted: float | None) -> tuple[Engagem
         best = chosen(some, solved_wheels(some, half[part]), goal if goal is None else goal[part])
         found[:, part[best.which], 0] = *best.phi.T, best.sense
     entry, exit_, sense = found
-    none = entry != entry
-    refuse(bool(none.any()) if single else none, lambda: _none_fits(step.q))
+    none, z = entry != entry, step.q
+    refuse(
+        bool(none.any()) if single else none,
+        lambda: GenevaError(
+            f"no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs "
+            f"two equally long tangents that meet at {360.0 / z:.6g} deg, with the roller nearer "
+            "to that point only between them",
+            ("drive", "kind"),
+        ),
+    )
     with np.errstate(all="ignore"):
         return _engagement(path, step, entry, exit_, sense)
-
-
-def _none_fits(z: int) -> GenevaError:
-    """Error for a path that can drive no wheel of z slots."""
-    return GenevaError(
-        f"no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs two "
-        f"equally long tangents that meet at {360.0 / z:.6g} deg, with the roller nearer to that "
-        "point only between them",
-        ("drive", "kind"),
-    )
 
 
 def _engagement(
@@ -89,10 +87,13 @@ def _engagement(
         (0.0, turn, middle, -centre),
         (1.0, step.b, middle + ends[:, 1:], q - centre),
     ):
-        along = plain(ray.real), plain(ray.imag)
-        move = _along_ray(path.about(plain(angle)), along, s, L, end)
-        input_deg = end * half / DEGREE if end else 0.0 - late / DEGREE
-        anchors.append(Anchor(input_deg, wheel, plain(np.abs(ray)) / L, move))
+        move, input_deg = path.about(plain(angle)), 0.0 - late / DEGREE
+        ux, uy = plain(ray.real), plain(ray.imag)
+        if end:  # the ray is the pin's velocity, so that none of it is across the ray
+            input_deg = end * half / DEGREE
+            ux, uy = (end * parameter(v.c[1]) for v in move(*sine_versine(Jet.variable(0.0, 1))))
+        along_ray = _AlongRay(move, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), s)
+        anchors.append(Anchor(input_deg, wheel, plain(np.abs(ray)) / L, along_ray))
     anchored = AnchoredPath(tuple(anchors), ahead)
     body = LinkRate(path, plain(middle), s)
     reactions = LinkReactions(*body, L, plain(axis.real) / L, plain(axis.imag) / L)
@@ -118,7 +119,7 @@ def _polished(path: LinkPath, b: float, ends: Array, sense: Array) -> tuple[Arra
     return moved, ends - (moved - middle)
 
 
-class AlongRay(NamedTuple):
+class _AlongRay(NamedTuple):
     """The pin's displacement along a ray (x, y) and across it, positive with the wheel."""
 
     displacement: PointDisplacement
@@ -127,24 +128,8 @@ class AlongRay(NamedTuple):
     scale: float
     sense: float
 
-    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """Displacement after ``tau`` radians of crank rotation."""
+    def __call__(self, tau: Number, order: int) -> Vector:
         x, y = self.displacement(*sine_versine(Jet.variable(tau, order)))
         along = (x * self.x + y * self.y) * self.scale
         across = (y * self.x - x * self.y) * (self.sense * self.scale)
         return along, across
-
-
-def _along_ray(
-    displacement: PointDisplacement, ray: tuple[float, float], sense: float, L: float, end: float
-) -> AlongRay:
-    """Displacement along and across a ray; at an end (-1, 1) the ray is the pin's own direction.
-
-    There the ray is the velocity of ``displacement`` itself, so that the velocity across it is
-    exactly 0.
-    """
-    ux, uy = ray
-    if end:
-        x, y = displacement(*sine_versine(Jet.variable(0.0, 1)))
-        ux, uy = end * parameter(x.c[1]), end * parameter(y.c[1])
-    return AlongRay(displacement, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), sense)

@@ -25,22 +25,22 @@ from geneva_cli.kinds.linkages.tangent_pairs import (
     sampled,
     taken,
 )
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, blocks, joined
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Which, Whole, joined
+from geneva_cli.numerics.extremes import Smooth, search
+from geneva_cli.numerics.jet import turning
 from geneva_cli.numerics.tolerances import ROUNDED
 
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
 
 
 class PathWheels(NamedTuple):
-    """Wheels of designs: (wheels,). The peak velocity is between ``least`` and ``most``."""
+    """Wheels of designs: (wheels,)."""
 
     which: Whole
     phi: Array  # crank angles at entry and exit, in two columns
     sense: Array  # 1 if the wheel turns counterclockwise on the path's axes, or -1
     centre: Complex  # mm, on the path's axes
     square: Array  # squared distance from the centre to entry and exit, mm²
-    least: Array
-    most: Array
 
     def course(self, p: Complex, v: Complex, a: Complex) -> tuple[Array, Array, Array, Array]:
         """Two quantities, each with its slope by the crank's angle, at places (wheels, n).
@@ -66,9 +66,7 @@ def solved_wheels(path: LinkPath, b: Array) -> PathWheels:
 def driven(path: LinkPath, parts: Iterable[tuple[PathSamples, Pairs]]) -> PathWheels:
     """The wheels among pairs whose roller stays in its slot, by blocks of samples."""
     none = np.empty(0)
-    empty = PathWheels(
-        none.astype(int), np.empty((0, 2)), none, none.astype(complex), none, none, none
-    )
+    empty = PathWheels(none.astype(int), np.empty((0, 2)), none, none.astype(complex), none)
     return joined([empty, *(_block(path, *part) for part in parts)], 0)
 
 
@@ -77,8 +75,7 @@ def _block(path: LinkPath, samples: PathSamples, found: Pairs) -> PathWheels:
     ends = points(path.of(found.which), found.phi)
     (p, q), (t, u) = ends.p.T, ends.t.T
     rho = np.abs(q - p) / np.abs(t + u)
-    centre, unknown = 0.5 * ((p + rho * t) + (q - rho * u)), np.zeros(len(rho))
-    wheels = PathWheels(*found, centre, rho * rho, unknown, unknown)
+    wheels = PathWheels(*found, 0.5 * ((p + rho * t) + (q - rho * u)), rho * rho)
     row, motion = np.searchsorted(samples.which, found.which), np.diff(found.phi)
     # in order: entry, the samples with the exit among them, and the entry a turn later
     since = (samples.at.phi[row, :-1] - found.phi[:, :1]) % math.tau
@@ -101,13 +98,6 @@ def _block(path: LinkPath, samples: PathSamples, found: Pairs) -> PathWheels:
     right = np.where(inside, (moment >= 0.0) & (short >= 0.0), short <= 0.0)
     good = np.all(right, axis=1)
     moments, shorts = _bernstein(third, *course[:2]), _bernstein(third, *course[2:])
-    # A quotient of cubics is between the quotients of their Bernstein coefficients.
-    square = wheels.square[:, None]
-    least = most = moments[0] / (square - shorts[0])
-    for one, other in zip(moments[1:3], shorts[1:3], strict=True):
-        most = np.maximum(most, np.where(square > other, one / (square - other), np.inf))
-    least, most = (np.where(inside, x, 0.0).max(axis=1) for x in (least, most))
-    wheels = wheels._replace(least=least, most=most)
     rounding = [ROUNDED * np.abs(x).max(axis=1)[:, None] for x in (course[0], course[2])]
     i, j = np.nonzero(_open(moments, shorts, inside, *rounding) & good[:, None])
     between = place[i, j, None], place[i, j + 1, None]
@@ -123,10 +113,7 @@ def _bernstein(third: Array, value: Array, slope: Array) -> tuple[Array, Array, 
 def _open(
     moments: Sequence[Array], shorts: Sequence[Array], inside: Mask, low: Array, far: Array
 ) -> Mask:
-    """True for intervals in which a Bernstein coefficient has the wrong sign.
-
-    ``low`` and ``far`` are the rounding of moments and squared distances.
-    """
+    """True for intervals in which a Bernstein coefficient has the wrong sign."""
     open_ = np.where(inside, np.minimum(*shorts[1:3]), -np.maximum(*shorts[1:3])) < -far
     open_ |= inside & (np.minimum(*moments[1:3]) < -low)
     return open_
@@ -140,10 +127,7 @@ def _leaves(
     inside: Mask,
     rounding: Sequence[Array],
 ) -> Mask:
-    """True for each wheel whose roller leaves its slot in an open interval, since entry.
-
-    ``rounding`` is that of the wheels' moments and squared distances.
-    """
+    """True for each wheel whose roller leaves its slot in an open interval, since entry."""
     fails = np.zeros(len(wheels.which), dtype=bool)
     for _ in range(4):  # each round cuts an open interval into eight
         if not len(wheel):
@@ -186,46 +170,17 @@ def chosen(path: LinkPath, wheels: PathWheels, wanted: Array | None = None) -> P
 
 
 def _peaks(path: LinkPath, wheels: PathWheels) -> Array:
-    """Peak velocities of wheels, accurate enough to know the least of each design.
+    """Peak velocities of the wheels of designs that have several; 0 of the others."""
+    which, peaks = wheels.which, np.zeros(len(wheels.which))
+    open_ = np.flatnonzero(np.bincount(which)[which] > 1)
 
-    If their bounds do not decide which wheel has the least peak, those wheels are sampled more
-    closely.
-    """
-    which, between = wheels.which, wheels.phi.copy()
-    least, most = wheels.least.copy(), wheels.most.copy()
-    # Intervals: many of the whole motion, which may have several peaks; then eight about the
-    # greatest velocity, of which each round leaves three. Rounding spoils means over a millionth.
-    for count in (64, *[8] * 9):
-        bar = np.full(int(which.max(initial=-1)) + 1, np.inf)
-        np.minimum.at(bar, which, most)
-        may = least <= bar[which] * (1.0 + SAME_PEAK)
-        rivals = np.bincount(which[may], minlength=len(bar))[which] > 1
-        open_ = np.flatnonzero(may & rivals & (most - least > 1e-3 * SAME_PEAK * least))
-        for part in blocks(len(open_), 256) if len(open_) else ():  # in the processor's cache
-            i = open_[part]
-            low, high, between[i] = _sampled_peaks(path, taken(wheels, i), between[i], count)
-            least[i], most[i] = np.maximum(low, least[i]), np.minimum(high, most[i])
-    return least
+    def velocity(phi: Array, some: Which, _: int, __: Sequence[int]) -> list[tuple[Array, ...]]:
+        of = open_[some]
+        x, y = path.of(which[of]).at(phi, 3)
+        centre = wheels.centre[of, None]
+        return [turning(x - centre.real, y - centre.imag).arrays()]
 
-
-def _sampled_peaks(
-    path: LinkPath, wheels: PathWheels, between: Array, count: int
-) -> tuple[Array, Array, Array]:
-    """Bounds of peak velocities between crank angles (n, 2), and closer angles of the peaks."""
-    low, high = between[:, :1], between[:, 1:]
-    phi = low + (high - low) * (np.arange(count + 1) / count)
-    x, y = path.of(wheels.which).at(phi, 1)
-    ray = x.c[0] + 1j * y.c[0] - wheels.centre[:, None]
-    velocity = np.abs(((x.c[1] + 1j * y.c[1]) / ray).imag)
-    # The mean velocity between two points is at most the peak.
-    mean = np.abs(np.angle(ray[:, 1:] * ray[:, :-1].conj())) / np.diff(phi, axis=1)
-    steepest = np.maximum(mean, np.maximum(velocity[:, :-1], velocity[:, 1:]))
-    i = steepest.argmax(axis=1)[:, None]
-    sides = np.hstack((np.maximum(i - 1, 0), np.minimum(i + 2, count)))
-    j = velocity.argmax(axis=1)[:, None]
-    neighbours = np.hstack((np.maximum(j - 1, 0), np.minimum(j + 1, count)))
-    top, least = velocity.max(axis=1), steepest.max(axis=1)
-    bend = 2.0 * top - np.take_along_axis(velocity, neighbours, axis=1).sum(axis=1)
-    # A parabola rises above its greatest sample by an eighth of the bend at most; half is safe.
-    most = np.where(least > top, np.inf, top + 0.5 * bend)
-    return least, most, np.take_along_axis(phi, sides, axis=1)
+    if len(open_):
+        ends = wheels.phi[open_, :1], wheels.phi[open_, 1:]
+        peaks[open_] = search(Smooth(velocity, 1), [ends], sized=True).most[0]
+    return peaks

@@ -216,11 +216,7 @@ def pairs(path: LinkPath, samples: Sequence[PathSamples], b: Array) -> Pairs:
 
 
 def _starts(samples: PathSamples, b: Array, sense: float) -> tuple[Any, ...]:
-    """Starts of Newton's method for a sense of the wheel.
-
-    They are designs, senses, the beginnings and widths of the arcs for entry and exit, and places
-    in them, (2, n) each.
-    """
+    """Starts of Newton's method for a sense of the wheel."""
     at, lean = samples.at, 0.5 * math.pi - b[samples.which]
     width = np.diff(at.phi)
     # The tangent turns against the wheel: the lines' angles rise along the arcs that can be used.

@@ -74,10 +74,7 @@ class GenevaPair(Transmission, kw_only=True):
         return ShaftPlace(L + self._distance_mm(L), -sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Pivots and dimensions of the first pair.
-
-        By default its centre distance equals the second's.
-        """
+        """Pivots and dimensions of the first pair."""
         L = plan.center_distance_mm
         first = self._distance_mm(L)
         return (

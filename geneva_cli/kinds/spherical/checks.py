@@ -18,7 +18,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.shafts.bores import around, reach_or_bore
 from geneva_cli.parts.sizes import refuse_thin_hub
-from geneva_cli.verdict.checks.check import Check, ShaftGap, at_least, compared, gap
+from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
 from geneva_cli.verdict.checks.clearances import built, cut_width, plate_thickness
 from geneva_cli.verdict.shaft_gap import ring_gap
 
@@ -100,7 +100,7 @@ def passing_parts(name: str, parts: SphereParts) -> Check | None:
     walls = [check(name, parts) for check in (arm_wall, dial)]
     if any(row and row.value is None for row in walls):
         return None
-    return gap(name, lambda: _shaft_gap(parts), parts.ball.radius_mm)
+    return gap(name, lambda: _shaft_gaps(parts), parts.ball.radius_mm)
 
 
 def thickest(name: str, parts: SphereParts) -> Check | None:
@@ -127,7 +127,6 @@ class _Sweep(NamedTuple):
 
     # A round part begins at the sphere that touches its flat end, which limits it on larger ones.
 
-    name: str
     back: bool  # on the far side of the centre
     low: float
     high: float
@@ -143,8 +142,8 @@ class _Sweep(NamedTuple):
         return np.minimum(np.arcsin(np.minimum(1.0, self.wide / sphere)), end)
 
 
-def _shaft_gap(parts: SphereParts) -> ShaftGap | None:
-    """Return the least gap of hubs and shafts to parts about the other axis, mm along a sphere."""
+def _shaft_gaps(parts: SphereParts) -> Iterator[float]:
+    """Yield the gaps of hubs and shafts to parts about the other axis, mm along a sphere."""
     ball = parts.ball
     shafts = [(step, m.frame is not None) for m in parts.shafts for step in steps_of(m.part)]
     on_wheel, on_crank = (
@@ -155,17 +154,12 @@ def _shaft_gap(parts: SphereParts) -> ShaftGap | None:
     wheel, crank = ([s for p in some for s in _round(p)] for some in (on_wheel, on_crank))
     pairs = [*product(wheel, [*crank, *_crank_rings(parts)])]
     inner = 0.0 if ball.opening_mm else ball.inner
-    ring = _Sweep("wheel", False, inner, ball.rim, *ball.span_mm)
+    ring = _Sweep(False, inner, ball.rim, *ball.span_mm)
     pairs += [(one, ring) for one in crank]
     near = SAME_LENGTH * ball.radius_mm
-    return min(
-        (
-            ShaftGap(_gap(one, other, ball.axes), one.name, other.name)
-            for one, other in pairs
-            if min(one.outer, other.outer) - max(one.inner, other.inner) > near
-        ),
-        default=None,
-    )
+    for one, other in pairs:
+        if min(one.outer, other.outer) - max(one.inner, other.inner) > near:
+            yield _gap(one, other, ball.axes)
 
 
 def _round(plate: Plate) -> Iterator[_Sweep]:
@@ -174,7 +168,7 @@ def _round(plate: Plate) -> Iterator[_Sweep]:
     for back, low, high in ((False, plate.low, plate.high), (True, -plate.high, -plate.low)):
         if high > 0.0:
             flat = max(low, 0.0)
-            yield _Sweep(plate.name, back, 0.0, 0.0, flat, math.hypot(high, wide), wide)
+            yield _Sweep(back, 0.0, 0.0, flat, math.hypot(high, wide), wide)
 
 
 def _crank_rings(parts: SphereParts) -> Iterator[_Sweep]:
@@ -183,12 +177,12 @@ def _crank_rings(parts: SphereParts) -> Iterator[_Sweep]:
     out = ball.span_mm[1]
     if arm:
         out = ball.arm_span_mm[1]
-        yield _Sweep("arm", False, 0.0, arm.reach, *ball.arm_span_mm)
+        yield _Sweep(False, 0.0, arm.reach, *ball.arm_span_mm)
     if sectors:
         low = min(math.pi - sector.boundary[2].angle for sector in sectors)
-        yield _Sweep("locking sector", False, low, ball.lock, *ball.lock_span_mm)
+        yield _Sweep(False, low, ball.lock, *ball.lock_span_mm)
     low, high = ball.arm - ball.roller, ball.arm + ball.roller
-    yield _Sweep("roller", False, low, high, ball.span_mm[0], out)
+    yield _Sweep(False, low, high, ball.span_mm[0], out)
 
 
 def _gap(one: _Sweep, other: _Sweep, axes: float) -> float:

@@ -1,9 +1,8 @@
 """Proved lower bounds of the gaps on a sphere, on intervals of the input angle.
 
-As on a plane (``parts.turn.bounds``), a gap is at least the gap in the middle of an interval, less
-how far the parts move from there. A point at an angle r from an axis moves at most sin r times the
-angle by which its part turns about it. The crank turns evenly, so that a roller's path is exact: an
-arc about the crank's axis while the wheel rests, and a piece of the meridian in its own slot.
+As on a plane (``parts.turn.bounds``). A point at an angle r from an axis moves at most sin r times
+the angle by which its part turns about it. A roller's path is exact: an arc about the crank's axis
+while the wheel rests, and a piece of the meridian in its own slot.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.geometry.sphere import POLE, Region
-from geneva_cli.geometry.sphere_arcs import Circle, FromCircle, SphereArcs, farthest, short_arcs
+from geneva_cli.geometry.sphere_arcs import Circle, SphereArcs, farthest, from_circle, short_arcs
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.regions import QUARTER
 from geneva_cli.kinds.spherical.stops import about, polar
@@ -44,11 +43,8 @@ class SpherePairs:
         R, gap = self.ball.radius_mm, self.gaps.locking(on.at_middle)
         # no point of a sphere moves farther than it turns
         least = gap - R * (on.wheel + self._sectors_travel(on))
-
-        def in_recess(which: Whole) -> Array:
-            return self._in_recess(window, on.at(which))
-
-        least = raised(least, least < self.target, in_recess)
+        doubtful = least < self.target
+        least = raised(least, doubtful, lambda which: self._in_recess(window, on.at(which)))
         return Bounds(gap, np.minimum(least, R * self.apart))
 
     def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
@@ -109,7 +105,7 @@ class SpherePairs:
         # An arc that is shorter than its middle's distance from the edge does not cross it.
         short = math.sin(circle.angle) * half + aside < from_wheel
         least = np.full(len(gap), -math.inf)
-        away = FromCircle(self.gaps.wheel, circle)(middle[short], half[short])
+        away = from_circle(self.gaps.wheel, circle, middle[short], half[short])
         least[short] = self.ball.radius_mm * (away - aside[short] - self.ball.roller)
         return least
 

@@ -1,7 +1,6 @@
 """Default sizes of a spherical machine under a load: thickness, pin, bores, hubs and arm.
 
-They follow one another as on a plane (``load_sizes``). What a shaft bears is exact here, because
-the greatest force and its greatest distance from the bearing are at different angles.
+They follow one another as on a plane (``load_sizes``).
 """
 
 from __future__ import annotations
@@ -79,26 +78,16 @@ def sphere_load_sizes(mechanism: Mechanism, usual: Ball) -> Ball:
     # the arm's eye about the pin passes the largest hub, and covers less than half of the sphere
     hub = max(usual.opening_mm, largest_hub(inside * math.sin(min(usual.slot_end, 0.5 * math.pi))))
     eye = min(usual.passing_mm(hub), 0.99 * L * (0.5 * math.pi - usual.arm))
-    pin = pin_that_holds(
-        mechanism,
-        usual.pin_mm,
-        thick,
-        inside * math.sin(usual.roller),
-        eye - wall_min(spec.size, L),
-        loads,
-    )
-    ball = usual._replace(pin_mm=pin)
+    roller, clear = inside * math.sin(usual.roller), eye - wall_min(spec.size, L)
+    pin = pin_that_holds(mechanism, usual.pin_mm, thick, roller, clear, loads)
+    ball, under = usual._replace(pin_mm=pin), usual.arm_span_mm[0]
 
-    def bored(ball: Ball, keyed: bool = True) -> Ball:
-        return _crank_bored(mechanism, _wheel_bored(mechanism, ball, loads), loads, keyed)
+    def trial(keyed: bool, arm: float | None) -> Ball:
+        one = ball._replace(arm_span_mm=(under, under + arm)) if arm else ball
+        return _crank_bored(mechanism, _wheel_bored(mechanism, one, loads), loads, keyed)
 
     if not ball.arm_bore_mm or spec.size.arm_thickness_mm is not None:
-        return bored(ball)
-    under, _ = ball.arm_span_mm
-
-    def trial(keyed: bool, arm: float) -> Ball:
-        return bored(ball._replace(arm_span_mm=(under, under + arm)), keyed)
-
+        return trial(True, None)
     return arm_that_holds(spec, thick, trial, partial(sphere_stressed, spec), loads)
 
 
@@ -186,8 +175,7 @@ def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) ->
 def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
     """Return the dimensions of a spherical machine's parts."""
     size = spec.size
-    inside, outside = ball.span_mm
-    under, over = ball.arm_span_mm
+    (inside, outside), (under, over) = ball.span_mm, ball.arm_span_mm
     end = (ball.shafts_end_mm(size) - ball.radius_mm, over - under, ball.radius_mm)
     return Stressed(
         value_or(size.face_width_mm, outside - inside),
@@ -208,8 +196,7 @@ def _arm(spec: Spec, ball: Ball) -> ArmDimensions:
     middle, thick = 0.5 * sum(ball.arm_span_mm), ball.arm_span_mm[1] - ball.arm_span_mm[0]
     wall, hole = wall_min(size, L), hole_radius(size, ball.pin_mm)
     bored = reach_or_bore(size, "crank", ball.arm_bore_mm)
-    hub = arm_hub(size, bored, ball.arm_bore_mm, wall)
-    cap = ball.cap(hub, bored, wall)
+    cap = ball.cap(arm_hub(size, bored, ball.arm_bore_mm, wall), bored, wall)
     eye = half_or(size.arm_eye_mm, eye_about(hole, wall, ball.passing_mm(ball.opening_mm)))
     offset = middle - L * math.cos(ball.arm)
     rows = L * ball.arm, middle * cap, middle * eye / L, bored, hole, thick, offset

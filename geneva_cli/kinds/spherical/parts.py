@@ -1,8 +1,6 @@
 """All parts of a spherical machine at their positions, at input angle 0, and its wheel's mass.
 
 The sphere's centre is the origin and the wheel's axis is z. The crank's parts are in its frame.
-Each part is built once, on first use. Drawing, solid, list of parts, sheet and the checks of shafts
-are projections of them.
 """
 
 from __future__ import annotations

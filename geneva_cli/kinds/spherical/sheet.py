@@ -1,8 +1,6 @@
 """The drawing sheet of a spherical machine: section, flat wheel and crank, and all angles.
 
-The section is in the plane of both shafts, with a roller at the end of its slot. The sphere's
-centre is the origin, and the wheel's axis points up. Flat views have the apex of their cone as the
-origin, if it is near.
+Flat views have the apex of their cone as the origin, if it is near.
 """
 
 from __future__ import annotations

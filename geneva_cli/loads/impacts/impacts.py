@@ -9,8 +9,12 @@ import numpy as np
 
 from geneva_cli.loads.contact import contact as touching
 from geneva_cli.loads.impacts.change_of_sides import changes, drag_over, impacts_of
-from geneva_cli.loads.impacts.mouth import mouth_contacts
-from geneva_cli.loads.impacts.shock import FirstContacts, RestingAxis, first_contacts
+from geneva_cli.loads.impacts.shock import (
+    FirstContacts,
+    RestingAxis,
+    first_contacts,
+    mouth_contacts,
+)
 from geneva_cli.loads.impacts.shock_force import forces_N, impulse_Nms
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.strength.pin import PinSize
@@ -174,8 +178,8 @@ def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
     # hardest of each design; of equal ones the first
     order = np.lexsort((np.nan_to_num(-struck.speed, nan=np.inf), at.which))
     which, first = np.unique(at.which[order], return_index=True)
-    x = struck.at_deg[order][first]
-    out[:2, which] = x, struck.speed[order][first]
+    x = out[0, which] = struck.at_deg[order][first]
+    out[1, which] = struck.speed[order][first]
     wall = touching(taken(engagement, which), x[:, None])
     # the torque that the wheel then needs is that of the wall which strikes it
     bears = np.copysign(1.0, wall.acceleration.arrays()[0] + drag[which])
@@ -198,9 +202,8 @@ def _harder(one: Array, other: Array) -> Array:
 
 def _with_force(mechanism: Mechanism, impacts: Array, pin: PinSize | None) -> Impacts:
     """Impacts with their forces and moments, from angles and jumps (2, m)."""
-    at_deg, jump = impacts
-    moment = np.ravel(impulse_Nms(mechanism, jump[:, None]))
-    hit = jump[:, None]
-    force = np.full(len(moment), np.nan) if pin is None else forces_N(mechanism, hit, pin)
+    at_deg, jump = impacts[0], impacts[1, :, None]
+    moment = np.ravel(impulse_Nms(mechanism, jump))
+    force = np.nan if pin is None else forces_N(mechanism, jump, pin)
     moment = np.where(moment == 0.0, np.nan, moment)
-    return Impacts(*np.broadcast_arrays(at_deg, jump, force, moment, np.nan))
+    return Impacts(*np.broadcast_arrays(at_deg, impacts[1], force, moment, np.nan))

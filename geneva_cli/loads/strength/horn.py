@@ -120,10 +120,7 @@ class Horn(NamedTuple):
 
 def vector(x: Number, y: Number) -> Array:
     """Vectors of a batch: (2, m, k)."""
-    both = np.atleast_2d(x), np.atleast_2d(y)
-    if both[0].shape != both[1].shape:
-        return np.stack(np.broadcast_arrays(*both))
-    return np.array(both)
+    return np.stack(np.broadcast_arrays(np.atleast_2d(x), np.atleast_2d(y)))
 
 
 def product(a: Array, b: Array) -> Array:

@@ -76,7 +76,7 @@ def held_torque_Nm(mechanism: Mechanism) -> float:
     held = load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
     if not mechanism.unbalanced:
         return held
-    from geneva_cli.loads.unbalance import held_unbalance_Nm
+    from geneva_cli.loads.load_case import held_unbalance_Nm
 
     return held + parameter(held_unbalance_Nm(mechanism))
 
@@ -108,10 +108,8 @@ def loaded_locks(
     if all_true(torque == 0.0):
         return None
     touch, known = by.contact(), np.atleast_2d(np.where(torque == 0.0, np.nan, torque))
-    sine = np.sin(touch.phi)
-    lever = by.L * sine
-    force = held_force_N(known, by)
-    worn = touch.phi - sine * np.cos(touch.phi)
+    sine, force = np.sin(touch.phi), held_force_N(known, by)
+    lever, worn = by.L * sine, touch.phi - sine * np.cos(touch.phi)
     pressure = 2e3 * known * sine / (width * by.lock * by.L * worn)
     arcs = np.equal(touch.on, "recess")  # no horn is bent
     give, stress, thick = still = HornBending(*map(np.atleast_2d, (0.0, 0.0, by.recess)))
@@ -120,17 +118,9 @@ def loaded_locks(
         give, stress, thick = (np.where(arcs, *both) for both in zip(still, bent, strict=True))
     line = force / width
     contact, approach = _contact(mechanism, line, touch.radius, by.lock, thick, pressure)
-    rows = (
-        known,
-        force,
-        contact,
-        pressure,
-        stress * line,
-        np.degrees(touch.play),
-        np.degrees(approach / lever),
-        np.degrees(give * line / lever),
-    )
-    every = np.ravel(np.broadcast_arrays(*rows)).reshape(len(rows), -1)
+    angles = (np.degrees(x) for x in (touch.play, approach / lever, give * line / lever))
+    rows = np.broadcast_arrays(known, force, contact, pressure, stress * line, *angles)
+    every = np.reshape(rows, (len(rows), -1))
     every[:, np.isnan(every[1])] = np.nan  # without a force nothing is known
     return LockUnderTorque(touch.on, *map(parameter, every))
 
@@ -192,9 +182,12 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
         past, own = wall[0] - recess * x, side.middle - turned
         # where another horn has begun, or without a foot, nothing belongs to this one
         own = np.where(np.logical_and.accumulate(own > 0.0, axis=1), own, np.fmin(own, 0.0))
-        strips = _rises(past), _rises(-own)
-        length = np.hypot(*np.diff(wall)) * np.maximum(strips[1] - strips[0], 0.0)
-        (low, high), stresses = (_ends(of, *strips) for of in (give, stress))
+        begins, ends = _rises(past), _rises(-own)
+        length = np.hypot(*np.diff(wall)) * np.maximum(ends - begins, 0.0)
+        (low, high), stresses = (
+            [of[:, :-1] + np.diff(of) * part for part in (begins, ends)]
+            for of in (np.where(np.isfinite(row), row, 0.0) for row in (give, stress))
+        )
         rows = (
             np.where(length > 0.0, 0.5 * (low + high) * length, 0.0).sum(axis=1),
             np.where(length > 0.0, np.fmax(*stresses), 0.0).max(axis=1),
@@ -205,13 +198,6 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
     for other in others:  # the greater deflection counts
         weakest = choose_record(other.deflection > weakest.deflection, other, weakest)
     return weakest
-
-
-def _ends(of: Array, begins: Array, ends: Array) -> tuple[Array, Array]:
-    """Values at which parts of the strips between sections begin and end."""
-    of = np.where(np.isfinite(of), of, 0.0)
-    rise = np.diff(of)
-    return of[:, :-1] + rise * begins, of[:, :-1] + rise * ends
 
 
 def _rises(of: Array) -> Array:

@@ -11,7 +11,7 @@ import numpy as np
 from geneva_cli.kept import Known
 from geneva_cli.loads.cycle_quantities import FORCE
 from geneva_cli.loads.impacts.impacts import reversal_impacts
-from geneva_cli.loads.load_functions import LoadQuantity
+from geneva_cli.loads.instant import LoadQuantity
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.shaft_stress import (
@@ -76,11 +76,10 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
     shaft, own = "wheel_bearing_N", dict[str, LoadQuantity](turned)
     if spec.drive.wheels_on_carrier:
         shaft, own["wheel_shaft_N"] = "wheel_shaft_N", OnShaft(on_carrier(mechanism))
-    names = FORCE, "wheel_bearing_N", shaft, "wheel_Nm", "crank_bearing_N", "crank_Nm"
+    names = FORCE, "wheel_bearing_N", shaft, "crank_bearing_N", *turned
     peaks = load_peaks(mechanism, tuple(dict.fromkeys(names)), own)
-    most = [np.sqrt(peaks[name].max) if name in turned else peaks[name].max for name in names]
-    torque = names.index("wheel_Nm")
-    most[torque] = np.maximum(most[torque], dwell_torque_Nm(mechanism))
-    force, *others = most
+    force, wheel, on_shaft, crank = (peaks[name].max for name in names[:4])
+    wheel_Nm, crank_Nm = (np.sqrt(peaks[name].max) for name in turned)
     jump = np.nan_to_num(reversal_impacts(mechanism).jump) + np.zeros(np.shape(force))
-    return PartLoads(*map(parameter, (force, jump, *others)))
+    held = np.maximum(wheel_Nm, dwell_torque_Nm(mechanism))
+    return PartLoads(*map(parameter, (force, jump, wheel, on_shaft, held, crank, crank_Nm)))

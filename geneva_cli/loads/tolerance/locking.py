@@ -23,12 +23,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, cast
 
 import numpy as np
 
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations
-from geneva_cli.numerics.arrays import Mask, Truth, array, choose, larger, library, smaller
+from geneva_cli.numerics.arrays import (
+    Mask,
+    Truth,
+    array,
+    choose,
+    larger,
+    library,
+    parameter,
+    smaller,
+)
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
 
 ROUNDING = 1e-13  # of an angle, or of the centre distance
@@ -136,10 +145,10 @@ class Lock(NamedTuple):
         between = self.lock * self.recess / choose(loose, clearance, 1.0)
         ended = self.lock * edge / (self.lock + edge)
         radius = choose(loose, choose(arcs, between, ended), math.inf)
-        on = np.where(arcs, "recess", np.where(corner, "corner", "disc's end"))
+        on = np.where(arcs, "recess", np.where(corner, "corner", "disc's end"))[()]
         # without clearance rounding may make it negative
         play = np.maximum(self(deviations([0.0] * len(Deviations._fields))).angle.c[0], 0.0)
-        return LockContact(on[()], phi, play, radius)
+        return LockContact(cast("str", on), phi, parameter(play), radius)
 
 
 def _at(one: Jet, other: float, opposite: Jet) -> Jet:

@@ -28,12 +28,7 @@ import numpy as np
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.vibration.centrifugal import STIFFEST, pull, stiffness_ratio, with_each_motion
-from geneva_cli.loads.vibration.maxima import (
-    Lobes,
-    greatest_accelerations,
-    highest_ratio,
-    lobes,
-)
+from geneva_cli.loads.vibration.maxima import Lobes, greatest_accelerations, highest_ratio, lobes
 from geneva_cli.loads.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of
 from geneva_cli.loads.vibration.panels import law_shape, motion_shapes, shape
 from geneva_cli.loads.vibration.swing import residual_swing

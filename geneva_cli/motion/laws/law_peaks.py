@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 
-import numpy as np
-
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.numerics.arrays import Array, Which
-from geneva_cli.numerics.extremes import Smooth, search
 
 NAMES = ("velocity", "acceleration", "jerk", "power")
 
@@ -24,6 +21,10 @@ def greatest(law: Law) -> dict[str, tuple[float, float]]:
     >>> greatest(Cycloidal())["velocity"]
     (2.0, 0.5)
     """
+    # a list of the drives needs neither
+    import numpy as np
+
+    from geneva_cli.numerics.extremes import Smooth, search
 
     def derivatives(
         u: Array, _: Which, __: int, requested: Sequence[int]

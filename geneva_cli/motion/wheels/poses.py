@@ -12,6 +12,8 @@ without cancellation. At entry and exit the pin moves only along the ray, so the
 exactly zero. So are the wheel's angle and velocity there.
 """
 
+from __future__ import annotations
+
 import math
 from typing import NamedTuple
 
@@ -55,6 +57,12 @@ class HalfStep(NamedTuple):
 
     p: int
     q: int
+
+    @classmethod
+    def of_deg(cls, degrees: float) -> HalfStep:
+        """Half an index angle in degrees."""
+        p, q = degrees.as_integer_ratio() if isinstance(degrees, float) else (degrees, 1)
+        return cls(p, 180 * q)
 
     @property
     def b(self) -> float:

@@ -17,24 +17,19 @@ and the velocity falls with f > 0 where h > 0. That holds everywhere outside, an
 A <= 0: D <= 1 - l², c - l <= c and C² >= 1 - A² give h >= (1-l²) (1-A²) (rho - A c). The velocity
 is then greatest at mid-motion, and the acceleration at an end or where its slope rises through
 zero. Inside and for A >= 0 the acceleration is greatest in its jump at the ends (a test has a grid
-of it).
+of it), and the velocity is left to the general search.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
+from geneva_cli.numerics.arrays import Array, Number, Whole
 
 SCAN = 10  # intervals over half the motion; 8 miss none of a million designs, 6 miss twelve
-
-# A function of cos f that rises through zero where a peak may be; and size and input angle by f.
-Zero: TypeAlias = "Callable[[SideCrankWheels, Array], Array]"
-Value: TypeAlias = "Callable[[SideCrankWheels, Array], tuple[Array, Array]]"
 
 
 class SideCrankWheels(NamedTuple):
@@ -66,6 +61,12 @@ def wheels(sign: Number, l: Number, rest: Number, A: Number) -> SideCrankWheels:
     return SideCrankWheels._make(v.ravel() for v in np.broadcast_arrays(*every))
 
 
+def velocity_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
+    """Peak velocity (invariant), at mid-motion: (n,); NaN inside for A > 0."""
+    size = w.l / (np.where(w.sign > 0.0, w.rest, 1.0 + w.l) * (1.0 + w.A))
+    return np.where((w.sign > 0.0) | (w.A <= 0.0), size, np.nan), np.zeros(len(size))
+
+
 def acceleration_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
     """Peak |acceleration| (invariant) and the input angle of its first occurrence, degrees: (n,).
 
@@ -74,22 +75,44 @@ def acceleration_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
     >>> acceleration_peaks(wheels(1.0, 0.5, 0.5, 0.6))
     (array([0.52252982]), array([-38.20547183]))
     """
-    size, at = best = acceleration_at_end(w)
-    _compete(w, best, _acceleration_zero, acceleration, (w.sign > 0.0) | (w.A < 0.0))
-    return size, at / -DEGREE
-
-
-def velocity_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
-    """Peak velocity (invariant) and the input angle of its first occurrence, degrees: (n,)."""
-    size = w.l / (np.where(w.sign > 0.0, w.rest, 1.0 + w.l) * (1.0 + w.A))
-    at = np.zeros(len(size))
-    _compete(w, (size, at), _velocity_zero, _velocity, (w.sign < 0.0) & (w.A > 0.0))
-    return size, at / -DEGREE + 0.0
+    best = acceleration_at_end(w)
+    which = np.flatnonzero((w.sign > 0.0) | (w.A < 0.0))
+    count = 16384  # designs in a block: more leave the processor's cache, fewer need more calls
+    for block in (which[i : i + count] for i in range(0, len(which), count)):
+        part = w.taken(block)
+        with np.errstate(all="ignore"):
+            design, low, high, x, slope = map(np.concatenate, zip(*_rises(part), strict=True))
+            near, of = part.taken(design), block[design]
+            before = here = np.zeros(len(x))
+            close = np.zeros(len(x), bool)
+            for step in range(4):  # secant steps, from a parabola's root
+                last, here = here, _slope(near, np.cos(x))
+                if step:  # rounding may leave a step of 0, or one against the rise
+                    rise = (here - last) / (x - before)
+                    slope = np.where(rise > 0.0, rise, slope)
+                # a design that is close stays, so that it has the same peak in every batch
+                before, x = x, np.where(close, x, x - here / slope)
+                # radians: the error after so short a step moves a peak by less than rounding
+                close = abs(x - before) < 1e-7
+                if close.all():
+                    break
+            size, at = acceleration(near, x)
+            known = close & (low <= x) & (x <= high)
+        # a design may have several: the greatest, or what is not known, is written last
+        order = np.argsort(np.where(known, size, np.inf))
+        order = order[(size > best[0][of])[order] | ~known[order]]
+        for values, new in zip(best, (size, at), strict=True):
+            values[of[order]] = np.where(known, new, np.nan)[order]
+    return best[0], best[1] / -DEGREE
 
 
 def acceleration(w: SideCrankWheels, f: Array) -> tuple[Array, Array]:
     """Size of the acceleration at crank angles f, and the input angles there, radians."""
-    s, c, v, C, rho = _at(w, f)
+    sine, cosine = np.sin(0.5 * f), np.cos(0.5 * f)
+    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
+    near = np.where(w.sign > 0.0, sine, cosine)
+    v = 2.0 * near * near  # 1 - g cos f
+    C, rho = _front(w, s, c)
     D, f1 = w.rest2 + 2.0 * w.l * v, C / rho
     # l sin f is common to both terms
     wheel = w.square * (f1 / D) * (f1 / D)
@@ -105,31 +128,14 @@ def acceleration_at_end(w: SideCrankWheels) -> tuple[Array, Array]:
     return w.l / s * f1 * f1, np.arctan2(rho * s, C * c - w.A * (s * s))
 
 
-def _velocity(w: SideCrankWheels, f: Array) -> tuple[Array, Array]:
-    s, c, v, C, rho = _at(w, f)
-    D = w.rest2 + 2.0 * w.l * v
-    return w.sign * w.l * (w.rest - v) / D * (C / rho), np.arctan2(rho * s, C * c - w.A * (s * s))
-
-
 def _front(w: SideCrankWheels, s: Array, c: Array) -> tuple[Array, Array]:
-    """C and rho, where the crank's sine and cosine are s and c.
-
-    The input's tangent is rho s / (C c - A s²): the coulisse's end seen from the input's axis.
-    """
+    """C and rho, where the crank's sine and cosine are s and c."""
     C, Ac = np.sqrt(c * c + w.minus * (s * s)), w.A * c
     long = C + abs(Ac)
     return C, np.where(Ac < 0.0, w.minus / long, long)
 
 
-def _at(w: SideCrankWheels, f: Array) -> tuple[Array, Array, Array, Array, Array]:
-    """At crank angles f the sine and cosine, 1 - g cos f, C and rho."""
-    sine, cosine = np.sin(0.5 * f), np.cos(0.5 * f)
-    s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
-    near = np.where(w.sign > 0.0, sine, cosine)
-    return s, c, 2.0 * near * near, *_front(w, s, c)
-
-
-def _acceleration_zero(w: SideCrankWheels, c: Array) -> Array:
+def _slope(w: SideCrankWheels, c: Array) -> Array:
     """The acceleration's slope over f, times (C D)³ / (f1² l (1-l²)) > 0."""
     Ac, c2 = w.A * c, c * c
     s2, C2 = 1.0 - c2, w.minus + Ac * Ac
@@ -142,57 +148,15 @@ def _acceleration_zero(w: SideCrankWheels, c: Array) -> Array:
     return w.sign * N * C * C2 - front * (3.0 * s2 * C - D * g1 * (c * C + 3.0 * w.A * s2))
 
 
-def _velocity_zero(w: SideCrankWheels, c: Array) -> Array:
-    """h / rho: above 0 where the velocity falls."""
-    Ac = w.A * c
-    C2, v = w.minus + Ac * Ac, 1.0 - w.sign * c
-    D = w.rest2 + 2.0 * w.l * v
-    return w.square * C2 - w.sign * (w.rest - v) * D * w.A * (np.sqrt(C2) - Ac)
-
-
-def _compete(
-    w: SideCrankWheels, best: tuple[Array, Array], zero: Zero, value: Value, some: Mask
-) -> None:
-    """Put greater sizes of some designs, and their places, into ``best``; NaN where unknown."""
-    which = np.flatnonzero(some)
-    count = 16384  # designs in a block: more leave the processor's cache, fewer need more calls
-    for block in (which[i : i + count] for i in range(0, len(which), count)):
-        part = w.taken(block)
-        with np.errstate(all="ignore"):
-            columns = zip(*_rises(part, zero), strict=True)
-            design, low, high, x, slope = map(np.concatenate, columns)
-            near, of = part.taken(design), block[design]
-            before = here = np.zeros(len(x))
-            close = np.zeros(len(x), bool)
-            for step in range(4):  # secant steps, from a parabola's root
-                last, here = here, zero(near, np.cos(x))
-                if step:  # rounding may leave a step of 0, or one against the rise
-                    rise = (here - last) / (x - before)
-                    slope = np.where(rise > 0.0, rise, slope)
-                # a design that is close stays, so that it has the same peak in every batch
-                before, x = x, np.where(close, x, x - here / slope)
-                # radians: the error after so short a step moves a peak by less than rounding
-                close = abs(x - before) < 1e-7
-                if close.all():
-                    break
-            size, at = value(near, x)
-            known = close & (low <= x) & (x <= high)
-        # a design may have several: the greatest, or what is not known, is written last
-        order = np.argsort(np.where(known, size, np.inf))
-        order = order[(size > best[0][of])[order] | ~known[order]]
-        for values, new in zip(best, (size, at), strict=True):
-            values[of[order]] = np.where(known, new, np.nan)[order]
-
-
-def _rises(w: SideCrankWheels, zero: Zero) -> list[tuple[Whole, Array, Array, Array, Array]]:
-    """Rises of ``zero`` through 0: design, both ends of the interval, a parabola's root, slope."""
+def _rises(w: SideCrankWheels) -> list[tuple[Whole, Array, Array, Array, Array]]:
+    """Rises of ``_slope`` through 0: design, ends of the interval, a parabola's root, slope."""
     step = w.half / SCAN
     turn = 2.0 * np.cos(step)
     c, c_next = np.ones(len(step)), 0.5 * turn
     last = before = np.zeros(len(step))
     rises = []
     for i in range(SCAN + 1):
-        here = zero(w, c if i < SCAN else w.end_cos)
+        here = _slope(w, c if i < SCAN else w.end_cos)
         which = np.flatnonzero((before < 0.0) & (here >= 0.0))
         left, right, wide = before[which], here[which], step[which]
         # a parabola through three values; a straight line in the first interval

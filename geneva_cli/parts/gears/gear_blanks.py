@@ -29,8 +29,8 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.gears.gear_mesh import ToothedGear
 from geneva_cli.parts.links.link_sizes import LinkSizes
+from geneva_cli.parts.shafts.hub_and_shafts import ShaftBore
 from geneva_cli.parts.shafts.screws import bolt_circle
-from geneva_cli.parts.shafts.shaft_bores import ShaftBore
 
 
 class Gear(NamedTuple):

@@ -52,13 +52,6 @@ NAMES = (
 SAMPLES = 721  # input angles of a turn at which ratio and radii are computed
 
 
-class Convexity(NamedTuple):
-    """The least value of both convexity conditions in a turn; not above 0 for a hollow gear."""
-
-    driver: float
-    driven: float
-
-
 def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """Return both pitch curves: for a chord tolerance, or at ``samples`` even input angles.
 
@@ -66,31 +59,24 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
     listed as it is cut, so its angle runs against the gear's rotation.
     """
     gears = required_gears(mechanism)
-    if samples is None:
-        ends = (-np.pi, 0.0, np.pi)  # one turn; the curves' frames are at input angle 0
-        phi = chords.nodes(
-            lambda at: _pitch_points(gears, *_ratio(gears, at), at), ends, tolerance_mm
+
+    def points(phi: Array) -> tuple[Array, Array]:
+        """Return the points (n, 2) at which driver and driven gear touch."""
+        turn, ratio = _ratio(gears, phi)
+        driver, driven = radii(gears, ratio)
+        return (
+            np.column_stack((driver * np.cos(phi), -driver * np.sin(phi))),
+            np.column_stack((-driven * np.cos(turn), -driven * np.sin(turn))),
         )
-    else:
-        phi = np.linspace(-np.pi, np.pi, samples)
+
+    # one turn; the curves' frames are at input angle 0
+    phi = np.linspace(-np.pi, np.pi, samples or 3)
+    if samples is None:
+        phi = chords.nodes(points, (-np.pi, 0.0, np.pi), tolerance_mm)
     turn, ratio = _ratio(gears, phi)
-    r1, r2 = radii(gears, ratio)
-    (x1, y1), (x2, y2) = (p.T for p in _pitch_points(gears, turn, ratio, phi))
-    driver, driven = _convexities(ratio)
-    columns = [
-        np.degrees(phi),
-        np.degrees(turn),
-        ratio.c[0],
-        r1,
-        x1,
-        y1,
-        r2,
-        x2,
-        y2,
-        driver,
-        driven,
-    ]
-    return Table(NAMES, columns)
+    (r1, r2), both = radii(gears, ratio), points(phi)
+    columns = [np.degrees(phi), np.degrees(turn), ratio.c[0], r1, *both[0].T, r2, *both[1].T]
+    return Table(NAMES, [*columns, *_convexities(ratio)])
 
 
 def required_gears(mechanism: Mechanism) -> Gears:
@@ -138,31 +124,23 @@ def curve_length(gears: Gears) -> CurveLength:
     return CurveLength(whole, periodic(s.tolist(), (ends - math.tau * s / whole).tolist()))
 
 
-def convexity(gears: Gears) -> Convexity:
-    """Return the least convexity of both gears over a turn."""
+def convexity(gears: Gears) -> tuple[float, float]:
+    """Return the least value of the convexity conditions of driver and driven gear in a turn.
+
+    It is not above 0 for a hollow gear.
+    """
     _, ratio = _ratio(gears, np.linspace(-np.pi, np.pi, SAMPLES))
     driver, driven = _convexities(ratio)
-    return Convexity(float(driver.min()), float(driven.min()))
+    return float(driver.min()), float(driven.min())
 
 
-def radii(gears: Gears, ratio: Jet) -> tuple[np.ndarray, np.ndarray]:
+def radii(gears: Gears, ratio: Jet) -> tuple[Array, Array]:
     """Return the radii of driver and driven gear where they touch, mm."""
     C, i = gears.distance_mm, array(ratio.c[0])
     return C * i / (1.0 + i), C / (1.0 + i)
 
 
-def _pitch_points(
-    gears: Gears, turn: np.ndarray, ratio: Jet, phi: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the points (n, 2) at which driver and driven gear touch, each in its gear's frame."""
-    driver, driven = radii(gears, ratio)
-    return (
-        np.column_stack((driver * np.cos(phi), -driver * np.sin(phi))),
-        np.column_stack((-driven * np.cos(turn), -driven * np.sin(turn))),
-    )
-
-
-def _ratio(gears: Gears, phi: np.ndarray) -> tuple[np.ndarray, Jet]:
+def _ratio(gears: Gears, phi: Array) -> tuple[Array, Jet]:
     """Return the crank's angle and the ratio with two derivatives, over a turn of the input."""
     ratio, turned = ratio_and_turn(gears, phi)
     # Angle of the crank ahead of the input, which is 0 at input angle 0.
@@ -274,7 +252,15 @@ def toothed_curve(teeth: PairTeeth, driver: bool, curve: Curve, sense: float) ->
         return points, sense * tangents
 
     rack, tip = (teeth.driver, teeth.tips[1]) if driver else (teeth.driven, teeth.tips[0])
-    _refuse(curvatures(pitch, teeth.length.whole, 4096), rack, tip)
+    # on a convex bend the rack undercuts the flank below it, on a hollow one that above it
+    hollow, convex = curvatures(pitch, teeth.length.whole, 4096)
+    most = max(convex * rack.straight, -hollow * tip) / math.sin(rack.angle) ** 2
+    if most > 1.0:
+        raise GenevaError(
+            f"gear_module_mm = {rack.module:g}: teeth would be undercut where the pitch curve "
+            f"bends most; at most {rack.module / most:.4g} fits",
+            ("size", "gear_module_mm"),
+        )
     middles = rack.pitch * (np.arange(float(teeth.z)) + (0.0 if driver else 0.5))
     if thinnest_tip(pitch, rack, middles, tip) < rack.least_tip:
         raise GenevaError(
@@ -283,14 +269,3 @@ def toothed_curve(teeth: PairTeeth, driver: bool, curve: Curve, sense: float) ->
             ("size", "gear_module_mm"),
         )
     return ToothedCurve(pitch, rack, middles, tip)
-
-
-def _refuse(bends: tuple[float, float], rack: Rack, tip: float) -> None:
-    """Raise GenevaError where a pitch curve, of some curvatures, is too narrow for its teeth."""
-    most = max(bends[1] * rack.straight, -bends[0] * tip) / math.sin(rack.angle) ** 2
-    if most > 1.0:
-        raise GenevaError(
-            f"gear_module_mm = {rack.module:g}: teeth would be undercut where the pitch curve "
-            f"bends most; at most {rack.module / most:.4g} fits",
-            ("size", "gear_module_mm"),
-        )

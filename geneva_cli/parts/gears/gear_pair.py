@@ -19,6 +19,7 @@ from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, array
 from geneva_cli.numerics.preferred import bore_radius
+from geneva_cli.parts.assembly import gear_plane, same
 from geneva_cli.parts.gears.gear_curves import (
     SAMPLES,
     ToothedCurve,
@@ -28,13 +29,12 @@ from geneva_cli.parts.gears.gear_curves import (
     required_gears,
     toothed_curve,
 )
-from geneva_cli.parts.links.link_positions import gear_plane, same
 from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore, round_bore
+from geneva_cli.parts.shafts.hub_and_shafts import ShaftBore, bore_at
 from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
-from geneva_cli.parts.shafts.shaft_bores import ShaftBore, bore_at
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

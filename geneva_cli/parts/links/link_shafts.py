@@ -25,14 +25,13 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.links.link_positions import gear_plane, links_at, same, turn_deg
+from geneva_cli.parts.assembly import gear_plane, links_at, same, turn_deg
 from geneva_cli.parts.links.link_sizes import LinkSizes, places
 from geneva_cli.parts.links.links import Links, joined, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
-from geneva_cli.parts.shafts.hub_and_shafts import wheel_shaft_ends, wheel_shaft_radius
+from geneva_cli.parts.shafts.hub_and_shafts import bore_at, wheel_shaft_ends, wheel_shaft_radius
 from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, seat_of, shaft_ends
-from geneva_cli.parts.shafts.shaft_bores import bore_at
 
 if TYPE_CHECKING:
     from geneva_cli.parts.links.links import LinkAxis
@@ -143,7 +142,7 @@ def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Plan
     ``bars`` are the links of the machine with the outlines ``parts``, and ``spacers`` the rings on
     its frame.
     """
-    mechanism = parts.assembly.full
+    mechanism, L = parts.assembly.full, parts.assembly.L
     turn = turn_deg(mechanism)  # the error of a gap is quadratic in their distance
     every = links_at(mechanism, turn)
     if bars.sizes is None:
@@ -152,20 +151,23 @@ def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Plan
     links = [link for link in every if not link.radius_mm]
     if not links:
         return Planes(min(met, default=None), None)
-    shaft = _Shaft(parts, links, bars)
+    carries, shaft = _crank_shaft(parts, links, bars)
+    low = mechanism.spec.size.crank_shaft_low_mm
+    ends = math.inf if low is None else low + SAME_LENGTH * L
+    reached = {link.plane for link in links if bars.sizes.span(link.plane)[1] > ends}
     rounds = [
         *_on_wheel(parts, links, bars.sizes, 0.0 * turn),
-        *_on_pins(links, bars.sizes, SAME_LENGTH * parts.assembly.L),
-        *shaft.between(),
+        *_on_pins(links, bars.sizes, SAME_LENGTH * L),
         *_standing(parts, bars, spacers, turn),
     ]
-    met += [
-        _meeting(link, shaft.outlines[link.name], one, turn)
-        for link in links
-        for one in rounds
-        if one.plane == link.plane
-    ]
-    return Planes(min(met, default=None), None if shaft.through else shaft.blocked(turn))
+    if carries:  # the shaft in the planes that it must cross, or that the spec extends it to
+        crossed = range(min(carries) + 1, max(carries | reached) + 1)
+        rounds += [shaft._replace(plane=plane) for plane in crossed if plane not in carries]
+    for link in links:
+        met += [_meeting(bars, link, one, turn) for one in rounds if one.plane == link.plane]
+    through = parts.sizes.crank_bore > 0.0  # the locking disc
+    blocked = None if through else _blocked(bars, links, carries, shaft, turn)
+    return Planes(min(met, default=None), blocked)
 
 
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
@@ -175,10 +177,37 @@ def crank_stop(parts: Outlines, bars: Links) -> float | None:
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
     if not links or bars.sizes is None:
         return None
-    shaft = _Shaft(parts, links, bars)
-    if shaft.blocked(turn) is None:
+    carries, shaft = _crank_shaft(parts, links, bars)
+    if _blocked(bars, links, carries, shaft, turn) is None:
         return None
-    return bars.sizes.span(max(shaft.carries))[0] if max(shaft.carries) else -bars.sizes.gap
+    return bars.sizes.span(max(carries))[0] if max(carries) else -bars.sizes.gap
+
+
+def _crank_shaft(parts: Outlines, links: list[Link], bars: Links) -> tuple[set[int], Round]:
+    """Return the planes in which the crank's shaft carries something, 0 for the wheel's; it."""
+    L, sizes, machine = parts.assembly.L, bars.sizes, parts.assembly.full
+    assert sizes is not None
+    carries = {1} if parts.has_arm else set[int]()
+    for link in links:
+        on_axis = np.abs(places(link)[0] - L).max() < SAME_LENGTH * L
+        if link.kinds[0] is Joint.SHAFT and on_axis:
+            carries.add(link.plane)
+    if machine.spec.gears and machine.gear_shaft == machine.crank_shaft:
+        carries.add(gear_plane(machine))
+    if parts.sizes.crank_bore > 0.0:  # it passes the locking disc
+        carries.add(0)
+    radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
+    wide = bore_at(machine, (L, 0.0), radius).bore.around
+    return carries, Round("the crank's shaft", 0, places(links[0])[0] * 0.0 + L, wide)
+
+
+def _blocked(
+    bars: Links, links: list[Link], carries: set[int], shaft: Round, turn: Array
+) -> Meeting | None:
+    """Return the deepest overlap with links below all that the shaft carries; None if free."""
+    below = (link for link in links if link.plane > max(carries, default=math.inf))
+    met = (_meeting(bars, link, shaft, turn) for link in below)
+    return min((one for one in met if one.gap < 0.0), default=None)
 
 
 def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iterator[Meeting]:
@@ -249,59 +278,10 @@ def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array)
             yield Round("the wheel's shaft", plane, axis, shaft)
 
 
-class _Shaft:
-    """The crank's shaft: the planes in which it carries something; 0 is the wheel's plane."""
-
-    def __init__(self, parts: Outlines, links: list[Link], bars: Links) -> None:
-        L, sizes = parts.assembly.L, bars.sizes
-        assert sizes is not None
-        self.links = links
-        self.outlines = {
-            plate.name: plate.outline for plate in bars.plates if isinstance(plate.outline, Contour)
-        }
-        self.path = places(links[0])[0] * 0.0 + L
-        self.carries: set[int] = set()
-        for link in links:
-            at, kind = places(link)[0], link.kinds[0]
-            if kind is Joint.SHAFT and np.abs(at - L).max() < SAME_LENGTH * L:
-                self.carries.add(link.plane)
-        if parts.has_arm:
-            self.carries.add(1)
-        machine = parts.assembly.full
-        if machine.spec.gears and machine.gear_shaft == machine.crank_shaft:
-            self.carries.add(gear_plane(machine))
-        self.through = parts.sizes.crank_bore > 0.0  # through the locking disc
-        if self.through:
-            self.carries.add(0)
-        radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
-        self.radius = bore_at(parts.assembly.full, (L, 0.0), radius).bore.around
-        low = parts.assembly.full.spec.size.crank_shaft_low_mm
-        ends = math.inf if low is None else low + SAME_LENGTH * L
-        self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}
-
-    def _in(self, plane: int) -> Round:
-        return Round("the crank's shaft", plane, self.path, self.radius)
-
-    def between(self) -> Iterator[Round]:
-        """Yield the shaft in the planes that it must cross, or that the spec extends it to."""
-        if self.carries:
-            deepest = max(self.carries | self.reached)
-            for plane in range(min(self.carries) + 1, deepest + 1):
-                if plane not in self.carries:
-                    yield self._in(plane)
-
-    def blocked(self, turn: Array) -> Meeting | None:
-        """Return the deepest overlap with links below all that the shaft carries; None if free."""
-        deepest = max(self.carries, default=math.inf)
-        met = (
-            _meeting(link, self.outlines[link.name], self._in(link.plane), turn)
-            for link in self.links
-            if link.plane > deepest
-        )
-        return min((one for one in met if one.gap < 0.0), default=None)
-
-
-def _meeting(link: Link, outline: Contour, one: Round, turn: Array) -> Meeting:
+def _meeting(bars: Links, link: Link, one: Round, turn: Array) -> Meeting:
+    """Return the least gap between a link's outline and a round part, over the input angles."""
+    outline = next(plate.outline for plate in bars.plates if plate.name == link.name)
+    assert isinstance(outline, Contour)
     joints = places(link)
     ahead = joints[1] - joints[0]
     size = np.abs(ahead)

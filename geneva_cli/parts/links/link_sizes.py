@@ -18,7 +18,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
-from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore
 from geneva_cli.parts.sizes import HUB, drawn_thicknesses, pin_hole, pin_radius, plane_span
@@ -93,7 +93,15 @@ def link_sizes(
     own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
     roller, loose = pin_hole(size, stands) if stands else 0.0, size.allowances.around_shaft_mm
     # a fifth of the distance to the next joint leaves eyes and a gap between
-    nearest = min((distance for link in bars for distance in _pin_distances(link)), default=L)
+    nearest = min(
+        (
+            float(np.abs(p - q).min())
+            for link in bars
+            for (p, a), (q, b) in combinations(zip(places(link), link.kinds, strict=True), 2)
+            if {a, b} & {Joint.PIN, Joint.SLIDE} and Joint.NONE not in (a, b)
+        ),
+        default=L,
+    )
     pin = half_or(size.link_pin_mm, rounded_radius(min(L / 40.0, 0.2 * nearest)))
     eye = half_or(size.link_width_mm, eye_about(pin + loose, wall))
     if eye <= pin + loose:
@@ -141,13 +149,6 @@ def roller_pins(mechanism: Mechanism) -> Iterator[tuple[Link, Point]]:
         for joint, kind in zip(places(link), link.kinds, strict=True):
             if kind in (Joint.ROLLER, Joint.CARRIED):
                 yield link, point_at_zero(joint)
-
-
-def _pin_distances(link: Link) -> Iterator[float]:
-    """Yield the least distance of each pin of a link from its other joints."""
-    for (p, a), (q, b) in combinations(zip(places(link), link.kinds, strict=True), 2):
-        if {a, b} & {Joint.PIN, Joint.SLIDE} and Joint.NONE not in (a, b):
-            yield float(np.abs(p - q).min())
 
 
 def _eye_limit(mechanism: Mechanism, links: Iterable[Link]) -> float:

@@ -23,7 +23,7 @@ from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.links.link_positions import links_at, same, turn_deg
+from geneva_cli.parts.assembly import links_at, same, turn_deg
 from geneva_cli.parts.links.link_sizes import (
     SLOT_MARGIN,
     LinkSizes,
@@ -33,8 +33,8 @@ from geneva_cli.parts.links.link_sizes import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import round_bore
+from geneva_cli.parts.shafts.hub_and_shafts import ShaftBore, bore_at
 from geneva_cli.parts.shafts.screws import screw_through
-from geneva_cli.parts.shafts.shaft_bores import ShaftBore, bore_at
 
 if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear

@@ -14,9 +14,13 @@ from geneva_cli.kept import KEPT
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.crank_outline import arc_leaves_hub, crank_contours
+from geneva_cli.parts.outlines.crank_outline import (
+    crank_contours,
+    is_whole,
+    lock_of,
+    takes_arcs,
+)
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.reliefs import has_arcs, is_whole, lock_of, without_lock
 from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.gaps import Gaps
@@ -85,8 +89,7 @@ def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], st
     requested = assembly.mechanism.spec.size.relief
     whole = is_whole(assembly, sizes)
     swept = cache(lambda i: bare.swept(i, SWEPT_DEG))
-    arcs = whole and not requested and not without_lock(assembly) and has_arcs(assembly, sizes.lock)
-    if arcs and arc_leaves_hub(assembly, sizes):
+    if not requested and takes_arcs(assembly, sizes):
         crank = crank_contours(assembly, sizes, "arc", swept)
         gaps = bare.with_crank(crank)
         if _overlap(gaps, close) <= close:

@@ -10,6 +10,7 @@ from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.held_hubs import held_hub
+from geneva_cli.parts.shafts.screws import bolt_circle
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.spec.tables import Size
 
@@ -32,8 +33,6 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
 
     By default their circle is in the middle between the bore and the slots and recesses.
     """
-    from geneva_cli.parts.shafts.screws import bolt_circle
-
     size = assembly.mechanism.spec.size
     ring = sizes.wheel_reach, sizes.slot_end
     if sizes.outer:
@@ -46,17 +45,12 @@ def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
 
     Raises GenevaError for a set screw that it does not hold.
     """
-    hub = _plate(assembly, sizes)
-    return held_hub(assembly.mechanism.spec.size, "wheel", hub, assembly.rests[0])
-
-
-def _plate(assembly: Assembly, sizes: Sizes) -> Plate | None:
-    size = assembly.mechanism.spec.size
-    if not size.has_hub("wheel") or sizes.wheel_hub <= sizes.wheel_bore:
-        return None
-    bores = about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
-    outline = Circle("HUB", ORIGIN, sizes.wheel_hub)
-    return Plate("wheel's hub", "HUB", outline, bores, -wheel_hub_length(size, sizes), 0.0)
+    size, hub = assembly.mechanism.spec.size, None
+    if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
+        bores = about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
+        outline, low = Circle("HUB", ORIGIN, sizes.wheel_hub), -wheel_hub_length(size, sizes)
+        hub = Plate("wheel's hub", "HUB", outline, bores, low, 0.0)
+    return held_hub(size, "wheel", hub, assembly.rests[0])
 
 
 def wheel_hub_length(size: Size, sizes: Sizes) -> float:

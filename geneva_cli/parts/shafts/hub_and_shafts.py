@@ -9,19 +9,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, Shape
+from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.links.link_positions import links_at
-from geneva_cli.parts.outlines.crank_outline import crank_circles
+from geneva_cli.parts.assembly import assembled, links_at, same
+from geneva_cli.parts.outlines.crank_outline import crank_circles, is_whole, keyway_direction
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.reliefs import is_whole, keyway_direction
 from geneva_cli.parts.outlines.wheel_circles import about_axis, wheel_hub
-from geneva_cli.parts.shafts.bores import bore_of
+from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape, round_bore
 from geneva_cli.parts.shafts.held_hubs import held_hub
 from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends
 
@@ -113,3 +114,29 @@ def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
 def crank_shaft_radius(parts: Outlines) -> float:
     """Return the radius of the shaft of arm and locking disc; 0 if it carries only links."""
     return parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
+
+
+class ShaftBore(NamedTuple):
+    """A bore, and the direction of its keyway, flat or side at input angle 0, radians."""
+
+    bore: Bore = Bore(0.0)
+    direction: float = 0.0
+    part: str = ""  # "wheel" or "crank", whose keys of [size] give its shape; "" for neither
+
+    def hole(self, turn: float = 0.0) -> Shape:
+        """Return the hole about the origin of a part that stands turned by an angle."""
+        return self.bore.shape("BORE", self.direction - turn)
+
+
+def bore_at(mechanism: Mechanism, at: Point, radius: float) -> ShaftBore:
+    """Return the bore of what is on the shaft at a point: as in wheel or crank, or a round one."""
+    size, L = mechanism.spec.size, mechanism.center_distance_mm
+    part = "crank" if same(at, (L, 0.0), L) else "wheel" if same(at, ORIGIN, L) else ""
+    if not (part and has_shape(size, part)):
+        return ShaftBore(round_bore(size, radius), 0.0, part)
+    own, still = assembled(mechanism), np.zeros(1)
+    if part == "wheel":
+        direction, turn = own.rests[0], own.wheel(still)
+    else:
+        direction, turn = keyway_direction(own), own.crank(still)
+    return ShaftBore(bore_of(size, part, radius), direction + float(turn[0]), part)

@@ -9,7 +9,7 @@ space.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -318,15 +318,11 @@ def built_shafts(
         bottom = min([usual, *(top - width for width in widths)])
     axles = []
     for one, steps in zip(own, turned, strict=True):
-        if steps:
-            axles.append(turned_shaft(size, one, top, free if _is_passed(one, adjacent) else None))
-        else:
+        if not steps:
             axles.append(one._replace(low=bottom if one.low == usual else one.low).plain())
+            continue
+        lowest = one.seats[0].low if one.seats else one.high
+        own_parts = {seat.part for seat in one.seats}
+        passed = any(part.low < lowest and part.part not in own_parts for part in adjacent)
+        axles.append(turned_shaft(size, one, top, free if passed else None))
     return axles, bottom
-
-
-def _is_passed(shaft: Shaft, adjacent: Iterable[Seat]) -> bool:
-    """Return True if parts on other axes are lower than what a shaft carries."""
-    low = shaft.seats[0].low if shaft.seats else shaft.high
-    own = {seat.part for seat in shaft.seats}
-    return any(one.low < low and one.part not in own for one in adjacent)

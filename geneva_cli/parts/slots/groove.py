@@ -15,24 +15,24 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import chords, fit
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import Circle, Contour, Layer, closed
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Layer, closed
 from geneva_cli.motion.engagement import Groove
 from geneva_cli.motion.groove_path import back, distances
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import WALLED
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
-from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import about_axis
+from geneva_cli.parts.shafts.hub_and_shafts import bore_at
 from geneva_cli.parts.shafts.screws import screw_through
-from geneva_cli.parts.shafts.shaft_bores import bore_at
-from geneva_cli.parts.sizes import Sizes
 from geneva_cli.table import Table
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 GRID = 3600  # positions all round, between which the greatest pressure angle is searched
+BELOW = 2  # planes below the wheel: that of the groove, below the crank
+MOUNTS = 4
 
 
 def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], tuple[Array, Array]]:
@@ -83,33 +83,29 @@ def greatest_pressure(groove: Groove) -> tuple[float, float]:
 
     Its tangent is |R'/R|, for both signs of R'. It is greatest where R R'' = R'².
     """
-    grid = groove.motion.entry_deg + 360.0 * np.arange(GRID) / GRID
+    entry, exit_, step = groove.motion.entry_deg, groove.motion.exit_deg, 360.0 / GRID
+    grid = entry + 360.0 * np.arange(GRID) / GRID
     R, slope, _ = distances(groove, grid)
     steep = np.abs(slope) / R
     tops = (steep >= np.roll(steep, 1)) & (steep >= np.roll(steep, -1))
     # the grid is fine enough that lower local maxima need no refinement
     tops &= steep > 0.99 * steep.max()
-    middle = 0.5 * (groove.motion.entry_deg + groove.motion.exit_deg)
+    middle = 0.5 * (entry + exit_)
+    candidates = []
     # a groove is as steep before the motion as after it: start in the middle of the dwell
-    places = sorted(math.remainder(x - middle, 360.0) + middle for x in grid[tops])
-    candidates = [_steepest(groove, x) for x in places]
+    for about in sorted(math.remainder(x - middle, 360.0) + middle for x in grid[tops]):
+        sense = math.copysign(1.0, distances(groove, np.array([about]))[1][0])
+
+        def rise(x: Array, sense: float = sense) -> Array:
+            r, dr, ddr = distances(groove, x)
+            return sense * (r * ddr - dr * dr)
+
+        # a corner of the groove, or a smooth maximum
+        at_deg = boundary_by_sections(rise, about - step, about + step)
+        r, dr, _ = distances(groove, np.array([at_deg]))
+        candidates.append((float(abs(dr[0]) / r[0]), at_deg))
     tangent, at_deg = greatest_at(candidates)
     return math.degrees(math.atan(tangent)), at_deg
-
-
-def _steepest(groove: Groove, about: float) -> tuple[float, float]:
-    """Return the greatest tangent near a position of the grid, and its input angle."""
-    step = 360.0 / GRID
-    sense = math.copysign(1.0, distances(groove, np.array([about]))[1][0])
-
-    def rise(x: Array) -> Array:
-        r, dr, ddr = distances(groove, x)
-        return sense * (r * ddr - dr * dr)
-
-    # a corner of the groove, or a smooth maximum
-    at_deg = boundary_by_sections(rise, about - step, about + step)
-    r, dr, _ = distances(groove, np.array([at_deg]))
-    return float(abs(dr[0]) / r[0]), at_deg
 
 
 def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
@@ -136,30 +132,16 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
     R, slope = (L * c for c in groove.distances(x, 2)[1].c[:2])
     px, py = groove.groove(x, 2)
     (x0, x1, x2), (y0, y1, y2) = px.derivatives(), py.derivatives()
-    speed = np.hypot(x1, y1)
-    turning = x1 * y2 - y1 * x2
+    speed, turning = np.hypot(x1, y1), x1 * y2 - y1 * x2
     with np.errstate(divide="ignore"):
         # The roller enters along the slot, while the wheel still rests: a straight line.
         straight = np.abs(turning) < 1e-12 * speed * speed
         radius = np.where(straight, np.inf, L * speed**3 / turning)
     nx, ny = -y1 / speed * offset, x1 / speed * offset
-    columns = [
-        engagement.inputs_deg(x),
-        R,
-        L * x0,
-        L * y0,
-        L * x0 + nx,
-        L * y0 + ny,
-        L * x0 - nx,
-        L * y0 - ny,
-        np.degrees(np.arctan2(np.abs(slope), R)),
-        radius,
-    ]
-    return Table(NAMES, columns)
-
-
-BELOW = 2  # planes below the wheel: that of the groove, below the crank
-MOUNTS = 4
+    points = [(L * x0 + side * nx, L * y0 + side * ny) for side in (0.0, 1.0, -1.0)]
+    pressure = np.degrees(np.arctan2(np.abs(slope), R))
+    columns = [engagement.inputs_deg(x), R, *(axis for line in points for axis in line)]
+    return Table(NAMES, [*columns, pressure, radius])
 
 
 def groove_lines(
@@ -187,48 +169,22 @@ def groove_lines(
 
 
 def groove_base(parts: Outlines, bars: Links) -> Plate:
-    """Return the base below the groove, with its holes."""
-    assert bars.sizes is not None  # the crank is a link
-    L = parts.assembly.L
-    far, rim = groove_reaches(parts.assembly, parts.sizes)
-    screw, at = screw_through(0.5 * rim), far + 0.5 * rim
-    mounts = [
-        Circle("BORE", (at * math.cos(turn), at * math.sin(turn)), 0.5 * screw.through)
-        for turn in (math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS))
-        if screw
-    ]
-    shaft = bars.shaft((L, 0.0), L)
-    if shaft:  # which turns in the base
-        shaft = bore_at(parts.assembly.full, (L, 0.0), shaft).bore.around
-    bore = [Circle("BORE", (0.0, 0.0), shaft + bars.sizes.loose)] if shaft else []
-    edge = Circle("FRAME", (0.0, 0.0), far + rim)
-    high, _ = bars.sizes.span(BELOW)
-    low = high - parts.sizes.arm_thickness
-    if parts.assembly.full.spec.drive_before:  # it fills its plane: another drive is below it
-        low, _ = bars.sizes.span(BELOW + 1)
-    return Plate("groove plate's base", "FRAME", edge, (*bore, *mounts), low, high)
+    """Return the base below the groove, with its holes.
 
-
-def groove_stack(
-    base: Plate, bars: Links, flanks: tuple[Contour, Contour]
-) -> tuple[Plate, Plate, Plate]:
-    """Return base, ring and island; ``flanks`` are those of the groove."""
-    assert bars.sizes is not None
-    inner, outer = sorted(flanks, key=_reach)
-    low, high = bars.sizes.span(BELOW)
-    bore = about_axis(base.holes)
-    mounts = (hole for hole in base.holes if hole not in bore)
-    return (
-        base,
-        Plate("groove plate's ring", "FRAME", base.outline, (outer, *mounts), low, high),
-        Plate("groove plate's island", "FRAME", inner, bore, low, high),
+    ``bars`` are the links of the machine. Raises GenevaError, naming the key, where the wheel's hub
+    leaves no space for the rim around the groove.
+    """
+    guide, sizes, full = (
+        parts.assembly.rollers[0].engagement.groove,
+        parts.sizes,
+        parts.assembly.full,
     )
-
-
-def groove_reaches(assembly: Assembly, sizes: Sizes) -> tuple[float, float]:
-    """Return the groove's reach from the crank's axis, and the width of the rim around it, mm."""
-    far, wall = _farthest(assembly, sizes), sizes.wall_min
-    space = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
+    assert bars.sizes is not None and guide is not None  # the crank is a link, with a groove
+    L, wall = parts.assembly.L, sizes.wall_min
+    # farthest where a flank is normal to the ray; 3601 angles of a turn: the error is quadratic
+    at, _ = groove_curve(guide, L, 0.0)(np.linspace(0.0, 360.0, 3601))
+    far = float(np.hypot(*at.T).max()) + sizes.half_width
+    space = L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
     # where it fits, the rim around the groove is 1.5 roller radii wide
     rim = min(max(1.5 * sizes.roller, 4.0 * wall), space)
     if rim < 4.0 * wall:
@@ -238,18 +194,35 @@ def groove_reaches(assembly: Assembly, sizes: Sizes) -> tuple[float, float]:
             "wheel_bore_mm",
             ("size", "wheel_hub_mm"),
         )
-    return far, rim
+    screw, away = screw_through(0.5 * rim), far + 0.5 * rim
+    mounts = [
+        Circle("BORE", (away * math.cos(turn), away * math.sin(turn)), 0.5 * screw.through)
+        for turn in (math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS))
+        if screw
+    ]
+    shaft = bars.shaft((L, 0.0), L)
+    if shaft:  # which turns in the base
+        shaft = bore_at(full, (L, 0.0), shaft).bore.around
+    bore = [Circle("BORE", ORIGIN, shaft + bars.sizes.loose)] if shaft else []
+    high, _ = bars.sizes.span(BELOW)
+    low = high - sizes.arm_thickness
+    if full.spec.drive_before:  # it fills its plane: another drive is below it
+        low, _ = bars.sizes.span(BELOW + 1)
+    edge = Circle("FRAME", ORIGIN, far + rim)
+    return Plate("groove plate's base", "FRAME", edge, (*bore, *mounts), low, high)
 
 
-def _farthest(assembly: Assembly, sizes: Sizes) -> float:
-    """Return the groove's reach from the crank's axis: its farthest middle and half its width."""
-    guide = assembly.rollers[0][0].groove
-    assert guide is not None  # otherwise there is no plate
-    # 3601 angles of a turn: the error of the farthest point is quadratic in their distance
-    at, _ = groove_curve(guide, assembly.L, 0.0)(np.linspace(0.0, 360.0, 3601))
-    return float(np.hypot(*at.T).max()) + sizes.half_width
-
-
-def _reach(flank: Contour) -> float:
-    """Return the distance of a flank's farthest end from the crank's axis."""
-    return max(math.hypot(*piece.start) for piece in flank.segments)
+def groove_stack(
+    base: Plate, bars: Links, flanks: tuple[Contour, Contour]
+) -> tuple[Plate, Plate, Plate]:
+    """Return base, ring and island; ``flanks`` are those of the groove."""
+    assert bars.sizes is not None
+    inner, outer = sorted(flanks, key=lambda one: max(math.hypot(*p.start) for p in one.segments))
+    low, high = bars.sizes.span(BELOW)
+    bore = about_axis(base.holes)
+    mounts = (hole for hole in base.holes if hole not in bore)
+    return (
+        base,
+        Plate("groove plate's ring", "FRAME", base.outline, (outer, *mounts), low, high),
+        Plate("groove plate's island", "FRAME", inner, bore, low, high),
+    )

@@ -76,13 +76,13 @@ def mouth_corners(
     widest = {kind: mouth(assembly, kind, r) for kind in assembly.kinds}
     shift = rim - max(widest.values())
     least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
-
-    def own(kind: Engagement, end: float) -> float:
-        offset = kind.slot.offset
-        at = math.hypot(*corner(assembly, kind, end, r)) if offset else widest[kind]
-        return max(at + shift, least)
-
-    return {kind: (own(kind, -1.0), own(kind, 1.0)) for kind in widest}
+    out = {}
+    for kind, own in widest.items():
+        entry, exit_ = own, own
+        if kind.slot.offset:
+            entry, exit_ = (math.hypot(*corner(assembly, kind, end, r)) for end in (-1.0, 1.0))
+        out[kind] = max(entry + shift, least), max(exit_ + shift, least)
+    return out
 
 
 def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:

@@ -13,7 +13,6 @@ from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, Mask, rising, scalar
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG, SAME_LENGTH
@@ -126,6 +125,9 @@ def full_turn(parts: TurnedParts, refined: bool = True) -> FullTurn:
         free = np.degrees(np.maximum(*free_angles(parts, middles, fits)))
         dwell = _most(free, middles, earlier)
     play = play_of(parts, fits, refined)
+    # of each kind of motion, the first contact that is farthest off its slot's middle
+    kinds = {engagement: i for i, (engagement, _) in reversed([*enumerate(parts.assembly.motions)])}
+    contacts = [_contact(parts, i) for i in sorted(kinds.values())]
 
     def most_of(values: Array, where: Mask) -> Most:
         return shown(_most(values[where], play.input_deg[where], earlier))
@@ -141,7 +143,7 @@ def full_turn(parts: TurnedParts, refined: bool = True) -> FullTurn:
         most_of(play.on, play.guided),
         most_of(play.back, play.guided),
         shown(_most(push_deg(parts, play), play.input_deg[:-1], earlier)),
-        shown(_first_contact(parts)),
+        shown(max(contacts, key=lambda one: one.offset_mm)),
         search_deg(parts),
         play,
     )
@@ -242,14 +244,6 @@ def _least(
     if len(top):
         first += places[finest <= size + close].tolist()
     return Gap(size, min(first, key=earlier), "")
-
-
-def _first_contact(parts: TurnedParts) -> FirstContact:
-    """Return the first contact of all kinds of motions that is farthest off its slot's middle."""
-    kinds: dict[Engagement, int] = {}
-    for i, (engagement, _) in enumerate(parts.assembly.motions):
-        kinds.setdefault(engagement, i)
-    return max((_contact(parts, i) for i in kinds.values()), key=lambda one: one.offset_mm)
 
 
 def _contact(parts: TurnedParts, motion: int) -> FirstContact:

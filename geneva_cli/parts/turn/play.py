@@ -73,7 +73,10 @@ def play_of(parts: TurnedParts, fits: bool, refined: bool = True) -> Play:
     play = _play_at(parts, _places(parts), fits)
     # 9 rounds: 5**-9 of some degrees is a millionth
     for _ in range(9 if refined else 0):
-        near = (_peaks(parts, play), _changes(parts, play), _closing(parts, play))
+        angle = push_deg(parts, play)
+        # where the play closes fastest, with the neighbours
+        top = np.argsort(-angle, kind="stable")[: MOST if angle.max() > 0.0 else 0]
+        near = (_peaks(parts, play), _changes(parts, play), top - 1, top, top + 1)
         i = rising(np.concatenate(near))
         i = i[(i >= 0) & (i < len(play.input_deg) - 1)]
         low, wide = play.input_deg[i], np.diff(play.input_deg)[i]
@@ -175,13 +178,6 @@ def _changes(parts: TurnedParts, play: Play) -> Whole:
     known = max(_held_deg(parts), play.both[play.guided].max(initial=0.0))
     top = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > known))
     return top[np.argsort(-most[top], kind="stable")][:MOST]
-
-
-def _closing(parts: TurnedParts, play: Play) -> Whole:
-    """Return the intervals in which the wheel's play closes fastest, and their neighbours."""
-    angle = push_deg(parts, play)
-    top = np.argsort(-angle, kind="stable")[: MOST if angle.max() > 0.0 else 0]
-    return np.concatenate((top - 1, top, top + 1))
 
 
 def _held_deg(parts: TurnedParts) -> float:

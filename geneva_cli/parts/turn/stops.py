@@ -207,12 +207,9 @@ class TurningStops(Stops):
             return
         origin = np.tile((self.L, 0.0), (len(crank), 1))
         corners = np.column_stack((self.crank.x0, self.crank.y0))[self.crank.turn_start > 0.0]
-        points = origin[:, None] + rotated(corners, crank)
+        points = (origin[:, None] + rotated(corners, crank)).reshape(-1, 2)
         row = np.repeat(np.arange(len(crank)), len(corners))
-        yield (
-            self.branches(self.crank, origin, crank, inset),
-            self.points(row, points.reshape(-1, 2)),
-        )
+        yield self.branches(self.crank, origin, crank, inset), self.points(row, points)
 
     def points(self, row: Whole, points: Array) -> Branches:
         """Return the branches of points (n, 2)."""
@@ -230,49 +227,44 @@ class TurningStops(Stops):
         towards = np.arctan2(outline.my, outline.mx) + angle[:, None]
         ends = inset_ends(outline, inset)
         seen = ends.points - axis[:, None]  # (2, n, k, 2)
-        arcs = self._arcs(outline, axis, side, towards, ends, seen)
-        return merged((*arcs, *self._lines(outline, side, towards, seen)))
-
-    def _arcs(
-        self, outline: Polyarc, axis: Array, side: Array, towards: Array, ends: Ends, seen: Array
-    ) -> Iterator[Branches]:
-        bent = np.flatnonzero(outline.arc)
-        left, radius, zero = outline.sense[bent] > 0.0, ends.radius[bent], 0.0 * side[:, bent]
-        x, y = outline.cx[bent] - axis[:, :1], outline.cy[bent] - axis[:, 1:]
-        far, mx, my = np.hypot(x, y), outline.mx[bent], outline.my[bent]
+        px, py = seen[..., 0], seen[..., 1]
+        parts = []
+        i = np.flatnonzero(outline.arc)
+        left, radius, zero = outline.sense[i] > 0.0, ends.radius[i], 0.0 * side[:, i]
+        x, y = outline.cx[i] - axis[:, :1], outline.cy[i] - axis[:, 1:]
+        far, mx, my = np.hypot(x, y), outline.mx[i], outline.my[i]
         same = far < CONCENTRIC * radius
-        excess, bend = np.where(left, -side[:, bent], side[:, bent]), zero + 1.0 / radius
+        excess, bend = np.where(left, -side[:, i], side[:, i]), zero + 1.0 / radius
         middle = np.arctan2(x * my - y * mx, x * mx + y * my)
-        half = np.arctan2(outline.sin_half[bent], outline.cos_half[bent])
-        at = zero + radius
-        yield masked(same, at, at, zero, zero, bend, excess, towards[:, bent], zero, zero + half)
-        px, py = seen[:, :, bent, 0], seen[:, :, bent, 1]
-        known = np.stack((np.hypot(px, py), np.arctan2(np.abs(x * py - y * px), x * px + y * py)))
-        least, most = np.abs(excess), far + radius
-        extremes = np.array(((least, np.where(excess < 0.0, np.pi, 0.0)), (most, zero)))
+        half, at = np.arctan2(outline.sin_half[i], outline.cos_half[i]), zero + radius
+        own = zero, zero, bend, excess, towards[:, i], zero
+        parts.append(masked(same, at, at, *own, zero + half))
+        level, off = np.hypot(px, py)[..., i], np.abs(x * py[..., i] - y * px[..., i])
+        known = np.stack((level, np.arctan2(off, x * px[..., i] + y * py[..., i])))
+        extremes = np.array(
+            ((np.abs(excess), np.where(excess < 0.0, np.pi, 0.0)), (far + radius, zero))
+        )
         known = np.where(left, known, known[:, ::-1])
-        trims = np.where(left, ends.trims[:, bent], ends.trims[::-1, bent]) / radius
+        trims = np.where(left, ends.trims[:, i], ends.trims[::-1, i]) / radius
         span = middle - half + trims[0], middle + half - trims[1]
         for there, low, high, sign in cut(*span, known, extremes):
             levels, angles = zip(low, high, strict=True)
-            ahead = towards[:, bent] - middle
-            yield masked(there & ~same, *levels, *angles, bend, excess, ahead, zero + sign, zero)
-
-    def _lines(
-        self, outline: Polyarc, side: Array, towards: Array, seen: Array
-    ) -> Iterator[Branches]:
-        flat = np.flatnonzero(~outline.arc)
-        foot, zero, inside = np.abs(side[:, flat]), 0.0 * side[:, flat], side[:, flat] >= 0.0
-        ahead = towards[:, flat] + np.where(inside, 0.0, np.pi)
-        seen = seen[:, :, flat]
-        along = outline.mx[flat] * seen[..., 1] - outline.my[flat] * seen[..., 0]
-        along, level = np.where(inside, along, -along), np.hypot(seen[..., 0], seen[..., 1])
+            ahead = towards[:, i] - middle
+            arc = *levels, *angles, bend, excess, ahead, zero + sign, zero
+            parts.append(masked(there & ~same, *arc))
+        i = np.flatnonzero(~outline.arc)
+        foot, zero, inside = np.abs(side[:, i]), 0.0 * side[:, i], side[:, i] >= 0.0
+        ahead = towards[:, i] + np.where(inside, 0.0, np.pi)
+        along = outline.mx[i] * py[..., i] - outline.my[i] * px[..., i]
+        along, level = np.where(inside, along, -along), np.hypot(px, py)[..., i]
         for sign in (1.0, -1.0):
-            near, far = np.sort(sign * along, axis=0)
+            near, beyond = np.sort(sign * along, axis=0)
             low = np.where(near > 0.0, level.min(axis=0), foot)
             high = np.where(sign * along[0] > sign * along[1], level[0], level[1])
-            angles = np.arctan2(np.maximum(near, 0.0), foot), np.arctan2(far, foot)
-            yield masked(far > 0.0, low, high, *angles, zero, foot, ahead, zero + sign, zero)
+            angles = np.arctan2(np.maximum(near, 0.0), foot), np.arctan2(beyond, foot)
+            line = low, high, *angles, zero, foot, ahead, zero + sign, zero
+            parts.append(masked(beyond > 0.0, *line))
+        return merged(parts)
 
     def place(self, branch: Branches, level: Array) -> Array:
         """Return the places of branches at levels."""

@@ -19,8 +19,8 @@ from geneva_cli.motion.pivots import Link
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.output.scene import Body, Box, Track
+from geneva_cli.parts.assembly import links_at, same
 from geneva_cli.parts.gears.gear_curves import gears_table
-from geneva_cli.parts.links.link_positions import links_at, same
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.study.animation.animated_turn import MachineTurn
 from geneva_cli.study.animation.tracks import still

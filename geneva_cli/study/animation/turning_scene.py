@@ -28,7 +28,7 @@ from geneva_cli.output.scene import (
     Track,
     pose,
 )
-from geneva_cli.parts.links.link_positions import links_at
+from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.animated_turn import MachineTurn

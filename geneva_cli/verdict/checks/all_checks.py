@@ -101,8 +101,13 @@ STATIC: Checks = {
         first_stress="first_pin_stress_MPa first_horn_stress_MPa first_crank_shaft_stress_MPa "
         "first_arm_stress_MPa",
     ),
-    **_of("walls", branches_apart="branches_apart_mm", branches_crossed="branches_crossed_mm"),
-    **_of("crank_checks", wheels_apart="wheels_apart_mm", cranks_apart="cranks_apart_mm"),
+    **_of(
+        "walls",
+        branches_apart="branches_apart_mm",
+        branches_crossed="branches_crossed_mm",
+        wheels_apart="wheels_apart_mm",
+        cranks_apart="cranks_apart_mm",
+    ),
 }
 # Checks of flat parts at rest, shown behind those that a kind adds.
 PROCESS = _of(

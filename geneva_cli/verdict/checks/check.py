@@ -68,14 +68,6 @@ class Check(NamedTuple):
         return f"{self.name} is not computed: {self.why}" if self.value is None else ""
 
 
-class ShaftGap(NamedTuple):
-    """The least gap, mm, between a hub or shaft and a part that passes it."""
-
-    gap: float  # negative where they overlap
-    shaft: str
-    part: str
-
-
 def compared(
     name: str,
     value: float,
@@ -114,15 +106,10 @@ def at_least(
     return None if value is None else compared(name, value, "at least", limit, None, noise)
 
 
-def gap(name: str, least: Callable[[], ShaftGap | None], L: float) -> Check | None:
-    """The least gap at shafts, if there is one; it fails if parts cannot be built."""
-
-    def measure() -> float | None:
-        smallest = least()
-        return smallest.gap if smallest else None
-
+def gap(name: str, gaps: Callable[[], Iterable[float]], L: float) -> Check | None:
+    """The least of the gaps at shafts, mm, if there is one; it fails if parts cannot be built."""
     # A gap is rounded to 1e-12 of the centre distance, or of the sphere's radius.
-    return at_least(name, measure, 0.0, 1e-12 * L)
+    return at_least(name, lambda: min(gaps(), default=None), 0.0, 1e-12 * L)
 
 
 def all_pass(rows: Iterable[Check]) -> bool:

@@ -11,7 +11,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.arm import CrankArm, walls
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.link_shafts import planes
-from geneva_cli.parts.outlines.reliefs import is_whole
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.shafts.held_hubs import clamp_of
@@ -60,18 +60,18 @@ def passing_parts(name: str, parts: FlatParts) -> Check | None:
     own = size["shafts"] == "turned" or any(size[key] is not None for key in keys)
     if not (parts.mechanism.first_wheel or own):
         return None
-    from geneva_cli.verdict.shaft_gap import shaft_gap  # which few machines need
+    from geneva_cli.verdict.shaft_gap import shaft_gaps  # which few machines need
 
-    return gap(name, lambda: shaft_gap(parts), parts.outlines.assembly.L)
+    return gap(name, lambda: shaft_gaps(parts), parts.outlines.assembly.L)
 
 
 def passing_gears(name: str, parts: FlatParts) -> Check | None:
     """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
     if parts.mechanism.spec.gears is None:
         return None
-    from geneva_cli.verdict.shaft_gap import gear_gap
+    from geneva_cli.verdict.shaft_gap import gear_gaps
 
-    return gap(name, lambda: gear_gap(parts), parts.outlines.assembly.L)
+    return gap(name, lambda: gear_gaps(parts), parts.outlines.assembly.L)
 
 
 def held_torque(name: str, parts: FlatParts) -> Check | None:

@@ -44,7 +44,7 @@ def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:
         return None
     from geneva_cli.parts.gears.gear_curves import convexity
 
-    least = convexity(gears)._asdict()[name.removesuffix("_gear_convexity")]
+    least = convexity(gears)[int(name.startswith("driven"))]
     return compared(name, least, "above", 0.0)
 
 

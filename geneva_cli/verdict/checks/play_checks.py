@@ -142,7 +142,7 @@ def _least(parts: Parts) -> LeastClearances | None:
     if none or not machine.output.turns:
         return None
     # a spec without tolerances is checked without their modules
-    from geneva_cli.loads.tolerance.worst_effects import used
+    from geneva_cli.loads.tolerance.motion_error import used
     from geneva_cli.verdict.tolerance.needed import least_clearances
 
     return least_clearances(machine, parts, used(machine))

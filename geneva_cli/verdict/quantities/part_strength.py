@@ -7,13 +7,13 @@ from collections.abc import Callable
 import numpy as np
 
 from geneva_cli.loads.impacts.shock_force import least_pin_mm
+from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import arm_strength as arms
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength import roller, shaft_stress
 from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.roller import wears_mm
 from geneva_cli.loads.strength.shaft_stress import LoadedShaft, ShaftForces
-from geneva_cli.loads.unbalance import centrifugal_N
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
 from geneva_cli.spec.materials import roller_material, wheel_material

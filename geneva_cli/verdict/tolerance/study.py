@@ -11,17 +11,21 @@ import numpy as np
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.loads.impacts.impacts import mouth_jumps_worst
 from geneva_cli.loads.tolerance.dimensions import Deviations, corners, tolerances, without_effect
-from geneva_cli.loads.tolerance.entry_jump import entry_jumps
 from geneva_cli.loads.tolerance.locking import CutLock
-from geneva_cli.loads.tolerance.motion_error import WorstErrors, motion_errors
+from geneva_cli.loads.tolerance.motion_error import (
+    WorstErrors,
+    entry_jumps_worst,
+    motion_errors,
+    used,
+)
 from geneva_cli.loads.tolerance.random_machines import (
     Draws,
     Spread,
+    entry_jumps,
     likely_place,
     random_machines,
     spread,
 )
-from geneva_cli.loads.tolerance.worst_effects import entry_jumps_worst, used
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.parts import Parts

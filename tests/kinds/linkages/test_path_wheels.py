@@ -158,9 +158,6 @@ def test_the_chosen_wheel_has_the_least_peak(keys, z):
     path = keys.roller_path
     found = solved_wheels(path, np.array([[math.pi / z]]))
     peaks = [peak(path, found, i) for i in range(len(found.which))]
-    for size, least, most in zip(peaks, found.least, found.most, strict=True):
-        assert least <= size * (1.0 + 1e-6)  # the grid may miss the peak by a step's square
-        assert size <= most
     best = chosen(path, found)
     assert [peak(path, best, i) for i in range(len(best.which))] == [min(peaks, default=0.0)][
         : len(peaks)

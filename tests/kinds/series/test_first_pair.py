@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 import repo
-from sampling import some
 
 from geneva_cli import Design, External, GenevaPair, Load, Size, load
 from geneva_cli.errors import GenevaError
@@ -123,7 +122,7 @@ def test_the_first_pair_by_hand(first):
 def test_first_pairs_hold_their_loads():
     """Defaults grow with the load; where a size is the spec's, its check fails."""
     thick = []
-    for torque in some((0.1, 1.0, 5.0, 8.0), (0.1, 8.0)):
+    for torque in (0.1, 8.0):
         design = pair_of(torque)
         found = {c.name: c for c in design.checks if c.name.startswith("first_")}
         assert len(found) == 4

@@ -54,6 +54,9 @@ def test_loads_of_drives_in_series(name, front):
         x = share * (engagement.exit_deg if share > 0.0 else -engagement.entry_deg)
         here = cycle.moving(engagement, np.array([x]))
         for quantity, exact in planar(mechanism, 0, x).items():
+            if exact is None:
+                continue
             peak = abs(getattr(whole, quantity)).max()
             off = abs(load_witness.mp.mpf(float(getattr(here, quantity)[0])) - exact)
-            assert off <= 64.0 * ULP * peak, (quantity, x, float(off / (ULP * peak)))
+            most = 128.0 if quantity.endswith("squared") else 64.0
+            assert off <= most * ULP * peak, (quantity, x, float(off / (ULP * peak)))

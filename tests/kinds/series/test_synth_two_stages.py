@@ -29,8 +29,8 @@ def sector(z, motion_deg):
         return float(mpmath.degrees(motion - mpmath.pi + 2 * b))
 
 
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize(("z", "motion"), [(3, 61.0), (3, 180.0), (5, 150.0), (24, 300.0)])
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize(("z", "motion"), [(3, 61.0), (24, 300.0)])
 def test_gear_sectors_move_for_as_long_as_wished(z, motion):
     (row,) = of_kind("gear-sector", motion_deg=str(motion), z=str(z))
     # as exact as the step, of which what the slots leave is a part of some thousandths at worst
@@ -38,8 +38,8 @@ def test_gear_sectors_move_for_as_long_as_wished(z, motion):
     assert row.candidate.motion_deg == pytest.approx(motion, rel=1e-13)
 
 
-@pytest.mark.sampled(6)
-@pytest.mark.parametrize(("z", "most"), [(3, 6), (4, 4), (5, 3), (6, 3), (7, 2)])
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize(("z", "most"), [(6, 3), (7, 2)])
 def test_first_wheels_for_a_small_share_of_the_cycle(z, most):
     """Of the second crank's half motion f the first crank makes asin(sin f / sin b) - f, where the
     first wheel's half step b reaches it.
