@@ -9,7 +9,6 @@ line through the centre, which meets both spheres in circles.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from geneva_cli.geometry.plates import Shell
 from geneva_cli.geometry.round_holes import RoundHole
@@ -18,21 +17,6 @@ from geneva_cli.output.solid_part import require_thick
 from geneva_cli.output.step.entities import Entities, WallFace, closed_solid, edge, face, loop, real
 
 FLAT = 1e-12  # cosine of a cone's angle below which it is a plane
-
-
-class ShellCorner(NamedTuple):
-    """A common end of arcs: a vertex on each sphere."""
-
-    low: str
-    high: str
-
-
-class ShellEdges(NamedTuple):
-    """An arc's edges on both spheres, and their orientation."""
-
-    low: str
-    high: str
-    along: bool
 
 
 def shell_solid(file: Entities, shell: Shell) -> str:
@@ -49,9 +33,10 @@ class _ShellWriter:
 
     def __init__(self, file: Entities, shell: Shell) -> None:
         self.file, self.shell = file, shell
-        self.corners: dict[Vector, ShellCorner] = {}
+        self.corners: dict[Vector, tuple[str, str]] = {}  # a vertex on each sphere
         self.rises: dict[Vector, str] = {}
-        self.sides: dict[tuple[Vector, Vector, Vector], ShellEdges] = {}
+        # edges over an arc on both spheres, and whether they run along it
+        self.sides: dict[tuple[Vector, Vector, Vector], tuple[str, str, bool]] = {}
 
     def faces(self) -> list[str]:
         arcs = {arc.key for region in self.shell.regions for arc in region.boundary}
@@ -60,7 +45,7 @@ class _ShellWriter:
             sides = [self._side(arc) for arc in region.boundary]
             holes = bored if region is self.shell.regions[-1] else []
             for high, radius in ((False, self.shell.inner), (True, self.shell.outer)):
-                edges = [((side.low, side.high)[high], side.along is high) for side in sides]
+                edges = [(side[1] if high else side[0], side[2] is high) for side in sides]
                 bounds = [loop(self.file, edges if high else edges[::-1])]
                 bounds += [loop(self.file, [((h.low, h.high)[high], high)]) for h in holes]
                 faces.append(face(self.file, bounds, self._sphere(region.middle, radius), high))
@@ -95,10 +80,10 @@ class _ShellWriter:
         surface = file.add(f"CYLINDRICAL_SURFACE('',{frame},{real(q)})")
         return WallFace(face(file, [bound], surface, False), low, high, True)
 
-    def _side(self, arc: SphereArc) -> ShellEdges:
+    def _side(self, arc: SphereArc) -> tuple[str, str, bool]:
         back = self.sides.get(arc.back.key)
         if back is not None:
-            return back._replace(along=False)
+            return *back[:2], False
         ends = self._corner(arc.start), self._corner(arc.end)
         low, high = (
             edge(
@@ -106,14 +91,14 @@ class _ShellWriter:
             )
             for upper, radius in ((0, self.shell.inner), (1, self.shell.outer))
         )
-        self.sides[arc.key] = ShellEdges(low, high, True)
+        self.sides[arc.key] = low, high, True
         return self.sides[arc.key]
 
-    def _corner(self, at: Vector) -> ShellCorner:
+    def _corner(self, at: Vector) -> tuple[str, str]:
         if at not in self.corners:
             low, high = (self._point(at, r) for r in (self.shell.inner, self.shell.outer))
-            ends = [self.file.add(f"VERTEX_POINT('',{point})") for point in (low, high)]
-            self.corners[at] = ShellCorner(*ends)
+            vertices = [self.file.add(f"VERTEX_POINT('',{point})") for point in (low, high)]
+            self.corners[at] = vertices[0], vertices[1]
         return self.corners[at]
 
     def _rise(self, at: Vector) -> str:
@@ -123,14 +108,14 @@ class _ShellWriter:
             self.rises[at] = edge(self.file, *corner, f"LINE('',{low},{vector})", True)
         return self.rises[at]
 
-    def _wall(self, arc: SphereArc, side: ShellEdges) -> str:
+    def _wall(self, arc: SphereArc, side: tuple[str, str, bool]) -> str:
         """The wall over an arc."""
         bound = loop(
             self.file,
             [
-                (side.low, side.along),
+                (side[0], side[2]),
                 (self._rise(arc.end), True),
-                (side.high, not side.along),
+                (side[1], not side[2]),
                 (self._rise(arc.start), False),
             ],
         )

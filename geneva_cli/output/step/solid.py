@@ -42,7 +42,7 @@ def solid(file: Entities, plate: Plate) -> str:
     faces, lower, upper = [], [], []
     outside = True
     shapes = plate_contours(plate)
-    bored = bored_walls(file, plate, shapes)
+    bored, openings = bored_walls(file, plate, shapes)
     taken = plate.edge.size
     walled = plate._replace(low=plate.low + taken, high=plate.high - taken)
     for shape in shapes:
@@ -53,21 +53,21 @@ def solid(file: Entities, plate: Plate) -> str:
             own = pieces(contour.segments)
             ends = [_place(file, walled, piece.start) for piece in own]
             walls = [
-                _wall(file, walled, piece, pair, bored.loops.get(piece, []))
+                _wall(file, walled, piece, pair, openings.get(piece, []))
                 for piece, pair in zip(own, pairwise([*ends, ends[0]]), strict=True)
             ]
             if taken:
-                edges = edge_faces(file, plate, contour, ends, walls)
-                faces += edges.faces
+                edges, lows, highs = edge_faces(file, plate, contour, ends, walls)
+                faces += edges
                 walls = [
                     WallFace(wall.face, low, high, True)
-                    for wall, low, high in zip(walls, edges.low, edges.high, strict=True)
+                    for wall, low, high in zip(walls, lows, highs, strict=True)
                 ]
         faces += [wall.face for wall in walls]
         lower.append(loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
         upper.append(loop(file, [(wall.high, wall.along) for wall in walls]))
         outside = False
-    faces += bored.faces
+    faces += bored
     faces.append(face(file, lower, level(file, plate.low), False))
     faces.append(face(file, upper, level(file, plate.high), True))
     return closed_solid(file, faces)

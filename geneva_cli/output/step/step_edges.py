@@ -44,22 +44,17 @@ class Side(NamedTuple):
     up: float
 
 
-class EdgeFaces(NamedTuple):
-    """The faces of edges, and the curves around the lower and the upper face of the plate."""
-
-    faces: list[str]
-    low: list[str]
-    high: list[str]
-
-
 def edge_faces(
     file: Entities,
     plate: Plate,
     contour: Contour,
     corners: list[SolidCorner],
     walls: list[WallFace],
-) -> EdgeFaces:
-    """Write the chamfers or roundings around one contour."""
+) -> list[list[str]]:
+    """Write the chamfers or roundings around one contour.
+
+    Return their faces, and the curves around the lower and the upper face of the plate.
+    """
     own = lines_and_arcs(contour)
     inner = lines_and_arcs(inset(own, contour.layer, plate.edge.size))
     sides = (
@@ -95,7 +90,7 @@ def edge_faces(
             faces.append(face(file, [loop(file, around)], surface, outwards))
             own_edges.append(on)
         edges.append(own_edges)
-    return EdgeFaces(faces, *edges)
+    return [faces, *edges]
 
 
 def _slope(file: Entities, piece: Line | Arc, side: Side) -> str:
@@ -156,47 +151,39 @@ def _rise(file: Entities, pieces: tuple[Line | Arc, Line | Arc], side: Side, own
 CUBICS = 128  # of an edge: their error is 5e-9 of the hole's radius, a hundredth of the file's
 
 
-class BoredWalls(NamedTuple):
-    """The faces of cross holes, and the loops that they cut into walls, by the wall's piece."""
+def bored_walls(
+    file: Entities, plate: Plate, shapes: Sequence[Shape]
+) -> tuple[list[str], dict[Piece, list[str]]]:
+    """Write the cross holes of a plate with these contours.
 
-    faces: list[str]
-    loops: dict[Piece, list[str]]
-
-
-class Rim(NamedTuple):
-    """The edge of a hole in a wall, and the vertex at its top."""
-
-    at: str
-    point: str
-    edge: str
-
-
-def bored_walls(file: Entities, plate: Plate, shapes: Sequence[Shape]) -> BoredWalls:
-    """Write the cross holes of a plate with these contours."""
+    Return their faces, and the loops that they cut into walls, by the wall's piece.
+    """
     oriented = [
         shape if isinstance(shape, Circle) else with_material_left(shape, i == 0)
         for i, shape in enumerate(shapes)
     ]
-    bored = BoredWalls([], {})
+    faces: list[str] = []
+    loops: dict[Piece, list[str]] = {}
     for hole in plate.cross:
         ends = hole.openings(oriented)
         low, high = (_rim(file, hole, opening) for opening in ends)
         vector = file.shared(f"VECTOR('',{_ahead(file, hole)},1.)")
-        rise = edge(file, low.at, high.at, f"LINE('',{low.point},{vector})", True)
-        sides = [(low.edge, False), (rise, True), (high.edge, True), (rise, False)]
+        rise = edge(file, low[0], high[0], f"LINE('',{low[1]},{vector})", True)
+        sides = [(low[2], False), (rise, True), (high[2], True), (rise, False)]
         place = file.placement(hole.at, hole.height, _ahead(file, hole), file.up)
         cylinder = file.add(f"CYLINDRICAL_SURFACE('',{place},{real(hole.radius)})")
-        bored.faces.append(face(file, [loop(file, sides)], cylinder, False))
-        for opening, rim, along in zip(ends, (low, high), (True, False), strict=True):
-            bored.loops.setdefault(opening.piece, []).append(loop(file, [(rim.edge, along)]))
-    return bored
+        faces.append(face(file, [loop(file, sides)], cylinder, False))
+        for opening, rim, along in zip(ends, (low[2], high[2]), (True, False), strict=True):
+            loops.setdefault(opening.piece, []).append(loop(file, [(rim, along)]))
+    return faces, loops
 
 
 def _ahead(file: Entities, hole: CrossHole) -> str:
     return file.direction(math.cos(hole.turn), math.sin(hole.turn))
 
 
-def _rim(file: Entities, hole: CrossHole, opening: Opening) -> Rim:
+def _rim(file: Entities, hole: CrossHole, opening: Opening) -> tuple[str, str, str]:
+    """Write the edge of a hole in a wall; return the vertex at its top, its point, and it."""
     r, step = hole.radius, math.tau / CUBICS
     c, s = math.cos(hole.turn), math.sin(hole.turn)
     places, slopes = [], []
@@ -211,4 +198,4 @@ def _rim(file: Entities, hole: CrossHole, opening: Opening) -> Rim:
     x, y, z = places[0]
     point = file.point((x, y), z)
     vertex = file.add(f"VERTEX_POINT('',{point})")
-    return Rim(vertex, point, edge(file, vertex, vertex, curve, True))
+    return vertex, point, edge(file, vertex, vertex, curve, True)
