@@ -35,10 +35,7 @@ MACHINES = {
         machine(6, "side-crank", gearing="internal", A=0.5),
         [("drive.A", -0.95, 0.95), SLOTS],
     ),
-    "two rollers": (
-        machine(6, "side-crank", A=0.5, rollers=2),
-        [("drive.A", -0.95, 0.95), SLOTS],
-    ),
+    "two rollers": (machine(6, "side-crank", A=0.5, rollers=2), [("drive.A", -0.95, 0.95), SLOTS]),
     "placed rollers": (
         machine(6, "side-crank", A=0.5, roller_angles_deg=[0.0, 130.0]),
         [("drive.A", -0.95, 0.95), SLOTS],
@@ -56,10 +53,7 @@ MACHINES = {
             ("size.center_distance_mm", 20.0, 200.0),
         ],
     ),
-    "spherical": (
-        machine(6, gearing="spherical"),
-        [("wheel.axes_deg", -5.0, 185.0), SLOTS],
-    ),
+    "spherical": (machine(6, gearing="spherical"), [("wheel.axes_deg", -5.0, 185.0), SLOTS]),
     "spherical, slowed": (
         machine(6, "side-crank", gearing="spherical", A=0.5),
         [("wheel.axes_deg", 5.0, 175.0), ("drive.A", -0.9, 0.9)],
@@ -97,10 +91,7 @@ MACHINES = {
     ),
     "carousel": (machine(4, "carousel", wheels=3), [("wheel.z", 3, 8)]),
     "two cranks": (machine(8, rollers=2, crank_steps=(0, 3)), [("wheel.z", 5, 12)]),
-    "cam": (
-        machine(6, "cam", Motion("cycloidal")),
-        [("motion.alpha0_deg", -200.0, 130.0), SLOTS],
-    ),
+    "cam": (machine(6, "cam", Motion("cycloidal")), [("motion.alpha0_deg", -200.0, 130.0), SLOTS]),
     "cam inside": (
         machine(6, "cam", Motion("sine-group", 0.1), gearing="internal"),
         [("motion.lambda", -0.12, 0.12)],

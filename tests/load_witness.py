@@ -189,11 +189,7 @@ def first_wheel(g, front, mid, keys, L):
 
 def gears(spec, g, front, mid):
     """The chain of a drive that turns the crank with gears or a first wheel."""
-    kinds = {
-        "elliptical-gears": ellipses,
-        "noncircular-gears": rolling,
-        "geneva-pair": first_wheel,
-    }
+    kinds = {"elliptical-gears": ellipses, "noncircular-gears": rolling, "geneva-pair": first_wheel}
     if spec.drive.NAME not in kinds:
         return None
     return kinds[spec.drive.NAME](g, front, mid, spec.drive, mp.mpf(spec.given_distance_mm))

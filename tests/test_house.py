@@ -53,10 +53,7 @@ MEMBERS = {
 }
 # Folders of like files, none of which imports another, and what stands beside them: what two
 # share, and the list of them.
-SHARED = {
-    "cli.commands": set(),
-    "verdict.checks": {"check", "all_checks"},
-}
+SHARED = {"cli.commands": set(), "verdict.checks": {"check", "all_checks"}}
 STREAMS = {"streams", "__main__", "specfile", "output", "manual", "cli"}
 # What commands know besides designs and studies: laws alone, extras, templates, units and names of
 # parts; there is no machine yet.

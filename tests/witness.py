@@ -227,9 +227,7 @@ LAWS = {
     "harmonic": SineLaw((1, [(1, _PI, _PI / 2)])),
     "cycloidal": SineLaw((1, [(1, 2 * _PI, 0)])),
     "modified-sine": SineLaw(
-        (0.125, [(1, 4 * _PI, 0)]),
-        (0.875, [(1, 4 * _PI / 3, _PI / 3)]),
-        (1, [(1, 4 * _PI, 0)]),
+        (0.125, [(1, 4 * _PI, 0)]), (0.875, [(1, 4 * _PI / 3, _PI / 3)]), (1, [(1, 4 * _PI, 0)])
     ),
     "modified-trapezoid": SineLaw(
         (0.125, [(1, 4 * _PI, 0)]),

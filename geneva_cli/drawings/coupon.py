@@ -155,10 +155,7 @@ def _laid(whole: list[Plate | Stack]) -> list[Member]:
         # the bed grows by a tenth until all parts fit
         side *= 1.1
     return [
-        Member(
-            lowered(one),
-            (block.x0 - before.x0, block.y0 - before.y0),
-        )
+        Member(lowered(one), (block.x0 - before.x0, block.y0 - before.y0))
         for one, before, block in zip(whole, blocks, placed, strict=True)
     ]
 

@@ -83,9 +83,7 @@ class Timing(Batchable):
         turned = angle_of(advance, turn, order)
         # the shaft never turns back, so the ends of an enclosure of angles decide
         angle = narrowed(
-            turned.c[0],
-            lambda x: angle_of(advance, radians(x - self.at_deg[i]), 0).c[0],
-            input_deg,
+            turned.c[0], lambda x: angle_of(advance, radians(x - self.at_deg[i]), 0).c[0], input_deg
         )
         return Jet((self.ends_deg[i] + library(angle).degrees(angle), *turned.c[1:]))
 

@@ -38,10 +38,7 @@ class EllipticalGears(Transmission, kw_only=True):
     IN_FRONT: ClassVar[str] = "elliptical gears"
     EXAMPLE: ClassVar[Example] = Example(
         "equal elliptical gears in front: a slower, softer index",
-        {
-            "wheel": {"z": 6},
-            "drive": {"eccentricity": 0.3},
-        },
+        {"wheel": {"z": 6}, "drive": {"eccentricity": 0.3}},
     )
     eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
     phase: Annotated[str, OneOf(("slow", "quick")), "phase of the gears at mid-motion"] = "slow"

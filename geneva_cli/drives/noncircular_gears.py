@@ -46,10 +46,7 @@ class NoncircularGears(Transmission, kw_only=True):
     IN_FRONT: ClassVar[str] = "noncircular gears"
     EXAMPLE: ClassVar[Example] = Example(
         "noncircular gears in front, with the ratio of a side-crank",
-        {
-            "wheel": {"z": 6},
-            "drive": {"A": 0.6},
-        },
+        {"wheel": {"z": 6}, "drive": {"A": 0.6}},
     )
     A: Annotated[float | None, Range(-1.0, 1.0, "()"), "ratio of a side-crank with this A"] = None
     ratio: Annotated[

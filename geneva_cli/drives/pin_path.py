@@ -15,11 +15,7 @@ class PinPath(Drive, kw_only=True):
     ONE_ARM: ClassVar[bool] = False
 
     def planned(
-        self,
-        engagement: Engagement,
-        ratio: float,
-        center_distance_mm: float,
-        inside: bool = False,
+        self, engagement: Engagement, ratio: float, center_distance_mm: float, inside: bool = False
     ) -> Plan:
         """The plan with one engagement for each roller."""
         motion = engagement.motion_deg

@@ -28,11 +28,7 @@ LENGTH = ARROW[0]
 
 
 def linear(
-    ends: tuple[Point, Point],
-    turn: float,
-    levels: Iterable[float],
-    text: str,
-    value: float,
+    ends: tuple[Point, Point], turn: float, levels: Iterable[float], text: str, value: float
 ) -> Iterator[Measure]:
     """Yield candidates of a distance in the direction ``turn``, with its line at some levels.
 
@@ -86,11 +82,7 @@ def linear(
 
 
 def angular(
-    legs: tuple[float, float],
-    begin: float,
-    radii: Iterable[float],
-    text: str,
-    value: float,
+    legs: tuple[float, float], begin: float, radii: Iterable[float], text: str, value: float
 ) -> Iterator[Measure]:
     """Yield candidates of an angle about the axis, counterclockwise from leg to leg, on arcs.
 

@@ -144,9 +144,7 @@ def as_cubic(arc: Arc) -> Cubic:
 
 
 def mapped(
-    shape: S,
-    point: Callable[[Point], Point],
-    radius: Callable[[float], float] = lambda r: r,
+    shape: S, point: Callable[[Point], Point], radius: Callable[[float], float] = lambda r: r
 ) -> S:
     """Move a shape by a similarity that keeps the sense of rotation.
 

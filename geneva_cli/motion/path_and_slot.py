@@ -18,16 +18,7 @@ from geneva_cli.numerics.arrays import (
     picked,
     piece_of,
 )
-from geneva_cli.numerics.jet import (
-    Jet,
-    Number,
-    atan2,
-    piecewise,
-    sin,
-    sin_cos,
-    sqrt,
-    turning,
-)
+from geneva_cli.numerics.jet import Jet, Number, atan2, piecewise, sin, sin_cos, sqrt, turning
 
 END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 

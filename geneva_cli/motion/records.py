@@ -56,9 +56,7 @@ _CORE = (
         families={"wheel": "study.synth.families.straight_slots:offset_slots"},
     ),
     _FLAT._replace(
-        name="internal",
-        synonyms=("inner", "inside"),
-        wheel="motion.wheels.internal:Internal",
+        name="internal", synonyms=("inner", "inside"), wheel="motion.wheels.internal:Internal"
     ),
     Kind(
         "spherical",
@@ -72,16 +70,9 @@ _CORE = (
     Kind("crank", drive=CRANK, refuses="drives.refuses:of_crank"),
     Kind("side-crank", drive="drives.side_crank:SideCrank", refuses=_CRANK),
     Kind("elliptical-gears", drive="drives.elliptical_gears:EllipticalGears", refuses=_CRANK),
+    Kind("noncircular-gears", drive="drives.noncircular_gears:NoncircularGears", refuses=_CRANK),
     Kind(
-        "noncircular-gears",
-        drive="drives.noncircular_gears:NoncircularGears",
-        refuses=_CRANK,
-    ),
-    Kind(
-        "epicyclic",
-        drive="drives.epicyclic:Epicyclic",
-        gearings=("external",),
-        refuses=_PIN_PATH,
+        "epicyclic", drive="drives.epicyclic:Epicyclic", gearings=("external",), refuses=_PIN_PATH
     ),
     Kind(
         "cam",

@@ -9,12 +9,7 @@ from typing import Any
 from geneva_cli.errors import GenevaError, cut
 
 # module by --format; the extension of a file is a format's name too
-FORMATS = {
-    "table": "text",
-    "csv": "delimited",
-    "json": "jsonfile",
-    "md": "markdown",
-}
+FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
 # for drawings only; in FORMATS they are written as tables
 MESHES = {  # of solids, in bytes
     "stl": "mesh.stl",

@@ -70,10 +70,7 @@ def first_that(trials: Iterable[T], holds: Callable[[T], bool], usual: T | None 
 
 
 def load_sizes(
-    of: Unloaded,
-    loads: PartLoads,
-    bent_MPa: float | None = None,
-    first: FirstSizes | None = None,
+    of: Unloaded, loads: PartLoads, bent_MPa: float | None = None, first: FirstSizes | None = None
 ) -> Sizes:
     """Return the sizes of a machine under its loads, from those without them.
 

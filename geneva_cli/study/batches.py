@@ -70,9 +70,7 @@ def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
 
 
 def batch_rows(
-    rows: Sequence[Sequence[Value]],
-    keys: Sequence[str],
-    read: Callable[[Sequence[Value]], Spec],
+    rows: Sequence[Sequence[Value]], keys: Sequence[str], read: Callable[[Sequence[Value]], Spec]
 ) -> Iterator[Batch]:
     """Batch machines of rows of values of some keys, each with the numbers of its rows.
 

@@ -16,16 +16,7 @@ from bench.timing_pairs import exponent, ratios
 from geneva_cli.table import Table, rows_table
 
 # The registry: a subject is a module of ``bench.subjects`` with a function ``subject(quick)``.
-SUBJECTS = (
-    "peaks",
-    "many",
-    "sweep",
-    "motion",
-    "synth",
-    "start",
-    "advice",
-    "growth",
-)
+SUBJECTS = ("peaks", "many", "sweep", "motion", "synth", "start", "advice", "growth")
 
 
 def measure(name: str, quick: bool) -> tuple[Subject, list[BenchRow]]:

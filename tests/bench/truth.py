@@ -42,12 +42,7 @@ def motion(z: int, gearing: str, A: float, x: Any) -> tuple[Any, Any, Any, Any]:
     v1 = -1j * g * v * (1 + v)
     v2 = -1j * g * v1 * (1 + 2 * v)
     p1, p2, p3 = (g * part.real for part in (v, v1, v2))
-    return (
-        mp.arg(1 - C),
-        p1 * f1,
-        p2 * f1**2 + p1 * f2,
-        p3 * f1**3 + 3 * p2 * f1 * f2 + p1 * f3,
-    )
+    return (mp.arg(1 - C), p1 * f1, p2 * f1**2 + p1 * f2, p3 * f1**3 + 3 * p2 * f1 * f2 + p1 * f3)
 
 
 def half_motion(z: int, gearing: str, A: float) -> Any:

@@ -275,8 +275,7 @@ POINTS = [
 
 
 @pytest.mark.parametrize(
-    ("text", "line", "wants"),
-    [pytest.param(t, n, w, id=name) for name, t, n, *w in POINTS],
+    ("text", "line", "wants"), [pytest.param(t, n, w, id=name) for name, t, n, *w in POINTS]
 )
 def test_wrong_law_points(text, line, wants):
     os.mkdir("sub")

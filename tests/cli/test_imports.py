@@ -228,11 +228,7 @@ def test_few_own_modules(line):
 @pytest.mark.parametrize("words", ["geneva ", "geneva ta", "geneva table --", "geneva motion --s"])
 def test_completion(words):
     count = len(words.split(" ")) - 1
-    settings = {
-        "_GENEVA_COMPLETE": "complete_bash",
-        "COMP_WORDS": words,
-        "COMP_CWORD": str(count),
-    }
+    settings = {"_GENEVA_COMPLETE": "complete_bash", "COMP_WORDS": words, "COMP_CWORD": str(count)}
     modules = loaded([], env=os.environ | settings)
     assert not modules & HEAVY
     if count == 1:  # a command's name: no command is imported

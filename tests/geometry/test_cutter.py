@@ -73,12 +73,7 @@ def boned(plate, radius, works=lambda piece, layer: False):
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("plate", "radius"),
-    [
-        (notched(90.0), 1.0),
-        (notched(120.0), 2.0),
-        (keyed(4.0), 1.0),
-        (keyed(8.0, 2.0), 1.25),
-    ],
+    [(notched(90.0), 1.0), (notched(120.0), 2.0), (keyed(4.0), 1.0), (keyed(8.0, 2.0), 1.25)],
 )
 def test_dog_bones_let_the_cutter_everywhere_and_the_mate_in(plate, radius):
     with_them = boned(plate, radius)

@@ -191,8 +191,7 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
 
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize(
-    "load",
-    [Load(0.02), Load(0.02, 3.0), Load(0.02, 3.0, friction=0.2, efficiency=0.9)],
+    "load", [Load(0.02), Load(0.02, 3.0), Load(0.02, 3.0, friction=0.2, efficiency=0.9)]
 )
 @pytest.mark.parametrize(
     ("key", "quantity", "limit"),

@@ -27,10 +27,7 @@ from geneva_cli.motion.peak_search import QUANTITIES, search_peaks
 from geneva_cli.motion.peaks import peaks
 from geneva_cli.study.law_values import characteristic
 
-CASES = [
-    *[(name, 0.0) for name in LAWS],
-    *[("sine-group", s) for s in (0.125, -0.125, 0.05, -0.1)],
-]
+CASES = [*[(name, 0.0) for name in LAWS], *[("sine-group", s) for s in (0.125, -0.125, 0.05, -0.1)]]
 GRID = np.linspace(0.0, 1.0, 513)  # exact numbers, and so is 1 - u
 
 pi, root3, root5 = math.pi, math.sqrt(3.0), math.sqrt(5.0)

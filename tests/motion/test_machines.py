@@ -129,14 +129,10 @@ CASES = {
     ),
     "geneva-pair-behind-gears": text("z = 4", f"{PAIR}3, {BEFORE}{GEARS}0.3{QUICK}}}"),
     "curved-behind-gears": text(
-        "z = 6",
-        f"{BEFORE}{GEARS}0.2}}",
-        'law = "cycloidal", ratio = "matched"',
+        "z = 6", f"{BEFORE}{GEARS}0.2}}", 'law = "cycloidal", ratio = "matched"'
     ),
     "curved-behind-side-crank": text(
-        "z = 8",
-        f"rollers = 2, {BEFORE}{SIDE}-0.3}}",
-        'law = "modified-sine", ratio = "matched"',
+        "z = 8", f"rollers = 2, {BEFORE}{SIDE}-0.3}}", 'law = "modified-sine", ratio = "matched"'
     ),
     "curved-gears-behind-side-crank": text(
         "z = 6", f"{GEARS}0.2, {BEFORE}{SIDE}0.25}}", 'law = "3-4-5"'

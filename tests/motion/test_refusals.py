@@ -33,8 +33,7 @@ FOUR_BAR = drive(
     "point_mm = 150\npoint_deg = -30\n",
 )
 SLIDER = drive(
-    "slider-crank",
-    "crank_mm = 40\nrod_mm = 120\npoint_mm = 200\npoint_deg = 20\nheight_mm = 10\n",
+    "slider-crank", "crank_mm = 40\nrod_mm = 120\npoint_mm = 200\npoint_deg = 20\nheight_mm = 10\n"
 )
 ORBIT = drive("carousel")
 PAIR = drive("geneva-pair", "first_z = 3\n")
@@ -83,7 +82,7 @@ TINY = [
         "5e-324",
         4,
         "sizes below 1e-300 are not computed",
-    ),
+    )
 ]
 
 STEP = [
@@ -182,7 +181,7 @@ NONCIRCULAR = [
 ]
 
 SECTORS = [
-    case("long", WHEEL + drive("gear-sector", "sector_deg = @"), "331", 5, "331", "at most 330"),
+    case("long", WHEEL + drive("gear-sector", "sector_deg = @"), "331", 5, "331", "at most 330")
 ]
 PAIRS = [
     case("first-2", WHEEL + drive("geneva-pair", "first_z = @"), "2", 5, "first_z = 2", "least 3"),

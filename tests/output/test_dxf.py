@@ -4,14 +4,7 @@ import io
 import math
 
 import pytest
-from drawing_witness import (
-    apart,
-    contours,
-    drawn_shapes,
-    dxf_document,
-    dxf_shapes,
-    scaled,
-)
+from drawing_witness import apart, contours, drawn_shapes, dxf_document, dxf_shapes, scaled
 from ezdxf import recover
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -184,9 +177,7 @@ def test_the_comparison_can_fail():
     others = MANY.shapes[1:]
     assert apart(read, drawn_shapes(of(bow(-1.0), *others))) > 1.0
     assert apart(read, drawn_shapes(of(*others))) == math.inf
-    moved = bow()._replace(
-        segments=(bow().segments[0], Line((-10.0, 0.0), (10.0, 1e-5))),
-    )
+    moved = bow()._replace(segments=(bow().segments[0], Line((-10.0, 0.0), (10.0, 1e-5))))
     assert apart(read, drawn_shapes(of(moved, *others))) > 1e-6
 
 

@@ -27,12 +27,7 @@ TITLE = 'a <title> & (more) \\ "%%c" — ünder Ωmega'
 @pytest.fixture(scope="module")
 def sheet():
     """A curved wheel with a hard title."""
-    spec = Spec(
-        Wheel(6),
-        motion=Motion("cycloidal", ratio="matched"),
-        size=Size(60.0),
-        title=TITLE,
-    )
+    spec = Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(60.0), title=TITLE)
     return Design.of(spec).sheet(0.05)
 
 

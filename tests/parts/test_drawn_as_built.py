@@ -25,12 +25,7 @@ WEIGHED = 5e-3  # relative: chords 0.002 mm off arcs, in pins from 4 mm on
 FLAT = sorted(
     file.stem for file in repo.DESIGNS.glob("*.toml") if "spherical" not in file.read_text()
 )
-HOLED = (
-    "size.wheel_hub_mm=24",
-    "size.crank_hub_mm=24",
-    "size.lock_bolts=2",
-    "size.dial_bolts=3",
-)
+HOLED = ("size.wheel_hub_mm=24", "size.crank_hub_mm=24", "size.lock_bolts=2", "size.dial_bolts=3")
 
 
 def plates(part, at=0j, turn=0.0):

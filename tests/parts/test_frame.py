@@ -64,10 +64,7 @@ PLAIN = [  # whose turned shafts do not reach the frame
 
 @pytest.mark.parametrize(
     ("name", "size", "shafts"),
-    [
-        *[(*one, "plain") for one in (*LEVERS, *PLAIN)],
-        *[(*one, "turned") for one in LEVERS],
-    ],
+    [*[(*one, "plain") for one in (*LEVERS, *PLAIN)], *[(*one, "turned") for one in LEVERS]],
 )
 def test_forces_on_shafts_have_their_levers_to_the_bearings_as_built(name, size, shafts):
     """From the middle of the wheel to that of the frame, or of the ball bearing's seat in it."""

@@ -10,13 +10,7 @@ import shapely
 from sampling import some
 from shapely.affinity import rotate, translate
 
-from geneva_cli import (
-    Design,
-    EllipticalGears,
-    Epicyclic,
-    External,
-    NoncircularGears,
-)
+from geneva_cli import Design, EllipticalGears, Epicyclic, External, NoncircularGears
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import fit
 from geneva_cli.geometry.gear_teeth import Rack, RoundTeeth

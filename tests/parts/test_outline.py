@@ -268,9 +268,7 @@ def lens(R: mpmath.mpf, r: mpmath.mpf, d: mpmath.mpf) -> tuple[mpmath.mpf, mpmat
 
 
 @pytest.mark.parametrize(
-    "case",
-    [c for c in STRAIGHT if not {"offset", "steps", "kind"} & c.keys()],
-    ids=name,
+    "case", [c for c in STRAIGHT if not {"offset", "steps", "kind"} & c.keys()], ids=name
 )
 def test_areas_lengths_and_walls_of_radial_slots(case: dict) -> None:
     """Relative 1e-13: some hundred units in the last place for sums of some hundred pieces."""

@@ -85,10 +85,7 @@ class HandOver:
         return early, p, abs(off)
 
 
-FALSE_PASSES = [
-    (4, 40.0, 2.0, 0.1, 0.2, 3.2333, 72.386),
-    (6, 100.0, 5.0, 1.0, 1.0, 3.7357, 82.758),
-]
+FALSE_PASSES = [(4, 40.0, 2.0, 0.1, 0.2, 3.2333, 72.386), (6, 100.0, 5.0, 1.0, 1.0, 3.7357, 82.758)]
 
 
 @pytest.mark.parametrize(("z", "L", "r", "slot", "lock", "play", "push"), FALSE_PASSES)

@@ -8,13 +8,7 @@ import repo
 import shapely
 from drawing_witness import vertices
 from shapely.geometry import LineString, Polygon
-from sheet_witness import (
-    assert_as_listed,
-    assert_measured,
-    beyond,
-    crossings,
-    overlaps,
-)
+from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, overlaps
 from words import Spec, Wheel
 
 from geneva_cli import load

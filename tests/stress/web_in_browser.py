@@ -26,10 +26,7 @@ import websocket
 
 GENEVA = Path(sys.executable).with_name("geneva")
 DESIGNS = ("turret", "internal-z6", "four-bar-z4", "table-law", "spherical-z6")
-BAD = {
-    "[wheel]\nz = 6\nnn = 3\n": "spec.toml:3:",
-    "[wheel]\nz = 60 rpm\n": "spec.toml:2:",
-}
+BAD = {"[wheel]\nz = 6\nnn = 3\n": "spec.toml:3:", "[wheel]\nz = 60 rpm\n": "spec.toml:2:"}
 FILES = ("wheel.dxf", "assembly.step", "plate.step", "sheet.pdf", "report.html")
 CATCH = """
 window.saved = {}; URL.createObjectURL = blob => { window.blob = blob; return "#"; };

@@ -100,10 +100,7 @@ def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        (
-            {"best": "min:jerk.max", "subject_to": ["dwell_s >= 5"]},
-            "is kept by 0 (nearest",
-        ),
+        ({"best": "min:jerk.max", "subject_to": ["dwell_s >= 5"]}, "is kept by 0 (nearest"),
         ({"best": "min:jerk.max", "pareto": "min:jerk.max"}, "choose one of them"),
         (
             {"best": "min:jerk.max", "subject_to": ["dwell_s >= 2", "timing.dwell_s <= 1"]},

@@ -15,13 +15,7 @@ from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.output import jsonfile
 from geneva_cli.output.document import html
-from geneva_cli.output.document.blocks import (
-    Document,
-    Fact,
-    Facts,
-    Grid,
-    value_text,
-)
+from geneva_cli.output.document.blocks import Document, Fact, Facts, Grid, value_text
 from geneva_cli.study.document import document
 
 pytestmark = pytest.mark.usefixtures("made_once")

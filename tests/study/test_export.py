@@ -52,10 +52,7 @@ def test_the_files_of_a_laser(spec, tmp_path):
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("design", "trade", "keys", "warned"),
-    [
-        ("gear-sector", "laser", [], True),
-        ("gear-sector", "laser", ["gear_module_mm=3"], False),
-    ],
+    [("gear-sector", "laser", [], True), ("gear-sector", "laser", ["gear_module_mm=3"], False)],
 )
 def test_gears_without_teeth_are_a_warning(design, trade, keys, warned, tmp_path):
     settings = (word for key in keys for word in ("--set", f"size.{key}"))

@@ -7,15 +7,7 @@ import numpy as np
 import pytest
 import repo
 
-from geneva_cli import (
-    Cycloidal,
-    Design,
-    External,
-    Harmonic,
-    Load,
-    Motion,
-    load,
-)
+from geneva_cli import Cycloidal, Design, External, Harmonic, Load, Motion, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle_figures import MACHINES_MAX, USUAL_QUANTITIES, figure
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined

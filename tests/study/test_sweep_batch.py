@@ -39,10 +39,7 @@ def rows(spec, vary, picks, random=None):
         ("spherical-z6.toml", ["wheel.axes_deg=0..180:20", "wheel.z=3..5"]),
         ("internal-z6.toml", ["drive.kind=crank,side-crank", "drive.A=0.1,0.3"]),
         ("modified-sine-matched.toml", ["motion.alpha0_deg=-100..100:25", "wheel.z=3..6"]),
-        (
-            "modified-sine-matched.toml",
-            ["motion.law=cycloidal,3-4-5", "drive.n_rpm=10..30:10"],
-        ),
+        ("modified-sine-matched.toml", ["motion.law=cycloidal,3-4-5", "drive.n_rpm=10..30:10"]),
         ("three-rollers-z4.toml", ["drive.rollers=1..3", "wheel.z=3..5"]),
         ("unequal-steps.toml", ["drive.n_rpm=10..30:10"]),
     ],
@@ -103,10 +100,7 @@ def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("table", "picked"),
-    [
-        ("strength", "strength.crank_shaft.stress_MPa"),
-        ("life", "life.slot_travel_m"),
-    ],
+    [("strength", "strength.crank_shaft.stress_MPa"), ("life", "life.slot_travel_m")],
 )
 def test_what_is_too_fast_for_loads_is_refused_in_a_batch_too(table, picked):
     """As `loads` and `check` refuse it, whatever is picked; the slower design has its loads."""

@@ -242,10 +242,7 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
         ({"tau": "third"}, ["--tau", "third", "1/4"]),
         ({"motion_deg": "200", "rollers": 2}, ["--motion-deg 200", "2 rollers", "below 180 deg"]),
         ({"tau": "0.3", "sort": "-jerk.max"}, ["--sort -jerk.max", "min:FIELD or max:FIELD"]),
-        (
-            {"z": "6", "cycle": "1", "motion_s": "1"},
-            ["--motion-s 1 with --cycle 1", "no dwell"],
-        ),
+        ({"z": "6", "cycle": "1", "motion_s": "1"}, ["--motion-s 1 with --cycle 1", "no dwell"]),
         ({"dwell_s": "1.6..", "cycle": "1.5"}, ["--dwell-s 1.6..", "no time to move"]),
         (
             {"dwell_deg": "100..", "motion_deg": "90..", "rollers": 2},

@@ -295,7 +295,7 @@ KEPT = {
         "[wheel]\nz = 8\n[drive]\nn_rpm = 40\n[size]\npin_mm = 3\nwheel_bore_mm = 7\n"
         "[load]\ninertia_kgm2 = 0.8\ntorque_Nm = 12\n",
         {"pin_mm", "wheel_bore_mm"},
-    ),
+    )
 }
 
 

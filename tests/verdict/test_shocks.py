@@ -10,17 +10,7 @@ from impact_witness import contact_of, force_of, impacts_in
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from geneva_cli import (
-    Cam,
-    Design,
-    External,
-    Limits,
-    Load,
-    ModifiedSine,
-    Motion,
-    Size,
-    Tolerance,
-)
+from geneva_cli import Cam, Design, External, Limits, Load, ModifiedSine, Motion, Size, Tolerance
 from geneva_cli.loads.impacts import change_of_sides
 from geneva_cli.loads.impacts.shock import mouth_contacts
 from geneva_cli.loads.strength.pin import pin_diameter_mm

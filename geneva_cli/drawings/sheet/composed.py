@@ -70,11 +70,7 @@ def _inside(paper: PaperSize) -> Box:
 
 
 def _composed(
-    spec: Spec,
-    paper: PaperSize,
-    scale: float,
-    rows: list[dict[str, Any]],
-    blocks: list[Block],
+    spec: Spec, paper: PaperSize, scale: float, rows: list[dict[str, Any]], blocks: list[Block]
 ) -> Sheet | None:
     area = _inside(paper)
     if is_overfull(blocks, area):

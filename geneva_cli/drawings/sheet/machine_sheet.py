@@ -11,11 +11,7 @@ from typing import TypeAlias
 
 from geneva_cli.drawings.part_drawings import machine
 from geneva_cli.drawings.sheet import points, sized
-from geneva_cli.drawings.sheet.content import (
-    SheetContent,
-    sheet_of,
-    shown_on_sheet,
-)
+from geneva_cli.drawings.sheet.content import SheetContent, sheet_of, shown_on_sheet
 from geneva_cli.drawings.sheet.crank_views import (
     draw_arm,
     draw_assembly,
@@ -79,7 +75,7 @@ def _wheels(parts: FlatParts, begin: Begin) -> Iterator[View]:
         yield view
         if of.outlines.crank:
             view = begin(
-                *(f"{front}{name}" for name in ("locking disc", "locking sector", "crank's hub")),
+                *(f"{front}{name}" for name in ("locking disc", "locking sector", "crank's hub"))
             )
             draw_disc(view, of)
             yield view

@@ -182,11 +182,7 @@ class View:
         """Draw the diameter of one of some circles; ``where`` is added if it stands as a note."""
         candidates = (
             marks.diameter(
-                self._at(c.centre),
-                self._long(c.radius),
-                marks.around(),
-                text,
-                2.0 * c.radius,
+                self._at(c.centre), self._long(c.radius), marks.around(), text, 2.0 * c.radius
             )
             for c in circles
         )

@@ -51,10 +51,7 @@ class GearSector(PinPath, kw_only=True):
     WORDS: ClassVar[str] = "a crank with gear sectors"
     EXAMPLE: ClassVar[Example] = Example(
         "slot, gears at a constant ratio, slot",
-        {
-            "wheel": {"z": 3},
-            "drive": {"sector_deg": 60.0, "gear_ratio": "shockless"},
-        },
+        {"wheel": {"z": 3}, "drive": {"sector_deg": 60.0, "gear_ratio": "shockless"}},
     )
     ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
     sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle in gear, D"]

@@ -14,12 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.linear.frame import (
-    bar_bolts,
-    guide,
-    guide_bar,
-    shafts_and_frame,
-)
+from geneva_cli.kinds.linear.frame import bar_bolts, guide, guide_bar, shafts_and_frame
 from geneva_cli.kinds.linear.outlines import RackOutlines, turned_rack
 from geneva_cli.kinds.linear.rack import (
     RackSizes,

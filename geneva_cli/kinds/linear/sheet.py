@@ -7,11 +7,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.content import (
-    SheetContent,
-    sheet_of,
-    shown_on_sheet,
-)
+from geneva_cli.drawings.sheet.content import SheetContent, sheet_of, shown_on_sheet
 from geneva_cli.drawings.sheet.crank_views import draw_arm
 from geneva_cli.drawings.sheet.machine_sheet import flat_plates, geared, rolling, shafted, titled
 from geneva_cli.drawings.sheet.standing import bolted, circle_of, draw_frame, holes_of

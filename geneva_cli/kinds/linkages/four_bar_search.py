@@ -11,11 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinds.linkages.coupler import (
-    CouplerDrive,
-    coupler_drive,
-    driven_wheels,
-)
+from geneva_cli.kinds.linkages.coupler import CouplerDrive, coupler_drive, driven_wheels
 from geneva_cli.kinds.linkages.coupler_costs import Costs, order
 from geneva_cli.kinds.linkages.four_bar import CouplerPath
 from geneva_cli.kinds.linkages.tangent_pairs import taken

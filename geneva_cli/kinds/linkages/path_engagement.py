@@ -7,19 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinds.linkages.link_path import (
-    LinkPath,
-    LinkRate,
-    LinkReactions,
-    PointDisplacement,
-)
+from geneva_cli.kinds.linkages.link_path import LinkPath, LinkRate, LinkReactions, PointDisplacement
 from geneva_cli.kinds.linkages.path_wheels import chosen, solved_wheels
-from geneva_cli.kinds.linkages.tangent_pairs import (
-    DOUBLE_ROOT_SLOPE,
-    displaced,
-    newton,
-    residual,
-)
+from geneva_cli.kinds.linkages.tangent_pairs import DOUBLE_ROOT_SLOPE, displaced, newton, residual
 from geneva_cli.motion.engagement import Anchor, Engagement, Vector
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.wheels.poses import HalfStep

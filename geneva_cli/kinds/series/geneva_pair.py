@@ -43,10 +43,7 @@ class GenevaPair(Transmission, kw_only=True):
     WORDS: ClassVar[str] = "a crank behind a first Geneva wheel"
     EXAMPLE: ClassVar[Example] = Example(
         "two wheels in series: one index in many turns",
-        {
-            "wheel": {"z": 4},
-            "drive": {"first_z": 4},
-        },
+        {"wheel": {"z": 4}, "drive": {"first_z": 4}},
     )
     first_z: Annotated[int, Range(3, Z_MAX), "number of slots of the first, external wheel"]
     first_distance_mm: Annotated[

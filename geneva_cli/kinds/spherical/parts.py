@@ -22,12 +22,7 @@ from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, dial_holes
 from geneva_cli.kinds.spherical.ball import Ball, crank_hub, refuse_wide
 from geneva_cli.kinds.spherical.gap_bounds import SpherePairs
 from geneva_cli.kinds.spherical.gaps import BallGaps
-from geneva_cli.kinds.spherical.regions import (
-    at_mid_motion,
-    web_angle,
-    web_region,
-    wheel_regions,
-)
+from geneva_cli.kinds.spherical.regions import at_mid_motion, web_angle, web_region, wheel_regions
 from geneva_cli.kinds.spherical.sizes import ball, fitted
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array

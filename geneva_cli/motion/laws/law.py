@@ -140,10 +140,7 @@ class Law(SpecTable):
         return piecewise(
             u,
             (0.5,),
-            (
-                lambda x: self.first(x, order),
-                lambda x: remaining(self.second(1.0 - x, order)),
-            ),
+            (lambda x: self.first(x, order), lambda x: remaining(self.second(1.0 - x, order))),
         )
 
 
@@ -206,10 +203,7 @@ def remaining(rest: Jet, end: float = 1.0) -> Jet:
 
 
 def from_velocity(
-    u: Number,
-    order: int,
-    position: Callable[[Number], Number],
-    velocity: Callable[[Jet], Jet],
+    u: Number, order: int, position: Callable[[Number], Number], velocity: Callable[[Jet], Jet]
 ) -> Jet:
     """Jet of s(u) from a closed form of s and from the jet of ds/du.
 

@@ -77,10 +77,7 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
     def flat(x: Number) -> Jet:
         t = x - sine
         return from_velocity(
-            x,
-            order,
-            lambda x: s_1 + t * (v_1 + 0.5 * a * t),
-            lambda x: (x - sine) * a + v_1,
+            x, order, lambda x: s_1 + t * (v_1 + 0.5 * a * t), lambda x: (x - sine) * a + v_1
         )
 
     def end(x: Number) -> Jet:
@@ -91,10 +88,7 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
             return s_2 + v_2 * t + 2.0 * a * (m.sin(0.5 * rate * t) / rate) ** 2
 
         return from_velocity(
-            x,
-            order,
-            position,
-            lambda x: sin((x - level) * rate) * (a / rate) + v_2,
+            x, order, position, lambda x: sin((x - level) * rate) * (a / rate) + v_2
         )
 
     def middle(x: Number) -> Jet:

@@ -25,10 +25,7 @@ class Harmonic(Law):
         """Fraction s = sin²(pi u / 2)."""
         m = library(u)
         return from_velocity(
-            u,
-            order,
-            lambda u: m.sin(m.pi / 2.0 * u) ** 2,
-            lambda u: sin(u * m.pi) * (m.pi / 2.0),
+            u, order, lambda u: m.sin(m.pi / 2.0 * u) ** 2, lambda u: sin(u * m.pi) * (m.pi / 2.0)
         )
 
 

@@ -14,12 +14,7 @@ from geneva_cli.kept import KEPT
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.crank_outline import (
-    crank_contours,
-    is_whole,
-    lock_of,
-    takes_arcs,
-)
+from geneva_cli.parts.outlines.crank_outline import crank_contours, is_whole, lock_of, takes_arcs
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
 from geneva_cli.parts.sizes import Sizes

@@ -56,10 +56,7 @@ def crank_hub(parts: Outlines) -> Plate | None:
 
 
 def shafts(
-    parts: Outlines,
-    lowest: float,
-    stop: float | None,
-    carried: Callable[[Point], tuple[Seat, ...]],
+    parts: Outlines, lowest: float, stop: float | None, carried: Callable[[Point], tuple[Seat, ...]]
 ) -> Iterator[Shaft]:
     """Yield the shafts of wheel and crank.
 

@@ -95,10 +95,7 @@ def _pairs(
 
 
 def _halved(
-    gaps: Clearances,
-    pair: Callable[[Intervals], Bounds],
-    ends: tuple[float, float],
-    target: float,
+    gaps: Clearances, pair: Callable[[Intervals], Bounds], ends: tuple[float, float], target: float
 ) -> Certificate:
     """Return a lower bound of a pair's gap between two input angles, at least ``target`` mm.
 

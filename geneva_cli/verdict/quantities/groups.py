@@ -166,11 +166,7 @@ def _batch(table: str, names: str, function: str) -> QuantityGroup:
 
 
 def _alone(
-    table: str,
-    names: str,
-    function: str,
-    parts: bool = False,
-    module: str = "report_sections",
+    table: str, names: str, function: str, parts: bool = False, module: str = "report_sections"
 ) -> QuantityGroup:
     """A group that is computed for one design at a time."""
     return QuantityGroup(table, _words(names), f"verdict.{module}:{function}", makes_parts=parts)
@@ -246,10 +242,7 @@ _REPORT = (
         True,
     ),
     _alone(
-        "parts",
-        "smallest_gap_mm smallest_gap_at_deg dwell_play_deg dwell_play_mm",
-        "turned",
-        True,
+        "parts", "smallest_gap_mm smallest_gap_at_deg dwell_play_deg dwell_play_mm", "turned", True
     ),
     _alone("parts_list", "", "parts_list_tables", True),
     _alone(

@@ -31,11 +31,7 @@ from geneva_cli.numerics.jet import Array
 from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.rules import POSITIVE, require_mm
 from geneva_cli.table import Table, record_table, rows_table
-from geneva_cli.verdict.tolerance.needed import (
-    RequiredClearances,
-    cut_parts,
-    required_clearances,
-)
+from geneva_cli.verdict.tolerance.needed import RequiredClearances, cut_parts, required_clearances
 
 
 class EntryJumps(NamedTuple):

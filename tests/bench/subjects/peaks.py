@@ -54,11 +54,7 @@ def subject(quick: bool) -> Subject:
     """Every method on a few designs."""
     designs = ((3, "external", 0.0), (6, "external", 0.6), (4, "internal", 0.95))
     tasks = [_task(*design, quick) for design in designs[: 2 if quick else None]]
-    return Subject(
-        "Peak acceleration of one design",
-        "relative error of the peak",
-        tasks,
-    )
+    return Subject("Peak acceleration of one design", "relative error of the peak", tasks)
 
 
 def _task(z: int, gearing: str, A: float, quick: bool) -> Task:

@@ -6,12 +6,7 @@ import shapely
 from shapely.affinity import rotate, translate
 from test_gear_teeth import gears
 
-from geneva_cli import (
-    Design,
-    Epicyclic,
-    External,
-    GearSector,
-)
+from geneva_cli import Design, Epicyclic, External, GearSector
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.spec.tables import Size

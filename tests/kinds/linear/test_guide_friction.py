@@ -11,14 +11,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from geneva_cli import (
-    Design,
-    EllipticalGears,
-    Linear,
-    Load,
-    NoncircularGears,
-    Size,
-)
+from geneva_cli import Design, EllipticalGears, Linear, Load, NoncircularGears, Size
 
 R, r, CLEARANCE = 50.0, 6.0, 0.1
 SIZE = Size(center_distance_mm=R, roller_radius_mm=r, slot_clearance_mm=CLEARANCE)

@@ -10,15 +10,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from geneva_cli import (
-    Design,
-    External,
-    Linear,
-    Load,
-    Shaft,
-    SideCrank,
-    Size,
-)
+from geneva_cli import Design, External, Linear, Load, Shaft, SideCrank, Size
 
 ULP = np.finfo(float).eps
 RACK = Design(Linear(6))

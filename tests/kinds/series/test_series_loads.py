@@ -38,8 +38,7 @@ FRONTS = (
 
 @pytest.mark.sampled(12)
 @pytest.mark.parametrize(
-    "name",
-    ["epicyclic-z4", "four-bar-z4", "slider-crank", "gear-sector", *SPECS],
+    "name", ["epicyclic-z4", "four-bar-z4", "slider-crank", "gear-sector", *SPECS]
 )
 @pytest.mark.parametrize("front", FRONTS, ids=lambda front: front.NAME)
 def test_loads_of_drives_in_series(name, front):
