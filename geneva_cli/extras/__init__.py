@@ -3,4 +3,7 @@
 The list holds folders. Each has ``EXTRA``, its record, and imports nothing else.
 """
 
-FOLDERS = ("certify", "servo")
+FOLDERS = (
+    "certify",
+    "servo",
+)

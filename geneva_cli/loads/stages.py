@@ -105,8 +105,10 @@ def _loaded(
         start = after if abs(start) < after else start
         end = before if abs(end) < -before else end
     here = cycle.along(engagement, stretch, np.clip(x - engagement.mid_deg, start, end))
-    rows = {name: cycle.plain(here, name) for name in names}
-    return np.array([np.clip(row, *bounds[n]) if n in bounds else row for n, row in rows.items()])
+    rows = np.broadcast_arrays(*(cycle.plain(here, name) for name in names), x)[:-1]
+    return np.array(
+        [np.clip(row, *bounds.get(n, (None, None))) for n, row in zip(names, rows, strict=True)]
+    )
 
 
 def _dwell(mechanism: Mechanism, i: int, values: Sequence[float]) -> Iterator[Stage]:
