@@ -139,9 +139,7 @@ def messages(nodes: list[ast.AST], file: str) -> Iterator[Sentence]:
     for node in nodes:
         if id(node) not in inner and isinstance(node, ast.expr):
             text = _literal(node)
-            code = re.search("[{}<>]|--[a-z-]+:", text) or re.fullmatch(
-                r"\w+( \w+_\w+| \w+){30,}", text
-            )
+            code = re.search("[{}<>]|--[a-z-]+:", text) or re.fullmatch(r"\w+( \w+){30,}", text)
             if len(text.split()) >= SHOWN_WORDS and not code:
                 yield from split(text, f"{file}:{node.lineno}")
 

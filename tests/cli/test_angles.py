@@ -71,12 +71,13 @@ def one_zero(found: Design) -> None:
         assert told["parts.smallest_gap_at_deg"] in gaps
 
 
-@pytest.mark.sampled(16)
+@pytest.mark.sampled(48)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_designs_have_one_zero(path: Path) -> None:
     one_zero(design.load(str(path)))
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("name", FAR)

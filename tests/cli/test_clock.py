@@ -33,6 +33,7 @@ def printed(line: str, seconds_a_reading: int) -> str:
     return result.stdout
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("line", "shown"),

@@ -340,6 +340,7 @@ OPTIONS = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("line", "wants"), [pytest.param(x, w, id=x[:40]) for x, *w in OPTIONS])
 def test_wrong_option(line, wants):
     write("spec.toml", WHEEL)
@@ -408,6 +409,7 @@ def test_an_option_of_one_value_is_given_once(arguments, option):
     assert os.listdir() == ["spec.toml"]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("arguments", "place"),
     [

@@ -146,6 +146,7 @@ def tolerance_names() -> set[str]:
     return out - {"spec", "title", "warnings"}
 
 
+@pytest.mark.long
 def test_every_quantity_has_an_entry(quantities: set[str]):
     unknown = []
     for name in sorted(quantities):
@@ -205,6 +206,7 @@ def test_no_proof_is_of_nothing():
     assert {(group, name) for group, some in PROOFS.items() for name in some} == named
 
 
+@pytest.mark.long
 @pytest.mark.sampled(48)
 @pytest.mark.parametrize("entry", WARNINGS, ids=lambda e: e.names[0])
 def test_a_warning_shows_in_its_bad_example_and_not_in_the_good_one(

@@ -17,6 +17,7 @@ def run(*arguments):
     return CliRunner().invoke(app, ["tolerance", *arguments])
 
 
+@pytest.mark.long
 def test_the_design_of_the_folder_turns_within_its_tolerances():
     found = run(DESIGN, "--samples", "4096", "--radius", "150", "--format", "json")
     told = json.loads(found.stdout)
@@ -34,6 +35,7 @@ def test_the_design_of_the_folder_turns_within_its_tolerances():
     assert found.exit_code == 0
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("format", ["table", "csv", "md", "json"])
 def test_the_same_seed_the_same_bytes(format):

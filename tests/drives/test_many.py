@@ -47,6 +47,7 @@ PEAKS = {"velocity": velocity_peaks, "acceleration": acceleration_peaks}
 CASES = [("external", "velocity"), ("external", "acceleration"), ("internal", "acceleration")]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(("gearing", "quantity"), CASES)
 def test_none_is_missed(gearing, quantity):
@@ -87,7 +88,7 @@ def test_inside_a_slow_crank_never_passes_its_jump(z):
     assert (inner <= jump).all()
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(("gearing", "quantity"), CASES)
 @pytest.mark.parametrize("z", [3, 11, 1000])
 def test_against_50_digits(z, gearing, quantity):

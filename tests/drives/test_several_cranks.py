@@ -82,6 +82,7 @@ def with_cranks(z, places):
 built = pytest.mark.parametrize(("z", "places"), BUILT)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(6)
 @built
 def test_motion_and_loads_are_those_of_one_crank(z, places):
@@ -108,6 +109,7 @@ def test_the_bearing_of_a_crank_has_the_means_of_one_crank_alone(z, places):
     assert own.rms == pytest.approx(one.rms, rel=1e-12)
 
 
+@pytest.mark.long
 def test_the_bearing_of_the_most_loaded_crank_behind_gears():
     """Gears give the cranks different motions: a dense sum over the engagement of each."""
     design, shares = eased(5, (0, 4, 3)), []
@@ -224,7 +226,7 @@ def test_a_report_lists_when_each_crank_moves_the_wheel():
     assert Design(External(8), Crank(rollers=2)).report.table.to_dict()["cranks"] is None
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize(("steps", "places", "slots"), MACHINES)
 def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
     design = Design(External(steps), Crank(rollers=len(places), crank_steps=places))
@@ -233,7 +235,7 @@ def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
     assert sorted(listed) == list(slots)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @built
 def test_backwards_the_cranks_stand_and_work_as_in_a_mirror(z, places):
     """In a mirror about the line of centres, with the input turned back."""

@@ -187,7 +187,7 @@ def test_a_curve_that_leaps_is_refused_at_once(kind):
     kind(leaping, 0.0, 2.7, 1e-3)
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(32)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", CURVES)
@@ -196,6 +196,7 @@ def test_ends_tangents_and_errors(name, kind, tolerance):
     check(curve, a, b, kind(curve, a, b, tolerance), tolerance, kind)
 
 
+@pytest.mark.long
 @settings(max_examples=some(25, 10))
 @given(
     st.lists(st.floats(-1.0, 1.0), min_size=10, max_size=10),

@@ -78,6 +78,7 @@ def test_a_cap_keeps_its_digits(sweep):
     assert found == pytest.approx(float(cap), rel=1e-14)  # some roundings of 1e-16
 
 
+@pytest.mark.long
 @QUICK
 @given(contours())
 def test_areas_and_lengths_are_those_of_fine_polygons(contour):

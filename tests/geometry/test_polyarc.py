@@ -37,6 +37,7 @@ def counterclockwise(contour: Contour) -> Contour:
     return contour if fine.exterior.is_ccw else backwards(contour)
 
 
+@pytest.mark.long
 @QUICK
 @given(contours("la"))
 def test_random_contours_against_polygons(contour: Contour) -> None:
@@ -96,7 +97,7 @@ PIECES = [
 ]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("piece", PIECES)
 def test_one_piece_against_thirty_digits(piece: Line | Arc) -> None:
     """The piece closed by two lines: the side is asked for where it is the nearest of the three."""
@@ -149,7 +150,7 @@ def _edge(start: tuple[float, float], end: tuple[float, float], bend: float) -> 
     return Arc(start, end, bend) if bend else Line(start, end)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("sagitta", [10.0**-n for n in range(1, 14)])
 @pytest.mark.parametrize("flip", [1.0, -1.0])
 def test_nearly_straight_arcs(sagitta: float, flip: float) -> None:

@@ -232,6 +232,7 @@ def test_no_design_of_ours_is_absurd(path):
     assert not list(unlikely_warnings(load(str(path))))
 
 
+@pytest.mark.long
 def test_a_drive_that_moves_within_its_angles_digits_has_no_loads(tmp_path):
     """The law's motion is even, but the pin passes a third of a turn within 1e-11 degrees."""
     spec = tmp_path / "uneven.toml"

@@ -69,6 +69,7 @@ def earlier(mechanism: Mechanism, at_deg: float) -> list[float]:
     return [x for x in out if x < here - NEAR and any(a <= x <= b for a, b in moves)]
 
 
+@pytest.mark.long
 def test_of_equal_extremes_the_first_is_told() -> None:
     looked = 0
     designs = sorted(repo.DESIGNS.glob("*.toml"))

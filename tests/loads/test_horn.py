@@ -61,7 +61,7 @@ def test_a_straight_slot_s_horn_is_its_formula(z, L, r, h, f):
     assert found.at_deg == pytest.approx(leaves * (90.0 - 180.0 / z), abs=1e-6)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("z", "L", "r", "h"),
     [
@@ -91,6 +91,7 @@ def test_plane_stress_agrees_with_the_beam(z, L, r, h):
     assert abs(along[inside]).max() == pytest.approx(found.stress_MPa / force, rel=0.02)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("name", "fine"), [("press-curved", 1), ("sine-group", 2)])
 def test_plane_stress_agrees_on_curved_walls(name, fine):
     """To 2 %, of horns of a tenth of the recess's radius: 1.5 % more and 1.9 % less.

@@ -66,7 +66,7 @@ def spherical(mechanism, number, x):
     return dict(zip(names, values, strict=True))
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(24)
 @pytest.mark.parametrize("name", NAMES)
 def test_loads_of_a_design(name):
     """Within 32 units in the last place of each quantity's peak; angles of all engagements."""

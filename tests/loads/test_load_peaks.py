@@ -87,6 +87,7 @@ MIXED = [
 ]
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("spec", MIXED, ids=range(len(MIXED)))
 def test_against_a_dense_grid(spec):
     """A grid never exceeds what is found, but by rounding, and a fine one comes near to it.
@@ -275,6 +276,7 @@ def test_a_setting_knows_no_stress_without_a_width():
     assert load_case(build(Spec(Wheel(6)))).hertz is None
 
 
+@pytest.mark.long
 def test_a_motion_between_two_angles_has_no_loads():
     """At 1 - 1e-6 the travel is 2 L (cos b - (1 - l)) still; nearer to 1 the reason is told."""
     b = math.pi / 6.0
@@ -287,7 +289,7 @@ def test_a_motion_between_two_angles_has_no_loads():
             Design.of(elliptical(6, near, "external")).loads  # noqa: B018
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("left", [1e-6, 3e-8, 1e-10])
 def test_forces_of_a_wheel_that_hurries_go_with_the_square_of_its_speed(left):
     """Curved slots behind gears of e = 1 - left, whose wheel is 1 / left times as fast.

@@ -82,7 +82,7 @@ NARROW = {  # features that a sum's first terms hide: the law, a quantity, and w
 }
 
 
-@pytest.mark.sampled(16)
+@pytest.mark.sampled(48)
 @pytest.mark.parametrize("name", MACHINES)
 def test_no_peak_is_missed(name):
     """Dense samples of a hundred designs pass no extreme by more than rounding."""
@@ -163,6 +163,7 @@ def test_no_friction_among_designs_with():
     assert here.rms[1] == pytest.approx(rms, rel=1e-12)
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("name", ["crank", "internal", "side-crank", "offset", "elliptical gears"])
 def test_greatest_against_bodies_cut_free(name):
     """At its place the witness has that size, and nowhere a greater one by 64 units.
@@ -223,6 +224,7 @@ def test_the_inertia_alone_against_the_theory():
         assert mean == pytest.approx(quad(size, 0.0, end)[0] / np.pi, rel=1e-12)
 
 
+@pytest.mark.long
 def test_one_name_has_one_meaning_in_all_answers():
     """The pin force is a size, of which samples have the sign: 0 at the change of sides."""
     path = str(repo.DESIGNS / "tolerances.toml")

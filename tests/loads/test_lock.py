@@ -60,6 +60,7 @@ def test_the_play_uses_up_the_clearance(sign, edge):
     assert float(distance) == pytest.approx(R, rel=1e-13)
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("name", "on"),
     [
@@ -132,6 +133,7 @@ def test_the_approach_is_the_integral_of_the_strains():
     assert math.radians(found.approach_deg) * lever == pytest.approx(-float(sides), rel=1e-3)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("z", "L", "r", "h"), [(3, 100.0, 5.0, 2.0), (6, 100.0, 5.0, 5.0), (8, 250.0, 12.0, 12.0)]
 )

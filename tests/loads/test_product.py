@@ -44,6 +44,7 @@ def plain_peak(z, ratio):
         return float(mpmath.sqrt(square(at))), float(mpmath.degrees(at))
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("z", [3, 4, 5, 6, 8, 12])
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
 def test_plain_wheel(z, ratio):

@@ -80,6 +80,7 @@ def exact_case():
     return rolled / (2 * mp.pi * r), (load / rolled) ** mp.mpf("0.3"), work
 
 
+@pytest.mark.long
 def test_the_case_of_the_theory():
     """To 1e-13: some hundred sums of products."""
     with mpmath.workdps(25):

@@ -75,7 +75,7 @@ def test_the_same_turret_on_a_geneva():
         assert vars(found)[name] == pytest.approx(value, rel=1e-12), name
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(40)
 @every
 def test_with_inertia_alone_the_energy_swings_by_what_the_wheel_holds(file):
     """theory-loads.md 4: exactly I w² psi1max²/2, and the form is the exact cycle's peak.
@@ -113,6 +113,7 @@ def test_a_resistance_alone_by_its_integral():
     assert found.energy_fluctuation_J == pytest.approx(float(exact), rel=1e-12)
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", ["two-rollers-side-crank", "press-curved", "unequal-steps"])
 @pytest.mark.parametrize("friction", [0.0, 0.1])
 def test_the_swing_of_the_work_against_sums_of_a_fine_table(name, friction):
@@ -128,6 +129,7 @@ def test_the_swing_of_the_work_against_sums_of_a_fine_table(name, friction):
     assert sized(design)[0].energy_fluctuation_J == pytest.approx(work.max() - work.min(), rel=1e-4)
 
 
+@pytest.mark.long
 def test_motor_and_flywheel():
     """Against sums over a fine table, the reducer driving and driven."""
     motor = Motor(gear_ratio=35.0, gear_efficiency=0.8, inertia_kgm2=3e-4, speed_variation=0.1)

@@ -54,6 +54,7 @@ def test_every_machine(path):
             assert found == pytest.approx(by_gauss(engagement, ratio, damping), abs=1e-13)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("z", "gearing", "A", "damping"),
@@ -107,6 +108,7 @@ def test_dynamic_factor_of_the_harmonic(ratio, factor):
     assert found == pytest.approx(factor, rel=1e-13)
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("kind", [External(3), External(6)])
 @pytest.mark.parametrize(("ratio", "damping"), [(0.2, 0.0), (2.3, 0.1), (9.7, 0.01)])
 def test_dynamic_factor_against_a_solver(kind, ratio, damping):
@@ -177,6 +179,7 @@ def test_a_lobe_is_where_the_slope_of_the_closed_form_vanishes():
     assert found.share == pytest.approx(exact, rel=1e-12)
 
 
+@pytest.mark.long
 def test_speeds_to_avoid_are_the_greatest_nearby():
     """Of unlike engagements the worst counts; none is missed by a fine scan over the speeds."""
     machine = build(Spec(External(6, steps_deg=(72.0, 48.0))))
@@ -196,6 +199,7 @@ def test_speeds_to_avoid_are_the_greatest_nearby():
         assert (a.to_rpm / a.rpm) ** 2 == pytest.approx(1.2)
 
 
+@pytest.mark.long
 def test_the_worst_stiffness_within_a_fifth():
     machine = build(Spec(External(6)))
     form = shape(machine.engagements[0].motion)

@@ -58,7 +58,7 @@ def angles(engagement, witness):
     return np.concatenate([first, -first[::-1]])
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize(("gearing", "A"), CONDITION)
 def test_error_within_8_ulp_of_the_peak(engagement, gearing, A):
     over, largest = [], 0.0

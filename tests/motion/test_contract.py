@@ -64,7 +64,7 @@ def test_the_same_designs_are_refused(case):
     assert len(found.which) > 5
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(40)
 def test_the_same_motion_path_and_slot(case):
     _, _, found, singles = case
     singles = [one for one in singles if one is not None]
@@ -101,6 +101,7 @@ def test_the_same_motion_path_and_slot(case):
                             near(full(at_one, (n, 1))[:, row], jet[:, row, here], level[here])
 
 
+@pytest.mark.long
 def test_parts_of_the_designs_asked_at_the_same_angles_answer_for_themselves(case):
     """At the same angles as the whole batch before them, and to the last bit."""
     found = case[2]
@@ -143,6 +144,7 @@ def test_against_50_digits(name):
                 assert abs(values[k][row, j] - float(expected)) <= 1e-13 * max(1.0, abs(expected))
 
 
+@pytest.mark.long
 @settings(max_examples=60)
 @given(st.sampled_from(sorted(MACHINES)), st.integers(0, 2**32 - 1))
 def test_refused_together_as_alone(name, seed):

@@ -59,6 +59,7 @@ def greatest(size):
     return float(abs(size(a))), math.degrees(a)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("quantity", ["velocity", "acceleration", "jerk"])
 def test_peaks_behind_a_ratio_that_is_not_even(quantity):
@@ -84,6 +85,7 @@ def test_peaks_behind_a_ratio_that_is_not_even(quantity):
     assert worst_peaks(batch, [quantity])[quantity].max == pytest.approx(found.max, rel=4e-15)
 
 
+@pytest.mark.long
 def test_a_curved_slot_behind_such_a_ratio_has_two_branches_of_its_own():
     """The law is symmetric; the crank's way out is not the mirror image of its way in."""
     law, size = Motion(SineGroup(), ratio="matched"), Size(roller_radius_mm=2.0)

@@ -276,7 +276,7 @@ def test_the_wheel_turns_one_step_from_rest_to_rest(machine, witness, case):
             assert abs(mp.mpf(float(wheel[1])) - mp.mpf(float(wheel[0])) - 2 * w.b) <= 1e-14
 
 
-@pytest.mark.sampled(32)
+@pytest.mark.sampled(96)
 @every
 def test_error_within_16_ulp_of_the_peak(machine, exact, case):
     over = []
@@ -323,7 +323,7 @@ def test_numbers_and_arrays_agree(machine, exact, case):
             assert np.all(np.abs(many[k] - one[k]) <= bar), name
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(56)
 @every
 def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
     """The pin's place, the slot's axis and the pitch curve are three views of one thing."""

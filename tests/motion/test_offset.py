@@ -28,6 +28,7 @@ def limit(z):
     return 100.0 * math.cos(math.pi / z) ** 2
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("z, side", [(3, -1.0), (5, 1.0), (24, -1.0), (10**6, 1.0)])
 def test_near_the_limit(z, side):

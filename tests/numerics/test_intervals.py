@@ -61,6 +61,7 @@ def test_a_decided_comparison_is_answered():
     assert Interval(0.5, math.nextafter(1.0, 2.0)).piece([1.0]) == 0
 
 
+@pytest.mark.long
 def test_every_operation_holds_the_exact_values():
     """At the ends, in the middle and at a random place of random intervals."""
     rng = random.Random(1)

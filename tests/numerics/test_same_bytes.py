@@ -12,6 +12,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 import repo
 from sampling import some
 
@@ -55,6 +56,7 @@ print("library", hashlib.sha256((a @ a + np.linalg.inv(a)).tobytes()).hexdigest(
 CORES = some(["Haswell", "SkylakeX", "Zen", "Sandybridge", "Prescott"], ["Haswell", "Prescott"])
 
 
+@pytest.mark.long
 def test_the_same_bytes_for_every_kernel_of_the_library(tmp_path):
     (tmp_path / "ratio.csv").write_text(
         "".join(f"{x},{1 - 0.3 * np.cos(np.radians(x % 360)):.6f}\n" for x in range(0, 361, 15))

@@ -20,7 +20,7 @@ def cycloidal(u):
     return u - math.sin(math.tau * u) / math.tau  # peak jerk 4 pi²
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("period", [False, True])
 @pytest.mark.parametrize("count", [7, 8, 21])
 def test_splines_are_those_of_mpmath(count, period):
@@ -74,6 +74,7 @@ def test_the_jerk_moves_with_the_third_power_of_the_points(n):
     assert found.decimals >= 16
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("period", [False, True])
 def test_no_rounding_moves_it_farther(period):
     """Random roundings of the same size: all below what is said, and some near it."""

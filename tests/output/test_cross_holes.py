@@ -79,6 +79,7 @@ def test_meshes_are_closed(size, tolerance):
     assert mesh.euler_number == -2  # of a body with two handles: the bore, and the hole into it
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("size", BORES)
 def test_edges_of_a_step_file_are_on_both_faces(size):
     """Splines, nearer to the cylinder of the hole and to the wall than the file's 1e-6 mm."""

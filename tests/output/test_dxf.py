@@ -65,6 +65,7 @@ def entities(drawing, units="mm"):
     return list(dxf_document(text(drawing, units)).modelspace())
 
 
+@pytest.mark.long
 @QUICK
 @given(contours())
 def test_any_contour_is_read_back(contour):
@@ -108,6 +109,7 @@ def test_a_contour_with_cubics_is_end_to_end():
     assert apart(dxf_shapes(text(of(smooth()))), drawn_shapes(of(smooth()))) < 1e-11
 
 
+@pytest.mark.long
 @QUICK
 @given(
     st.lists(st.tuples(st.floats(-1.5, 1.5), st.floats(0.5, 9.0), st.floats(0.5, 9.0)), min_size=3)

@@ -64,6 +64,7 @@ def test_rounds_and_blocks_in_closed_form():
     assert volume(cut) == pytest.approx(5.0 * 300.0 + 2.0 * layer, rel=1e-13)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("gearing", [External(6), Internal(6), External(4)])
 def test_insets_are_those_of_shapely(gearing):
@@ -82,6 +83,7 @@ def test_insets_are_those_of_shapely(gearing):
                 assert found.symmetric_difference(wanted).area < 3e-5 * whole.length
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("gearing", [External(6), Internal(6)])
 @pytest.mark.parametrize("tolerance", some([0.05, 0.0005], [0.05]))
 @pytest.mark.parametrize("edge", KINDS)
@@ -101,6 +103,7 @@ def test_meshes_are_closed(gearing, tolerance, edge):
             assert polar == pytest.approx(inertia, abs=around * far * far)
 
 
+@pytest.mark.long
 def test_faces_of_a_step_file():
     """Each piece of a contour has a wall and two chamfers: a plane or a cone, of 45 degrees."""
     (wheel,) = plates(design_of(External(6)).drawing("wheel").solid)
@@ -154,6 +157,7 @@ def test_a_chamfer_wider_than_half_a_wall_fails():
         list(chunks(wide.drawing("arm"), "mm"))
 
 
+@pytest.mark.long
 def test_roundings_of_a_step_file():
     """A cylinder over each line and a torus over each arc; the material is inside of their tube."""
     (wheel,) = plates(design_of(External(6), KINDS[1]).drawing("wheel").solid)

@@ -71,6 +71,7 @@ def test_symlink_stays_a_link():
     assert os.listdir("store") == ["real.csv"]
 
 
+@pytest.mark.long
 def test_same_text_on_a_stream_and_in_a_file():
     for extension, name in {"txt": "table", "csv": "csv", "json": "json", "md": "md"}.items():
         # the stream is a process's own; a file is a file
@@ -140,6 +141,7 @@ def test_stopped_by_a_signal(number, status):
     assert leftovers() == []
 
 
+@pytest.mark.long
 def test_killed():
     assert stopped(signal.SIGKILL) == -signal.SIGKILL
     (left,) = leftovers()

@@ -48,7 +48,7 @@ def texts(folder):
     return {p.name: p.read_text() for p in folder.iterdir() if p.is_file() and p.name != LIST}
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("n", range(8))
 def test_a_killed_run_is_made_good_by_the_next(folder, n):
     """Killed before each renaming: of both new files, the list, both to their places, the list.
@@ -64,6 +64,7 @@ def test_a_killed_run_is_made_good_by_the_next(folder, n):
     assert sorted(os.listdir(folder)) == ["a", "b", LIST]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("n", "whole"), [(1, "old"), (2, "new"), (4, "new")])
 def test_an_interrupt_leaves_all_old_or_all_new_files(folder, n, whole):
     """It waits while files are moved to their places."""

@@ -61,6 +61,7 @@ CLOSE = 8.0 * 2.0**-53
 TURRET = str(DESIGNS / "turret.toml")
 
 
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("unit", sorted({*UNITS.values()} - INCH))
 @given(number=st.floats(-1e6, 1e6))
 def test_a_number_is_the_same_quantity(unit, number):
@@ -92,6 +93,7 @@ def leaves(value, name=""):
         yield (units or [""])[-1], value
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("answer", ["report.table", "loads_page", "peaks_table"])
 def test_a_record_in_inches(answer):
     table = load(TURRET)
@@ -125,7 +127,7 @@ def test_a_figure_is_scaled():
     assert peak * si.pound_force == pytest.approx(202.5396, rel=1e-6)  # the digits of the tutorial
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("words", "wants"),
     [

@@ -68,6 +68,7 @@ def test_a_plate_is_as_large_as_its_closed_form(tolerance):
     assert mesh.euler_number == 2 * (1 - len(HOLES))  # a handle for each hole
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("tolerance", [0.5, 0.01, 1e-4])
 def test_chords_keep_the_tolerance(tolerance):
     """Every curve, in thousands of places, is as near to a section of the mesh."""

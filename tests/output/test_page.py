@@ -71,7 +71,7 @@ def wheel_by_core(design, at):
     return out - first, turned
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(42)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
     design = design_of(name)
@@ -97,7 +97,7 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
 PLATES = [path.stem for path in repo.wheels() if "spherical" not in path.stem]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", PLATES)
 def test_the_roller_runs_in_the_slot_that_is_drawn(name):
     """In the wheel's frame its centre keeps to the slot's axis, or to the pitch curve."""
@@ -200,6 +200,7 @@ def test_the_force_is_the_pin_force_and_pushes_the_wheel_the_way_it_is_driven():
     assert engine.eval("pushAt(scene.pushes[0], 200)") is None
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["spherical-z6", "gear-sector", "internal-z6"])
 def test_a_still_picture_is_the_scene_on_its_way(name, tmp_path):
     """Well-formed, and its wheel and rollers where the scene's tracks have them there."""
@@ -228,7 +229,7 @@ def test_the_same_scene_gives_the_same_bytes_and_titles_are_no_markup():
     assert "<b>x" not in text and "&lt;b&gt;x" in text
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["four-bar-z4", "slider-crank", "side-crank-z6", "cam-geneva"])
 def test_links_turn_as_they_are_cut(name):
     """Holes for pins stay on the joints that the drive states, at any angle of the turn."""

@@ -83,6 +83,7 @@ def numbers_of(group, name):
     return [float(x) for x in group.get(name).split()]
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", PAIR)
 def test_a_drawn_curve_is_the_core_s(name):
     """Between the points that are drawn, too: each chord's middle is on the curve to 0.1 px."""
@@ -154,7 +155,7 @@ def overlapping(found):
             yield a[4], b[4]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(30)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_texts_keep_clear_of_each_other_and_of_the_edge(path):
     text = svg_of(load(str(path)).figure())
@@ -198,7 +199,7 @@ def lines_of(figure, **settings):
     return "".join(plot_text.chunks(figure, **settings)).splitlines()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(42)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_a_chart_fits_and_is_ascii(path):
     figure = load(str(path)).figure()
@@ -225,6 +226,7 @@ def test_a_chart_shows_the_curve(pressed):
 # Files
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", [("png", b"\x89PNG"), ("pdf", b"%PDF")], ids=lambda k: k[0])
 def test_pictures(kind, tmp_path):
     format, start = kind

@@ -78,6 +78,7 @@ def test_any_outline_is_a_closed_solid(turn, holes, low, high):
     require_solid(file, body, plate)
 
 
+@pytest.mark.long
 @settings(max_examples=30)
 @given(
     st.lists(st.tuples(st.floats(5.0, 60.0), st.floats(-0.3, 0.9)), min_size=3, max_size=12),
@@ -99,7 +100,7 @@ def test_random_outlines(corners, thickness):
         assert volume == pytest.approx(area(plate.outline) * thickness, rel=0.0, abs=off)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("curves", ["arcs", "spline"])
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "press-curved", "two-pins-z4"])
 def test_machines(name, curves):

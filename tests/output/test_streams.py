@@ -37,7 +37,7 @@ def run(arguments, environment=None, **settings):
     )
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @full
 @some
 def test_full_disk(arguments, environment):
@@ -54,7 +54,7 @@ STATUS = {"peaks warns.toml": 0, "check fails.toml": 1, "peaks gone.toml": 2, "t
 SAID = {}  # by a command line, with streams that can be written: the same in any folder
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("arguments", STATUS)
 @pytest.mark.parametrize("kind", [pytest.param("full", marks=full), "pipe"])
 def test_messages_that_cannot_be_written(arguments, kind, environment):
@@ -84,7 +84,7 @@ def closed(arguments, streams):
     )
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("streams", CLOSED)
 @pytest.mark.parametrize("spec", ["spec.toml", "warns.toml"])
 def test_closed_streams(spec, streams):

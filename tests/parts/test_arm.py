@@ -30,6 +30,7 @@ CIRCLE = st.builds(
 )
 
 
+@pytest.mark.long
 @settings(max_examples=150)
 @given(st.lists(CIRCLE, min_size=1, max_size=7, unique=True))
 def test_the_belt_is_the_convex_hull(circles):

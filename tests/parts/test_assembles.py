@@ -242,7 +242,7 @@ def refused_by_a_check(design):
     return any(check.passes is not True for check in checks)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(12)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("kind", registry.DRIVES)
 def test_the_machine_assembles(kind, tmp_path):

@@ -72,7 +72,7 @@ def face(shape):
     return polygon(shape, 1e-6)
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(48)
 @pytest.mark.parametrize("shafts", ["plain", "turned"])
 @pytest.mark.parametrize("bore", ["D", "hex", "DIN 6885-1"])
 @pytest.mark.parametrize(
@@ -128,6 +128,7 @@ def test_all_that_turns_with_a_shaft_is_held_by_it(design, axis, names, bore, sh
     assert held == names
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("shape", ["D", "hex"])
 def test_a_bore_in_a_hub_leaves_a_wall(shape):
     """A corner of a hexagon of 12 mm is 12/sqrt(3) mm from the axis."""

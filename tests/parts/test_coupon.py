@@ -32,7 +32,7 @@ def written(tmp_path, name, kerf=None, settings=()):
     return design.parts.sizes, read(tmp_path / "coupon.dxf")
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("kerf", [None, 0.2])
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "four-bar-z4"])
 def test_slots_are_wider_than_the_disc_by_their_clearance(tmp_path, name, kerf):
@@ -51,7 +51,7 @@ def test_slots_are_wider_than_the_disc_by_their_clearance(tmp_path, name, kerf):
     assert all(s.bounds[3] - s.bounds[1] + 2.0 * half > 3.99 * sizes.roller for s in slots)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("kerf", [None, 1.0])
 @pytest.mark.parametrize("name", ["turret", "three-slots"])
 def test_everything_has_its_place(tmp_path, name, kerf):

@@ -76,7 +76,7 @@ def assert_drawn_as_built(design, part):
     return drawing
 
 
-@pytest.mark.sampled(20)
+@pytest.mark.sampled(60)
 @pytest.mark.parametrize("given", [(), HOLED], ids=["", "holed"])
 @pytest.mark.parametrize("name", FLAT)
 def test_drawings_show_what_the_solids_have(name, given):
@@ -84,6 +84,7 @@ def test_drawings_show_what_the_solids_have(name, given):
     assert assert_machine(design) or given  # hubs and bolts do not suit every machine
 
 
+@pytest.mark.long
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize("kind", registry.DRIVES)
 def test_drawings_of_random_machines(kind, tmp_path):
@@ -134,6 +135,7 @@ def assert_assembled(design, drawing):
     assert not missing(cut, drawn, L)
 
 
+@pytest.mark.long
 def test_an_internal_cranks_bore_is_the_arms():
     """Nothing of its locking disc is left about the axis, so neither drawing nor solid is bored."""
     design = Design(Internal(6), size=Size(80.0, crank_bore_mm=9.0, lock_bolts=0))
@@ -145,6 +147,7 @@ def test_an_internal_cranks_bore_is_the_arms():
     assert check.nearest == "crank_bore_mm = 0"
 
 
+@pytest.mark.long
 def test_a_cam_without_pins_has_its_groove_plate():
     design = load(str(repo.DESIGNS / "cam-geneva.toml"), ["size.pin_mm=0"])
     assert assert_machine(design)

@@ -62,6 +62,7 @@ PLAIN = [  # whose turned shafts do not reach the frame
 ]
 
 
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize(
     ("name", "size", "shafts"),
     [*[(*one, "plain") for one in (*LEVERS, *PLAIN)], *[(*one, "turned") for one in LEVERS]],
@@ -123,6 +124,7 @@ def outline_at(link, plate, index):
     return translate(turned, places[0].real, places[0].imag)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("A", [-0.6, 0.3, None])
 def test_a_bridge_bears_the_crank_of_a_side_crank(A):
     """Its bore and the shaft are on one axis, and its posts stand beside all that turns.
@@ -162,6 +164,7 @@ def test_a_bridge_bears_the_crank_of_a_side_crank(A):
     assert lever == pytest.approx(middle, rel=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "keys", "said"),

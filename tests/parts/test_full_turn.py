@@ -88,7 +88,7 @@ def test_unequal_steps_add_up_to_a_turn() -> None:
     assert np.abs(gained - 0.5 * math.pi).max() < 1e-13
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("case", SOUND, ids=name)
 def test_straight_slots_turn_with_their_clearances(case: dict) -> None:
     """What touches without clearance has exactly the clearance with it: slot and lock. Only inside,
@@ -179,6 +179,7 @@ def turns_as_polygons_do(case: dict) -> bool | None:
     return passes(found, turn)
 
 
+@pytest.mark.long
 @settings(max_examples=some(300, 3))
 @given(st.randoms(use_true_random=False))
 def test_random_machines(rng: random.Random) -> None:
@@ -196,6 +197,7 @@ def spoilt(found: Parts, wheel: Contour | None = None, crank: list[Contour] | No
     return with_shape(found, wheel=wheel, crank=crank, gaps=gaps)
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(("z", "by"), [(4, 0.2), (6, 0.02), (6, 0.2), (6, 1.0), (9, 0.2)])
 def test_a_rim_too_large_fouls_the_roller_before_it_enters(z: int, by: float) -> None:
     """The wall that faces the crank runs past the foot of the perpendicular from its axis, by s;

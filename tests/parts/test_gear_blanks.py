@@ -53,6 +53,7 @@ def test_elliptical_gears_are_ellipses_that_turn_about_a_focus():
         assert found(of, name) == pytest.approx(whole - disc(bore / 2.0, thick), rel=FITTED)
 
 
+@pytest.mark.long
 def test_noncircular_gears_are_what_their_radii_sweep():
     """m = rho h/2 integral of r², J = rho h/4 integral of r⁴ over their own turning, in mpmath."""
     of = design("noncircular-gears")
@@ -163,6 +164,7 @@ def test_a_planet_that_would_meet_the_wheels_shaft_fails_its_check():
     assert not check.passes
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize(
     ("keys", "gap"),

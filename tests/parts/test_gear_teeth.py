@@ -140,6 +140,7 @@ def cut_in_steps(rack, radius, tip, count, steps=1500):
     return left.difference(shapely.unary_union(swept))
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize(("count", "shift"), [(20, 0.0), (12, 0.45), (60, -0.3)])
 def test_a_rack_that_rolls_leaves_these_teeth(count, shift):
@@ -190,7 +191,7 @@ def free_turn(still, moved, most):
     return low
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("drive", "z", "keys"),
     [

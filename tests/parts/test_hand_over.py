@@ -86,6 +86,7 @@ def test_the_least_rim_is_where_the_clearance_is_used_up(no_advice):
     assert not check_of(without_disc(least - 0.5)).passes
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("friction", "clearance", "state"),
     [
@@ -115,7 +116,7 @@ DRIVEN = [
 ]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("name", "keys", "driven"), DRIVEN)
 def test_half_of_the_motion_must_be_driven(name, keys, driven, no_advice):
     design = load(str(repo.DESIGNS / f"{name}.toml"), keys)

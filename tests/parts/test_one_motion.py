@@ -34,7 +34,7 @@ SPECS = {
 }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", SPECS)
 def test_one_motion_stands_for_all(name):
     """The same gaps and plays, of a part of the turn; gaps to what their search leaves."""

@@ -219,6 +219,7 @@ LOW_MOUTHS = [
 ]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("lock", [None, 0.0])
 def test_mouths_of_any_height(lock: float | None) -> None:
     """Offsets over their whole valid range, patterns of two steps: a whole contour, or a reason."""
@@ -241,7 +242,7 @@ def test_mouths_of_any_height(lock: float | None) -> None:
     assert drawn > 0.8 * len(LOW_MOUTHS)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("case", STRAIGHT, ids=name)
 def test_straight_slots_against_cutting(case: dict) -> None:
     """The witness strays by chords of its circles and of the flattened contour; both lie within,
@@ -537,7 +538,7 @@ def worst(found: Parts, wanted: Polygon) -> float:
     return far
 
 
-@pytest.mark.sampled(16)
+@pytest.mark.sampled(32)
 @pytest.mark.parametrize("case", CURVED_SLOTS, ids=name)
 def test_curved_slots_against_every_place_of_the_roller(case: dict) -> None:
     """On the mean, and at the worst place: there the flattened arcs of both polygons may differ by

@@ -159,7 +159,7 @@ def require_sound(shapes, inside=False, wheels=1):
 # 1. Every design
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(48)
 @pytest.mark.parametrize("name", FLAT)
 def test_assembly_of_every_design(name):
     """As svg: its shapes are sound, and the parts lie beside each other at input angle 0."""
@@ -280,6 +280,7 @@ def bend(one, other):
     return abs(math.degrees(math.remainder(turn, math.tau)))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("curves", ["arcs", "spline"])
 def test_groove_of_a_cam(curves):
     name = "cam-geneva"
@@ -341,6 +342,7 @@ def rows_with(rim):
     return checks(made)
 
 
+@pytest.mark.long
 def test_a_machine_that_jams():
     name = spec(JAMS)
     Path("old.dxf").write_text(OLD)

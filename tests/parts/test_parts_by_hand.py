@@ -207,6 +207,7 @@ def test_the_dimensions_of_a_wheel():
     assert dimensions(draw_wheel, parts) == shown
 
 
+@pytest.mark.long
 @pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("wheel", "passed"),

@@ -255,7 +255,7 @@ def in_gear(d):
     return found
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(40)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_a_machine_is_rebuilt_from_what_is_printed(path):
     _, pivots, d = printed(path)
@@ -341,6 +341,7 @@ def around(angle, inner, outer):
 LINKED = "rollers, links, gears, shafts, frame"  # all that needs the links
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize(
     ("name", "key", "value", "why", "missing", "parts"),

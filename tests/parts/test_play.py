@@ -88,6 +88,7 @@ class HandOver:
 FALSE_PASSES = [(4, 40.0, 2.0, 0.1, 0.2, 3.2333, 72.386), (6, 100.0, 5.0, 1.0, 1.0, 3.7357, 82.758)]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "L", "r", "slot", "lock", "play", "push"), FALSE_PASSES)
 def test_hand_over_is_refined_to_its_kink(
     tmp_path: Path, z: int, L: float, r: float, slot: float, lock: float, play: float, push: float
@@ -148,7 +149,7 @@ SIZES = {
 }
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", SIZES)
 def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     """Where the rim ends short of where the roller enters, nothing holds the wheel in between."""
@@ -192,6 +193,7 @@ CHANGES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", CHANGES)
 def test_play_where_the_roller_changes_walls(name: str) -> None:

@@ -78,6 +78,7 @@ def named(design: Design) -> dict[str, Check]:
     return {check.name: check for check in design.checks}
 
 
+@pytest.mark.long
 def test_limits_of_a_laser() -> None:
     """40 mm is no plate for it, and a slot of 25.4 mm narrow for that; both have a remedy."""
     thick = named(turret("size.process=laser", "size.wheel_thickness_mm=40"))
@@ -115,6 +116,7 @@ def test_printed_walls_are_two_lines_of_a_nozzle() -> None:
     assert {c.limit for c in Design(External(6), size=own).checks if c.name == "horn_mm"} == {0.5}
 
 
+@pytest.mark.long
 def test_printed_parts_are_as_light_as_plastic() -> None:
     """PLA of 1240 kg/m³ in place of steel; a density of the spec wins; so on a sphere, too."""
     for design in ("turret", "spherical-z6"):
@@ -141,6 +143,7 @@ def sphere(*settings: str) -> Design:
     return load(str(DESIGNS / "spherical-z6.toml"), settings)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_a_laser_cuts_no_shell_from_a_plate() -> None:
     """Its shells are 8 mm thick, within 32 mm; the slots inside 2 · 76 sin(5.3/80) mm wide."""
@@ -161,6 +164,7 @@ def test_a_laser_cuts_no_shell_from_a_plate() -> None:
         assert "bent-parts" not in {text.name for text in made.warnings}
 
 
+@pytest.mark.long
 def test_printed_parts_are_of_pla() -> None:
     """0.36 of 22.8 MPa are 8.2. A steel roller in a PLA slot: Hertz with both, p0² = F E*/(pi b r).
 

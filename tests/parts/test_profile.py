@@ -101,7 +101,7 @@ def test_straight_slots_are_straight() -> None:
     assert rows[1][2] == pytest.approx(L / 2, abs=2 * math.ulp(L))
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(18)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
 @pytest.mark.parametrize("law", ["cycloidal", "modified-trapezoid", "sine-group"])

@@ -146,6 +146,7 @@ def test_a_shaft_ends_above_a_link_that_is_in_its_way():
     assert part(design, "wheel's shaft").low == part(design, "frame").low
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("low", [-20.0, -20.5, -36.0])
 def test_a_shaft_that_the_spec_takes_through_a_link(low):
     """A side-crank's input crank turns in -30..-20 mm, and the coulisse above it.

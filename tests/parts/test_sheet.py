@@ -44,6 +44,7 @@ def sheets():
     return made
 
 
+@pytest.mark.long
 @pytest.mark.sampled(10)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_text_of_a_design_stands_on_anything(path, sheets):
@@ -77,6 +78,7 @@ def test_the_title_block_says_what_is_there(sheets):
     assert not any(re.search(r"20\d\d-|/", text) for text in rest)
 
 
+@pytest.mark.long
 def test_the_roller_turns_on_a_pin_that_the_arm_holds():
     """A running and a pressed fit of one pin; a hole drawn for a press fit has its own size."""
     for press, hole in ((0.0, "Ø 6 P7 (-0.008/-0.02)"), (0.02, "Ø 5.98 H7 (+0.012/0)")):
@@ -97,6 +99,7 @@ def under(found, heading):
     return next((label.text for label in found.labels if label.at == below), None)
 
 
+@pytest.mark.long
 def test_the_title_block_has_the_keys_of_drawing():
     block = TitleBlock("G-106", "B", "M. Muster", "2026-11-27", 3.2, 1.6, 58.0)
     steel = WheelMaterial(grade="42CrMo4"), RollerMaterial(grade="100Cr6")
@@ -113,6 +116,7 @@ def test_the_title_block_has_the_keys_of_drawing():
     assert under(found, "material") == "see list"
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_dimension_is_without_a_place_on_a_designs_sheet(path, sheets):
@@ -124,7 +128,7 @@ def test_no_dimension_is_without_a_place_on_a_designs_sheet(path, sheets):
     assert below == []
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(18)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_each_item_of_the_list_has_one_balloon(path, sheets):
     design, found = sheets(path.stem)
@@ -134,6 +138,7 @@ def test_each_item_of_the_list_has_one_balloon(path, sheets):
     assert sorted(map(int, circled)) == list(range(1, len(rows) + 1))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "cam-geneva", "side-crank-z6"])
 def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
     """Against the polygons of the plates at their places, cut by a line in shapely."""
@@ -164,6 +169,7 @@ LENGTHS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", LENGTHS)
 def test_links_have_their_views(name, sheets):

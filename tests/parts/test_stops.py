@@ -46,7 +46,7 @@ def places(parts):
     return np.concatenate([[a + (b - a) * share, b - (b - a) * share] for a, b in ends]).ravel()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", [*BARE, *LOOSE])
 def test_a_stop_is_the_first_place_where_parts_overlap(name):
     """By gaps that are distances of points, not contacts: none before the stop, one behind it."""

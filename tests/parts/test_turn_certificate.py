@@ -130,6 +130,7 @@ def with_spike(parts, rng):
     return with_crank(parts, [closed(contour.layer, segments), *rest])
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["turret.toml", "press-curved.toml", "internal-z6.toml"])
 def test_nearest_and_farthest_distances_against_dense_points(name):
     """Points lie at most 0.05 mm apart: they are that much farther, or nearer, at most."""
@@ -157,13 +158,13 @@ def test_nearest_and_farthest_distances_against_dense_points(name):
 
 
 @pytest.mark.parametrize("name", FLAT)
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(40)
 def test_no_gap_within_an_interval_is_below_its_bound(name):
     parts = named(name)
     check_bounds(parts, np.random.default_rng(3))
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(40)
 @pytest.mark.parametrize("name", FLAT)
 def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
     parts = named(name)
@@ -172,6 +173,7 @@ def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
     assert check_proof(parts, gap, to_mm).proved
 
 
+@pytest.mark.long
 def test_random_machines_keep_what_is_proved():
     """Gaps at dense positions of a turn are at least the proved bound; most are proved."""
     count = closed_ = 0
@@ -204,6 +206,7 @@ def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
             assert found.open.gap_mm >= -depth - parts.close - ROUNDING
 
 
+@pytest.mark.long
 def test_a_spike_that_collides_for_a_moment_is_never_proved_free():
     """A spike 0.2 mm wide somewhere on the crank; dense positions show how deep it collides."""
     rng = random.Random(5)

@@ -93,7 +93,7 @@ def test_an_overhung_crank_has_no_circlip_above_its_arm():
 KINDS = [kind for kind in registry.DRIVES if kind != "crank"]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("kind", KINDS)
 def test_shafts_of_every_kind(kind, tmp_path):
     """All that turns in the frame has a bearing there, its shoulder above, and seats in its bores.

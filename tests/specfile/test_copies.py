@@ -1,5 +1,6 @@
 """The designs that come with the program, copied."""
 
+import pytest
 import repo
 from typer.testing import CliRunner
 
@@ -11,6 +12,7 @@ def new(*words):
     return CliRunner().invoke(app, ["new", *map(str, words)])
 
 
+@pytest.mark.long
 def test_a_copy_is_the_design_and_what_it_names(tmp_path):
     for name in titles():
         file = tmp_path / name / "spec.toml"

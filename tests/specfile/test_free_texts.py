@@ -53,6 +53,7 @@ def test_a_spec_is_read_back() -> None:
     assert (again.drawing, again.mass) == (spec.drawing, spec.mass)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "command",
     [

@@ -32,6 +32,7 @@ def toothed(shown, t):
             yield bar.plates[-1].shapes, pose(bar, bar.plates[-1], t)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "sets"),
@@ -62,6 +63,7 @@ def test_teeth_mesh_through_the_turn(name, sets):
     assert abs(least) < 0.03
 
 
+@pytest.mark.long
 def test_teeth_that_do_not_fit_are_named():
     design = load(str(repo.DESIGNS / "behind-gears.toml"))
     wide = Design.of(design.spec.with_("size.gear_module_mm", 9.0))

@@ -43,6 +43,7 @@ def test_the_bound_that_binds_is_met_exactly(tmp_path):
     assert any("timing.dwell_s >= 0.55" in line and "(binds)" in line for line in lines)
 
 
+@pytest.mark.long
 def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatch):
     """Its gaps take a full turn of the parts, which need not be made of a thousand designs."""
     turned = []

@@ -39,6 +39,7 @@ def test_what_nothing_bounds_is_none():
     assert list(found) == ["checks.passes"] and found["checks.passes"]["press-345"] is False
 
 
+@pytest.mark.long
 def test_each_column_is_the_designs_own_report():
     names = ["internal-z6.toml", "four-bar-z4.toml", "spherical-z6.toml"]
     found = by_quantity(compare([path(n) for n in names]))
@@ -50,6 +51,7 @@ def test_each_column_is_the_designs_own_report():
         assert all(column[q] == report[q] for q in shared)
 
 
+@pytest.mark.long
 def test_keys_in_which_specs_differ(tmp_path):
     """The keys of both drives. Keys that the specs share, or that --vary sets, have no row."""
     for name, A in (("near", 0.3), ("far", 0.5)):

@@ -111,6 +111,7 @@ def has(cells: set[str], told: str, value: Any) -> bool:
     return value_text(value).replace("\u00a0", " ") in cells
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", KINDS)
 def test_every_value_of_the_report_is_on_the_page(name: str) -> None:
@@ -156,6 +157,7 @@ def test_a_page_is_well_formed_and_needs_nothing_else(name: str) -> None:
     assert text == "".join(html.chunks(found))
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_a_failing_design_says_so_first_and_exits_as_check_does(jams: str) -> None:
     run = CliRunner().invoke
@@ -176,6 +178,7 @@ def test_a_failing_design_says_so_first_and_exits_as_check_does(jams: str) -> No
     assert [row[0] for row in grid.rows if row[5] == "FAILS"] == failed
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("format", ["html", "md"])
 def test_a_users_words_stay_words(jams: str, format: str) -> None:

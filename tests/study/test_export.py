@@ -49,6 +49,7 @@ def test_the_files_of_a_laser(spec, tmp_path):
         }
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("design", "trade", "keys", "warned"),
@@ -87,6 +88,7 @@ def test_what_is_printed_is_as_large_as_the_list_says(spec, tmp_path):
         assert mesh.volume == pytest.approx(volume, rel=0.02)
 
 
+@pytest.mark.long
 def test_what_a_person_adds_or_changes_meanwhile_stays(spec, tmp_path, monkeypatch):
     folder = tmp_path / "out"
     assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
@@ -109,6 +111,7 @@ def test_what_a_person_adds_or_changes_meanwhile_stays(spec, tmp_path, monkeypat
     assert bytes_of(folder) == before | {"notes.txt": b"work"}
 
 
+@pytest.mark.long
 def test_all_or_nothing(spec, tmp_path, monkeypatch):
     folder = tmp_path / "out"
     assert run(spec, "--for", "print", "-o", folder).exit_code == 0

@@ -26,7 +26,7 @@ def points(curve):
     return [point for piece in curve.pieces for point in zip(*piece, strict=True)]
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(32)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_marks_are_the_answers_and_nothing_is_beyond_them(path):
     design = load(str(path))

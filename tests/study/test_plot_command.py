@@ -35,6 +35,7 @@ def sweep(*options):
     return "rows.csv"
 
 
+@pytest.mark.long
 def test_a_curve_for_each_combination_of_the_other_keys():
     file = sweep("--vary", "drive.A=0,0.3,0.6", "--vary", "wheel.z=5,6", "--pick", "dwell_s")
     figure = of_table(file, "drive.A", ["dwell_s"])
@@ -58,6 +59,7 @@ def test_a_column_by_any_name_of_its_quantity():
     assert of_table(table, "wheel.z", ["acceleration.max"]).x.label == "z"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("arguments", "wants"),
     [

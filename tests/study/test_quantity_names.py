@@ -28,6 +28,7 @@ def geneva(*words: str) -> str:
     return result.stdout
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["tolerances", "press-curved", "unequal-steps", "spherical-z6"])
 def test_every_group_has_the_names_that_are_listed(name):
@@ -70,6 +71,7 @@ def test_what_loads_shows_is_a_quantity(name):
         assert value == pytest.approx(own, rel=0.0, abs=near), key
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("asked", "said"),
     [

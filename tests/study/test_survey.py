@@ -27,7 +27,7 @@ def row(*args):
     return dict(zip(table.names, values, strict=True))
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", [0.0, 0.6, -0.5])
 def test_rows_against_50_digits(gearing, A):

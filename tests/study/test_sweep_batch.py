@@ -58,6 +58,7 @@ def test_together_as_alone(spec, vary):
             assert a == b or a == pytest.approx(b, rel=CLOSE)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("spec", ["internal-z6.toml", "tolerances.toml", "spherical-z6.toml"])
 def test_locks_together_as_alone(spec):
@@ -97,6 +98,7 @@ def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
     assert last("0..0.8:0.0001") == last("0..0.8:0.002")
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("table", "picked"),

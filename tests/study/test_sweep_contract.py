@@ -16,6 +16,7 @@ def swept(tmp_path, text, *vary, pick):
     return [row[:-1] for row in rows]
 
 
+@pytest.mark.long
 def test_slots_of_an_unbalanced_wheel_on_a_carrier_vary_alone(tmp_path):
     """A turn of the wheel has as many motions as slots: the sweep ended in a traceback."""
     text = '[wheel]\nz = 5\n[drive]\nkind = "carousel"\n[load]\ninertia_kgm2 = 0.1\n[[mass]]\n'

@@ -126,6 +126,7 @@ def test_rollers_up_to_the_strict_bound(z, most):
         candidates(z=str(z), cycle="1", external=True, rollers=most + 1)
 
 
+@pytest.mark.long
 def test_the_side_crank_paper_s_half_turn():
     (candidate,) = [
         w for w in candidates(motion_deg="180", z="6", external=True) if w.A is not None
@@ -185,6 +186,7 @@ WISHES = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
     target, found_rows = searched(**options)
@@ -233,6 +235,7 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
 # Refusals
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("options", "wants"),
     [
@@ -283,6 +286,7 @@ def test_refusals(options, wants):
 # The command
 
 
+@pytest.mark.long
 def test_write(tmp_path):
     file = tmp_path / "spec.toml"
     words = ["--motion-deg", "180", "--z", "6", "--external"]
@@ -296,6 +300,7 @@ def test_write(tmp_path):
     assert "tau = 0.5" in text
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("words", "wants"),
     [
@@ -315,7 +320,7 @@ def test_what_cannot_be_written(words, wants):
 # What is listed
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(18)
 @pytest.mark.parametrize("z", [3, 6, 20])
 @pytest.mark.parametrize("share", [0.001, 0.2, 0.5, 0.7, 0.999])
 def test_shafts_at_an_angle(z, share):
@@ -349,6 +354,7 @@ def test_the_angle_of_the_shafts_in_50_digits():
 # Turned, written, checked and exported: a sample of the trial in tests/stress/stress_synth.py
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("options", "number"),
@@ -372,6 +378,7 @@ def test_a_row_that_says_yes_passes_check_and_is_cut(options, number, tmp_path):
     assert wheel.stat().st_size > 1000
 
 
+@pytest.mark.long
 def test_rows_are_turned_in_their_order():
     """Three of them; buildable: the first that pass, under the numbers that they have."""
     _, found = searched(motion_deg="105", z="8", external=True, rollers=1)

@@ -27,6 +27,7 @@ def curved(found):
     return [row for row in found.rows if row.candidate.law and row.candidate.drive == "crank"]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("z", [6, 8, 11])
 def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
@@ -84,6 +85,7 @@ def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path
     assert not [c for c in design.checks if c.passes is False]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("z", [9, 10])
 def test_a_larger_roller_holds_the_wheel_better(z):

@@ -42,6 +42,7 @@ def test_spans(text, low, high):
     assert span("--dwell-s", text, rule) == AllowedSpan(low, high)
 
 
+@pytest.mark.long
 def test_wishes_for_times_leave_motions_and_cycles():
     """Half a second of motion, a whole one of rest: tau is a third, whatever the cycle is."""
     for row in rows(motion_s="0.5", dwell_s="1", z="6", external=True):
@@ -80,6 +81,7 @@ WISHES = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_keeps_every_wish(options):
@@ -116,7 +118,7 @@ def swept(spec, key, values, low, high):
     return float(peak[fits].min()) if fits.any() else math.inf
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("z", "low", "high"), [(6, 100.0, 140.0), (4, 110.0, 160.0), (6, 30.0, 50.0)]
 )
@@ -162,6 +164,7 @@ def test_no_dense_sweep_finds_a_gentler_machine(z, low, high, gearing):
     assert mine <= min(peak for _, peak in gears) * (1 + NEAR)
 
 
+@pytest.mark.long
 def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bounds():
     """The velocity of z = 6 is 1; down to 0.8 with the least change of each kind, and no less."""
     found = rows(z="6", external=True, rollers=1, subject_to=["velocity.max <= 0.8"])
@@ -279,6 +282,7 @@ def test_a_frame_s_limits_choose_the_machine_of_a_range(limit, field, most):
     assert plain.candidate.parts == f"no: {limit}"
 
 
+@pytest.mark.long
 def test_a_refusal_says_how_near_the_nearest_come():
     """What no machine keeps: the nearest value is the least of dense sweeps, not of some row's."""
     target = {"motion_deg": "..160", "z": "6", "spherical": True, "rollers": 1}

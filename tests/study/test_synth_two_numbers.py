@@ -36,6 +36,7 @@ def both(found):
     return row
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("z", "low", "high", "bound"),

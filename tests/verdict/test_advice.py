@@ -127,7 +127,7 @@ def stands(text: str, folder: Path, rows: list[Check], parts: bool) -> None:
     assert all_pass(checks(taken, parts=parts)), said
 
 
-@pytest.mark.sampled(9)
+@pytest.mark.sampled(36)
 @pytest.mark.parametrize("name", [name for name in ALL if name not in HELPLESS])
 def test_advice_passes_when_it_is_taken(name: str, tmp_path: Path) -> None:
     parts = name in PARTS  # of the others the motion and the limits: their parts take their time
@@ -159,6 +159,7 @@ NEAREST = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", NEAREST)
 def test_no_nearer_value_passes(name: str, tmp_path: Path) -> None:
@@ -201,6 +202,7 @@ def test_trials_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert (failing.nearest, failing.why) == ("", STOPPED)
 
 
+@pytest.mark.long
 def test_all_searches_of_a_design_share_their_trials(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -260,6 +262,7 @@ def test_a_key_of_several_tables_is_named_with_its_table(tmp_path: Path) -> None
     assert all_pass(checks(build(mended), parts=False))
 
 
+@pytest.mark.long
 def test_the_drive_before_is_changed_where_it_is_milder(tmp_path: Path) -> None:
     """A planet without a jump has one motion; the ellipses before it turn it more slowly."""
     text = (DESIGNS / "behind-gears.toml").read_text()

@@ -99,6 +99,7 @@ def test_the_ends_of_an_offset_slot_change_places(e):
     assert ends.acceleration_exit == pytest.approx(l / math.cos(b - d), rel=1e-13)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["offset-slots.toml", "sine-group.toml", "four-bar-z4.toml"])
 def test_default_sizes_hold_the_loads_of_both(name):
     heavy = ("load.inertia_kgm2=0.3", "load.torque_Nm=30", "load.friction=0.1")
@@ -153,6 +154,7 @@ def test_the_worse_of_two_rows():
     assert worse_of(two, two) == two
 
 
+@pytest.mark.long
 def test_advice_serves_both_directions():
     """The entry's 0.548 passes forwards, 0.61 backwards does not."""
     of = Design(External(6, offset_mm=8.0), BOTH, limits=Limits(acceleration_entry_max=0.6))
@@ -164,6 +166,7 @@ def test_advice_serves_both_directions():
     assert Design(External(6, offset_mm=8.0), limits=of.spec.limits).passes
 
 
+@pytest.mark.long
 def test_warnings_name_what_differs():
     named = {w.name: w for w in both("offset-slots.toml").warnings}
     text = named["differs-backwards"]
@@ -178,6 +181,7 @@ def test_warnings_name_what_differs():
     assert 'because of the law "sine-group"' in text
 
 
+@pytest.mark.long
 def test_a_tuned_law_with_damping_is_tuned_forwards_only():
     def swings(law):
         shaft = Shaft(stiffness_Nm_rad=400.0, damping_ratio=law.damping_ratio)
@@ -195,6 +199,7 @@ def test_a_tuned_law_with_damping_is_tuned_forwards_only():
     assert not warned and max(forwards, back) < 1e-9
 
 
+@pytest.mark.long
 def test_the_report_shows_what_differs():
     page = both("offset-slots.toml").report.table.to_dict()
     named = {row["quantity"]: row for row in page["both_ways"]}

@@ -139,6 +139,7 @@ def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
     assert not rows["outer_wall_mm"].passes
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("radius", "most"),  # ISO 286: (2 IT11 + c) / 2 of H11/c11, in um, for the roller's diameter
     [(12.0, (260 + 110) / 2)],
@@ -160,6 +161,7 @@ def test_a_fit_looser_than_any_is_said(radius: float, most: float) -> None:
     assert said(lock_radius_mm=60.0, lock_clearance_mm=0.32)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("process", "slot_mm", "lock_mm"),
     [

@@ -39,6 +39,7 @@ def names(tree: Any, path: str = "") -> set[str]:
     return {name for k, v in tree.items() for name in names(v, f"{path}.{k}")}
 
 
+@pytest.mark.long
 def test_failed_checks_stand_on_top_and_end_as_check_does(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -83,6 +84,7 @@ def test_a_sound_design_passes_both(tmp_path: Path) -> None:
     assert not any("<b>" in line for line in page)
 
 
+@pytest.mark.long
 def test_a_program_finds_the_same_names_for_every_machine() -> None:
     """Two unlike engagements and a plain one; `make stress`: toothed, a sphere, a linkage."""
     trees = {}
@@ -127,6 +129,7 @@ def test_what_is_not_proved_shows(format: str, tmp_path: Path) -> None:
 SHAFT = "[wheel]\nz = 6\n[shaft]\nstiffness_Nm_rad = "
 
 
+@pytest.mark.long
 def test_a_shaft_adds_its_vibration(tmp_path: Path) -> None:
     """What `geneva vibration` has; of a shaft that swings at no known period only why."""
     file = written(tmp_path, f"{SHAFT}3000\n[load]\ninertia_kgm2 = 0.4\n")
@@ -143,6 +146,7 @@ def test_a_shaft_adds_its_vibration(tmp_path: Path) -> None:
         assert set(map(str, why["vibration"].values())) == {"None"}
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("read_once", "no_advice")
 def test_values_that_are_none_or_have_no_bound_are_words(tmp_path: Path) -> None:
     """An eye smaller than its pin's hole has no wall; a slot's edge bears without bound."""

@@ -71,6 +71,7 @@ def test_values_are_those_of_the_worst_machine():
     )
 
 
+@pytest.mark.long
 def test_what_would_pass_passes():
     of = design(100.0)
     check = row(of, "entry_shock_N")
@@ -156,6 +157,7 @@ def pin_MPa(force, pin_mm):
     return 32.0 * force * math.hypot(1.0, 0.05) * 6.2 / (math.pi * pin_mm**3)
 
 
+@pytest.mark.long
 def test_the_play_of_the_clearances_alone_counts():
     """Quadratures and the hand's formulas: 1434 N on a dial whose cycle needs 539.5 N."""
     at_deg, jump = coasted()

@@ -185,6 +185,7 @@ def test_a_key_by_hand():
     assert all(row.width >= 2.0 * (row.height - row.in_shaft) for row in DIN_6885_1)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("seed", range(8))
 def test_no_default_passes_beyond_its_steel(seed):
@@ -262,6 +263,7 @@ def test_the_spec_s_sizes_stay():
     assert Design.of(spec).checks
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     "wheel",
     [
@@ -291,6 +293,7 @@ def test_sizes_are_for_the_lock_as_it_is_cut(wheel, clearance):
     assert cut_lock(*flat) == lock
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("roller_mm", "z"), [(12.0, 3), (16.0, 4), (16.0, 5)])
 def test_shafts_are_for_the_locking_sector_that_the_wheel_leaves(roller_mm, z):
     """An internal wheel narrows its locking sector, so that the same torque needs more force.

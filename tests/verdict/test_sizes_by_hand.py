@@ -134,6 +134,7 @@ def test_branches_behind_gears_have_the_angle_of_the_input() -> None:
         assert other.at_deg == pytest.approx(input_deg, abs=1e-9)  # rounding of degrees
 
 
+@pytest.mark.long
 def test_branches_of_a_crank_that_turns_unevenly() -> None:
     """Both branches at equal radii, though the roller is not there at mirrored input angles.
 

@@ -79,6 +79,7 @@ def test_a_row_where_something_is_allowed():
     }
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", ROWS)
 def test_each_can_fail_and_one_key_mends_it(name):
@@ -191,6 +192,7 @@ def planet(turned):
     return -cmath.phase(1.0 - arm)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("wheel", "drive", "law", "angle", "half_deg"),
     [

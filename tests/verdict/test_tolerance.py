@@ -55,6 +55,7 @@ def told(design, samples=4096, **more):
 # The lock ------------------------------------------------------------------------------------
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     "name", ["press-straight", "internal-z6", "three-rollers-z4", "unequal-steps", "offset-slots"]
 )
@@ -144,6 +145,7 @@ def test_place_and_slopes_in_the_motion(design, side):
             assert abs(one(slope_of(i), deg, side).c[1] - true) < 2e-15 / min(1, abs(true) * 1e3)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("design", MACHINES)
 def test_worst_case_by_corners(design):
     """Each combination, at each of many angles, in the closed solution."""
@@ -249,6 +251,7 @@ def test_machines_that_do_not_go_together_are_counted():
 # Clearances ----------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_clearances_that_still_turn():
     found = told(MACHINES[0])
     [lock] = flat_locks(MACHINES[0].parts.outlines)
@@ -283,6 +286,7 @@ def test_the_clearance_of_a_slot_on_a_sphere(axes_deg):
 # What does not apply, and bad input ----------------------------------------------------------
 
 
+@pytest.mark.long
 def test_what_does_not_apply_is_null_and_said():
     angle = Tolerance(slot_angle_deg=0.01, center_distance_mm=0.01, crank_radius_mm=0.01)
     bent = Design(External(6), None, Motion(Cycloidal()), tolerance=angle)
@@ -362,6 +366,7 @@ def test_the_histogram_has_the_mean_and_deviation_of_its_machines(distribution):
         assert max(share) < 1.1 / len(share)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("distribution", ["normal", "uniform"])
 def test_plays_in_motion_are_the_greatest_over_it(distribution):
     """The play is widest at mid-motion, but the worst machine's error elsewhere.

@@ -36,7 +36,7 @@ def design(name):
     return load(str(repo.DESIGNS / f"{name}.toml"))
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(36)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_every_design_is_certified_and_its_peaks_confirmed(name):
     found = design(name)
@@ -118,6 +118,7 @@ def test_what_is_printed_is_rounded_outwards():
     assert float(high) - float(low) <= 2e-14
 
 
+@pytest.mark.long
 def test_the_command():
     path = str(repo.DESIGNS / "unequal-steps.toml")
     said = CliRunner().invoke(app, ["peaks", path, "--certify"]).stdout

@@ -81,6 +81,7 @@ def with_friction(name, carried, a, radius):
     return given_back / carried.efficiency if given_back > 0 else given_back
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", LOADS[1:])
 @pytest.mark.parametrize("share", [0.05, 0.3])
 def test_the_bounds_hold_friction_of_fifty_digits(name, share):

@@ -146,6 +146,7 @@ def true_peak(angle, order, at_deg, entry_deg):
         return abs(mpmath.diff(angle, at, order))
 
 
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("kind", DECIMALS)
 def test_no_true_peak_is_excluded(kind):
     """Machines by their decimals, whose angle has a closed form of its own here."""
@@ -223,6 +224,7 @@ def _scca(law, b, d):
     return law(b=b, c=1.0 - b - d, d=d), None
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("drive", some((Crank, Cam), (Crank,)))
 def test_no_true_peak_of_a_law_is_excluded(law, drive):

@@ -18,7 +18,7 @@ def columns(path=TURRET, settings=(), names=NAMES):
             for name, column in table.to_dict().items() if name != "quantity"}  # fmt: skip
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("cruise", [0.0, 1.0 / 3.0, 0.8])
 @pytest.mark.parametrize("ramp", [0.0, 0.1, 0.25, 0.5])
 def test_s_curve(cruise, ramp):
@@ -81,7 +81,7 @@ def test_peaks_of_the_laws():
     assert own["servo"]["acceleration_max_rad_s2"] == pytest.approx(6.0 * acceleration, rel=1e-12)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("eta", [1.0, 0.85, 0.4])
 @pytest.mark.parametrize("torque", [0.0, 1.5, 40.0])
 def test_the_servo_turns_its_rotor(eta, torque):
@@ -106,7 +106,7 @@ def test_the_servo_turns_its_rotor(eta, torque):
     assert own["inertia_ratio"] == pytest.approx(inertia / (rotor * i * i), rel=1e-12)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "name",
     ["side-crank-z6", "internal-z6", "spherical-z6", "four-bar-z4", "geneva-pair", "gear-sector"],

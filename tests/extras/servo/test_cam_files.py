@@ -75,6 +75,7 @@ def test_codesys_points_keep_the_tolerance(name):
     assert 0.9 * error_deg <= off <= error_deg <= TOLERANCE
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", SOME)
 def test_beckhoff_pairs(name):
@@ -138,6 +139,7 @@ def test_the_manual_shows_these_numbers(controller):
     assert f"| {controller} | {rows} | {rounded_up(error_deg)} |" in page("electronic-cam")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("arguments", "status", "said"),
     [

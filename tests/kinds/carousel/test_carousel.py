@@ -235,7 +235,7 @@ def test_inertia_ratio_counts_from_the_ground():
 SEVERAL = [(3, 2), (3, 5), (4, 3), (5, 3), (8, 2)]  # slots, wheels
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(("z", "wheels"), SEVERAL)
 def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
     """The torques of all wheels, each behind the one before it, over a whole turn."""
@@ -328,6 +328,7 @@ def test_centrifugal_force_by_newton_s_law():
     assert values_of(Design(wheel, Carousel()))["carousel.centrifugal_N"] is None
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "design",
     [
@@ -438,6 +439,7 @@ def test_what_is_refused(tables, text):
         build(Spec(**tables))
 
 
+@pytest.mark.long
 def test_wheels_pass_each_other_and_the_disc():
     """Their polygons over a turn of the carrier, each turned as the witness says."""
     design = Design(External(4), Carousel(wheels=3))
@@ -489,6 +491,7 @@ def test_the_carrier_has_an_eye_for_each_wheel():
     assert frame.name == "frame"
 
 
+@pytest.mark.long
 def test_the_vibration_says_how_far_the_unbalance_winds_up():
     """2 kg at 50 mm on a carrier of 100 mm: m e L w² at 2 pi rad/s, turned by it over 1e4 N m."""
     bodies = (Mass("point", mass_kg=2.0, radius_mm=50.0, angle_deg=30.0),)
@@ -520,6 +523,7 @@ def test_a_batch_of_carriers_with_several_fingers():
             assert np.array_equal(one.motion(x).c[1], other.motion(x).c[1])
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("count", [POINTS, 1])
 def test_the_wheel_s_shaft_bears_its_bodies(count):
     """Newton's law for the points: the force of pin and bodies on the pivot is within the bound.

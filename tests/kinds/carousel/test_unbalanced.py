@@ -91,6 +91,7 @@ def by_lagrange(wheel, c_deg, step):
     return of_wheel, of_carrier + of_wheel * state(t)[3] / w
 
 
+@pytest.mark.sampled(9)
 @every
 @pytest.mark.parametrize("fraction", [-0.8, -0.2, 0.4, 0.95])
 def test_torques_by_lagrange(wheel, fraction):
@@ -123,6 +124,7 @@ def dense(design, count=200_001):
         yield a, own, V * own + extra
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @every
 def test_extremes_and_means_over_a_turn_of_the_wheel(wheel):
@@ -240,6 +242,7 @@ def test_backwards_the_torque_is_that_of_a_film_that_runs_backwards():
     assert design.backwards.cycle.states(x).wheel_torque_Nm == pytest.approx(-forwards[::-1])
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @every
 def test_friction_by_the_forces_on_the_slot(wheel):

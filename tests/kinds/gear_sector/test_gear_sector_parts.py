@@ -114,6 +114,7 @@ def test_the_other_wall_is_swept_away():
     assert through.imag.min() < -2.0 * 8.0
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("ratio", ["shockless", 0.8])
 def test_two_rollers_on_the_crank(ratio):
     """D - 2 a_t apart; each where the engagement has the one that drives."""
@@ -178,6 +179,7 @@ def lead(b, u, a_t, a):
     return turn + before - u * (a + a_t), l * mp.sin(a) / mp.sin(turn)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "sector", "ratio"), [(3, 100.0, 0.8), (4, 150.0, 0.4)])
 def test_a_roller_that_overtakes_the_wheel_jams(z, sector, ratio):
     """The overlap is the greatest of rho sin(lead) on its way out, along the straight wall."""
@@ -260,6 +262,7 @@ def test_the_lag_and_where_the_wheel_is_struck():
     assert short == pytest.approx(0.0, abs=1e-4)
 
 
+@pytest.mark.long
 def test_what_is_said_of_a_wheel_that_lags():
     def of(torque, inertia=0.01):
         design = loaded(torque, inertia)
@@ -289,6 +292,7 @@ def test_what_is_said_of_a_wheel_that_lags():
     assert stopping_torque("", plain.mechanism) is None
 
 
+@pytest.mark.long
 def test_horn_and_rollers_are_as_of_a_wheel_with_these_slots():
     """b = 30 degrees: the first half of a wheel of six slots, on the same inertia and speed."""
     of = {"center_distance_mm": 120.0, "face_width_mm": 10.0, "roller_radius_mm": 8.0}

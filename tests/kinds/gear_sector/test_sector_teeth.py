@@ -13,7 +13,7 @@ from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.headline import both_ways_lines
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("backlash", [0.0, 0.1])
 @pytest.mark.parametrize(
     ("z", "sector", "module"),
@@ -51,6 +51,7 @@ def test_sectors_drive_the_whole_arc_and_are_free_beyond(z, sector, module, back
     assert not gaps[half + 40.0] < 1e-3  # NaN: no tooth is near
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_sectors_whose_last_tooth_is_lower_do_not_serve_both_ways():
     """Backwards the lower tooth would be the first, and the last one would jam."""

@@ -101,6 +101,7 @@ def test_greatest_force_on_the_guide_and_work(case):
     assert values["guide.length_mm"] == pytest.approx(2.0 * HALF)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_a_guide_that_locks_leaves_no_bound():
     """At entry it takes all of the push from nu = h/(R - x0) on."""
@@ -119,6 +120,7 @@ def test_a_guide_that_locks_leaves_no_bound():
 GEARED = EllipticalGears(eccentricity=0.3)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("drive", [GEARED, NoncircularGears(A=-0.4)])
 def test_behind_gears_the_guide_takes_as_much_at_each_angle_of_the_crank(drive):

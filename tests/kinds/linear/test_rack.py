@@ -54,6 +54,7 @@ def test_area_of_the_locking_sector():
     assert area == pytest.approx(0.5 * math.pi * (s.lock**2 - s.floor**2), rel=1e-13)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("slot", "lock", "relief"), [(0.05, 0.03, 1.0), (0.03, 0.1, 1.0), (0.4, 0.5, 0.3), (9, 9, 0.01)]
 )
@@ -234,6 +235,7 @@ def ends_by_equilibrium(a: float, loaded: Design, x0: float, half: float) -> tup
     return upper, lower
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("mass", "force", "mu"), [(4.0, 30.0, 0.1), (4.0, 0.0, 0.3), (0.0, 9.0, 0)]
@@ -253,6 +255,7 @@ def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
     assert values["guide.locks_at_friction"] == pytest.approx(half / lever, rel=1e-14)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
     """At entry, without friction in the slot: both ends' friction is nu (|N1| + |N2|)."""
@@ -270,6 +273,7 @@ def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
     assert not {one.name: one for one in dry.checks}["guide_locks"].passes
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("mu", (0.0, 0.63))
 def test_a_guide_locks_where_the_loads_lose_their_bound(mu):

@@ -90,7 +90,7 @@ def test_gaps_are_those_of_points_on_the_outlines(seed):
             assert min(least, parts.gaps.near) == pytest.approx(gap, abs=0.03)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("seed", range(MACHINES))
 def test_random_racks_keep_what_is_proved(seed):
     parts = random_parts(seed)
@@ -118,6 +118,7 @@ def test_an_overlap_of_a_known_depth_is_not_proved(by):
     assert proof.between == "locking disc and wheel"
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("slot", [0.02, 0.1, 0.7])
 @pytest.mark.parametrize("lock", [0.01, 0.2])
 def test_play_is_the_clearance(slot, lock):
@@ -152,6 +153,7 @@ def test_a_stop_is_where_parts_begin_to_overlap(seed):
         assert (least(way * (stop.lead + 1e-3))[stopped] < 0.0).all()
 
 
+@pytest.mark.long
 def test_an_overlap_is_as_deep_at_the_end_of_the_ring():
     """In the middle of a dwell all corners of an overlap lie on both outlines.
 

@@ -51,6 +51,7 @@ def test_times_and_the_peak_in_metres():
     assert row.candidate.acceleration_max_rad_s2 is None
 
 
+@pytest.mark.long
 def test_no_drive_lowers_the_peak_of_a_rack():
     """All that synth tries have 1 at least, in units of R w²."""
     for tau in ("0.3..0.45", "0.55..0.7"):  # without the plain crank, which is the best
@@ -61,6 +62,7 @@ def test_no_drive_lowers_the_peak_of_a_rack():
         rows_of(linear=True, subject_to=["acceleration.max <= 0.99"])
 
 
+@pytest.mark.long
 def test_a_rack_of_a_spec_keeps_its_sizes_and_loads():
     size, load = Size(center_distance_mm=50.0, slot_clearance_mm=0.1), Load(mass_kg=0.4)
     frame = Spec(Linear(8), size=size, load=load)

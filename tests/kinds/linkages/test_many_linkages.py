@@ -73,6 +73,7 @@ def case(request):
     return many(spec, varied), [alone(spec, varied, i) for i in range(count)]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 def test_the_same_designs_are_refused(case):
     found, singles = case
@@ -80,7 +81,7 @@ def test_the_same_designs_are_refused(case):
     assert 10 < len(found.which) < len(singles) or not found.refused.any()
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 def test_the_same_wheels_and_motions(case):
     found, singles = case
     m, singles = found.machine, [one for one in singles if one is not None]
@@ -111,6 +112,7 @@ def test_the_same_wheels_and_motions(case):
         )
 
 
+@pytest.mark.long
 def test_rest_at_both_ends_is_exact(case):
     engagement = case[0].machine.engagements[0]
     for at, angle in (
@@ -164,6 +166,7 @@ def test_the_gentlest_wheel_is_found_past_a_sharp_bend():
     assert engagement.motion_deg == pytest.approx(170.38, abs=0.02)
 
 
+@pytest.mark.long
 def test_a_linkage_and_its_mirror_image_drive_the_same_wheels():
     """All of them, of three in four drawn linkages: the image is sampled at other places.
 

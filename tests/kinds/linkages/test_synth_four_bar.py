@@ -64,6 +64,7 @@ def test_a_four_bar_makes_the_motion(z, motion):
     assert reach(row.spec.drive) <= 300.0 * (1.0 + 1e-3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("space", ["0.9"])
 def test_it_is_as_large_as_the_frame_and_no_larger_than_the_space(space):
     frame = Spec(External(6), Crank(n_rpm=30.0), size=Size(center_distance_mm=80.0))
@@ -80,6 +81,7 @@ def test_it_takes_one_roller_on_an_external_wheel():
     assert not four_bars(motion_deg="120", z="6", spherical=True)
 
 
+@pytest.mark.long
 def test_its_row_written_is_what_check_says_and_is_cut(tmp_path):
     """A long motion, whose gentlest four-bar without room for a roller ran into its wheel, and
     whose coupler passes below the wheel's axis.
@@ -97,6 +99,7 @@ def test_its_row_written_is_what_check_says_and_is_cut(tmp_path):
     assert wheel.stat().st_size > 1000
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("bounds", "name", "low", "high"),
@@ -152,6 +155,7 @@ def brute(z, n=400):
     return drives, motion, peak, machine.center_distance_mm[:, 0]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("z", [4, 6, 9])
 def test_what_brute_force_finds_is_there_or_better(z):

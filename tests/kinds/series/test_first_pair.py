@@ -78,6 +78,7 @@ def pair_of(torque, L=100.0, first=100.0, **size):
     )
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("first", [140.0])
 def test_the_first_pair_by_hand(first):
@@ -118,6 +119,7 @@ def test_the_first_pair_by_hand(first):
     assert leg < found["first_arm_stress_MPa"].value < 165.0
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_first_pairs_hold_their_loads():
     """Defaults grow with the load; where a size is the spec's, its check fails."""

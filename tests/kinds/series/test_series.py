@@ -266,6 +266,7 @@ def test_the_roller_of_the_links_is_on_the_path(drive):
     assert np.hypot(joint[0] - px, joint[1] - py).max() <= 1e-11 * machine.center_distance_mm
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("drive", [PLANET, COUPLER, SideCrank(A=-0.4)], ids=repr)
 def test_the_driven_gear_turns_with_the_crank(drive):
     """The page's gear keeps its place on the crank (or carrier), whichever way that turns."""
@@ -319,6 +320,7 @@ def test_the_coulisse_turns_with_the_crank(spec):
     assert np.hypot(crank.joints[1][0] - x0, crank.joints[1][1] - y0) == pytest.approx(r, rel=1e-12)
 
 
+@pytest.mark.long
 def test_an_input_crank_passes_the_spacers_of_a_sun():
     """The coulisse below a sun sweeps a circle, and four spacers stand around it: by hand."""
     design = Design.of(SERIES[4])
@@ -337,6 +339,7 @@ def test_an_input_crank_passes_the_spacers_of_a_sun():
     assert [c.name for c in long.checks if c.passes is False] == ["link_gap_mm"]
 
 
+@pytest.mark.long
 def test_gears_before_stand_on_the_shaft_that_they_turn():
     """On the input crank's axis of a side-crank, and on the first crank's of two wheels."""
     for drive, x in ((SideCrank(A=0.4, input_crank_mm=40.0), 100.0 - 16.0), (PAIR, 100.0 + 80.0)):

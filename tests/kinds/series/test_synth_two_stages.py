@@ -29,6 +29,7 @@ def sector(z, motion_deg):
         return float(mpmath.degrees(motion - mpmath.pi + 2 * b))
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "motion"), [(3, 61.0), (24, 300.0)])
 def test_gear_sectors_move_for_as_long_as_wished(z, motion):
@@ -38,6 +39,7 @@ def test_gear_sectors_move_for_as_long_as_wished(z, motion):
     assert row.candidate.motion_deg == pytest.approx(motion, rel=1e-13)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "most"), [(6, 3), (7, 2)])
 def test_first_wheels_for_a_small_share_of_the_cycle(z, most):

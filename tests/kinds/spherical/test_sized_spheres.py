@@ -171,6 +171,7 @@ def test_a_bent_arm_bears_less_than_its_flat_one(z, axes_deg):
     assert worst <= 1.04 * bound
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(6))
 def test_no_default_on_a_sphere_passes_beyond_its_steel(seed):
@@ -218,6 +219,7 @@ def test_no_default_on_a_sphere_passes_beyond_its_steel(seed):
         assert not others, (others, strong, spec, load)
 
 
+@pytest.mark.long
 def test_a_batch_of_spheres_has_the_numbers_of_its_designs():
     """Loads over decades; a design of a batch is sized as alone, to the last digits."""
     spec = Spec(

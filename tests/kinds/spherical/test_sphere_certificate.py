@@ -109,11 +109,13 @@ def test_nearest_and_farthest_distances_against_dense_points(name):
     assert np.allclose(least, away[clear], atol=1e-3)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_no_gap_within_an_interval_is_below_its_bound(name):
     check_bounds(named(name), np.random.default_rng(3))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
     parts = named(name)
@@ -124,13 +126,14 @@ def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
     assert to_mm == TO_MM
 
 
+@pytest.mark.long
 def test_random_machines_keep_what_is_proved():
     """Gaps at dense positions of a turn are at least the proved bound; most are proved."""
     every = [check_proof(parts, full_turn(parts).smallest.mm) for parts in random_machines(0)]
     assert sum(one.proved for one in every) > 0.9 * len(every)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("depth", [0.5 * TO_MM, 0.9 * TO_MM, 1.1 * TO_MM, 0.05, 0.5])
 @pytest.mark.parametrize("name", DESIGNS)
 def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
@@ -145,6 +148,7 @@ def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
             assert -depth - ROUNDING <= found.open.gap_mm < -TO_MM
 
 
+@pytest.mark.long
 def test_sectors_out_of_their_place_are_never_proved_free():
     """A sector that is turned ahead meets a horn for a moment, at entry or exit."""
     rng = random.Random(5)

@@ -27,6 +27,7 @@ def on_sphere(axes_deg, rollers):
     return design, lock
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("axes_deg, rollers", ROUND)
 def test_play_of_a_lock_on_a_sphere_is_that_of_a_whole_turn(axes_deg, rollers):
     """Found there from the regions' arcs, whose overlap by 1e-9 L still counts as touching."""

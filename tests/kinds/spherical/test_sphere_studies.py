@@ -6,6 +6,7 @@ import pytest
 from geneva_cli import Design, Size, Spherical, Tolerance
 
 
+@pytest.mark.long
 def test_the_clearance_of_a_lock_on_a_sphere(axes_deg=60.0):
     """Radii of disc and recess, from the crank's axis, are L sin of their angles."""
     given = Tolerance(lock_radius_mm=0.01, recess_radius_mm=0.015)

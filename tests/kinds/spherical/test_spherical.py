@@ -117,6 +117,7 @@ def test_the_boundary_is_that_of_the_definition(machine):
         assert all(arc.end == after.start for arc, after in ends)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["90", "60, two rollers", "no lock"])
 def test_solid_angle_and_inertia_are_those_of_integrals(name):
     """Over azimuths, of what the definition leaves of each meridian; mpmath, to 1e-12."""

@@ -21,6 +21,7 @@ def stops_of(design):
     return stop
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("z", STOPPED)
 def test_the_collision_engine_touches_first_at_the_closed_form(z):
     """Bisection of the engine's gap between free and blocked, at both ends."""
