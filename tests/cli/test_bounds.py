@@ -88,6 +88,7 @@ def test_too_much_is_refused_at_once(arguments):
     refused(arguments, option)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("L", "share"), [(1.0, 1e-9), (1e6, 1e-12), (1.0, 1e-16), (1e6, 1e-16)], ids="{:g}".format

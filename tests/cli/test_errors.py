@@ -387,6 +387,7 @@ def texts():
                     yield [name, *spec, said, ""], option.opts[0]
 
 
+@pytest.mark.long
 def test_an_option_that_is_empty_is_not_one_that_is_not_given():
     """A script has it of a variable without a value; what it is to ask for would be passed over."""
     write("spec.toml", WHEEL)

@@ -159,6 +159,7 @@ def test_every_quantity_has_an_entry(quantities: set[str]):
     assert not unknown
 
 
+@pytest.mark.long
 def test_no_entry_names_no_quantity(quantities: set[str]):
     def is_named(name: str) -> bool:
         if name.startswith("."):
@@ -218,7 +219,7 @@ def test_a_warning_shows_in_its_bad_example_and_not_in_the_good_one(
     assert [name in warned(example) for example in (entry.bad, entry.good)] == [True, False]
 
 
-@pytest.mark.sampled(48)
+@pytest.mark.sampled(96)
 @pytest.mark.parametrize("entry", CHECKED, ids=lambda e: e.names[0])
 def test_a_check_fails_in_its_bad_example_and_passes_in_the_good_one(entry: Entry):
     good = passes(entry.good)

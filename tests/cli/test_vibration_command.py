@@ -43,7 +43,7 @@ def record(*words):
     return json.loads(result.stdout)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("path", sorted(repo.DESIGNS.glob("*.toml")), ids=lambda p: p.stem)
 def test_the_names_are_the_same_for_every_machine(path):
     found = record(str(path), "--period-ratio", "3.7", "--damping", "0.01")

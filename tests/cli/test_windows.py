@@ -48,18 +48,20 @@ def on_a_terminal(columns, environment, *words):
         return repo.read_terminal(master).decode().splitlines()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("columns", COLUMNS)
 def test_help_fits(monkeypatch, columns):
     for name in COMMANDS:
         require_width(seen(monkeypatch, columns, name, "--help"), columns)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("topic", TOPICS)
 def test_pages_fit(topic):
     look_at_page(page(topic))
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("environment", LOOKS, ids=str)
 def test_a_terminal_itself_says_how_wide_it_is(environment):
@@ -113,7 +115,7 @@ def any_value(rng, kind):
     return None if rng.random() < 0.15 else values[kind]()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("seed", range(30))
 def test_any_table_fits(seed):
     """Of up to 24 columns of all kinds, with values that are not there and with wide letters."""
@@ -144,6 +146,7 @@ def test_values_for_people(number, unit, text):
     assert value(number, unit) == text
 
 
+@pytest.mark.long
 def test_a_table_longer_than_is_held_fits_too():
     """It is laid out by its first rows, and a later number may be longer than theirs."""
     count = 20_000

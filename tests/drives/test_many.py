@@ -88,6 +88,7 @@ def test_inside_a_slow_crank_never_passes_its_jump(z):
     assert (inner <= jump).all()
 
 
+@pytest.mark.long
 @pytest.mark.sampled(12)
 @pytest.mark.parametrize(("gearing", "quantity"), CASES)
 @pytest.mark.parametrize("z", [3, 11, 1000])

@@ -98,7 +98,7 @@ def test_motion_and_loads_are_those_of_one_crank(z, places):
             assert answers[name] == own[name] or in_turn
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @built
 def test_the_bearing_of_a_crank_has_the_means_of_one_crank_alone(z, places):
     """Each crank works once in a turn, as a single crank with one roller does."""
@@ -150,6 +150,7 @@ def by_hand(z, places, j, input_deg, L=100.0):
     return L * np.exp(1j * place), place + math.pi - after
 
 
+@pytest.mark.sampled(5)
 @built
 def test_parts_are_drawn_where_the_cranks_stand(z, places):
     design = with_cranks(z, places)
@@ -175,6 +176,7 @@ SHAPED = [  # slots of other shapes
 ]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("design", [*(with_cranks(*one) for one in BUILT), *SHAPED])
 def test_no_crank_meets_the_wheel_or_another_one(design):
@@ -216,6 +218,7 @@ def test_cranks_that_meet_fail():
     assert check.value < 0.0
 
 
+@pytest.mark.long
 def test_a_report_lists_when_each_crank_moves_the_wheel():
     design = Design(External(8), Crank(rollers=2, crank_steps=(0, 3), n_rpm=30))
     names = ("crank", "place_deg", "behind_deg", "entry_deg", "exit_deg", "entry_s", "slot")
@@ -235,6 +238,7 @@ def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
     assert sorted(listed) == list(slots)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(6)
 @built
 def test_backwards_the_cranks_stand_and_work_as_in_a_mirror(z, places):

@@ -70,7 +70,7 @@ def boned(plate, radius, works=lambda piece, layer: False):
     )
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("plate", "radius"),
     [(notched(90.0), 1.0), (notched(120.0), 2.0), (keyed(4.0), 1.0), (keyed(8.0, 2.0), 1.25)],
@@ -134,6 +134,7 @@ def test_the_disc_locks_where_it_did(two_pins):
     assert 0.0 < bite < 2.0 * 0.5 * math.pi * 9.0
 
 
+@pytest.mark.long
 def test_the_verdict_on_a_part(two_pins):
     design, model, _ = two_pins
     refused, left = design.cutter("crank", 6.0)

@@ -70,7 +70,7 @@ def test_corners_that_stand_in(turn):
     require_cut(notched, True, 0.3, corner=0.15 * 2.0)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("layer", ["WHEEL", "CRANK", "ARM"])
 @pytest.mark.parametrize("name", ["turret", "press-curved", "internal-z6", "offset-slots"])
 def test_parts_of_machines(name, layer):
@@ -109,6 +109,7 @@ def tried(corners, kerf, outside):
     return "path"
 
 
+@pytest.mark.long
 @settings(max_examples=some(60, 25))
 @given(
     st.lists(st.tuples(st.floats(5.0, 30.0), st.floats(-0.5, 0.7)), min_size=3, max_size=9),

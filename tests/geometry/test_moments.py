@@ -74,6 +74,7 @@ def of_cap(start, end, bulge):
     return green(0), green(2)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("bulge", [1e-9, -1e-4, 0.01, 0.2, -0.41, 1.0, 3.0])
 def test_an_arc_however_flat(bulge):
     start, end = (3.0, -1.0), (4.5, 2.0)
@@ -86,6 +87,7 @@ def test_an_arc_however_flat(bulge):
     assert got.area == pytest.approx(area(outline), rel=1e-14, abs=1e-14)
 
 
+@pytest.mark.long
 def test_a_cubic_is_its_polynomial():
     cubic = Cubic((1.0, 0.0), (2.0, 3.0), (-1.0, 2.5), (0.5, 1.0))
     outline = Contour("W", (cubic, Line(cubic.end, cubic.start)))

@@ -113,6 +113,7 @@ def test_where_the_wheel_drives_the_motor():
     assert dragged.loads["input_torque_Nm"].min >= 0.0
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("n_rpm", "shown"), ((90, []), (600, [(9.194, 16.64)])))
 def test_a_wheel_that_friction_holds_drives_no_motor(n_rpm, shown):
     """With r f = 240 mm, from -10.93 to -9.194 deg no force turns the wheel: the torque was noise.
@@ -128,6 +129,7 @@ def test_a_wheel_that_friction_holds_drives_no_motor(n_rpm, shown):
     assert any("drives the motor" in text for text in held.warnings) is bool(shown)
 
 
+@pytest.mark.long
 def test_each_bearing_of_a_shaft():
     """A lever of 30 on bearings 60 apart: one and a half times the load, and half of it."""
     shaft = Shaft(wheel_overhang_mm=30.0, wheel_span_mm=60.0)
@@ -215,6 +217,7 @@ def test_each_null_names_its_key():
     assert "contact_stress_MPa: needs face_width_mm in [size]" in tree["warnings"]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("keys", "said"),
     [

@@ -119,6 +119,7 @@ def test_plane_stress_agrees_on_curved_walls(name, fine):
     assert pulled[inside].max() == pytest.approx(per_newton, rel=0.02)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("z", "L", "r", "h", "low", "high"),
     [

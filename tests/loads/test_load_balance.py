@@ -60,7 +60,7 @@ def four_bar(tmp_path_factory):
     return load(str(path))
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", [*MACHINES, *FILES, "four-bar"])
 def test_forces_against_bodies_cut_free(name, four_bar):
     """64 ulp: two dozen operations and a motion of 16 ulp; more where friction nearly holds.

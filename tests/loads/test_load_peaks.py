@@ -87,7 +87,7 @@ MIXED = [
 ]
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("spec", MIXED, ids=range(len(MIXED)))
 def test_against_a_dense_grid(spec):
     """A grid never exceeds what is found, but by rounding, and a fine one comes near to it.
@@ -190,7 +190,7 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
     assert any("no bound" in text for text in cycle_warnings(mechanism))
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(24)
 @pytest.mark.parametrize(
     "load", [Load(0.02), Load(0.02, 3.0), Load(0.02, 3.0, friction=0.2, efficiency=0.9)]
 )
@@ -236,6 +236,7 @@ def test_the_fastest_speed_where_the_load_is_rounding_at_rest(monkeypatch):
     assert 0 < sum(looks) < 5000
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_a_limit_that_no_speed_keeps():
     """The resistance alone takes 100 N at mid-motion."""
@@ -289,6 +290,7 @@ def test_a_motion_between_two_angles_has_no_loads():
             Design.of(elliptical(6, near, "external")).loads  # noqa: B018
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("left", [1e-6, 3e-8, 1e-10])
 def test_forces_of_a_wheel_that_hurries_go_with_the_square_of_its_speed(left):
@@ -321,6 +323,7 @@ def test_beside_a_cusp_the_stress_goes_to_nought():
     assert (found.min, found.min_at_deg) == (0.0, 0.0)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("friction", [0.0, 0.1])
 @pytest.mark.parametrize("share", [0.3, 0.9])
 def test_a_torque_that_changes_its_sign_beside_mid_motion_leaves_no_stress_there(share, friction):

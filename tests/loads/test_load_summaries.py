@@ -22,6 +22,7 @@ ULP = 2.0**-52
 KNOTTED = ("points of a law", "gears by points")  # a spline's higher derivatives jump
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     "name", ["crank", "two rollers", "offset, slowed", "spherical", "matched", *KNOTTED]
@@ -134,7 +135,7 @@ def test_the_least_of_a_size_is_nothing():
                 assert 0.0 <= together[load].min[row] < 1e-10
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", MISSED)
 def test_what_was_stepped_over_is_found(name):
     """Dense samples pass no extreme of designs of which one was missed."""

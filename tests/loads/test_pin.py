@@ -9,6 +9,7 @@ from geneva_cli.loads.strength.pin import Pin, least_diameter_mm, moment_mm, pin
 from geneva_cli.spec.tables import Size
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(("width", "gap"), [(18.0, 0.0), (18.0, 2.5), (5.0, 20.0)])
 @pytest.mark.parametrize("held", ["cantilever", "supported", "fixed"])
 def test_moments_follow_from_the_beam_equation(held, width, gap):

@@ -115,6 +115,7 @@ def test_an_uneven_drive_s_branches_are_compared_at_equal_radii():
     assert found.loose_gap_mm == pytest.approx(gap[loose].max(), rel=1e-3)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("law", ["cycloidal", "sine-group"])
 def test_the_slot_of_a_machine_behind_gears_is_that_without(law):
     """The same slot, which lacks the same walls; resistance alone does not change with the rate."""

@@ -44,7 +44,7 @@ def plain_peak(z, ratio):
         return float(mpmath.sqrt(square(at))), float(mpmath.degrees(at))
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(24)
 @pytest.mark.parametrize("z", [3, 4, 5, 6, 8, 12])
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
 def test_plain_wheel(z, ratio):
@@ -159,6 +159,7 @@ def test_a_limit_needs_the_place():
         Design(External(6), limits=Limits(product_acceleration_max_m_s2=3.0))
 
 
+@pytest.mark.long
 def test_checks():
     """The limit and the friction are compared with the peak."""
     product = Product(radius_mm=300.0, friction=0.2)

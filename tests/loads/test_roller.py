@@ -107,6 +107,7 @@ MACHINES = {
 FILES = ["side-crank-z6", "cam-geneva", "epicyclic-z4"]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", [*MACHINES, *FILES])
 def test_work_and_turns_of_bodies_cut_free(name):
@@ -156,6 +157,7 @@ def test_life_in_turns_motions_and_hours():
     assert twice.turns == pytest.approx(1e6 * 2.0 ** (10.0 / 3.0), rel=1e-13)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("design", "a_turn"),
     [

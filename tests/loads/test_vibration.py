@@ -36,7 +36,7 @@ def close(found, exact):
     return abs(found - exact) <= max(1e-13 * exact, 1e-16)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", LAWS)
 @pytest.mark.parametrize("damping", [0.0, 0.02, 0.3, 0.95])
 def test_residuals_of_laws(name, damping):
@@ -46,6 +46,7 @@ def test_residuals_of_laws(name, damping):
         assert close(found, exact), (ratio, found, float(exact))
 
 
+@pytest.mark.long
 @given(st.sampled_from(LAWS), st.floats(0.01, 60.0), st.floats(0.0, 0.99))
 @settings(max_examples=60)
 def test_residuals_anywhere(name, ratio, damping):

@@ -113,6 +113,7 @@ def test_parts_of_the_designs_asked_at_the_same_angles_answer_for_themselves(cas
         assert np.array_equal(some, whole[part])
 
 
+@pytest.mark.long
 def test_it_pickles_and_can_be_taken_apart(case):
     _, _, found, _ = case
     again = pickle.loads(pickle.dumps(found.machine))

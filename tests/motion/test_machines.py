@@ -230,6 +230,7 @@ def bars(engagement, x, reference, k, units, case=""):
 every = pytest.mark.parametrize("case", CASES)
 
 
+@pytest.mark.long
 def test_every_kind_and_every_gearing_has_an_entry(machine):
     specs = [machine(case).spec for case in CASES]
     # a motion in pieces has its witness in test_gear_sector.py
@@ -246,6 +247,7 @@ def test_every_kind_and_every_gearing_has_an_entry(machine):
             assert any(s.drive.rollers > 1 for s in mine), kind
 
 
+@pytest.mark.sampled(5)
 @every
 def test_stations_and_their_places(machine, witness, case):
     m, reference = machine(case), witness(case)
@@ -276,6 +278,7 @@ def test_the_wheel_turns_one_step_from_rest_to_rest(machine, witness, case):
             assert abs(mp.mpf(float(wheel[1])) - mp.mpf(float(wheel[0])) - 2 * w.b) <= 1e-14
 
 
+@pytest.mark.long
 @pytest.mark.sampled(96)
 @every
 def test_error_within_16_ulp_of_the_peak(machine, exact, case):
@@ -297,7 +300,7 @@ def test_error_within_16_ulp_of_the_peak(machine, exact, case):
     assert not over, "\n".join(over[:40])
 
 
-@pytest.mark.sampled(24)
+@pytest.mark.sampled(48)
 @every
 def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case):
     for i in range(len(machine(case).engagements)):
@@ -408,7 +411,7 @@ def test_loads_keep_the_energy(machine, case):
                 assert found.pin_force_N * lever * L == pytest.approx(abs(torque), rel=1e-12)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @every
 def test_peaks_against_a_dense_grid(machine, case):
     m = machine(case)

@@ -14,7 +14,7 @@ from geneva_cli.motion.peaks import worst
 from geneva_cli.spec.schema import REQUIRED, fields
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", ["inside", "offset", "spherical", "epicyclic", "modified-sine"])
 def test_against_50_digits(name):
     """The size is the quantity's at that place, and no place beside it or far away has more."""

@@ -79,7 +79,7 @@ def all_numbers(mechanism):
     return [whole, mechanism.rollers_max, found]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @every
 def test_a_machine_can_be_pickled(file):
     """And gives the same numbers, bit for bit: no formula in it is a closure."""

@@ -50,6 +50,7 @@ def drawn(b, c, d):
     return SineLaw(*shown)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", NAMED)
 def test_a_named_law_is_its_member(name):
     law, u = scca(*NAMED[name]), np.linspace(0.0, 1.0, 257)

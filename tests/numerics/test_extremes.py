@@ -49,6 +49,7 @@ def lorentzians(middle, width, height=1.0):
     return Smooth(derivatives)
 
 
+@pytest.mark.long
 def test_the_greatest_and_the_least_of_waves():
     rng = np.random.default_rng(8)
     rates = rng.uniform(0.1, 2.0, 300)
@@ -118,6 +119,7 @@ def test_a_constant_is_greatest_where_it_begins():
     assert np.array_equal(found.x, np.zeros((2, 2)))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("sized", [True, False])
 def test_extremes_of_polynomials(sized):
     """The greatest of the ends and of the companion matrix's real parts.

@@ -20,6 +20,7 @@ def cycloidal(u):
     return u - math.sin(math.tau * u) / math.tau  # peak jerk 4 pi²
 
 
+@pytest.mark.long
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize("period", [False, True])
 @pytest.mark.parametrize("count", [7, 8, 21])

@@ -83,6 +83,7 @@ def test_insets_are_those_of_shapely(gearing):
                 assert found.symmetric_difference(wanted).area < 3e-5 * whole.length
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("gearing", [External(6), Internal(6)])
 @pytest.mark.parametrize("tolerance", some([0.05, 0.0005], [0.05]))

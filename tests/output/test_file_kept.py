@@ -84,6 +84,7 @@ def test_owner_is_kept():
     assert (now.st_uid, now.st_gid, stat.S_IMODE(now.st_mode)) == (1234, 2345, 0o640)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("spec", ["-", "/dev/stdin"])
 def test_standard_input_is_not_replaced(spec):

@@ -79,6 +79,7 @@ def test_same_text_on_a_stream_and_in_a_file():
         assert get(f"peaks.{extension}") == geneva(*SHORT, "--format", name, "-o", "-").stdout
 
 
+@pytest.mark.long
 def test_folder_missing():
     clean_failure(geneva(*SHORT, "-o", "gone/peaks.csv"), "gone", "No such file", "make the folder")
     clean_failure(geneva(*SHORT, "-o", "/proc/peaks.csv"), "the folder /proc takes no files")
@@ -132,6 +133,7 @@ def stopped(number):
     return process.returncode
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
@@ -156,7 +158,7 @@ def test_killed():
 # Standard output that does not take what we write
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @full
 @pytest.mark.parametrize("arguments", [["table"], SHORT, LONG], ids=" ".join)
 def test_full_disk_on_a_file(arguments):
@@ -165,7 +167,7 @@ def test_full_disk_on_a_file(arguments):
     assert found.stdout == ""
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "arguments",
     [["table"], ["--help"], [*LONG, "--format", "csv"], [*LONG, "--format", "json"], SHORT],
@@ -183,6 +185,7 @@ def test_closed_pipe(arguments):
     assert (err, process.wait(timeout=30) in (0, 141)) == ("", True)
 
 
+@pytest.mark.long
 def test_a_pipe_of_ascii():
     """A title in any script, on a system that knows only ASCII, is no reason to fail."""
     put("spec.toml", 'title = "Größe 六"\n' + ANSWERED)
@@ -247,6 +250,7 @@ HOSTILE = ["=HYPERLINK(1)", r"\u001b]0;x\u0007\u001b[31mred", r"one\r\ntwo", r"\
 ANSWERED = "[wheel]\nz = 400\n"  # without parts that would be turned for each title
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("command", ["peaks", "check", "motion"])
 def test_hostile_title(command):
     """In every format a title adds no line, no formula, no mark-up and no control character."""

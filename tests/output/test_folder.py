@@ -48,6 +48,7 @@ def texts(folder):
     return {p.name: p.read_text() for p in folder.iterdir() if p.is_file() and p.name != LIST}
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("n", range(8))
 def test_a_killed_run_is_made_good_by_the_next(folder, n):
@@ -91,6 +92,7 @@ def test_an_error_removes_only_a_folder_that_is_new(folder):
         assert folder.exists() == kept
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["../kept", "/etc/kept", "link"])
 def test_a_list_leads_to_no_other_place(folder, tmp_path, name):
     """Neither a name with a folder nor a link makes a run replace or remove what lies elsewhere."""

@@ -127,6 +127,7 @@ def test_a_figure_is_scaled():
     assert peak * si.pound_force == pytest.approx(202.5396, rel=1e-6)  # the digits of the tutorial
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("words", "wants"),

@@ -71,6 +71,7 @@ def wheel_by_core(design, at):
     return out - first, turned
 
 
+@pytest.mark.long
 @pytest.mark.sampled(42)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
@@ -97,7 +98,7 @@ def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
 PLATES = [path.stem for path in repo.wheels() if "spherical" not in path.stem]
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(36)
 @pytest.mark.parametrize("name", PLATES)
 def test_the_roller_runs_in_the_slot_that_is_drawn(name):
     """In the wheel's frame its centre keeps to the slot's axis, or to the pitch curve."""
@@ -121,7 +122,7 @@ def test_the_roller_runs_in_the_slot_that_is_drawn(name):
         assert first.any() and np.abs(own - L * slot)[first].max() < 1e-5 * L
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(24)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_what_is_said_of_the_wheel_is_what_it_does(name):
     """Where it is said to rest it rests; the stretches follow each other over the whole turn."""

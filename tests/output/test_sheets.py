@@ -64,6 +64,7 @@ def objects(text):
     return found, text[start:]
 
 
+@pytest.mark.long
 def test_a_pdf_is_whole(sheet):
     text = "".join(sheet_pdf.chunks(sheet))
     assert text.isascii()

@@ -100,6 +100,7 @@ def test_random_outlines(corners, thickness):
         assert volume == pytest.approx(area(plate.outline) * thickness, rel=0.0, abs=off)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("curves", ["arcs", "spline"])
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "press-curved", "two-pins-z4"])

@@ -57,7 +57,7 @@ def crews():
             )
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(24)
 @pytest.mark.parametrize(("z", "gearing", "rollers"), [*crews()])
 def test_defaults_work(z, gearing, rollers):
     """Walls all round, and clear of the wheel's hub, below the wheel."""
@@ -81,6 +81,7 @@ def test_defaults_work(z, gearing, rollers):
         assert outline.distance(axis) > found.sizes.wheel_hub - 1e-9
 
 
+@pytest.mark.long
 def test_an_arm_that_meets_the_hub_is_told():
     design = of(Wheel(6), arm_eye_mm=90.0)
     (check,) = [c for c in design.checks if c.name == "arm_to_hub_mm"]

@@ -72,6 +72,7 @@ def face(shape):
     return polygon(shape, 1e-6)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(48)
 @pytest.mark.parametrize("shafts", ["plain", "turned"])
 @pytest.mark.parametrize("bore", ["D", "hex", "DIN 6885-1"])

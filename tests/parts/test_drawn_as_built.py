@@ -76,7 +76,7 @@ def assert_drawn_as_built(design, part):
     return drawing
 
 
-@pytest.mark.sampled(60)
+@pytest.mark.sampled(120)
 @pytest.mark.parametrize("given", [(), HOLED], ids=["", "holed"])
 @pytest.mark.parametrize("name", FLAT)
 def test_drawings_show_what_the_solids_have(name, given):

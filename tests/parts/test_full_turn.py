@@ -111,6 +111,7 @@ def opening(rim: float, radius: float) -> float:
     return math.acos((L * L + rim * rim - radius * radius) / (2.0 * L * rim))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("z", "c"), [(3, 0.1), (4, 0.01), (6, 0.1), (8, 0.01)])
 def test_play_in_the_dwell(z: int, c: float) -> None:
     """The recess's corner comes to the disc: from the rim's opening for rk + c to that for rk. To

@@ -42,6 +42,7 @@ def found(of, name):
     return np.array([row["mass_kg"], row["inertia_kgm2"]])
 
 
+@pytest.mark.long
 def test_elliptical_gears_are_ellipses_that_turn_about_a_focus():
     """a = 50 and e = 0.3: m = rho pi a b h, J = m ((a² + b²)/4 + c²), less the bores."""
     a, c, thick = 50.0, 15.0, 16.0

@@ -191,6 +191,7 @@ def free_turn(still, moved, most):
     return low
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("drive", "z", "keys"),

@@ -55,6 +55,7 @@ def at_the_corner(rim: float) -> tuple[float, float]:
 SHORT = [(33.0, -27.127), (36.0, -34.07), (40.0, -41.33), (45.0, -48.94)]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("rim", "at_deg"), SHORT)
 def test_a_rim_that_does_not_reach_the_roller_fails(rim, at_deg, no_advice):
     check = check_of(without_disc(rim))
@@ -67,6 +68,7 @@ def test_a_rim_that_does_not_reach_the_roller_fails(rim, at_deg, no_advice):
         assert check.value == pytest.approx(off, abs=1e-6)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("rim", [36.0, 40.0, 45.0])
 def test_the_roller_meets_the_corner_of_the_mouth(rim, no_advice):
     """Circle and corner by root search; 1e-6 is far more than the rounding of either."""
@@ -74,6 +76,7 @@ def test_the_roller_meets_the_corner_of_the_mouth(rim, no_advice):
     assert (check.at_deg, check.value) == pytest.approx(at_the_corner(rim), abs=1e-6)
 
 
+@pytest.mark.long
 def test_the_least_rim_is_where_the_clearance_is_used_up(no_advice):
     """R (1 - cos x) = c after entry; there the roller is L cos b - R sin x along the slot."""
     x = math.acos(1.0 - CLEARANCE / R)
@@ -86,6 +89,7 @@ def test_the_least_rim_is_where_the_clearance_is_used_up(no_advice):
     assert not check_of(without_disc(least - 0.5)).passes
 
 
+@pytest.mark.long
 @pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("friction", "clearance", "state"),
@@ -116,6 +120,7 @@ DRIVEN = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize(("name", "keys", "driven"), DRIVEN)
 def test_half_of_the_motion_must_be_driven(name, keys, driven, no_advice):

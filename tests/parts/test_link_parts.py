@@ -87,6 +87,7 @@ def test_blocks_stay_in_their_slots(made):
             assert abs(ends[0][0] - ends[1][0]) < np.ptp(way) + 4.0 * half
 
 
+@pytest.mark.long
 def test_kerf_and_solids(tmp_path):
     """Outlines grow by half the cut and holes shrink; the solids stand in their planes."""
     design = load(str(repo.DESIGNS / "slider-crank.toml"))

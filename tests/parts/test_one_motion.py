@@ -34,6 +34,7 @@ SPECS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", SPECS)
 def test_one_motion_stands_for_all(name):

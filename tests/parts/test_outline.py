@@ -219,6 +219,7 @@ LOW_MOUTHS = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("lock", [None, 0.0])
 def test_mouths_of_any_height(lock: float | None) -> None:
@@ -242,7 +243,7 @@ def test_mouths_of_any_height(lock: float | None) -> None:
     assert drawn > 0.8 * len(LOW_MOUTHS)
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(24)
 @pytest.mark.parametrize("case", STRAIGHT, ids=name)
 def test_straight_slots_against_cutting(case: dict) -> None:
     """The witness strays by chords of its circles and of the flattened contour; both lie within,
@@ -268,6 +269,7 @@ def lens(R: mpmath.mpf, r: mpmath.mpf, d: mpmath.mpf) -> tuple[mpmath.mpf, mpmat
     return R**2 * (a - mpmath.sin(2 * a) / 2) + r**2 * (b - mpmath.sin(2 * b) / 2), a, b
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "case", [c for c in STRAIGHT if not {"offset", "steps", "kind"} & c.keys()], ids=name
 )
@@ -363,6 +365,7 @@ def arc_clears(z: int, r: float, share: float) -> float:
     return L * min(float((reach - np.abs(path - share)).min(initial=math.inf)) for path in paths)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("z", "least"), [(8, 0.40), (10, 0.46), (12, 0.52), (16, 0.65)])
 def test_from_which_disc_on_the_relief_arc_clears(z: int, least: float) -> None:
     """The shares rk/R of theory 1.1 by the corners' paths, and the program's choice on either side
@@ -420,6 +423,7 @@ def test_a_small_disc_is_cut_down_to_a_sector(z: int, share: float) -> None:
     assert wide < max(far, 90.0 - 180.0 / z) + math.degrees(2.0 * size.relief / size.lock)
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("z", [3, 4, 6, 9, 24])
 def test_the_locking_sector_of_an_internal_wheel(z: int) -> None:
     """Half width 90 deg - b opposite the roller, as far as the wheel's horns leave room."""
@@ -538,6 +542,7 @@ def worst(found: Parts, wanted: Polygon) -> float:
     return far
 
 
+@pytest.mark.long
 @pytest.mark.sampled(32)
 @pytest.mark.parametrize("case", CURVED_SLOTS, ids=name)
 def test_curved_slots_against_every_place_of_the_roller(case: dict) -> None:

@@ -36,6 +36,7 @@ def least_gap(design, name, where, radius, turn):
     return min(gaps)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("hub", [2.0, 4.0])

@@ -149,6 +149,7 @@ SIZES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", SIZES)
 def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:

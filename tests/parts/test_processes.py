@@ -97,6 +97,7 @@ def test_limits_of_a_laser() -> None:
     }
 
 
+@pytest.mark.long
 def test_holes_that_a_laser_cuts_badly_are_named() -> None:
     """Plates of 18 mm need 12.6 mm: the mounting holes of 9 mm are the smallest for theirs."""
     texts = {

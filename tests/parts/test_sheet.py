@@ -128,6 +128,7 @@ def test_no_dimension_is_without_a_place_on_a_designs_sheet(path, sheets):
     assert below == []
 
 
+@pytest.mark.long
 @pytest.mark.sampled(18)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_each_item_of_the_list_has_one_balloon(path, sheets):

@@ -164,6 +164,7 @@ def test_no_gap_within_an_interval_is_below_its_bound(name):
     check_bounds(parts, np.random.default_rng(3))
 
 
+@pytest.mark.long
 @pytest.mark.sampled(40)
 @pytest.mark.parametrize("name", FLAT)
 def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
@@ -187,7 +188,7 @@ def test_random_machines_keep_what_is_proved():
     assert closed_ > 0.8 * count
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("depth", [0.5 * TO_MM, 0.9 * TO_MM, 1.1 * TO_MM, 0.05, 0.5])
 @pytest.mark.parametrize("name", ["turret.toml", "press-curved.toml", "internal-z6.toml"])
 def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):

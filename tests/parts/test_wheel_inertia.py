@@ -39,7 +39,7 @@ def polygon(points):
     return area, polar
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "name", ["limits", "internal-z6", "press-curved", "offset-slots", "geneva-stop"]
 )
@@ -98,6 +98,7 @@ def test_a_weight_to_one_side_of_a_horizontal_axis():
     assert not told(Spec(External(6), mass=(four,), support=spec.support), None)
 
 
+@pytest.mark.long
 def test_the_force_of_a_body_off_the_axis():
     """At most m e w² hypot(v², a), at least the greatest along the motion, by differences of it."""
     arm = Mass("point", mass_kg=2.0, radius_mm=100.0, name="arm")

@@ -52,6 +52,7 @@ def test_it_refuses_what_the_reader_refuses(text):
     assert faults(text)
 
 
+@pytest.mark.long
 def test_it_agrees_with_the_reader_on_mutated_specs(tmp_path, monkeypatch):
     """`make editors` compares 2,000, with the checkers of editors too."""
     monkeypatch.chdir(tmp_path)

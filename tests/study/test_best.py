@@ -58,6 +58,7 @@ def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatc
     assert (said["drive.kind"], said["checks.passes"]) == ("side-crank", "yes")
 
 
+@pytest.mark.long
 def test_a_search_that_is_cut_short_says_so(tmp_path, monkeypatch):
     """Steps of 0.05 of the range do not reach the greatest A, 1, in 5 designs."""
     goal = "max:timing.shortest_motion_s"

@@ -70,6 +70,7 @@ def test_keys_in_which_specs_differ(tmp_path):
     assert "drive.before.A" not in by_quantity(compare([near], vary=["drive.before.A=0.3,0.5"]))
 
 
+@pytest.mark.long
 def test_rounding_is_no_difference(tmp_path):
     """Forces go with 1/L and speeds with L: pv is that of any centre distance, but for a unit in
     the last place; a nanometre of 100 mm is more than rounding."""

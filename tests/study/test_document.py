@@ -135,6 +135,7 @@ def _parts(cell: str) -> list[str]:
     return [cell, bare, head, bare.split(" ")[0], " ".join(bare.split(" ")[:3])]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("name", KINDS)

@@ -30,6 +30,7 @@ def bytes_of(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
+@pytest.mark.long
 def test_the_files_of_a_laser(spec, tmp_path):
     result = run(spec, "--for", "laser", "-o", tmp_path / "out")
     assert result.exit_code == 0

@@ -22,7 +22,7 @@ def test_no_other_row_beats_what_is_left_and_one_beats_the_rest(rows):
     assert found == [i for i, a in enumerate(rows) if not any(dominates(b, a) for b in rows)]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("costs", [1, 2, 3, 4, 5])
 @pytest.mark.parametrize("levels", [3, 30, 10**9])
 def test_fronts_of_many_rows(costs, levels):

@@ -50,6 +50,7 @@ def test_a_turret_gets_one_motor() -> None:
     assert line(powers, f"{peak:.4g} W").text.startswith("greatest at the motor")
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["turret", "spherical-z6", "internal-curved-z8", "unequal-steps"])
 def test_a_report_has_six_figures_and_a_motor(name: str) -> None:

@@ -135,7 +135,7 @@ def test_parquet_holds_the_same(tmp_path):
     assert os.listdir(tmp_path) == ["rows.parquet"]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

@@ -84,6 +84,7 @@ def test_locks_together_as_alone(spec):
             assert a == b or a == pytest.approx(b, **near), name
 
 
+@pytest.mark.long
 def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
     """Shards promise the bytes of one run: a block here ends with one design alone."""
     monkeypatch.chdir(tmp_path)

@@ -30,6 +30,7 @@ def test_slots_of_an_unbalanced_wheel_on_a_carrier_vary_alone(tmp_path):
     assert [row[1] for row in rows] == pytest.approx(sizes, rel=1e-15)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("text", "vary", "refused"),
     [

@@ -114,7 +114,7 @@ def test_tau_of_one_roller_outside():
         assert not plain(candidates(tau=beyond, external=True, rollers=1, space=NEAR))
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(("z", "most"), [(3, 5), (4, 3), (5, 3), (6, 2), (7, 2), (12, 2), (24, 2)])
 def test_rollers_up_to_the_strict_bound(z, most):
     found = candidates(z=str(z), cycle="1", external=True, space=NEAR)
@@ -393,6 +393,7 @@ def test_rows_are_turned_in_their_order():
     assert all(one.row.candidate[:10] == found.rows[one.no - 1].candidate[:10] for one in only)
 
 
+@pytest.mark.long
 def test_a_groove_is_as_steep_as_its_check_says():
     """Told by a look at places, but for those that are near the limit and below it."""
     machines = [

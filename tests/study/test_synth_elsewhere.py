@@ -103,6 +103,7 @@ def test_a_larger_roller_holds_the_wheel_better(z):
     assert kept.trouble == "hand_over_play_deg"
 
 
+@pytest.mark.long
 def test_more_rollers_where_only_shorter_motions_can_be_built():
     """Four rollers and more on four slots: at the longest motion each slot leaves an island."""
     found = search(read_target(motion_deg="20..120", z="4", external=True))

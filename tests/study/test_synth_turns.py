@@ -25,6 +25,7 @@ def four_bar():
     return spec
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("share", [0.05, 0.03, 0.02])
 def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     """Against the drawn wheel, at the same places of the roller."""

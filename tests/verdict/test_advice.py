@@ -323,6 +323,7 @@ def test_no_requirement_is_broken_for_a_part(name: str, tmp_path: Path) -> None:
         assert needs is None or float(needs[1]) <= float(value) <= 1.02 * float(needs[1])
 
 
+@pytest.mark.long
 def test_a_given_centre_distance_is_kept_for_a_part(tmp_path: Path) -> None:
     """A larger machine would bear the load; one of 60 mm is wanted."""
     text = (

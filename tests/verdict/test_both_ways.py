@@ -110,6 +110,7 @@ def test_default_sizes_hold_the_loads_of_both(name):
         assert other[key] == close, key
 
 
+@pytest.mark.long
 def test_a_slot_s_mouth_serves_both_ends():
     """A tilted law takes the roller out at another radius than in: no wall may meet it.
 

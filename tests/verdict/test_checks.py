@@ -187,6 +187,7 @@ def test_a_clearance_that_the_process_cannot_hold_is_said(
         assert text.endswith(f"set lock_clearance_mm to {lock_mm:.4g}")
 
 
+@pytest.mark.long
 def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
     path, out = tmp_path / "bore.toml", tmp_path / "wheel.svg"
     export = ["profile", str(path), "--part", "wheel", "-o", str(out)]

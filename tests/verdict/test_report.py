@@ -57,6 +57,7 @@ def test_failed_checks_stand_on_top_and_end_as_check_does(
     assert places == sorted(places)
 
 
+@pytest.mark.long
 def test_a_sound_design_passes_both(tmp_path: Path) -> None:
     spec = written(tmp_path, LIMITED)
     found = run("report", spec, "--format", "json")

@@ -86,6 +86,7 @@ def test_what_would_pass_passes():
     assert row(of.with_("load.torque_Nm", 2.0 + 0.97 * drag), "reversal_shock_N") is not None
 
 
+@pytest.mark.long
 def test_the_force_bends_the_pin_that_is_drawn():
     """A load makes the default pin thicker than half of its roller, and so stiffer."""
     load, size = Load(inertia_kgm2=4.0, torque_Nm=2.0), LOOSE.replace(roller_radius_mm=4.0)

@@ -293,6 +293,7 @@ def test_sizes_are_for_the_lock_as_it_is_cut(wheel, clearance):
     assert cut_lock(*flat) == lock
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(("roller_mm", "z"), [(12.0, 3), (16.0, 4), (16.0, 5)])
 def test_shafts_are_for_the_locking_sector_that_the_wheel_leaves(roller_mm, z):

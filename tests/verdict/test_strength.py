@@ -64,6 +64,7 @@ def rows(spec):
     return {c.name: c for c in checks(build(spec), parts=False)}
 
 
+@pytest.mark.long
 def test_a_row_where_something_is_allowed():
     found = rows(WHOLE)
     assert set(ROWS) <= set(found)
@@ -153,6 +154,7 @@ def test_the_wheel_shaft_by_the_code():
     assert of["strength.wheel_shaft.twist_deg"] == pytest.approx(math.degrees(twist), rel=1e-6)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("A", [0.0, 0.5, -0.3])
 def test_the_crank_shaft_takes_the_crank_s_torque(A):
     """Moments about the crank's axis, of the force on the roller: bodies cut free.
@@ -192,6 +194,7 @@ def planet(turned):
     return -cmath.phase(1.0 - arm)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("wheel", "drive", "law", "angle", "half_deg"),
@@ -224,6 +227,7 @@ def test_the_crank_shaft_behind_another_drive_turns_at_its_own_rate(
     assert found["strength.crank_shaft.moment_Nm"] == pytest.approx(most, rel=1e-4)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("wheel", "sense"), [(External(4), 1.0), (Internal(6), -1.0)])
 def test_the_finger_of_a_carousel_bears_the_slot_s_torque_alone(wheel, sense):
     """The carrier, not the finger, turns the wheels round: psi' and psi'' of a plain crank."""

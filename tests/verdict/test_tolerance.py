@@ -268,6 +268,7 @@ def test_clearances_that_still_turn():
         assert told(design)["clearances.turns"] is turns
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("axes_deg", [60.0, 90.0, 120.0])
 def test_the_clearance_of_a_slot_on_a_sphere(axes_deg):
     """The arm is square to crank's axis and path; what of it is across the slot lies level."""
@@ -366,6 +367,7 @@ def test_the_histogram_has_the_mean_and_deviation_of_its_machines(distribution):
         assert max(share) < 1.1 / len(share)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("distribution", ["normal", "uniform"])
 def test_plays_in_motion_are_the_greatest_over_it(distribution):

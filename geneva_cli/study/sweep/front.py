@@ -41,7 +41,7 @@ def best(costs: Array) -> list[int]:
         kept = np.zeros(len(rows), dtype=bool)
         for start in range(0, len(rows), BLOCK):
             block = rows[start : start + BLOCK]
-            stays = ~_pairs(block, rows[:start][kept[:start]]).any(axis=1)
+            stays: Mask = np.logical_not(_pairs(block, rows[:start][kept[:start]]).any(axis=1))
             left = block[stays]
             stays[stays] = _pairs(left, left).sum(axis=1) <= 1
             kept[start : start + BLOCK] = stays

@@ -36,7 +36,7 @@ def design(name):
     return load(str(repo.DESIGNS / f"{name}.toml"))
 
 
-@pytest.mark.sampled(36)
+@pytest.mark.sampled(72)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_every_design_is_certified_and_its_peaks_confirmed(name):
     found = design(name)
@@ -47,6 +47,7 @@ def test_every_design_is_certified_and_its_peaks_confirmed(name):
         assert proof.confirms(*peak), f"{quantity}: {peak} against {proof.text}"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", some(DESIGNS, ["side-crank-z6", "unequal-steps", "table-law"]))
 def test_false_claims_are_refused(name):
     found = design(name)

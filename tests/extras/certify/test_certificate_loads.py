@@ -38,6 +38,7 @@ def exact(name, a):
     return torque
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", LOADS)
 def test_the_bounds_hold_formulas_of_fifty_digits(name):
     found = LOADED.certificate(name)
@@ -101,6 +102,7 @@ def test_the_bounds_hold_friction_of_fifty_digits(name, share):
             assert here <= found.high
 
 
+@pytest.mark.long
 def test_friction_that_holds_the_wheel_is_not_proved():
     """A coefficient of 3: where the grip vanishes the force has no bound."""
     machine = Design(External(3), load=Load(0.0, 15, friction=3.0), size=Size(100.0, 12.0))

@@ -224,7 +224,7 @@ def _scca(law, b, d):
     return law(b=b, c=1.0 - b - d, d=d), None
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("drive", some((Crank, Cam), (Crank,)))
 def test_no_true_peak_of_a_law_is_excluded(law, drive):

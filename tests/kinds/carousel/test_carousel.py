@@ -75,6 +75,7 @@ def witness_of(wheel):
     return Witness(wheel.z, wheel.SIGN < 0)
 
 
+@pytest.mark.sampled(8)
 @every
 @pytest.mark.parametrize("turns", [None, 3])
 def test_absolute_motion_at_50_digits(wheel, turns):
@@ -170,6 +171,7 @@ def test_loads_by_newton_s_law(wheel, fraction):
     assert here.input_torque_Nm[0] == pytest.approx(float(torque), rel=1e-11)
 
 
+@pytest.mark.sampled(6)
 @every
 def test_the_greatest_torque_and_the_mean_square(wheel):
     """Summaries of the whole cycle against a dense scan of closed forms."""
@@ -217,6 +219,7 @@ def test_losses_count_where_the_input_drives():
     assert lossy.cycle.states(x).input_torque_Nm == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.long
 def test_the_indexer_formula_covers_the_exact_torque():
     for wheel in WHEELS:
         design = Design(wheel, Carousel(), load=Load(inertia_kgm2=0.05, torque_Nm=0.2))
@@ -235,6 +238,7 @@ def test_inertia_ratio_counts_from_the_ground():
 SEVERAL = [(3, 2), (3, 5), (4, 3), (5, 3), (8, 2)]  # slots, wheels
 
 
+@pytest.mark.long
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize(("z", "wheels"), SEVERAL)
 def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
@@ -376,7 +380,7 @@ def test_the_page_turns_the_carrier_about_fingers_that_stand(design):
     assert sum(phase.moves for phase in shown.states) == len(wheels) * len(shown.rollers)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @every
 def test_what_a_product_feels_at_any_place_on_the_wheel(wheel):
     """Against second differences of places all round the wheel, over a turn of the carrier."""
@@ -585,6 +589,7 @@ def test_neighbours_by_their_places():
         assert values_of(design)["carousel.envelope_mm"] == pytest.approx(L + reach, rel=1e-14)
 
 
+@pytest.mark.long
 def test_a_report_lists_when_each_wheel_moves():
     design = Design(External(4), Carousel(wheels=3, n_rpm=1.0))
     table = design.report.table.to_dict()["wheels"]

@@ -177,6 +177,7 @@ def test_the_lock_and_the_pivot_in_the_dwells(wheel):
     assert held_torque_Nm(design.mechanism) == pytest.approx(max(moments), rel=1e-13)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("angle", [0.0, 130.0, 220.0])
 def test_the_place_of_a_horns_stress_names_the_turn(angle):
@@ -216,6 +217,7 @@ def test_a_balanced_pair_has_the_loads_of_its_inertia():
         assert one[name].rms == pytest.approx(other[name].rms, rel=1e-10)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize("z", [4, 5, 6])
 @pytest.mark.parametrize("apart", [None, (0.0, 150.0)])

@@ -141,6 +141,7 @@ def test_two_rollers_on_the_crank(ratio):
     assert where.geared(np.array([-50.1, -49.9, 0.0, 49.9, 50.1])).tolist() == [0, 1, 1, 1, 0]
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_slots_that_coincide_are_a_plain_wheels():
     """As D goes to 0 every check comes to the plain wheel's value, and the wheel to its outline."""
@@ -155,6 +156,7 @@ def test_slots_that_coincide_are_a_plain_wheels():
     assert values[0] == pytest.approx(values[1], rel=1e-5, abs=1e-6)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", MACHINES)
 def test_the_wheels_mass_is_what_its_outline_holds(name):
     """By a polygon, whose chords of an arc miss 2/3 of their height: some 1e-5 of the area."""
@@ -179,6 +181,7 @@ def lead(b, u, a_t, a):
     return turn + before - u * (a + a_t), l * mp.sin(a) / mp.sin(turn)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "sector", "ratio"), [(3, 100.0, 0.8), (4, 150.0, 0.4)])
 def test_a_roller_that_overtakes_the_wheel_jams(z, sector, ratio):
@@ -317,6 +320,7 @@ def test_horn_and_rollers_are_as_of_a_wheel_with_these_slots():
         assert ours[name] == pytest.approx(share * plain[name], rel=1e-8), name
 
 
+@pytest.mark.long
 def test_the_forces_that_are_shown_act_on_the_walls():
     """Contacts are on the outline, in the wheel's frame; forces push the way that the wheel needs:
     on at first, and then back."""

@@ -79,6 +79,7 @@ def test_loads_are_those_of_bodies_cut_free(case, at_deg):
     assert here.input_torque_Nm[0] == pytest.approx(float(torque), rel=2e-14, abs=1e-15)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize("case", CASES)
 def test_greatest_force_on_the_guide_and_work(case):

@@ -94,6 +94,7 @@ def test_a_rack_beyond_the_axis_meets_the_roller_before_it_enters():
         assert smallest_gap(s) == pytest.approx(-overlap.max(), abs=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_checks():
     rows = {one.name: one for one in design(slot_clearance_mm=0.1).checks}

@@ -56,7 +56,7 @@ def rack_and_ring(parts):
     return rack, None if ring is None else Polyarc([ring]).samples(1e-3, 0.05)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("seed", range(MACHINES))
 def test_gaps_are_those_of_points_on_the_outlines(seed):
     """Every gap is at most that of points 0.05 mm apart, and at least that less their spacing.
@@ -130,7 +130,7 @@ def test_play_is_the_clearance(slot, lock):
     assert turn.holds
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("seed", range(MACHINES))
 def test_a_stop_is_where_parts_begin_to_overlap(seed):
     """Short of a stop no parts overlap, and beyond it some do: 1000 moves up to it, one beyond."""

@@ -81,6 +81,7 @@ def test_the_same_designs_are_refused(case):
     assert 10 < len(found.which) < len(singles) or not found.refused.any()
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 def test_the_same_wheels_and_motions(case):
     found, singles = case

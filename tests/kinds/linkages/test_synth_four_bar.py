@@ -44,6 +44,7 @@ def reach(drive):
     return max(drive.ground_mm, abs(A + b * e).max(), abs(C).max())
 
 
+@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize(("z", "motion"), [(3, 75.0), (4, 100.0), (6, 120.0), (12, 200.0)])
 def test_a_four_bar_makes_the_motion(z, motion):

@@ -155,6 +155,7 @@ LAWFUL = (
 )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("spec", LAWFUL, ids=lambda spec: spec.drive.NAME)
 def test_the_parts_of_wheel_and_crank_do_not_change(spec):
     """A law holds by the crank's angle, so that gears change when it is reached, not the slot."""
@@ -233,6 +234,7 @@ def test_a_written_spec_is_read_as_the_same(tmp_path):
     assert design.with_("drive.before.phase", "quick").spec.drive_before.phase == "quick"
 
 
+@pytest.mark.long
 def test_a_ratio_from_points_turns_both_ways():
     """Backwards psi(x) is -psi(-x), with the points in reverse order; a warning names their key."""
     at = np.arange(0.0, 361.0, 10.0)

@@ -36,7 +36,7 @@ FRONTS = (
 )
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(36)
 @pytest.mark.parametrize(
     "name", ["epicyclic-z4", "four-bar-z4", "slider-crank", "gear-sector", *SPECS]
 )

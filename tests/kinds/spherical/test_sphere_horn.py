@@ -31,6 +31,7 @@ def angles(z, axes_deg, L, r, h):
     return r / L, arm - (r + h) / L, S
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("z", "r", "h"), [(4, 5.0, 4.0), (6, 5.0, 4.0), (12, 3.0, 2.4)])
 def test_on_a_large_sphere_it_is_the_flat_horn(z, r, h):
     """Shafts at 0.1 and 1 degree, 100 mm apart: spheres of 57 and 5.7 m.
@@ -141,6 +142,7 @@ def test_finite_elements_of_the_shell_agree_with_the_beam(z, axes_deg, L, h, b):
     assert mises[inside].max() == pytest.approx(own_stress[inside].max(), rel=0.03)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_the_wheel_is_as_thick_as_its_horns_need():
     """Six slots at right angles: the next thinner preferred number does not hold 500 N m."""

@@ -35,6 +35,7 @@ def angles(a, b):
     return 2.0 * np.arcsin(np.minimum(0.5 * np.linalg.norm(a[:, None] - b[None], axis=2), 1.0))
 
 
+@pytest.mark.long
 def test_distances_are_those_of_sampled_points():
     """Within half a step of the samples, squared, over twice the distance."""
     found = parts_of(Design(Spherical(5, axes_deg=70), size=Size(80.0, 5.0, **CLEAR)).mechanism)

@@ -175,6 +175,7 @@ def turned(u, angle):
     return np.column_stack((u[:, 0] * c - u[:, 1] * s, u[:, 0] * s + u[:, 1] * c, u[:, 2]))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("at", range(len(MACHINES)))
 def test_nothing_meets_in_a_motion(at):
     """The crank's edge, turned by theory's formula, is never in the wheel; the wheel's edge is
@@ -217,7 +218,7 @@ def test_it_is_held_in_the_dwell():
         assert gap[side].max() == pytest.approx(-0.04 / 80.0, rel=1e-3)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("curves", ["arcs", "spline"])
 def test_laid_flat(machine, curves):
     """Rolled up again, every point of the outline is on the wheel's edge, seen from the centre."""

@@ -37,6 +37,7 @@ def test_the_collision_engine_touches_first_at_the_closed_form(z):
         assert low == pytest.approx(end, abs=1e-9)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("z", STOPPED)
 def test_polygons_are_apart_until_the_stop_and_overlap_beyond(z):
     """Dense polygons, placed by the wheel's and the crank's own formulas (psi = atan2)."""
@@ -93,6 +94,7 @@ def test_force_and_stress_by_hand():
     assert values["stop.contact_stress_MPa"] == pytest.approx(usual, rel=2e-3)  # 0.418 has 3 digits
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
 def test_checks_can_fail():
     limits, load = Limits(stop_stress_max_MPa=100.0), Load(winding_torque_Nm=2.0)
