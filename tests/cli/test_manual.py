@@ -40,7 +40,7 @@ def searching(file: Path) -> object:
     """A page; long runs and updates alone take those that search or draw for a second or more."""
     search = "sweep-front", "dwell-time", "reduce-acceleration", "find-tolerances", "tolerances"
     files = "mill", "inches", "ci", "laser", "write-report", "drawing-sheet", "spherical-sheet"
-    more = "hand-over", "certificates", "print", "shafts"
+    more = "hand-over", "certificates", "print", "shafts", "plots", "size-motor", "law-from-csv"
     long = file.stem in (*search, *files, *more) and not UPDATE
     return pytest.param(file, marks=pytest.mark.long) if long else file
 
