@@ -313,19 +313,26 @@ class _Extremes:
         self.candidates = []
         least = self._bar(every.side, every.number, every.design)
         some = record_taken(every, ~(every.reach < least) & (least < np.inf))
-        x, value, live = some.x.copy(), np.empty(len(some.x)), np.arange(len(some.x))
+        x, near = some.x.copy(), some.near.copy()
+        value, live = np.empty(len(x)), np.arange(len(x))
         for _ in range(20):  # most take two
             if not len(live):
                 break
             v, slope, bend = self._jets(x[live], record_taken(some, live))
             step = np.nan_to_num(some.uphill[live] * slope / np.abs(bend))
-            step = np.clip(step, -some.near[live], some.near[live])
+            # at rest where the function has the other extreme: inwards, by less each time
+            rests = np.abs(slope) <= 1e-6 * np.abs(bend) * near[live]
+            away = rests & (some.uphill[live] * bend > 0.0)
+            middle = 0.5 * some.ends[:, live].sum(axis=0)
+            step = np.where(away, np.sign(middle - x[live]) * 0.1 * near[live], step)
+            near[live] *= np.where(away, 0.3, 1.0)
+            step = np.clip(step, -near[live], near[live])
             step = np.clip(x[live] + step, *some.ends[:, live]) - x[live]
-            short = np.abs(step) <= 1e-3 * some.near[live]
+            short = np.abs(step) <= 1e-3 * near[live]
             value[live] = v + np.where(short, 0.5 * slope * step, 0.0)
             x[live] += step
             # after a step of 1e-8 of the search range, a maximum's place is exact
-            live = live[np.abs(step) > 1e-8 * some.near[live]]
+            live = live[np.abs(step) > 1e-8 * near[live]]
         # on the way to a flat end a step only halves the distance; and 1e-16 is rounding
         reached = 1e-16 * some.near
         reached[live] = 0.02 * some.near[live]
