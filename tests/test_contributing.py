@@ -34,6 +34,7 @@ def put(path, block):
     path.write_text(text, encoding="utf-8")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("example", "command"), [("a key and its check", "check"), ("a kind of machine", "peaks")]
 )

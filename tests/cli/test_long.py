@@ -59,6 +59,7 @@ def test_a_long_table_is_the_same_as_a_held_one(text, monkeypatch):
     ],
     ids=["straight", "curved", "slot", "spectrum"],
 )
+@pytest.mark.long
 def test_memory_does_not_grow(command, text):
     """Half a million rows are 24 to 40 MB as numbers, and several times that in the making."""
     put("spec.toml", text)

@@ -23,6 +23,7 @@ def test_sample(name):
     assert not over
 
 
+@pytest.mark.long
 def test_a_point_much_slower_than_its_links():
     """Its links' rounding is 17 times its own: the manual's page accuracy."""
     for text in HARD:
