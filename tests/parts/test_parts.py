@@ -207,34 +207,7 @@ def test_assembly_of_every_design(name):
             assert not around.buffer(-t).intersects(other)
 
 
-def moved(shapes, angle, ahead=0.0):
-    """Shapes turned by an angle, radians, and moved along x."""
-
-    def place(p):
-        c, s = math.cos(angle), math.sin(angle)
-        return c * p[0] - s * p[1] + ahead, s * p[0] + c * p[1]
-
-    def piece(old):
-        start, end, point = old
-        return place(start), place(end), lambda t: place(point(t))
-
-    return {
-        layer: [
-            (place(shape[0]), shape[1])
-            if isinstance(shape, tuple)
-            else [piece(old) for old in shape]
-            for shape in found
-        ]
-        for layer, found in shapes.items()
-    }
-
-
 # 2. Curves, units, tolerance
-
-
-def between(one, other):
-    """The greatest distance between two closed outlines, either way; good to SAGITTA."""
-    return LineString(points(one)).hausdorff_distance(LineString(points(other)))
 
 
 def table_of(name, part, *options):

@@ -329,15 +329,6 @@ def test_centroids_are_those_of_fine_polygons():
     assert [float(parts["wheel"][f"centroid_{axis}_mm"]) for axis in "xy"] == [0.0, 0.0]
 
 
-def around(angle, inner, outer):
-    """A cone between two spheres, likewise."""
-    c = math.cos(angle)
-    squares = 2.0 / 3.0 - c + c**3 / 3.0
-    return math.tau * np.array(
-        ((1.0 - c) * (outer**3 - inner**3) / 3.0, squares * (outer**5 - inner**5) / 5.0)
-    )
-
-
 LINKED = "rollers, links, gears, shafts, frame"  # all that needs the links
 
 
