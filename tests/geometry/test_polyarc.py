@@ -103,8 +103,8 @@ def _edge(start: tuple[float, float], end: tuple[float, float], bend: float) -> 
 @pytest.mark.sampled(16)
 @pytest.mark.parametrize("sagitta", [9.3, 2.5, 0.22, *[10.0**-n for n in range(1, 14, 3)]])
 @pytest.mark.parametrize("flip", [1.0, -1.0])
-def test_nearly_straight_arcs(sagitta: float, flip: float) -> None:
-    """A fitted wall at an inflection: a radius of 31 mm to 31 million km, against 50 digits."""
+def test_arcs_of_any_bend(sagitta: float, flip: float) -> None:
+    """Also a fitted wall at an inflection: radii up to 31 million km, against 50 digits."""
     arc = Arc((3.0, 1.0), (7.0, 4.0), flip * 2.0 * sagitta / 5.0)
     boundary = Polyarc([closed("X", [arc, Line((7.0, 4.0), (3.0, 1.0))])])
     wall = boundary.subset(np.array([0]))
