@@ -9,7 +9,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sampling import some
 from shapely.geometry import LinearRing
-from words import Spec, Wheel
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
@@ -17,10 +16,6 @@ from geneva_cli.geometry.kerf import offset, paths
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.shapes import Arc, Circle, Line, about, backwards, closed
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.motion.mechanism import build
-from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.cut_outlines import drawn
-from geneva_cli.spec.tables import Size
 
 SAGITTA = 1e-4  # mm, of the chords that shapely is given
 MICRON = 1e-3  # mm, what a cut piece may be off by
@@ -119,16 +114,6 @@ def tried(corners, kerf, outside):
 def test_no_path_crosses_itself(corners, kerf, outside):
     """Of outlines with any corners."""
     tried(corners, kerf, outside)
-
-
-def test_a_slot_is_as_wide_as_it_was():
-    """The walls of a straight slot, which are a roller's diameter apart."""
-    found = drawn(*machine_sizes(build(Spec(Wheel(6), size=Size(roller_radius_mm=5.0)))))
-    path = offset(found.wheel, True, 0.1)
-    lines = [s for s in path.segments if isinstance(s, Line)]
-    ahead = [s for s in lines if min(s.start[0], s.end[0]) > 0 and abs(s.start[1]) < 6.0]
-    low, high = sorted(s.start[1] for s in ahead)
-    assert high - low + 0.2 == pytest.approx(10.0, abs=1e-12)
 
 
 @pytest.mark.parametrize(

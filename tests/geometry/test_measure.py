@@ -68,16 +68,6 @@ def test_an_arc_of_any_sweep(centre, radius, start, sweep, share):
         assert -1e-9 < outward * (found - known) < step + 1e-9
 
 
-@pytest.mark.parametrize("sweep", [1e-12, 1e-6, 1e-3, 0.1, 0.499, 0.5, 0.501, 3.0])
-def test_a_cap_keeps_its_digits(sweep):
-    with mpmath.workdps(50):
-        bulge = math.tan(0.25 * sweep)
-        angle = 4 * mpmath.atan(bulge)
-        cap = (angle - mpmath.sin(angle)) / (8 * mpmath.sin(angle / 2) ** 2) * 100
-    found = area(Contour("WHEEL", (Arc((0.0, 0.0), (10.0, 0.0), bulge),), closed=False))
-    assert found == pytest.approx(float(cap), rel=1e-14)  # some roundings of 1e-16
-
-
 @pytest.mark.long
 @QUICK
 @given(contours())

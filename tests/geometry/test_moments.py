@@ -6,7 +6,7 @@ import mpmath
 import pytest
 
 from geneva_cli.geometry.moments import area, moments, total
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, backwards, closed
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 
 mp = mpmath.mp.clone()
 mp.dps = 40
@@ -32,23 +32,6 @@ def test_a_disc_with_bores_is_its_closed_form(pieces):
     assert found.polar == pytest.approx(total((whole, cut.times(-1.0))).polar, rel=1e-14)
     away = -b * sum(x for x, _, _ in bores) / (m - 3 * b)
     assert found.centroid[0] == pytest.approx(away, rel=1e-12)  # the disc's own 0 is a difference
-
-
-def test_a_triangle_and_a_square():
-    square = Contour(
-        "W",
-        tuple(
-            Line(*p)
-            for p in [
-                ((1.0, 1.0), (3.0, 1.0)),
-                ((3.0, 1.0), (3.0, 3.0)),
-                ((3.0, 3.0), (1.0, 3.0)),
-                ((1.0, 3.0), (1.0, 1.0)),
-            ]
-        ),
-    )
-    assert moments(square) == pytest.approx((4.0, 8.0, 8.0, 4 * 8 / 12 + 4 * 8), rel=1e-15)
-    assert moments(backwards(square)) == pytest.approx([-v for v in moments(square)], rel=1e-15)
 
 
 def of_cap(start, end, bulge):

@@ -5,44 +5,12 @@ import io
 import json
 import math
 
-import pytest
 from drawing_witness import apart, drawn_shapes
-from test_dxf import MANY, bow, of, smooth
+from test_dxf import MANY, of
 
-from geneva_cli.geometry.pieces import pieces_table, prepared
+from geneva_cli.geometry.pieces import prepared
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line
 from geneva_cli.output import draw
-
-
-def rows(drawing, units="mm"):
-    table = pieces_table(drawing, units)
-    return [dict(zip(table.names, row, strict=True)) for row in table.rows()]
-
-
-def test_a_row_a_piece():
-    found = rows(of(bow(), Circle("BORE", (1.0, 2.0), 3.0), smooth()))
-    assert [(r["layer"], r["contour"], r["piece"], r["kind"]) for r in found] == [
-        ("WHEEL", 1, 1, "arc"),
-        ("WHEEL", 1, 2, "line"),
-        ("BORE", 2, 1, "circle"),
-        *[("CRANK", 3, i, "cubic") for i in (1, 2, 3)],
-        ("CRANK", 3, 4, "arc"),
-        ("CRANK", 3, 5, "line"),
-    ]
-    arc, line, bore, cubic = found[:4]
-    assert [arc[k] for k in ("x_mm", "y_mm", "end_x_mm", "end_y_mm")] == [10.0, 0.0, -10.0, 0.0]
-    assert [arc[k] for k in ("center_x_mm", "center_y_mm", "radius_mm", "sweep_deg")] == (
-        pytest.approx([0.0, 0.0, 10.0, 180.0], abs=1e-14)
-    )
-    assert line["radius_mm"] is line["sweep_deg"] is line["control1_x_mm"] is None
-    assert [bore[k] for k in ("x_mm", "center_x_mm", "center_y_mm", "radius_mm", "sweep_deg")] == [
-        None,
-        1.0,
-        2.0,
-        3.0,
-        360.0,
-    ]
-    assert [cubic[k] for k in ("control1_x_mm", "control2_x_mm", "control2_y_mm")] == [5, 8, 2]
 
 
 def again(found):

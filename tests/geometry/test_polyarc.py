@@ -69,56 +69,6 @@ def test_samples_are_on_the_outline_and_dense(
     assert shapely.distance(chords, fine).max() <= sagitta * (1.0 + 1e-6)
 
 
-def exact(piece: Line | Arc, x: float, y: float) -> tuple[float, float, bool]:
-    """The distance of a point from one piece in 30 digits, its side (> 0 on the left), and whether
-    the nearest is between the piece's ends."""
-    with mpmath.workdps(30):
-        p, q, s = mpmath.mpc(*piece.start), mpmath.mpc(*piece.end), mpmath.mpc(x, y)
-        if isinstance(piece, Line):
-            share = mpmath.re((s - p) * mpmath.conj(q - p)) / abs(q - p) ** 2
-            foot = p + min(max(share, 0), 1) * (q - p)
-            side = float(mpmath.im(mpmath.conj(q - p) * (s - p)))
-            return float(abs(s - foot)), side, bool(0 < share < 1)
-        sweep = 4 * mpmath.atan(mpmath.mpf(piece.bulge))
-        centre = (p + q) / 2 + mpmath.mpc(0, 1) * (q - p) / 2 / mpmath.tan(sweep / 2)
-        # how far the point's direction is beyond the start, along the sweep
-        turn = mpmath.arg((s - centre) / (p - centre)) * mpmath.sign(sweep)
-        within = turn % (2 * mpmath.pi) <= abs(sweep)
-        away = abs(p - centre) - abs(s - centre)
-        nearest = abs(away) if within else min(abs(s - p), abs(s - q))
-        return float(nearest), float(away * mpmath.sign(sweep)), bool(within)
-
-
-PIECES = [
-    Line((-3.0, 1.0), (5.0, 7.0)),
-    Line((1.0, 0.0), (1.0, 1e-3)),
-    *[Arc((2.0, -1.0), (6.0, 3.0), math.tan(math.radians(d) / 4.0)) for d in (20, 179, 180, 300)],
-    *[Arc((2.0, -1.0), (6.0, 3.0), -math.tan(math.radians(d) / 4.0)) for d in (20, 179, 180, 300)],
-]
-
-
-@pytest.mark.sampled(12)
-@pytest.mark.parametrize("piece", PIECES)
-def test_one_piece_against_thirty_digits(piece: Line | Arc) -> None:
-    """The piece closed by two lines: the side is asked for where it is the nearest of the three."""
-    far = (-40.0, -90.0)
-    pieces = [piece, Line(piece.end, far), Line(far, piece.start)]
-    boundary = Polyarc([closed("X", pieces)])
-    centre = np.add(piece.start, piece.end) / 2.0
-    spread = 1.5 * math.dist(piece.start, piece.end)
-    points = centre + spread * np.random.default_rng(1).standard_normal((200, 2))
-    sides = 0
-    for point, value in zip(points, boundary.signed(points), strict=True):
-        (distance, side, ahead), *others = (exact(p, *point) for p in pieces)
-        nearest = min(distance, *(d for d, _, _ in others))
-        # distances and radii reach some 100 mm: two units in the last place of that
-        assert abs(value) == pytest.approx(nearest, abs=2.0 * math.ulp(100.0))
-        if ahead and distance == nearest:
-            assert (value < 0.0) == (side > 0.0)
-            sides += 1
-    assert sides >= 20
-
-
 @pytest.mark.parametrize("flip", [1.0, -1.0])
 @pytest.mark.parametrize("turn_deg", [1e-3, 1.0, 60.0, 90.0, 150.0, 179.0, 179.999])
 @pytest.mark.parametrize("bend", [0.0, 0.2, -0.2])
@@ -151,10 +101,10 @@ def _edge(start: tuple[float, float], end: tuple[float, float], bend: float) -> 
 
 
 @pytest.mark.sampled(16)
-@pytest.mark.parametrize("sagitta", [10.0**-n for n in range(1, 14)])
+@pytest.mark.parametrize("sagitta", [9.3, 2.5, 0.22, *[10.0**-n for n in range(1, 14, 3)]])
 @pytest.mark.parametrize("flip", [1.0, -1.0])
-def test_nearly_straight_arcs(sagitta: float, flip: float) -> None:
-    """A fitted wall at an inflection: a radius of 31 mm to 31 million km, against 50 digits."""
+def test_arcs_of_any_bend(sagitta: float, flip: float) -> None:
+    """Also a fitted wall at an inflection: radii up to 31 million km, against 50 digits."""
     arc = Arc((3.0, 1.0), (7.0, 4.0), flip * 2.0 * sagitta / 5.0)
     boundary = Polyarc([closed("X", [arc, Line((7.0, 4.0), (3.0, 1.0))])])
     wall = boundary.subset(np.array([0]))

@@ -80,11 +80,8 @@ def face(shape):
     ("design", "axis", "names"),
     [
         ("elliptical-gears", "crank", {"arm", "locking disc", "driven gear"}),
-        ("side-crank-z6", "crank", {"arm", "locking disc", "coulisse"}),
-        ("gear-sector", "crank", {"arm", "locking disc", "crank gear"}),
         ("gear-sector", "wheel", {"wheel", "wheel gear"}),
         ("epicyclic-z4", "crank", {"locking disc", "carrier"}),
-        ("cam-geneva", "crank", {"crank", "locking disc"}),
         ("slider-crank", "crank", {"crank"}),
     ],
 )
@@ -161,11 +158,6 @@ def test_one_shaft_runs_through_arm_and_crank(wheel):
 @pytest.mark.parametrize(
     ("size", "key", "said"),
     [
-        (
-            {"wheel_bore": "D", "wheel_bore_mm": 0.0},
-            "wheel_bore",
-            "the wheel has no bore; set wheel",
-        ),
         (
             {"wheel_bore": "D", "wheel_flat_mm": 9.0},
             "wheel_flat_mm",

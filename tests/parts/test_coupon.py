@@ -83,11 +83,7 @@ def test_holes_for_the_pin_become_smaller(tmp_path):
 def test_numbers_read_as_they_should():
     """Where strokes are lit, in a picture of three columns and five rows."""
     pictures = {
-        "0": ("###", "#.#", "#.#", "#.#", "###"),
         "2": ("###", "..#", "###", "#..", "###"),
-        "4": ("#.#", "#.#", "###", "..#", "..#"),
-        "5": ("###", "#..", "###", "..#", "###"),
-        "6": ("###", "#..", "###", "#.#", "###"),
         "9": ("###", "#.#", "###", "..#", "###"),
         "7": ("###", "..#", "..#", "..#", "..#"),
     }

@@ -145,22 +145,3 @@ def test_an_internal_cranks_bore_is_the_arms():
     (check,) = (c for c in design.checks if c.name == "crank_shaft_mm")
     assert not check.passes  # the wheel's horns sweep over the shaft
     assert check.nearest == "crank_bore_mm = 0"
-
-
-@pytest.mark.long
-def test_a_cam_without_pins_has_its_groove_plate():
-    design = load(str(repo.DESIGNS / "cam-geneva.toml"), ["size.pin_mm=0"])
-    assert assert_machine(design)
-
-
-@pytest.mark.parametrize(
-    ("name", "said"), [("four-bar-z4", "counterclockwise"), ("slider-crank", "clockwise")]
-)
-def test_the_arrow_of_a_link_crank_runs_as_the_list_says(name, said):
-    design = load(str(repo.DESIGNS / f"{name}.toml"))
-    rows = design.part_table("parts").to_rows()
-    assert said in [row["value"] for row in rows if row["name"] == "crank turns"]
-    wheel, crank = design.drawing("assembly", 0.01).look.turns
-    assert wheel.bulge > 0.0  # the wheel's own sense
-    assert (crank.bulge > 0.0) == (said == "counterclockwise")
-    assert crank.centre == pytest.approx((design.mechanism.center_distance_mm, 0.0))

@@ -20,8 +20,7 @@ from test_outline import STRAIGHT, L, disc, made, name, turned
 from words import LAWS, Motion
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Contour, Line, about, closed
-from geneva_cli.parts.outlines.crank_outline import reliefs
+from geneva_cli.geometry.shapes import Contour
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import Gaps
@@ -60,7 +59,7 @@ def passes(found: Parts, turn: FullTurn) -> bool:
 
 
 SOUND = [
-    *[STRAIGHT[i] for i in (1, 6, 8, 17, 20)],
+    *[STRAIGHT[i] for i in (1, 4, 6, 12, 14)],
     {"z": 7, "lock_clearance_mm": 0.01, "slot_clearance_mm": 0.01},
 ]
 
@@ -77,15 +76,6 @@ def test_the_wheel_goes_on_before_the_first_entry_and_after_a_turn() -> None:
     rest = np.where(moving, 0.0, np.copysign(math.pi / 6.0, away))
     expected = motion + rest + math.pi / 3.0 * steps
     assert np.abs(assembly.wheel(at) - expected).max() < 1e-13
-
-
-def test_unequal_steps_add_up_to_a_turn() -> None:
-    """Two rollers on the crank, for steps of 60 and 30 deg: 90 deg a turn of the crank."""
-    assembly = made(8, steps=(60.0, 30.0)).assembly
-    at = np.linspace(-900.0, 900.0, 2001)
-    assert assembly.turn_deg == 360.0
-    gained = assembly.wheel(at + 360.0) - assembly.wheel(at)
-    assert np.abs(gained - 0.5 * math.pi).max() < 1e-13
 
 
 @pytest.mark.sampled(6)
@@ -212,52 +202,3 @@ def test_a_rim_too_large_fouls_the_roller_before_it_enters(z: int, by: float) ->
     # the place of the smallest gap is found to a share of the half degree that it lasts
     assert turn.driving.mm == pytest.approx(R - r - math.hypot(R - r, s), rel=1e-3, abs=1e-12)
     assert turn.smallest.mm < -found.close
-
-
-def sector_crank(found: Parts, locked: float) -> Contour:
-    """A disc that is left on ``locked`` radians opposite the roller only."""
-    rk, floor = found.sizes.lock, L - found.sizes.rim - found.sizes.relief
-    start, end = math.pi - 0.5 * locked, math.pi + 0.5 * locked
-    outer = about((0.0, 0.0), rk, start, locked)
-    inner = about((0.0, 0.0), floor, end, math.tau - locked)
-    return closed(
-        "CRANK", [outer, Line(outer.end, inner.start), inner, Line(inner.end, outer.start)]
-    )
-
-
-def test_a_relief_too_wide_holds_nothing() -> None:
-    """Of the disc's 240 degrees only 60 are left: nothing overlaps, but the wheel is loose."""
-    found = made(6)
-    wrong = spoilt(found, crank=[sector_crank(found, math.radians(60.0))])
-    turn = full_turn(wrong)
-    assert turn.smallest.mm >= -found.close
-    assert turn.hand_over.deg == turn.free_deg == pytest.approx(30.0)
-    assert not full_turn(made(6, lock_radius_mm=0.0)).holds
-    assert turn.hand_over.deg > finds_slot(found)
-    assert not passes(wrong, turn)
-
-
-def test_a_thin_horn_is_not_stepped_over() -> None:
-    """A needle on the crank that reaches 0.02 mm into the rim where a horn of half a millimetre
-    passes by: it lasts for less than half a degree, and not at any whole degree."""
-    r, b = 2.0, math.pi / 6
-    found = made(6, roller_radius_mm=r, lock_radius_mm=L * math.sin(b) - r - 0.5, relief="sector")
-    size, (relief,) = found.sizes, reliefs(found.assembly)
-    mouth, recess = math.asin(r / size.rim), b - opening(size.rim, size.recess)
-    psi = 0.5 * (mouth + recess)  # the middle of the horn on the line of centres
-    phi = math.degrees(math.asin(math.sin(psi) / math.sin(b)) - psi)
-    at, floor, tip = found.assembly.lock(phi), L - size.rim - size.relief, L - size.rim + 0.02
-    outer = about((0.0, 0.0), size.lock, relief.end, math.tau - 2.0 * relief.half)
-    first = about((0.0, 0.0), floor, relief.start, at - relief.start)
-    second = about((0.0, 0.0), floor, at + 1e-3, relief.end - at - 1e-3)
-    top = tip * math.cos(at), tip * math.sin(at)
-    pieces = [Line(outer.end, first.start), first, Line(first.end, top), Line(top, second.start)]
-    bad = closed("CRANK", [outer, *pieces, second, Line(second.end, outer.start)])
-    wrong = spoilt(found, crank=[bad])
-    turn = full_turn(wrong)
-    assert turn.lock is not None
-    # the needle is 0.013 mm thick, and the wheel's corner comes beside its point
-    assert turn.lock.mm == pytest.approx(-0.013, abs=0.008)
-    assert turn.lock.at_deg == pytest.approx(phi, abs=0.3)
-    assert wrong.gaps.locking(wrong.gaps.pose(np.arange(-60.0, 300.0))).min() >= -found.close
-    assert passes(found, full_turn(found))

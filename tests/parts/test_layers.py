@@ -15,7 +15,6 @@ from geneva_cli.output.dxf import chunks
 from geneva_cli.output.sheets.sheet_dxf import chunks as sheet_chunks
 
 pytestmark = pytest.mark.usefixtures("made_once")
-DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 TOLERANCE = 0.05  # mm: coarse walls are quick, and have the same layers
 FORMATS = Path(repo.ROOT, "geneva_cli/manual/reference/formats.md")
 

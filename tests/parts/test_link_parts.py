@@ -7,10 +7,8 @@ import pytest
 import repo
 from shapely import affinity
 from shapely.geometry import LineString
-from typer.testing import CliRunner
 
 from geneva_cli import load
-from geneva_cli.cli.app import app
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.assembly import links_at
@@ -85,18 +83,3 @@ def test_blocks_stay_in_their_slots(made):
                 assert room.contains(affinity.translate(own, at.real, at.imag))
             # and the slot is no longer than it must be, by a hole's width
             assert abs(ends[0][0] - ends[1][0]) < np.ptp(way) + 4.0 * half
-
-
-@pytest.mark.long
-def test_kerf_and_solids(tmp_path):
-    """Outlines grow by half the cut and holes shrink; the solids stand in their planes."""
-    design = load(str(repo.DESIGNS / "slider-crank.toml"))
-    plain, cut = design.drawing("links"), design.drawing("links", kerf_mm=0.2)
-    radii = [[s.radius for s in d.shapes if isinstance(s, Circle)] for d in (plain, cut)]
-    assert all(a - b == pytest.approx(0.1) for a, b in zip(*radii, strict=True))
-    for part in ("links", "assembly"):
-        out = tmp_path / f"{part}.step"
-        spec = str(repo.DESIGNS / "slider-crank.toml")
-        run = CliRunner().invoke(app, ["profile", spec, "--part", part, "-o", str(out)])
-        assert run.exit_code == 0, run.output
-        assert all(f"'{name}'" in out.read_text().replace("''", "'") for name in ("rod", "guide"))

@@ -25,10 +25,8 @@ SMALL = Size(roller_radius_mm=3.0, slot_clearance_mm=0.02, lock_clearance_mm=0.0
 CURVED = Motion(ModifiedSine(), alpha0_deg=60.0)
 SPECS = {
     "external": Spec(External(8), Crank(rollers=2), size=SMALL),
-    "three": Spec(External(5), Crank(rollers=3), size=SMALL),
     "no lock": Spec(External(4), Crank(rollers=3), size=SMALL.replace(lock_radius_mm=0.0)),
     "internal": Spec(Internal(12), Cam(rollers=2), CURVED, size=SMALL),
-    "curved": Spec(External(9), Crank(rollers=2), Motion(ModifiedSine()), size=SMALL),
     "spherical": Spec(Spherical(9, axes_deg=80.0), Crank(rollers=2), size=SMALL),
     "too large": Spec(External(21), Crank(rollers=2), size=Size(roller_radius_mm=5.0)),
 }

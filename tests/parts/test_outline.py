@@ -6,7 +6,6 @@ of the roller, by shapely; areas and lengths of sectors and segments, in 30 digi
 
 import functools
 import math
-import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -19,15 +18,12 @@ from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
 from words import LAWS, Drive, Motion, Spec, Wheel
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import turned as turn
 from geneva_cli.geometry.moments import area
 from geneva_cli.geometry.shapes import Arc, Contour
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion as Given
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.machine_sizes import sizes
-from geneva_cli.parts.outlines.wheel_outline import CURVED, straight_walls, wheel_contour
+from geneva_cli.parts.outlines.wheel_outline import CURVED
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.spec.tables import Size
 
@@ -156,24 +152,17 @@ def cut(found: Parts, slots: list[Slot], rests: list[float]) -> Polygon:
 STRAIGHT = [
     {"z": 3, "roller_radius_mm": 3.0},
     {"z": 4, "roller_radius_mm": 6.0, "slot_clearance_mm": 0.1, "lock_clearance_mm": 0.01},
-    {"z": 5, "roller_radius_mm": 9.0, "lock_clearance_mm": 0.1},
     {"z": 6, "slot_clearance_mm": 0.01, "lock_clearance_mm": 0.1},
     {"z": 8, "roller_radius_mm": 4.0, "slot_clearance_mm": 0.1},
-    {"z": 11, "roller_radius_mm": 3.0, "wheel_bore_mm": 20.0},
     {"z": 24, "roller_radius_mm": 2.0, "slot_clearance_mm": 0.01},
     {"z": 3, "gearing": "internal", "roller_radius_mm": 4.0},
     {"z": 4, "gearing": "internal", "slot_clearance_mm": 0.1, "lock_clearance_mm": 0.1},
-    {"z": 6, "gearing": "internal", "roller_radius_mm": 6.0},
-    {"z": 9, "gearing": "internal", "roller_radius_mm": 3.0, "slot_clearance_mm": 0.01},
     {"z": 24, "gearing": "internal", "roller_radius_mm": 1.0},
     {"z": 4, "rollers": 3, "roller_radius_mm": 7.0},
-    {"z": 7, "rollers": 2, "roller_radius_mm": 4.0},
     {"z": 8, "slot_bottom_clearance_mm": 2.5},
     {"z": 6, "law": "cycloidal", "kind": "cam"},
     {"z": 6, "offset": 8.0, "roller_radius_mm": 4.0},
     {"z": 6, "offset": -8.0, "roller_radius_mm": 4.0, "slot_clearance_mm": 0.1},
-    {"z": 4, "offset": 5.0},
-    {"z": 6, "steps": (72.0, 48.0)},
     {"z": 8, "steps": (60.0, 30.0), "roller_radius_mm": 3.0, "slot_clearance_mm": 0.1},
     {"z": 6, "steps": (90.0, 30.0)},
     {"z": 4, "steps": (120.0, 60.0), "slot_clearance_mm": 0.1, "lock_clearance_mm": 0.1},
@@ -202,45 +191,6 @@ def name(case: dict) -> str:
         for v in case.values()
     ]
     return " ".join(words)
-
-
-LOW_MOUTHS = [
-    *[
-        {"z": 2 * n, "steps": (share * 360.0 / n, (1.0 - share) * 360.0 / n)}
-        for n in (2, 3, 4, 6)
-        for share in (0.1, 0.2, 0.3, 0.4, 0.45)
-        if (1.0 - share) * 360.0 / n < 180.0
-    ],
-    *[
-        {"z": z, "offset": share * L * math.cos(math.pi / z) ** 2}
-        for z in (3, 4, 6, 9, 14)
-        for share in (-0.99, -0.9, -0.6, -0.3, -0.1, 0.1, 0.3, 0.6, 0.9, 0.99)
-    ],
-]
-
-
-@pytest.mark.long
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("lock", [None, 0.0])
-def test_mouths_of_any_height(lock: float | None) -> None:
-    """Offsets over their whole valid range, patterns of two steps: a whole contour, or a reason."""
-    drawn = 0
-    for case in LOW_MOUTHS:
-        wheel = Wheel(
-            case["z"], offset_mm=case.get("offset", 0.0), steps_deg=case.get("steps", None)
-        )
-        where = assembly(build(Spec(wheel, size=Size(L, lock_radius_mm=lock))))
-        try:
-            size = sizes(where)
-            slots = {s: straight_walls(where, size, s) for s in where.kinds}
-            contour = wheel_contour(where, size, slots)
-        except GenevaError as error:
-            assert re.search("does not fit|meet in the wheel|beyond the locking disc", str(error))
-            continue
-        assert ends_meet(contour)
-        assert polygon(contour, FLAT).is_valid
-        drawn += 1
-    assert drawn > 0.8 * len(LOW_MOUTHS)
 
 
 @pytest.mark.sampled(24)
@@ -490,21 +440,12 @@ def milled(found: Parts) -> Polygon:
 
 
 CURVED_SLOTS = [
-    *[{"z": 6, "law": law} for law in LAWS if law not in ("table", "sine-group")],
-    {"z": 6, "motion": Motion("sine-group", 0.1, ratio="matched")},
+    *[{"z": 6, "law": law} for law in LAWS if law in ("modified-sine", "4-5-6-7", "harmonic")],
     {"z": 6, "motion": Motion("sine-group", -0.1, ratio="matched")},
     {"z": 6, "motion": Motion("sine-group", 0.1, alpha0_deg=-40.0, ratio=0.5)},
-    {"z": 8, "motion": Motion("modified-sine", alpha0_deg=15.0, ratio="matched")},
-    {
-        "z": 8,
-        "motion": Motion("cycloidal", alpha0_deg=-20.0, ratio="matched"),
-        "roller_radius_mm": 3.0,
-    },
     {"z": 4, "law": "cycloidal", "slot_clearance_mm": 0.1},
-    {"z": 12, "law": "3-4-5", "roller_radius_mm": 2.0, "lock_clearance_mm": 0.1},
     {"z": 6, "motion": Motion("3-4-5", ratio=0.5)},
     {"z": 5, "gearing": "internal", "law": "harmonic"},
-    {"z": 8, "gearing": "internal", "law": "modified-sine", "roller_radius_mm": 3.0},
     {
         "z": 8,
         "gearing": "internal",
@@ -525,8 +466,6 @@ CURVED_SLOTS = [
         "motion": Motion("cycloidal", ratio=0.124),
         "roller_radius_mm": 5.82,
     },
-    # Refused, wrongly (the roller's way is followed into the next slot), to be added when it is
-    # made: z = 17 internal, cycloidal, R/L = 0.184, r = 8.64, slot clearance 0.1.
 ]
 
 

@@ -7,10 +7,10 @@ import math
 
 import numpy as np
 import pytest
-from words import Drive, Keys, Motion, Spec, Wheel
+from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli import Design, External
-from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_disc, draw_link, draw_roller
+from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_disc, draw_link
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.moments import moments
@@ -107,29 +107,6 @@ def test_a_guide_is_as_long_as_its_block_needs():
     # amid the edges of hole and eye, between the planes of the links that it keeps apart
     assert (spacer.outline.radius, spacer.high, spacer.low) == (7.5, -20.0, -40.0)
     assert (pin.outline.radius, pin.high, pin.low) == (5.0, 0.0, -60.0)
-
-
-def test_pins_and_rollers_run_with_the_fit():
-    """Pins are as thick as their keys say; their holes and rollers' bores are wider by the fit."""
-    size = Size(L, 4.0, pin_mm=4.0, shaft_fit_mm=0.2)
-    plain, cam = (
-        Design.of(Spec(Wheel(6), drive, motion=motion, size=size))
-        for drive, motion in ((Drive(), None), (Drive("cam"), Motion("cycloidal")))
-    )
-    shown = {"Ø 8 g6 (-0.005/-0.014)", "Ø 4.2 H7 (+0.012/0)"}
-    assert dimensions(draw_roller, plain.mechanism) == shown
-    bores = [one for one in plates(plain.drawing("crank").solid) if one.name == "roller"]
-    links = drawn_links(cam.mechanism, cam.parts.outlines)
-    bores += [one.part for one in links.joined if one.part.name == "roller in the groove"]
-    assert [hole.radius for one in bores for hole in one.holes] == [2.1, 2.1]
-    keys = Keys("slider-crank", 40.0, 100.0, 80.0, 90.0)
-    size = Size(roller_radius_mm=6.0, link_pin_mm=10.0, shaft_fit_mm=0.2)
-    sliding = Design.of(Spec(Wheel(8), Drive("slider-crank"), keys, size=size))
-    links = drawn_links(sliding.mechanism, sliding.parts.outlines)
-    pins = {one.part.outline.radius for one in links.joined if one.part.name.startswith("pin")}
-    assert pins == {5.0}
-    (rod,) = (plate for plate in links.plates if plate.name == "rod")
-    assert 5.1 in {hole.radius for hole in rod.holes}
 
 
 def test_heights_above_and_below_the_wheel():

@@ -11,6 +11,7 @@ from drawing_witness import polygon
 from scipy.integrate import quad
 from scipy.interpolate import make_interp_spline
 from typer.testing import CliRunner
+from witness import LAWS, krasniqi
 
 from geneva_cli import Design
 from geneva_cli.cli.app import app
@@ -22,52 +23,6 @@ from geneva_cli.motion.records import of_wheel
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))
 SAME = 1e-9  # radians, as far as a machine must come out from its printed dimensions
-
-
-def modified_sine(u):
-    """Of Neklutin: a cycloid's sine for an eighth at both ends, three times slower between."""
-    if u > 0.5:
-        return 1.0 - modified_sine(1.0 - u)
-    if u < 0.125:
-        return (math.pi * u - math.sin(4.0 * math.pi * u) / 4.0) / (4.0 + math.pi)
-    slow = 2.25 * math.sin(math.pi / 3.0 + 4.0 * math.pi * u / 3.0)
-    return (2.0 + math.pi * u - slow) / (4.0 + math.pi)
-
-
-CLOSED = {
-    "modified-sine": modified_sine,
-    "cycloidal": lambda u: u - math.sin(math.tau * u) / math.tau,
-    "3-4-5": lambda u: u**3 * (10.0 - 15.0 * u + 6.0 * u * u),
-    "4-5-6-7": lambda u: u**4 * (35.0 - 84.0 * u + 70.0 * u * u - 20.0 * u**3),
-}
-
-
-def modified_trapezoid(u):
-    """s'' a quarter sine up to 1/8, constant, and back from 3/8: its double integral by Cauchy."""
-
-    def pull(t):
-        if t > 0.5:
-            return -pull(1.0 - t)
-        return 1.0 if 0.125 < t < 0.375 else math.sin(4.0 * math.pi * min(t, 0.5 - t))
-
-    corners = (0.125, 0.375, 0.5, 0.625, 0.875)
-
-    def rise(end):
-        ends = (0.0, *(c for c in corners if c < end), end)
-        parts = zip(ends, ends[1:], strict=False)
-        return sum(quad(lambda t: (end - t) * pull(t), a, b, epsabs=1e-14)[0] for a, b in parts)
-
-    return rise(u) / rise(1.0)
-
-
-def sine_group(u, tilt):
-    """s' = (8/3) sin^4 x (1 - 8 lambda cos x), x = pi u."""
-
-    def speed(t):
-        x = math.pi * t
-        return 8.0 / 3.0 * math.sin(x) ** 4 * (1.0 - 8.0 * tilt * math.cos(x))
-
-    return quad(speed, 0.0, u, epsabs=1e-14)[0]
 
 
 def tuned(u, d):
@@ -88,13 +43,13 @@ def through_points(d, folder):
 
 def law_of(d, folder):
     """A law by its printed name and numbers."""
-    given = {
-        "modified-trapezoid": lambda: modified_trapezoid,
-        "sine-group": lambda: lambda u: sine_group(u, d["law's lambda"]),
-        "tuned": lambda: lambda u: tuned(u, d),
-        "table": lambda: through_points(d, folder),
-    }
-    return CLOSED[d["law"]] if d["law"] in CLOSED else given[d["law"]]()
+    name = d["law"]
+    if name == "tuned":
+        return lambda u: tuned(u, d)
+    if name == "table":
+        return through_points(d, folder)
+    law = krasniqi(d["law's lambda"]) if name == "sine-group" else LAWS[name]
+    return lambda u: float(law(u, 1)[0])
 
 
 def printed(path):
@@ -327,15 +282,6 @@ def test_centroids_are_those_of_fine_polygons():
         # chords of 0.1 um, and seven digits that are printed
         assert shown == pytest.approx([whole.centroid.x, whole.centroid.y], abs=1e-4)
     assert [float(parts["wheel"][f"centroid_{axis}_mm"]) for axis in "xy"] == [0.0, 0.0]
-
-
-def around(angle, inner, outer):
-    """A cone between two spheres, likewise."""
-    c = math.cos(angle)
-    squares = 2.0 / 3.0 - c + c**3 / 3.0
-    return math.tau * np.array(
-        ((1.0 - c) * (outer**3 - inner**3) / 3.0, squares * (outer**5 - inner**5) / 5.0)
-    )
 
 
 LINKED = "rollers, links, gears, shafts, frame"  # all that needs the links

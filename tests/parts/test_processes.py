@@ -118,26 +118,13 @@ def test_printed_walls_are_two_lines_of_a_nozzle() -> None:
 
 
 @pytest.mark.long
-def test_printed_parts_are_as_light_as_plastic() -> None:
+@pytest.mark.parametrize("design", ["turret", "spherical-z6"])
+def test_printed_parts_are_as_light_as_plastic(design: str) -> None:
     """PLA of 1240 kg/m³ in place of steel; a density of the spec wins; so on a sphere, too."""
-    for design in ("turret", "spherical-z6"):
-        wheels = {}
-        for process, own in (("mill", ""), ("print", ""), ("print", "2700")):
-            clear = ["size.slot_clearance_mm=0.1", "size.lock_clearance_mm=0.1"]
-            rest = ["size.press_fit_mm=0.01", "size.shaft_fit_mm=0.02", "size.pin_gap_mm=0.2"]
-            keys = [f"material.wheel.density_kgm3={own}"] if own else []
-            path = str(DESIGNS / f"{design}.toml")
-            settings = [f"size.process={process}", *clear, *rest, *keys]
-            rows = load(path, settings).part_table("parts").to_rows()
-            wheels[process + own] = next(row for row in rows if row["name"] == "wheel")
-        assert wheels["print"]["density_kgm3"] == 1240.0
-        assert wheels["print"]["mass_kg"] == pytest.approx(
-            wheels["mill"]["mass_kg"] * 1240.0 / 7850.0, rel=1e-12
-        )
-        assert wheels["print2700"]["density_kgm3"] == 2700.0
-    printed = turret("size.process=print")
-    texts = [label.text for label in printed.sheet(0.05).texts]
-    assert {"PLA", "steel", "see list"} <= {*texts}
+    path = str(DESIGNS / f"{design}.toml")
+    for keys, density in (([], 1240.0), (["material.wheel.density_kgm3=2700"], 2700.0)):
+        rows = load(path, ["size.process=print", *keys]).part_table("parts").to_rows()
+        assert next(row for row in rows if row["name"] == "wheel")["density_kgm3"] == density
 
 
 def sphere(*settings: str) -> Design:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from witness import mp
-from words import Drive, Motion, Spec, Wheel, named
+from words import Motion, Spec, Wheel, named
 
 from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import Mechanism, build
@@ -132,10 +132,3 @@ def dense_errors(mechanism: Mechanism, first: np.ndarray, last: np.ndarray) -> n
         turned = (p - p[:, :1]) * np.exp(-1j * np.angle(p[:, -1:] - p[:, :1]))
         worst = np.maximum(worst, np.abs(turned.imag).max(axis=1))
     return worst
-
-
-def test_internal_slots_run_outwards() -> None:
-    mechanism = build(Spec(Wheel(6, "internal"), Drive(), size=SIZE))
-    rows = list(profile_table(mechanism, 0.001, None).rows())
-    assert rows[1][2] == pytest.approx(1.5 * L, abs=2 * math.ulp(L))
-    assert rows[0][5] == 9.25  # travelling outwards, left is up

@@ -17,7 +17,6 @@ from geneva_cli.drawings.sheet.content import faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
 from geneva_cli.drawings.sheet.points import tables
 from geneva_cli.geometry.plates import in_place
-from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, WheelMaterial
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -78,17 +77,6 @@ def test_the_title_block_says_what_is_there(sheets):
     assert not any(re.search(r"20\d\d-|/", text) for text in rest)
 
 
-@pytest.mark.long
-def test_the_roller_turns_on_a_pin_that_the_arm_holds():
-    """A running and a pressed fit of one pin; a hole drawn for a press fit has its own size."""
-    for press, hole in ((0.0, "Ø 6 P7 (-0.008/-0.02)"), (0.02, "Ø 5.98 H7 (+0.012/0)")):
-        found = of(Spec(Wheel(6), size=Size(120.0, 6.0, press_fit_mm=press)))
-        texts = {m.label.text for m in found.measures}
-        assert {"Ø 6 F7 (+0.022/+0.01)", hole} <= texts
-        labels = {label.text for label in found.labels}
-        assert "turns on its pin Ø 6 h6 (0/-0.008), which is pressed in" in labels
-
-
 FIELDS = ("drawing number", "revision", "date", "author", "roughness")
 
 
@@ -114,18 +102,6 @@ def test_the_title_block_has_the_keys_of_drawing():
     texts = [label.text for label in found.labels]
     assert (texts.count("42CrMo4"), texts.count("100Cr6")) == (4, 4)
     assert under(found, "material") == "see list"
-
-
-@pytest.mark.long
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
-def test_no_dimension_is_without_a_place_on_a_designs_sheet(path, sheets):
-    """One that fits nowhere stands below its view, as a bare number or a diameter."""
-    _, found = sheets(path.stem)
-    alone = r"(\d+× )?(Ø |R |L = )?[\d.]+( [HgPFh]\d \(.*| ±.*|°)?"
-    cells = [label.at[0] for label in found.labels]  # of tables, numbers stand in columns
-    below = [m for m in found.labels if re.fullmatch(alone, m.text) and cells.count(m.at[0]) == 1]
-    assert below == []
 
 
 @pytest.mark.long
@@ -161,35 +137,6 @@ def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
             assert length == pytest.approx(chord.length, abs=0.3)
 
 
-LENGTHS = {
-    "four-bar-z4": ("crank a", "coupler b", "rocker c"),
-    "slider-crank": ("crank a", "rod b"),
-    "side-crank-z6": ("input crank r",),
-    "epicyclic-z4": ("carrier R0", "planet crank rp"),
-    "geneva-pair": ("first crank radius",),
-}
-
-
-@pytest.mark.long
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("name", LENGTHS)
-def test_links_have_their_views(name, sheets):
-    """Each link by its name, with the lengths of the list of parts as dimensions on paper."""
-    design, found = sheets(name)
-    rows = design.part_table("parts").to_rows()
-    titles = [re.sub(r", t = .*", "", label.text) for label in found.labels]
-    bars = drawn_links(design.mechanism, design.parts.outlines)
-    for i, row in enumerate((row for row in rows if row["row"] == "part"), 1):
-        if row["name"] in {plate.name for plate in bars.plates}:
-            assert f"{i} {row['name']}" in titles
-    linear = {round(m.value, 3) for m in found.measures if m.kind == "length"}
-    values = {row["name"]: row["value"] for row in rows if row["row"] == "dimension"}
-    assert {round(values[one], 3) for one in LENGTHS[name]} <= linear
-    # the first crank's roller is on a pin that is pressed into it, as the arm's is
-    pressed = [label.text for label in found.texts if " P7 " in label.text]
-    assert len(pressed) == (2 if name == "geneva-pair" else 1)
-
-
 def test_points_of_a_curved_slot_are_on_it():
     """The table as it is printed: chords within what it says, of the points that `slot` gives."""
     design = load(str(repo.DESIGNS / "press-curved.toml"))
@@ -205,10 +152,3 @@ def test_points_of_a_curved_slot_are_on_it():
     worst = max(table.distance(shapely.Point(p)) for p in true)
     assert stated == pytest.approx(1e-4 * design.mechanism.center_distance_mm, abs=5e-5)
     assert 0.2 * stated < worst < stated + 1e-3  # coordinates have three decimals
-
-
-def printed(block):
-    """The points of a table, as they are read from its texts."""
-    downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
-    texts = [label.text for label in downwards if re.fullmatch(r"-?\d+\.\d{3}", label.text)]
-    return [(float(x), float(y)) for x, y in zip(texts[::2], texts[1::2], strict=True)]

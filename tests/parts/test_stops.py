@@ -7,13 +7,12 @@ import pytest
 import repo
 from other_shape import with_shape
 from test_outline import made
-from words import Motion, load
+from words import load
 
 from geneva_cli.geometry.measure import at
 from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.play import free_angles, search_deg, smallest_clearance, windows
 
@@ -102,12 +101,3 @@ def test_nearly_straight_walls_stop_like_straight_ones(sagitta):
     straight, curved = free_angles(parts, at_deg), free_angles(with_shape(parts, gaps=gaps), at_deg)
     # where the roller is 50 mm or more from the wheel's axis; contacts of corners graze
     assert np.abs(np.subtract(straight, curved)).max() < sagitta / 50.0 + 1e-7
-
-
-def test_an_arc_at_an_inflection_stops_the_wheel(monkeypatch):
-    """With these places of the joints a wall has a radius of 560 m: the play was 5.27 degrees."""
-    monkeypatch.setattr("geneva_cli.geometry.fit.path.WEIGHT", 2.0**-8)
-    parts = made(8, motion=Motion("modified-sine", alpha0_deg=-16.303125, ratio="matched"))
-    assert parts.gaps.wheel.radius.max() > 1e5
-    # twice what the walls are known to, over the roller's distance from the wheel's axis
-    assert full_turn(parts).motion.deg < 2.0 * math.degrees(parts.close / parts.sizes.slot_end)

@@ -20,7 +20,6 @@ from words import load
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.distance import farthest, from_segments
 from geneva_cli.geometry.shapes import Line, about, closed
 from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
@@ -128,33 +127,6 @@ def with_spike(parts, rng):
     spike = (before, Line(before.end, tip), Line(tip, after.start), after)
     segments = (*contour.segments[:i], *spike, *contour.segments[i + 1 :])
     return with_crank(parts, [closed(contour.layer, segments), *rest])
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("name", ["turret.toml", "press-curved.toml", "internal-z6.toml"])
-def test_nearest_and_farthest_distances_against_dense_points(name):
-    """Points lie at most 0.05 mm apart: they are that much farther, or nearer, at most."""
-    rng = np.random.default_rng(1)
-    wheel = named(name).gaps.wheel
-    dense = wheel.samples(1e-4, 0.05)
-    size = float(np.abs(dense).max())
-    points = rng.uniform(-size, size, (40, 2))
-    away = np.hypot(*(dense[None] - points[:, None]).transpose(2, 0, 1))
-    far = farthest(wheel, points[:, :1], points[:, 1:]).max(axis=1)
-    assert (away.max(axis=1) <= far + ROUNDING).all()
-    assert (away.max(axis=1) >= far - 0.05).all()
-    # short segments that cross no piece
-    ends = points + rng.uniform(-1.0, 1.0, points.shape)
-    clear = away.min(axis=1) > 3.0
-    start, end = points[clear], ends[clear]
-    at = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, 201)[:, None]
-    least = np.array([np.abs(wheel.signed(row)).min() for row in at])
-    from_all = from_segments(wheel, start, end, math.inf)
-    assert np.allclose(from_all, least, atol=0.01)  # 0.014 mm of travel between two points
-    assert (from_all <= least + ROUNDING).all()
-    # 1 mm above the least some pieces are left out, and most distances are above the reach
-    reach = float(least.min()) + 1.0
-    assert (from_segments(wheel, start, end, reach) == np.minimum(from_all, reach)).all()
 
 
 @pytest.mark.parametrize("name", FLAT)

@@ -1,19 +1,13 @@
 """Turned shafts: standard parts on them, their steps, and their solids in every format."""
 
-import math
-
 import pytest
 
-from geneva_cli import Design, External, Internal, Size, load
-from geneva_cli.geometry.plates import Group, Plate, Stack, solids
+from geneva_cli import Design, External, Internal, Size
+from geneva_cli.geometry.plates import Stack, solids
 from geneva_cli.geometry.shapes import Circle
-from geneva_cli.motion import registry
-from geneva_cli.parts.links.links import placed_holes
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.shafts.shaft import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
 from geneva_cli.parts.stressed import stressed
-from geneva_cli.specfile.template import template
 
 TURNED = Size(shafts="turned", wheel_bore_mm=16.0, crank_bore_mm=10.0)
 
@@ -88,69 +82,6 @@ def test_an_overhung_crank_has_no_circlip_above_its_arm():
     assert names[-2:] == ["shoulder", "seat of crank"]
     inside = Design(Internal(6), size=Size(shafts="turned", arm_bore_mm=10.0))
     assert [s.name for s in every(inside) if isinstance(s, Stack)] == ["crank's shaft"]
-
-
-KINDS = [kind for kind in registry.DRIVES if kind != "crank"]
-
-
-@pytest.mark.sampled(12)
-@pytest.mark.parametrize("kind", KINDS)
-def test_shafts_of_every_kind(kind, tmp_path):
-    """All that turns in the frame has a bearing there, its shoulder above, and seats in its bores.
-
-    By the parts of the machine with plain shafts: each bore about an axis has a seat of its
-    heights, and a shoulder ends in the free layer above the frame, or on the lowest part.
-    """
-    spec = tmp_path / f"{kind}.toml"
-    spec.write_text(template(kind))
-    keys = ["size.shafts=turned"]
-    if load(str(spec)).mechanism.center_distance_mm < 60.0:
-        keys.append("size.link_bore_mm=5")  # the default is too thin for a bearing
-    design = load(str(spec), keys)
-    parts = design.parts
-    plain = parts_of(load(str(spec), keys[1:]).mechanism)
-    frame, free = parts.frame.part, plain.frame.part.high
-    assert free - frame.high == pytest.approx(design.mechanism.center_distance_mm / 50.0)
-    for before, after in zip(plain.shafts, parts.shafts, strict=True):
-        at, solid = before.at, after.part
-        assert after.part.name == before.part.name
-        reaches = before.part.low <= plain.frame.part.low and "pivot" not in before.part.name
-        assert isinstance(solid, Stack) == reaches
-        if not reaches:
-            continue
-        (hole,) = [h for h in frame.holes if math.dist(h.centre, at) < 1e-9]
-        (seat,) = [s for s in solid.plates if s.high == frame.high]
-        (bearing,) = [b for b in SERIES_60 if b.bore == 2.0 * seat.outline.radius]
-        assert (2.0 * hole.radius, seat.thickness) == (bearing.outside, bearing.width)
-        assert frame.thickness >= bearing.width
-        bored = before.part.outline.radius
-        heights = [
-            (p.low, p.high)
-            for m in members(parts.members)
-            for p in [m.part]
-            if p.layer not in ("SHAFT", "FRAME")
-            for h in placed_holes(m)
-            if math.dist(h.centre, at) < 1e-9 and abs(h.radius - bored) < 1e-9
-        ]
-        for low, high in heights:
-            ends = [s for s in solid.plates if s.low < high - 1e-9 and s.high > low + 1e-9]
-            assert {s.outline.radius for s in ends} == {bored}
-        assert (
-            min(s.thickness for s in solid.plates) >= DIN_471[0].width - 1e-9
-        )  # every file has it
-        (shoulder,) = [s for s in solid.plates if s.name == "shoulder"]
-        assert shoulder.outline.radius >= 1.25 * bored - 1e-9
-        least = min([low for low, _ in heights], default=free)
-        assert shoulder.high == pytest.approx(least) or shoulder.high == pytest.approx(free)
-
-
-def members(some):
-    """The flat parts, each at its place in the machine."""
-    for one in some:
-        if isinstance(one.part, Plate):
-            yield one
-        elif isinstance(one.part, Group):
-            yield from (m._replace(at=one.at) for m in one.part.members if m.at == (0.0, 0.0))
 
 
 def test_stress_in_the_bearing():
