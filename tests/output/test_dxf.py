@@ -14,7 +14,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 from geneva_cli.geometry.sheet import Drawing, extent
 from geneva_cli.output.dxf import chunks
-from geneva_cli.output.svg import drawing_svg as svg
 
 # mm. A file's last decimal is 1e-12; a polyline's centre of 300 degrees, an ARC's ends at a radius
 # of a metre and a spline's joints (JOINT) come to less than 2e-9 together.
@@ -72,14 +71,6 @@ def test_any_contour_is_read_back(contour):
     drawing = of(contour)
     read = dxf_shapes(text(drawing))
     assert apart(read, drawn_shapes(drawing)) < SAME
-    # against the other format: its last decimal is 1e-9, and its arcs come to ten times that
-    assert apart(svg_read(drawing), read) < 2e-8
-
-
-def svg_read(drawing):
-    from drawing_witness import svg_shapes
-
-    return svg_shapes("".join(svg.chunks(drawing, "mm")))
 
 
 @pytest.mark.parametrize("degrees", [0.01, 180, 299, 301, 359.99])

@@ -72,14 +72,6 @@ def test_symlink_stays_a_link():
 
 
 @pytest.mark.long
-def test_same_text_on_a_stream_and_in_a_file():
-    for extension, name in {"txt": "table", "csv": "csv", "json": "json", "md": "md"}.items():
-        # the stream is a process's own; a file is a file
-        assert CliRunner().invoke(app, [*SHORT, "-o", f"peaks.{extension}"]).exit_code == 0
-        assert get(f"peaks.{extension}") == geneva(*SHORT, "--format", name, "-o", "-").stdout
-
-
-@pytest.mark.long
 def test_folder_missing():
     clean_failure(geneva(*SHORT, "-o", "gone/peaks.csv"), "gone", "No such file", "make the folder")
     clean_failure(geneva(*SHORT, "-o", "/proc/peaks.csv"), "the folder /proc takes no files")
@@ -158,15 +150,6 @@ def test_killed():
 # Standard output that does not take what we write
 
 
-@pytest.mark.sampled(4)
-@full
-@pytest.mark.parametrize("arguments", [["table"], SHORT, LONG], ids=" ".join)
-def test_full_disk_on_a_file(arguments):
-    found = geneva(*arguments, "-o", "/dev/full", "--format", "csv")
-    clean_failure(found, "/dev/full", "No space left")
-    assert found.stdout == ""
-
-
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "arguments",
@@ -232,16 +215,6 @@ def test_csv_reads_back_equal(samples):
     assert tuple(rows[0]) == table.names
     assert [[float(x) for x in row] for row in rows[1:]] == [list(row) for row in table.rows()]
     assert not any(x in ("-0.0", "nan", "inf", "-inf") for row in rows for x in row)
-
-
-@pytest.mark.parametrize("arguments", [["motion", "spec.toml"], SHORT, ["table"]], ids=" ".join)
-def test_json_and_csv_hold_the_same(arguments):
-    tree = strict("\n".join(get_lines(*arguments, "--format", "json")))
-    rows = list(csv.DictReader(get_lines(*arguments, "--format", "csv")))
-    if "rows" in tree:
-        assert [{k: str(v) for k, v in row.items()} for row in tree["rows"]] == rows
-    else:
-        assert ["" if x is None else str(x) for x in numbers(tree)] == list(rows[0].values())
 
 
 # What a title may not do

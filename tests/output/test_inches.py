@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import load
 from geneva_cli.cli.app import app
-from geneva_cli.names import UNITS, unit_of
+from geneva_cli.names import UNITS
 from geneva_cli.output.inches import (
     document_in_inches,
     figure_in_inches,
@@ -73,41 +73,6 @@ def test_a_number_is_the_same_quantity(unit, number):
 
 def run(*words):
     return CliRunner().invoke(app, [*words])
-
-
-def leaves(value, name=""):
-    """Numbers of a table by their names, in order."""
-    if isinstance(value, Table) and value.record:
-        for key, one in zip(value.names, next(value.rows()), strict=True):
-            yield from leaves(one, key)
-    elif isinstance(value, Table):
-        for row in value.to_rows():
-            label = row.get("quantity") or row.get("check") or f"x_{row.get('unit')}"
-            for key, one in row.items():
-                yield from leaves(one, key if unit_of(key) else label or key)
-    elif isinstance(value, (tuple, list)):
-        for one in value:
-            yield from leaves(one, name)
-    elif isinstance(value, (int, float)) and not isinstance(value, bool):
-        units = [u for part in name.split(".") if (u := unit_of(part))]
-        yield (units or [""])[-1], value
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("answer", ["report.table", "loads_page", "peaks_table"])
-def test_a_record_in_inches(answer):
-    table = load(TURRET)
-    for name in answer.split("."):
-        table = getattr(table, name)
-    other = list(leaves(table_in_inches(table)))
-    own = list(leaves(table))
-    assert len(own) == len(other) > 10
-    for (unit, value), (instead, number) in zip(own, other, strict=True):
-        if unit in ONE:
-            assert instead != unit
-            assert number * ONE[instead] == pytest.approx(value * ONE[unit], rel=CLOSE)
-        else:
-            assert (instead, number) == (unit, value)
 
 
 def test_a_long_table_is_converted_in_pieces():

@@ -7,9 +7,6 @@ import math
 
 import pytest
 import repo
-from drawing_witness import sides_about_the_origin
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from step_witness import File, Solid
 from witness import mp
 
@@ -76,28 +73,6 @@ def test_any_outline_is_a_closed_solid(turn, holes, low, high):
     file = File(text(plate))
     (body,) = file.all("MANIFOLD_SOLID_BREP")
     require_solid(file, body, plate)
-
-
-@pytest.mark.long
-@settings(max_examples=30)
-@given(
-    st.lists(st.tuples(st.floats(5.0, 60.0), st.floats(-0.3, 0.9)), min_size=3, max_size=12),
-    st.floats(0.01, 300.0),
-)
-def test_random_outlines(corners, thickness):
-    sides = sides_about_the_origin(corners)
-    pieces = [Arc(p, q, b) if abs(b) > 0.01 else Line(p, q) for p, q, b in sides]
-    plate = Plate("plate", "WHEEL", closed("WHEEL", pieces), (), 0.0, thickness)
-    if area(plate.outline) < 100.0:
-        return  # crosses itself, or nearly
-    file = File(text(plate))
-    (body,) = file.all("MANIFOLD_SOLID_BREP")
-    solid = Solid(file, body)
-    assert solid.euler == 2
-    for volume in solid.volumes():
-        # of a thin plate the 12 decimals of its thickness are what counts
-        off = VOLUME * area(plate.outline) * (thickness + 1.0)
-        assert volume == pytest.approx(area(plate.outline) * thickness, rel=0.0, abs=off)
 
 
 @pytest.mark.long

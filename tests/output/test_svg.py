@@ -1,6 +1,5 @@
 """SVG files, read back by an evaluator of paths of the tests' own."""
 
-import math
 from xml.etree import ElementTree
 
 import pytest
@@ -9,8 +8,6 @@ from hypothesis import given, settings
 from sampling import some
 from test_dxf import MANY, of
 
-from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Circle, Line, closed
 from geneva_cli.geometry.sheet import extent
 from geneva_cli.output import dxf
 from geneva_cli.output.inks import INKS, OTHERS
@@ -84,12 +81,3 @@ def test_inks_read_on_white_and_on_black():
         parts = int2rgb(DXF_DEFAULT_COLORS[ink.number] & 0xFFFFFF)
         assert ink.rgb == "#{:02x}{:02x}{:02x}".format(*parts)
     assert len(set(inks)) == len(inks)
-
-
-def test_refusals():
-    with pytest.raises(GenevaError, match="--units cm: it must be one of mm, inch"):
-        text(MANY, "cm")
-    with pytest.raises(GenevaError, match="coordinates must be finite"):
-        text(of(closed("WHEEL", [Line((0.0, math.inf), (1.0, 0.0)), Line((1.0, 0.0), (0.0, 0.0))])))
-    with pytest.raises(GenevaError, match="nothing to draw"):
-        text(of(Circle("BORE", (0.0, 0.0), 0.0)))

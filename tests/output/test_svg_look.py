@@ -7,10 +7,8 @@ from xml.etree import ElementTree
 import pytest
 from drawing_witness import apart, drawn_shapes, svg_path, svg_shapes
 from shapely.geometry import Polygon
-from typer.testing import CliRunner
 from words import Drive, Spec, Wheel
 
-from geneva_cli.cli.app import app
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.mass import face
@@ -84,18 +82,6 @@ def test_a_fill_is_what_the_plates_are(assembly):
         assert area == pytest.approx(face(plate).area, rel=1e-3)  # of 96 chords a piece
     # the layers themselves are what they are without it
     assert apart(svg_shapes("".join(chunks(assembly, "mm"))), drawn_shapes(assembly)) < 1e-8
-
-
-def test_the_command(tmp_path):
-    spec = tmp_path / "spec.toml"
-    spec.write_text("[wheel]\nz = 6\n", encoding="utf-8")
-    for more, said in (
-        (["--part", "sheet", "--fill", "tint", "-o", "a.pdf"], "a sheet has lines alone"),
-        (["--fill", "tint"], "this is a table of points"),
-    ):
-        result = CliRunner().invoke(app, ["profile", str(spec), *more])
-        assert result.exit_code != 0
-        assert said in result.output
 
 
 def test_fills(assembly):

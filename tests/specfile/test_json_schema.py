@@ -34,16 +34,12 @@ def test_every_new_spec_keeps_to_it_and_names_it(kind):
     "text",
     [
         "",
-        "[wheel]\n",
         "[wheel]\nz = 2\n",
-        "[wheel]\nz = 6\nwidth = 3\n",
         '[wheel]\nz = 6\n[drive]\nkind = "side-crank"\n',  # no A
         "[wheel]\nz = 6\n[drive]\nA = 0.3\n",  # of another kind
-        '[wheel]\nz = 6\n[motion]\nlaw = "cycloid"\n',
         "[wheel]\nz = 6\n[motion]\nalpha0_deg = 3\n",  # without a law
         '[wheel]\nz = 6\n[motion]\nlaw = "cycloidal"\nratio = "mached"\n',
         "[wheel]\nz = 6\n[mass]\nmass_kg = 3\n",  # not a list
-        "[wheel]\nz = 6\n[material]\ncolour = 3\n",
         "[wheel]\nz = 6\n[load]\nefficiency = 1.5\n",
     ],
 )

@@ -28,14 +28,11 @@ def spec(tmp_path):
     ("text", "value"),
     [
         ("6", 6),
-        ("0.6", 0.6),
-        (".6", 0.6),
         ("1e3", 1000.0),
         ('"sun"', "sun"),
         ("sun", "sun"),
         ("true", True),
         ("[60, 120]", [60, 120]),
-        ("modified-sine", "modified-sine"),
     ],
 )
 def test_a_value_is_read_as_in_the_file(text, value):
@@ -68,19 +65,11 @@ def test_a_key_of_one_table_needs_no_table(spec):
         ("wheel.z=2", "--set wheel.z=2: z = 2 must be at least 3"),
         ("wheel.zz=3", "--set wheel.zz=3: unknown key zz in [wheel] (did you mean"),
         ("size.roller=3", 'key roller in [size] (did you mean "roller_radius_mm"?)'),
-        ("size.Bore=3", 'key Bore in [size] (did you mean "wheel_bore_mm"?)'),
         ("SIZE.roller_radius_mm=3", 'unknown table [SIZE] (did you mean "size"?)'),
-        ("whel.z=3", '--set whel.z=3: unknown table [whel] (did you mean "wheel"?)'),
         ("mass.1.count=3", "--set mass.1.count=3: the spec has 1 [[mass]], counted from 0"),
-        ("mass.0.count=0", "--set mass.0.count=0: [[mass]] number 1: count = 0 must be"),
         ("center_distance_mm=509", "write size.center_distance_mm or tolerance.center_distance_mm"),
-        ("A=0.5", "--set A=0.5: several tables have this key; write drive.A or drive.before.A"),
         ("rpm=3", '--set rpm=3: no table has this key (did you mean "n_rpm"?)'),
-        ("=3", "it must be KEY=VALUE"),
-        ("wheel.=3", "it must be KEY=VALUE"),
-        ("wheel.z", "it must be KEY=VALUE"),
         ("wheel.z=", "it must be KEY=VALUE"),
-        ("drive.kind=crnk", 'must be one of "crank"'),
     ],
 )
 def test_an_error_names_the_option(spec, given, said):

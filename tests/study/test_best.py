@@ -10,7 +10,6 @@ from scipy.optimize import brentq
 
 from geneva_cli import GenevaError, load
 from geneva_cli.parts.parts import Parts
-from geneva_cli.study.sweep import best as best_search
 from geneva_cli.study.sweep.best import best_spec
 from geneva_cli.study.sweep.request import Outcome, request
 
@@ -56,17 +55,6 @@ def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatc
     (gap,) = (check.value for check in design.checks if check.name == "gap_mm")
     assert float(said["parts.smallest_gap_mm"]) == gap
     assert (said["drive.kind"], said["checks.passes"]) == ("side-crank", "yes")
-
-
-@pytest.mark.long
-def test_a_search_that_is_cut_short_says_so(tmp_path, monkeypatch):
-    """Steps of 0.05 of the range do not reach the greatest A, 1, in 5 designs."""
-    goal = "max:timing.shortest_motion_s"
-    whole, _ = best(tmp_path, "drive.A=0..0.9", best=goal, random=2)
-    monkeypatch.setattr(best_search, "MOST_ALONE", 5)
-    short, _ = best(tmp_path, "drive.A=0..0.9", best=goal, random=2)
-    said = "# The search near the best ended after 5 designs, as each is computed alone: for"
-    assert said in "\n".join(short) and "The search near" not in "\n".join(whole)
 
 
 @pytest.mark.long

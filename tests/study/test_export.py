@@ -1,7 +1,6 @@
 """`geneva export`: the files of each trade, all or none, and no file of a person replaced."""
 
 import csv
-import os
 
 import ezdxf
 import pytest
@@ -110,22 +109,6 @@ def test_what_a_person_adds_or_changes_meanwhile_stays(spec, tmp_path, monkeypat
     monkeypatch.undo()
     assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
     assert bytes_of(folder) == before | {"notes.txt": b"work"}
-
-
-@pytest.mark.long
-def test_all_or_nothing(spec, tmp_path, monkeypatch):
-    folder = tmp_path / "out"
-    assert run(spec, "--for", "print", "-o", folder).exit_code == 0
-    before = bytes_of(folder)
-
-    def fails(*_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(export, "draw_sheet", fails)
-    result = run(spec, "--for", "laser", "-o", folder)
-    assert "cannot write: No space left on device" in result.stderr
-    assert bytes_of(folder) == before
-    assert sorted(os.listdir(tmp_path)) == ["out", "spec.toml"]
 
 
 @pytest.mark.usefixtures("no_advice")

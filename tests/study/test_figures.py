@@ -10,7 +10,6 @@ import repo
 from geneva_cli import Cycloidal, Design, External, Harmonic, Load, Motion, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle_figures import MACHINES_MAX, USUAL_QUANTITIES, figure
-from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 LOADED = Load(inertia_kgm2=0.4, torque_Nm=15)
@@ -105,30 +104,7 @@ def test_what_cannot_be_shown():
         Design(External(6), load=LOADED).figure(["guide_force_N"])
     with pytest.raises(GenevaError, match=f"at most {MACHINES_MAX}"):
         figure({str(i): bare.cycle for i in range(MACHINES_MAX + 1)})
-    made, left = figure({"six": bare.cycle})
-    assert [p.y.name for p in made.panels] == ["wheel_deg", *USUAL_QUANTITIES[:3]]
-    assert not left  # no load, and no force is asked for
     made, left = figure({"six": bare.cycle, "loaded": Design(External(6), load=LOADED).cycle})
     assert [p.y.name for p in made.panels] == ["wheel_deg", *USUAL_QUANTITIES]
     assert len(left) == 1 and left[0][0] == "six"
     assert left[0][1].startswith("no curve of pin_force_N, input_torque_Nm, ")
-
-
-# Points on a curve
-
-
-def test_chords_stay_within_the_miss():
-    def of(x):
-        return np.array([np.sin(x), np.exp(-((40.0 * (x - 1.234)) ** 2)), 0.0 * x + 3.0])
-
-    heights = np.array([2.0, 1.0, 1.0])
-    x = refined(of, 0.0, 6.0, 6.0, heights)
-    assert x[0] == 0.0 and x[-1] == 6.0 and (np.diff(x) > 0.0).all()
-    fine = np.linspace(0.0, 6.0, 100_001)
-    for row, height in zip(range(3), heights, strict=True):
-        off = np.abs(np.interp(fine, x, of(x)[row]) - of(fine)[row]) / height
-        slope = np.gradient(of(fine)[row], fine) / height * 6.0 / ASPECT
-        assert (
-            off / np.hypot(1.0, slope)
-        ).max() < 1.5 * CHORD_ERROR  # a chord's middle is not its worst
-    assert len(x) < 500

@@ -64,12 +64,9 @@ def test_a_column_by_any_name_of_its_quantity():
     ("arguments", "wants"),
     [
         ([SPEC, "--pick", "velocty"], 'velocty: no quantity of a cycle (did you mean "velocity"?)'),
-        ([SPEC, "--pick", "pin_force_N"], "no force is known"),
         ([SPEC, "--x", "a"], "--x and --y are for a .csv"),
-        ([SPEC, SPEC], "given twice"),
         ([SPEC, "-o", "no/such/folder.svg"], "cannot write: No such file or directory"),
         ([SPEC, "rows.csv"], "a csv is plotted by itself"),
-        (["rows.csv", "--pick", "jerk"], "--pick is for specs"),
         (["rows.csv", "--x", "a", "--y", "b", "-o", "rows.csv"], "is an input"),
     ],
 )

@@ -77,9 +77,6 @@ def test_what_loads_shows_is_a_quantity(name):
     [
         ("max", "it may be velocity.max or acceleration.max or jerk.max or power.max or"),
         ("horn_stress_MPa", "it may be strength.lock.horn_stress_MPa or life.horn_stress_MPa; say"),
-        ("limits.acceleration_max", "no quantity of a design"),
-        ("torque", '(did you mean "torque_Nm.max"?)'),
-        ("force", '(did you mean "inputs.load.force_N"?)'),  # force_N may be several
         ("margin", "strength.crank_shaft.margin or 3 more; say which"),
         ("acceleration.mx", '(did you mean "acceleration.max"?)'),
     ],

@@ -5,11 +5,11 @@ import math
 import pytest
 import repo
 
-from geneva_cli.answer import PASSES, WARNS, Summary, SummaryLine
+from geneva_cli.answer import Summary, SummaryLine
 from geneva_cli.design import Design, load
 from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
 from geneva_cli.study.summary.load_lines import of_loads
-from geneva_cli.study.summary.report_summary import of_report, of_tolerance, of_vibration
+from geneva_cli.study.summary.report_summary import of_tolerance, of_vibration
 
 pytestmark = pytest.mark.usefixtures("made_once")
 
@@ -48,19 +48,6 @@ def test_a_turret_gets_one_motor() -> None:
     assert len(sizes) == 6
     peak = 0.603613 * 1400.0 * math.tau / 60.0
     assert line(powers, f"{peak:.4g} W").text.startswith("greatest at the motor")
-
-
-@pytest.mark.long
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize("name", ["turret", "spherical-z6", "internal-curved-z8", "unequal-steps"])
-def test_a_report_has_six_figures_and_a_motor(name: str) -> None:
-    one = design(name)
-    (summary,) = of_report(one).summaries
-    plain = [each for each in summary.lines if each.state == "" or each.label == "motor"]
-    assert len(plain) == 7
-    assert plain[-1].label == "motor"
-    assert summary.state == (WARNS if one.warnings else PASSES)
-    assert len([each for each in summary.lines if each.label == "warning"]) == len(one.warnings)
 
 
 def test_vibration_names_the_speeds_to_avoid() -> None:

@@ -57,12 +57,6 @@ def test_no_share(text):
     ("axes", "random", "seed", "said"),
     [
         ([], None, 0, "--vary is missing"),
-        (
-            [axis("wheel.z=3..9999")] * 1 + [axis("mass.0.count=1..99999")],
-            None,
-            0,
-            "in all; at most",
-        ),
         ([axis("wheel.z=3")], 0, 0, "--random 0"),
         ([axis("wheel.z=3")], 10**12, 0, "--random 1000000000000"),
         ([axis("wheel.z=3")], 5, -1, "--seed -1"),

@@ -11,15 +11,12 @@ from geneva_cli.study.sweep.values import VariedKey, axis
 @pytest.mark.parametrize(
     ("text", "values"),
     [
-        ("wheel.z=4,6,8", (4, 6, 8)),
         ("wheel.z=4..9:2", (4, 6, 8)),
         ("wheel.z=9..4:-2", (9, 7, 5)),
         ("wheel.z=3..5,8", (3, 4, 5, 8)),
         ("drive.A=0..0.2:0.1,0.5", (0.0, 0.1, 0.2, 0.5)),
-        ("drive.A=0..0.9:0.3", (0.0, 0.3, 0.6, 0.9)),
         ("drive.A=-.5,0", (-0.5, 0)),
         ('motion.law="cycloidal,3-4-5"', ("cycloidal", "3-4-5")),
-        ("mass.0.count=1,2", (1, 2)),
     ],
 )
 def test_values(text, values):
@@ -53,14 +50,10 @@ def test_what_is_between_follows_from_the_key():
     [
         ("drive.A", "it must be KEY=VALUES"),
         ("A=1,2", "several tables have this key; write drive.A or drive.before.A"),
-        ("drive.A=", "it must be KEY=VALUES"),
         ("drive.A=0..1:0", "a step of 0 does not lead from 0 to 1"),
         ("drive.A=0..1:1e-12", "1e+12 values; at most 100,000,000"),
-        ("wheel.z=1..10000000000", "1e+10 values; at most"),
-        ("drive.A=0..0.9", "a range of fractions needs its step: LOW..HIGH:STEP"),
         ("drive.A=1,,2", "neither a number nor a word"),
         ("drive.A=nan,1", "no finite number"),
-        ("drive.A=inf..1:2", "no finite number"),
         ("drive.A=..1:0.1", '"" is no number; a range is'),
     ],
 )

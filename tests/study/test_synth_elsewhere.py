@@ -11,7 +11,6 @@ from geneva_cli.design import load
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.study.synth.built import built
 from geneva_cli.study.synth.fast_parts import machine_and_parts
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
@@ -83,37 +82,3 @@ def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path
     assert design.spec.motion == row.spec.motion
     assert design.spec.size == row.spec.size
     assert not [c for c in design.checks if c.passes is False]
-
-
-@pytest.mark.long
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("z", [9, 10])
-def test_a_larger_roller_holds_the_wheel_better(z):
-    """Curved slots with ways apart: those of the usual sizes leave too much play at their ends."""
-    target = read_target(motion_deg={9: "156.25", 10: "162.5"}[z], z=str(z), **CURVED)
-    (row,) = curved(search(target))
-    assert row.spec.size.roller_radius_mm is None  # 5 mm
-    usual = {c.name for c in checks(build(row.spec)) if c.passes is False}
-    assert usual == {"hand_over_play_deg"}
-    made = built(row.spec)
-    assert not made.trouble
-    assert made.spec.size.roller_radius_mm in (8.0, 10.0)
-    assert not [c for c in checks(build(made.spec)) if c.passes is False]
-    kept = built(row.spec, frozenset({"roller_radius_mm"}))
-    assert kept.trouble == "hand_over_play_deg"
-
-
-@pytest.mark.long
-def test_more_rollers_where_only_shorter_motions_can_be_built():
-    """Four rollers and more on four slots: at the longest motion each slot leaves an island."""
-    found = search(read_target(motion_deg="20..120", z="4", external=True))
-    rows = [row for row in curved(found) if row.candidate.rollers == 4]
-    assert [row.is_impossible for row in rows] == [True, False]
-    assert rows[0].candidate.motion_deg > rows[1].candidate.motion_deg
-    assert {row.candidate.rollers for row in curved(found) if not row.is_impossible} >= {
-        4,
-        5,
-        6,
-        7,
-        8,
-    }

@@ -14,9 +14,8 @@ from geneva_cli.motion.many import many
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.study.batches import columns
 from geneva_cli.study.sweep.constraints import Objective
-from geneva_cli.study.synth.reading import SPANS, read_target, span
+from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
-from geneva_cli.study.target import AllowedSpan
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")
@@ -26,20 +25,6 @@ NEAR = 1e-8
 
 def rows(**options):
     return searched(**options)[1].rows
-
-
-def told(found):
-    """What the machines of some rows are, and cost; not what else was asked for."""
-    return [row.candidate for row in found]
-
-
-@pytest.mark.parametrize(
-    ("text", "low", "high"),
-    [("0.5", 0.5, 0.5), ("1/4..1/2", 0.25, 0.5), ("0.8..", 0.8, math.inf), ("..1", -math.inf, 1.0)],
-)
-def test_spans(text, low, high):
-    rule, _, _ = SPANS["dwell_s"]
-    assert span("--dwell-s", text, rule) == AllowedSpan(low, high)
 
 
 @pytest.mark.long
@@ -177,28 +162,6 @@ def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bo
     assert ours["cam"].candidate.motion_deg == pytest.approx(C_v * 60.0 / 0.8, rel=1e-8)
     # a side-crank's peak velocity is at mid-motion, where it is the plain crank's 1 over 1 + A
     assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].candidate.A
-
-
-@pytest.mark.long
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("limit", [12.0, 1.2, 0.3])
-@pytest.mark.parametrize("gearing", ["external", "internal"])
-def test_a_limit_of_acceleration_alone_gives_what_general_bounds_give(gearing, limit):
-    """Its cams, from the law's peak in closed form, are those of the search with two bounds.
-
-    A law's peak goes with 1/motion². A loose limit leaves the plain crank's motion.
-    """
-    target = {"z": "6", "rollers": 1, gearing: True}
-    bound = f"acceleration.max <= {limit}"
-    alone = rows(**target, subject_to=[bound])
-    general = rows(**target, subject_to=[bound, "velocity.max <= 100"])
-    (own,), (other,) = ([c for c in told(found) if c.drive == "cam"] for found in (alone, general))
-    natural = 120.0 if gearing == "external" else 240.0
-    # the modified sine's C_a is 4 pi² / (4 + pi), over a step of 60 degrees
-    C_a = 4.0 * math.pi**2 / (4.0 + math.pi)
-    least = math.degrees(math.sqrt(C_a * math.pi / 3.0 / limit))
-    assert own.motion_deg == pytest.approx(max(natural, least), rel=1e-9)
-    assert other.motion_deg == pytest.approx(own.motion_deg, rel=1e-8)
 
 
 @pytest.mark.long

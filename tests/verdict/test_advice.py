@@ -1,6 +1,5 @@
 """Advice is taken with the real reader: the check passes then, and nothing is broken by it."""
 
-import math
 import re
 from pathlib import Path
 
@@ -17,7 +16,7 @@ from geneva_cli.verdict import advice
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import Check, all_pass, checks
 from geneva_cli.verdict.checks.check import NONE, STOPPED
-from geneva_cli.verdict.remedies import remedies, rounded
+from geneva_cli.verdict.remedies import remedies
 
 DESIGNS = repo.DESIGNS
 
@@ -37,12 +36,9 @@ LIGHT = "[load]\ninertia_kgm2 = 0.05\n[limits]\n"
 # What a person might write, the checks that then fail, and whether one change can help.
 MOTIONS = {
     "acceleration": LOADED + "acceleration_max = 1.2\n",
-    "velocity": LOADED + "velocity_max = 0.7\n",
     "entry": LOADED + "acceleration_entry_max = 0.3\n",
     "jerk": LOADED + "jerk_max = 1.0\n",
     "pin": LOADED + "pin_force_max_N = 250\n",
-    "stress": LOADED + "contact_stress_max_MPa = 250\n",
-    "torque": LOADED + "input_torque_max_Nm = 20\n",
     "internal": "[wheel]\nz = 5\ngearing = 'internal'\n[limits]\nvelocity_max = 0.3\n",
     "spherical": "[wheel]\nz = 5\ngearing = 'spherical'\n[limits]\nvelocity_max = 0.7\n",
     "side-crank": "[wheel]\nz = 6\n[drive]\nkind = 'side-crank'\nA = 0.1\n[limits]\n"
@@ -50,15 +46,12 @@ MOTIONS = {
     "elliptical": "[wheel]\nz = 6\n[drive]\nkind = 'elliptical-gears'\neccentricity = 0.1\n"
     "[limits]\nacceleration_max = 0.8\n",
     "convexity": "[wheel]\nz = 6\n[drive]\nkind = 'noncircular-gears'\nA = 0.9\n",
-    "law": CURVED + "[limits]\nacceleration_max = 1.2\n",
     "pressure": CURVED + "alpha0_deg = -40\n[limits]\npressure_angle_max_deg = 10\n",
-    "mid": "[wheel]\nz = 6\n[motion]\nlaw = 'cycloidal'\nratio = 0.45\n",
     "sine": "[wheel]\nz = 6\n[motion]\nlaw = 'sine-group'\nlambda = 0.2\nratio = 'matched'\n",
     "undercut": "[wheel]\nz = 8\ngearing = 'internal'\n[motion]\nlaw = 'cycloidal'\n"
     "ratio = 'matched'\n[size]\ncenter_distance_mm = 90\nroller_radius_mm = 5\n",
     "slider-crank": written("slider-crank") + "[limits]\nacceleration_max = 0.40\n",
     "offset": "[wheel]\nz = 6\noffset_mm = 10\n" + LIGHT + "pin_force_max_N = 20\n",
-    "offset-2": "[wheel]\nz = 5\noffset_mm = -8\n" + LIGHT + "input_torque_max_Nm = 0.5\n",
     "two": CURVED + LIGHT + "pin_force_max_N = 20\ninput_torque_max_Nm = 0.3\n",
     "steps": "[wheel]\nz = 6\nsteps_deg = [70, 50]\n" + LIGHT + "pin_force_max_N = 20\n",
     "epicyclic": "[wheel]\nz = 6\n[drive]\nkind = 'epicyclic'\nplanet_ratio = 'shockless'\n"
@@ -67,17 +60,13 @@ MOTIONS = {
 FOUR_BAR = written("four-bar-z4") + LIGHT + "pin_force_max_N = 100\n"
 PARTS = {
     "rim": "[wheel]\nz = 6\n[size]\nwheel_radius_mm = 120\n",
-    "rim-inside": "[wheel]\nz = 6\ngearing = 'internal'\n[size]\nwheel_radius_mm = 85\n",
     "bore": "[wheel]\nz = 8\n[size]\ncenter_distance_mm = 250\nroller_radius_mm = 12\n"
     "crank_bore_mm = 30\nrelief = 'arc'\n",
-    "hub": "[wheel]\nz = 8\n[size]\ncrank_hub_mm = 20\n",
     "wheel-hub": "[wheel]\nz = 6\n[size]\nwheel_hub_mm = 90\n",
     "horn": "[wheel]\nz = 6\n[size]\nlock_radius_mm = 44.8\n",
-    "wall": "[wheel]\nz = 12\n[size]\nroller_radius_mm = 9.5\nlock_radius_mm = 0\n",
     "thick": "[wheel]\nz = 12\nheld_by = 'brake'\n[size]\nroller_radius_mm = 9.5\n"
     "lock_radius_mm = 0\nwall_min_mm = 20\n",
     "wall-least": "[wheel]\nz = 10\n[size]\nwall_min_mm = 12\n",
-    "no-lock": "[wheel]\nz = 6\n[size]\nlock_radius_mm = 0\n",
     "clearance": "[wheel]\nz = 5\n[size]\nlock_clearance_mm = 12\n",
     "arc": "[wheel]\nz = 24\n[size]\nrelief = 'arc'\nroller_radius_mm = 2\n",
     "four-bar": FOUR_BAR,
@@ -145,11 +134,6 @@ def test_where_there_is_no_advice_it_says_why(name: str, tmp_path: Path) -> None
 # A spec, and the key that the advice changes.
 NEAREST = {
     "wheel": ("[wheel]\nz = 6\n[size]\nwheel_radius_mm = 80\n", "wheel_radius_mm"),
-    "inside": (
-        "[wheel]\nz = 6\ngearing = 'internal'\n[size]\nwheel_radius_mm = 100\n",
-        "wheel_radius_mm",
-    ),
-    "roller": ("[wheel]\nz = 6\n[size]\nroller_radius_mm = 30\n", "roller_radius_mm"),
     "toy": (
         "[wheel]\nz = 5\n[size]\ncenter_distance_mm = 40\nroller_radius_mm = 2\n"
         "lock_clearance_mm = 0.3\nslot_clearance_mm = 0.2\n",
@@ -203,26 +187,6 @@ def test_trials_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 
 @pytest.mark.long
-def test_all_searches_of_a_design_share_their_trials(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A law that goes back has five failing checks, which no value mends: few parts are built."""
-    rows = [
-        (u, u + 0.14 * math.sin(math.tau * u) - 0.3 * math.sin(3.0 * math.tau * u) / 4.0)
-        for u in (i / 20 for i in range(21))
-    ]
-    (tmp_path / "law.csv").write_text("".join(f"{u},{s:.6f}\n" for u, s in rows))
-    mechanism = read(tmp_path, "[wheel]\nz = 6\n[motion]\nlaw = 'table'\nfile = 'law.csv'\n")
-    failing = [c for c in checks(mechanism) if c.passes is False]
-    assert len(failing) > 2
-    built = []
-    monkeypatch.setattr(advice, "TRIALS", some(advice.TRIALS, 6))
-    monkeypatch.setattr(advice, "build", lambda *of: built.append(of) or build(*of))
-    judged(mechanism)
-    assert 0 < len(built) <= advice.TRIALS
-
-
-@pytest.mark.long
 def test_an_error_is_no_advice() -> None:
     """Its text is the reason; the advice is a change."""
     given = load(str(DESIGNS / "epicyclic-z4.toml")).spec
@@ -239,27 +203,6 @@ def test_a_linkage_gets_more_slots(tmp_path: Path) -> None:
     """The centre distance that a linkage gives itself is none of the spec's: z = 9 has 0.396."""
     rows = judged(read(tmp_path, ALL["slider-crank"]), parts=False)
     assert {c.name: c.nearest for c in rows}["acceleration_max"] == "z = 9"
-
-
-@pytest.mark.parametrize("far", [100.0, -100.0, 1e-3])
-@pytest.mark.parametrize("good", [12.3456, 0.001234567, -7.77777])
-def test_rounding_leaves_what_fails(good: float, far: float) -> None:
-    bad = good - math.copysign(0.1 * abs(good), far - good)
-    shown = rounded(good, far, bad)
-    assert (shown - good) * (good - bad) >= 0.0
-    assert abs(shown - good) <= 0.02 * abs(good - bad)
-
-
-@pytest.mark.long
-def test_a_key_of_several_tables_is_named_with_its_table(tmp_path: Path) -> None:
-    """The first table that has the key needs no name: a reader looks for L in [size]."""
-    text = (DESIGNS / "tolerances.toml").read_text()
-    shaken = text.replace("center_distance_mm = 0.015", "center_distance_mm = 2")
-    (shock,) = [c for c in judged(read(tmp_path, shaken), parts=False) if c.passes is False]
-    key, value = shock.nearest.split(" = ")
-    assert key == "tolerance.center_distance_mm"
-    mended = load(str(tmp_path / "spec.toml")).spec.with_(key, float(value))
-    assert all_pass(checks(build(mended), parts=False))
 
 
 @pytest.mark.long
@@ -291,22 +234,14 @@ def test_the_key_that_a_reason_names_is_tried_first(tmp_path: Path) -> None:
     assert "wheel_bore_mm" in parts.why and "roller_radius_mm" not in parts.why
 
 
-# A spec, and the keys that its requirements leave to change.
-KEPT = {
-    # two parts are too thin: 40 rpm, the dial's speed, was slowed to 15.5 before
-    "two parts": (
-        "[wheel]\nz = 8\n[drive]\nn_rpm = 40\n[size]\npin_mm = 3\nwheel_bore_mm = 7\n"
-        "[load]\ninertia_kgm2 = 0.8\ntorque_Nm = 12\n",
-        {"pin_mm", "wheel_bore_mm"},
-    )
-}
-
-
 @pytest.mark.long
-@pytest.mark.parametrize("name", KEPT)
-def test_no_requirement_is_broken_for_a_part(name: str, tmp_path: Path) -> None:
+def test_no_requirement_is_broken_for_a_part(tmp_path: Path) -> None:
     """Each failing part has its own size, and with all of them at once all checks pass."""
-    text, keys = KEPT[name]
+    text = (
+        "[wheel]\nz = 8\n[drive]\nn_rpm = 40\n[size]\npin_mm = 3\nwheel_bore_mm = 7\n"
+        "[load]\ninertia_kgm2 = 0.8\ntorque_Nm = 12\n"
+    )
+    keys = {"pin_mm", "wheel_bore_mm"}
     mechanism = read(tmp_path, text)
     failing = [c for c in judged(mechanism) if c.passes is False]
     assert len(failing) == len(keys)

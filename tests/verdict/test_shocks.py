@@ -13,13 +13,9 @@ from scipy.optimize import brentq
 from geneva_cli import Cam, Design, External, Limits, Load, ModifiedSine, Motion, Size, Tolerance
 from geneva_cli.loads.impacts import change_of_sides
 from geneva_cli.loads.impacts.shock import mouth_contacts
-from geneva_cli.loads.strength.pin import pin_diameter_mm
-from geneva_cli.motion.many import many
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.study.summary.load_lines import load_lines
 from geneva_cli.verdict.checks import single_check
-from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.load_quantities import entry, reversal
 
 LOOSE = Size(face_width_mm=18.0, slot_clearance_mm=0.02)
 WIDE = Tolerance(crank_radius_mm=0.02, center_distance_mm=0.03, slot_width_mm=0.02)
@@ -84,21 +80,6 @@ def test_what_would_pass_passes():
     drag = float(re.match(r"a drag of ([\d.]+) N m on", check.why)[1])
     assert row(of.with_("load.torque_Nm", 2.0 + drag), "reversal_shock_N") is None
     assert row(of.with_("load.torque_Nm", 2.0 + 0.97 * drag), "reversal_shock_N") is not None
-
-
-@pytest.mark.long
-def test_the_force_bends_the_pin_that_is_drawn():
-    """A load makes the default pin thicker than half of its roller, and so stiffer."""
-    load, size = Load(inertia_kgm2=4.0, torque_Nm=2.0), LOOSE.replace(roller_radius_mm=4.0)
-    of = design(1e6, load=load, size=size)
-    drawn_mm = built(of.mechanism).pin_mm
-    assert drawn_mm > pin_diameter_mm(of.mechanism)
-    same = of.with_("size.pin_mm", drawn_mm)
-    for name, table in (("entry_shock_N", entry), ("reversal_shock_N", reversal)):
-        force = row(of, name).value
-        assert force == row(same, name).value
-        batch = many(of.spec, {"load.torque_Nm": np.array([2.0, 1.0])}).machine
-        assert table(Designs(batch))["force_N"][0] == pytest.approx(force, rel=1e-12)  # rounding
 
 
 # A dial of eight stations, driven by a cam; its process leaves 0.02 mm a side.

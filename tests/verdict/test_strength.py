@@ -1,6 +1,5 @@
 """Strength and life of whole designs: each check can fail and be mended, and what lacks is said."""
 
-import cmath
 import math
 
 import numpy as np
@@ -9,7 +8,7 @@ import repo
 from words import Drive, Motion, Spec, Wheel
 
 import geneva_cli
-from geneva_cli import Cam, Epicyclic, External, Internal, SideCrank, design
+from geneva_cli import Cam, External, Internal, SideCrank, design
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import sized
@@ -89,17 +88,18 @@ def test_each_can_fail_and_one_key_mends_it(name):
     spec = WHOLE.with_(key, limit)
     failing = {c.name: c for c in judged(build(spec), parts=False)}[name]
     assert failing.passes is False
-    # two shafts that are too thin are not mended by one key: then each row has its own
+    # two shafts that are too thin are mended by two keys, or each row has its own
     own = failing.why.rpartition("; ")[2].removesuffix(" passes this one")
-    told, _, value = (failing.nearest or own).partition(" = ")
     tables = {
         "wheel_diameter_mm": "shaft",
         "crank_diameter_mm": "shaft",
         "dynamic_capacity_N": "material.roller",
         "n_rpm": "drive",
     }
-    mended = spec.with_(f"{tables.get(told, 'size')}.{told}", float(value))
-    assert rows(mended)[name].passes
+    for told in (failing.nearest or own).split(" and "):
+        key, _, value = told.partition(" = ")
+        spec = spec.with_(f"{tables.get(key, 'size')}.{key}", float(value))
+    assert rows(spec)[name].passes
 
 
 def test_without_parts_their_keys_are_needed():
@@ -188,40 +188,22 @@ def cycloid(turned):
     return math.pi / 3.0 * u - math.sin(2.0 * math.pi * u) / 6.0
 
 
-def planet(turned):
-    """The angle of a wheel of four slots behind a planet round a sun, of 4 times its teeth."""
-    arm = (math.sqrt(0.5) + 0.01) * cmath.exp(1j * turned) + 0.01 * cmath.exp(5j * turned)
-    return -cmath.phase(1.0 - arm)
-
-
 @pytest.mark.long
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize(
-    ("wheel", "drive", "law", "angle", "half_deg"),
-    [
-        (External(6), Cam(), Motion("cycloidal"), cycloid, 60.0),
-        (External(4), Epicyclic(planet_ratio=0.01), None, planet, 45.0),
-    ],
-    ids=["cam", "epicyclic"],
-)
-def test_the_crank_shaft_behind_another_drive_turns_at_its_own_rate(
-    wheel, drive, law, angle, half_deg
-):
+def test_the_crank_shaft_behind_another_drive_turns_at_its_own_rate():
     """The wheel's power over the rate of the shaft that a side-crank turns, at 2001 angles.
 
     Derivatives are differences over 2e-4 radians, whose errors are some 1e-7 of them.
     """
     shaft = Shaft(crank_overhang_mm=0.0, crank_diameter_mm=30.0)
     before = SideCrank(A=0.3, input_crank_mm=80.0)
-    found = Strength(
-        build(Spec(wheel, drive, None, law, load=Load(0.3, 5.0), shaft=shaft, drive_before=before))
-    )
+    cam = Spec(External(6), Cam(), None, Motion("cycloidal"), load=Load(0.3, 5.0))
+    found = Strength(build(cam.replace(shaft=shaft, drive_before=before)))
     w, h, most = 2.0 * math.pi, 1e-4, 0.0
     for i in range(2001):
         x = 1.2 * (i / 1000.0 - 1.0)
         crank = [math.atan2(math.sin(y), 0.3 + math.cos(y)) for y in (x - h, x, x + h)]
-        if abs(crank[1]) < math.radians(half_deg):
-            first, here, last = map(angle, crank)
+        if abs(crank[1]) < math.radians(60.0):
+            first, here, last = map(cycloid, crank)
             torque = 0.3 * w * w * (last - 2.0 * here + first) / (h * h) + 5.0
             most = max(most, abs(torque * (last - first) / (crank[2] - crank[0])))
     assert found["strength.crank_shaft.moment_Nm"] == pytest.approx(most, rel=1e-4)

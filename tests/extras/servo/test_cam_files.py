@@ -121,8 +121,6 @@ def test_rows_at_each_jump():
         (("siemens", None, 1e-4), "--for siemens: it must be one of polynomial, codesys, beckhoff"),
         (("codesys", 0, 1e-4), "--turns 0: must be at least 1, at most 1000"),
         (("codesys", 1, 0.0), "--tolerance 0: must be at least 1e-12"),
-        (("codesys", 1, 1e-300), "--tolerance 1e-300: must be at least 1e-12, which is rounding"),
-        (("codesys", 1, 360.0), "--tolerance 360: must be at least 1e-12"),
         (("beckhoff", 2, 1e-4), "its table covers one turn of the input"),
     ],
 )
@@ -146,7 +144,6 @@ def test_the_manual_shows_these_numbers(controller):
         ("--for beckhoff", 0, "degrees of the wheel\n"),
         ("--for beckhoff --tolerance 1e-9", 1, "more than --tolerance 1e-09: its table has 360"),
         ("--for codesys --tolerance 1e-9", 1, "more than --tolerance 1e-09: a jump becomes a ramp"),
-        ("--for codesys --tolerance 1e-7", 0, "degrees of the wheel\n"),
         ("--tolerance 1e-12", 0, "degrees of the wheel\n"),
     ],
 )
