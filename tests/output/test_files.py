@@ -24,8 +24,6 @@ TEMPORARY = re.compile(r"\.motion\.csv\.geneva-\d+\.tmp")
 LONG = ["motion", "spec.toml", "--samples", "500000"]  # seconds of writing, some 40 MB
 SHORT = ["peaks", "spec.toml"]
 
-full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")
-
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
