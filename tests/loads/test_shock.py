@@ -22,6 +22,7 @@ from geneva_cli import (
 from geneva_cli.loads.impacts import change_of_sides
 from geneva_cli.loads.impacts.impacts import entry_impacts
 from geneva_cli.parts.machine_sizes import built
+from geneva_cli.spec.tables import RollerMaterial, WheelMaterial
 
 # A contact is where a square root of the error says: half of a double's digits would be lost of
 # the angle if the path were not written about its entry. Here only the angle's own last digits go.
@@ -200,6 +201,28 @@ def test_a_drag_ends_the_change_of_sides():
         load = Load(inertia_kgm2=0.4, torque_Nm=1.0 + drag + more)
         over = change_of_sides.drag_over(Design(External(6), load=load).mechanism)
         assert len(change_of_sides.changes(of(External(6)), np.array([[over]])).x) == changes
+
+
+def test_force_by_the_energy():
+    """The work of pressing and bending, summed from the formula in the books, is the energy."""
+    design = Design(
+        External(6),
+        size=Size(face_width_mm=18.0, pin_mm=8.0),
+        load=Load(inertia_kgm2=1.2),
+        material_roller=RollerMaterial(210.0, 0.3),
+        material_wheel=WheelMaterial(3.0, 0.35),
+    )
+    Q = mp.mpf(force_of(design.mechanism, 0.02))
+    eta = sum((1 - nu**2) / E for E, nu in ((210, mp.mpf("0.3")), (3, mp.mpf("0.35"))))
+    soft = eta / (2 * (1 - mp.mpf("0.09")) / 210)
+
+    def press(q):
+        return mp.mpf("3.84e-5") * (soft * q) ** mp.mpf("0.9") / mp.mpf(18) ** mp.mpf("0.8")
+
+    k = 3 * 210e3 * mp.pi * 8**4 / 64 / mp.mpf(9) ** 3
+    depth = press(Q) + Q / k
+    work = Q * depth - mp.quad(lambda q: press(q) + q / k, [0, Q])  # by parts
+    near(work / 1000, mp.mpf("1.2") * (mp.mpf("0.02") * 2 * mp.pi) ** 2 / 2, 1e-12)
 
 
 # bending moments over the force, from the plate, a away from the roller's middle: by statics, and

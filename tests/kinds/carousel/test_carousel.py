@@ -544,3 +544,14 @@ def test_neighbours_by_their_places():
         assert check.value == pytest.approx(gap, rel=1e-13)
         assert check.passes == (gap >= 0.0)
         assert values_of(design)["carousel.envelope_mm"] == pytest.approx(L + reach, rel=1e-14)
+
+
+@pytest.mark.long
+def test_a_report_lists_when_each_wheel_moves():
+    design = Design(External(4), Carousel(wheels=3, n_rpm=1.0))
+    table = design.report.table.to_dict()["wheels"]
+    assert table == [
+        {"wheel": 1, "behind_deg": 0.0, "entry_deg": -45.0, "exit_deg": 45.0, "entry_s": 0.0},
+        {"wheel": 2, "behind_deg": 120.0, "entry_deg": 75.0, "exit_deg": 165.0, "entry_s": 20.0},
+        {"wheel": 3, "behind_deg": 240.0, "entry_deg": 195.0, "exit_deg": 285.0, "entry_s": 40.0},
+    ]

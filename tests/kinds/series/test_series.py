@@ -1,4 +1,4 @@
-"""Drives in series: batches, refusals, files, links and gears.
+"""Drives in series: batches, refusals, links and gears.
 
 Motions are in ``test_machines.py`` and loads in ``test_series_loads.py``, both by 50 digits.
 """
