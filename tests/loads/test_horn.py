@@ -66,9 +66,6 @@ def test_a_straight_slot_s_horn_is_its_formula(z, L, r, h, f):
     ("z", "L", "r", "h"),
     [
         (3, 100.0, 5.0, 2.0),
-        (3, 100.0, 5.0, 5.0),
-        (4, 100.0, 5.0, 5.0),
-        (6, 100.0, 5.0, 2.0),
         (6, 100.0, 5.0, 5.0),
         (8, 250.0, 12.0, 12.0),
         (12, 100.0, 4.0, 2.0),
@@ -139,15 +136,6 @@ def test_plane_stress_agrees_on_internal_wheels(z, L, r, h, low, high):
     assert low < abs(along[inside]).max() / beam < high
     for side in horns(mechanism, r, wall - h):
         assert side.stoutness == pytest.approx(h / (wall - h), rel=1e-12)
-
-
-def test_a_thick_horn_is_no_beam():
-    """A horn of 10 mm on a recess of 35: the formula has more than 2 % too little."""
-    wall = 45.0
-    s, along, _ = in_plane_stress(wall, 35.0, 36.6, math.radians(120.0), 1.5)
-    found = greatest(machine(6, 100.0, 5.0), 5.0, 35.0, 1.0)
-    most = abs(along[(s > 8.0) & (s < 0.75 * 36.6)]).max()
-    assert most > 1.02 * found.stress_MPa / (10000.0 / 86.60254)
 
 
 def test_the_side_that_bears():

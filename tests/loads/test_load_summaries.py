@@ -60,29 +60,6 @@ def test_a_reaction_that_nearly_vanishes_has_its_mean():
     assert found.rms[0] == pytest.approx(rms, rel=1e-12)
 
 
-NARROW = {  # features that a sum's first terms hide: the law, a quantity, and what varies
-    "friction at the pin": (
-        "cycloidal",
-        "pin_force_N",
-        {
-            "motion.alpha0_deg": -0.28174141658582386,
-            "size.roller_radius_mm": 3.157456300630284,
-            "load.inertia_kgm2": 18.926894686871265,
-        },
-    ),
-    "sliding beside a pole": (
-        "harmonic",
-        "sliding_m_s",
-        {
-            "motion.alpha0_deg": 58.65874605837166,
-            "motion.ratio": 0.4032995646440021,
-            "wheel.z": 3,
-            "drive.n_rpm": 75.75217127963073,
-        },
-    ),
-}
-
-
 @pytest.mark.sampled(48)
 @pytest.mark.parametrize("name", MACHINES)
 def test_no_peak_is_missed(name):
@@ -98,26 +75,6 @@ def test_a_least_value_before_a_pole_is_found():
     spec = spec.with_("wheel.z", 8)
     found = many(spec, {"motion.alpha0_deg": np.array([-16.12715, -12.83089])})
     assert (beyond(found, 3000, 5, ("pv_W_m2",)) <= 1e-12).all()
-
-
-def test_a_least_value_far_from_a_pole_is_found():
-    """Of a force that has no bound at mid-motion, and 145 N in a dip a degree or two wide: the
-    range that the pole makes is none by which slopes there are rounding.
-    """
-    varied = {
-        "motion.alpha0_deg": -32.256448705650996,
-        "motion.ratio": 0.7950218297778342,
-        "wheel.z": 16,
-        "load.inertia_kgm2": 1.6706906352297435,
-        "load.torque_Nm": 14.545873750873158,
-        "drive.n_rpm": 13.386146834424842,
-    }
-    spec = MACHINES["sine-group"][0].replace(load=Load())
-    columns = {key: np.array([value]) for key, value in varied.items()}
-    found = many(spec, columns)
-    least = load_summaries(found.machine, ["crank_bearing_N"], requested=())["crank_bearing_N"]
-    assert (beyond(found, 3000, 5, ("crank_bearing_N",)) <= 1e-12).all()
-    assert least.min_at_deg[0] == pytest.approx(89.72321, abs=1e-4)
 
 
 def test_the_least_of_a_size_is_nothing():
@@ -223,34 +180,6 @@ def test_the_inertia_alone_against_the_theory():
             return ratio * (1.0 - ratio**2) * np.sin(x) / square**2.5
 
         assert mean == pytest.approx(quad(size, 0.0, end)[0] / np.pi, rel=1e-12)
-
-
-@pytest.mark.long
-def test_one_name_has_one_meaning_in_all_answers():
-    """The pin force is a size, of which samples have the sign: 0 at the change of sides."""
-    path = str(repo.DESIGNS / "tolerances.toml")
-    of = design.load(path)
-    values, report = of.loads_table.to_dict(), of.report.table.to_dict()
-    rows = of.load_cycle(20001).to_dict()
-    force = np.asarray(rows["pin_force_N"])
-    assert force.min() < -50.0
-    for load in ("pin_force_N", "input_torque_Nm", "contact_stress_MPa"):
-        # the cycle searches more functions together: its places may differ by rounding
-        assert values[f"{load}.max"] == pytest.approx(report[f"loads.{load}.max"], rel=1e-15)
-        places = values[f"{load}.max_at_deg"], report[f"loads.{load}.at_deg"]
-        assert places[0] == pytest.approx(places[1], abs=1e-9)
-    # samples 0.018 degrees apart: extremes within 1e-6, sums to the square of the spacing
-    assert values["pin_force_N.max"] == pytest.approx(abs(force).max(), rel=1e-6)
-    assert values["pin_force_N.min"] == 0.0
-    assert values["pin_force_N.min_at_deg"] == pytest.approx(values["reversals_deg"][0], abs=1e-9)
-    assert values["pin_force_N.mean"] == pytest.approx(abs(force[:-1]).mean(), rel=1e-4)
-    assert values["pin_force_N.rms"] == pytest.approx(np.sqrt((force[:-1] ** 2).mean()), rel=1e-4)
-    names = [f"loads.pin_force_N.{end}" for end in ("min", "mean", "rms")]
-    batch = many(of.spec, {"load.torque_Nm": np.array([15.0, 16.0])}).machine
-    one = load_summaries(batch, ["pin_force_N"])["pin_force_N"]
-    assert [one.min[0], one.mean[0], one.rms[0]] == pytest.approx(
-        [values[name.removeprefix("loads.")] for name in names], rel=1e-12
-    )
 
 
 def test_an_input_torque_that_holds_back_most_is_greatest_by_size():

@@ -139,19 +139,3 @@ def test_whatever_leads_the_roller(name, errors):
 
     slope = (kept(at + step) - kept(at - step)) / 2e-6
     assert found.jump[0] == pytest.approx(slope, rel=1e-6, abs=1e-9)
-
-
-@pytest.mark.parametrize("sign", [-1, 1])
-def test_to_first_order_it_is_a_root_too(sign):
-    [engagement] = build(Spec(Wheel(6))).engagements
-    short = np.array([[1e-6], [1e-8], [1e-10]])
-    found = mouth_contacts(engagement, sign * short, 0.0, 0.05, 0.0).jump
-    first = (
-        math.tan(math.pi / 6) * np.sqrt(2.0 * short[:, 0]) * math.sqrt((0.5 + sign * 0.05) / 0.05)
-    )
-    assert found == pytest.approx(-sign * first, rel=2e-3)
-    assert found[2] == pytest.approx(-sign * first[2], rel=2e-5)
-    # a centre distance too long by a share is an arm too short by it, to first order
-    assert mouth_contacts(engagement, 0.0, -sign * 1e-8, 0.05, 0.0).jump == pytest.approx(
-        found[1], rel=1e-4
-    )

@@ -115,19 +115,6 @@ def test_an_uneven_drive_s_branches_are_compared_at_equal_radii():
     assert found.loose_gap_mm == pytest.approx(gap[loose].max(), rel=1e-3)
 
 
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("law", ["cycloidal", "sine-group"])
-def test_the_slot_of_a_machine_behind_gears_is_that_without(law):
-    """The same slot, which lacks the same walls; resistance alone does not change with the rate."""
-    own = PRESS.replace(motion=Motion(law, ratio=0.5), load=Load(0.0, 10.0))
-    behind = own.replace(drive_before=uneven_gears())
-    one, other = (positive_drives(build(spec)) for spec in (own, behind))
-    ends = build(behind).engagements[0].inputs_deg(np.array(one.loose_deg))
-    # intervals end within half a step, which gears stretch
-    assert np.array(other.loose_deg) == pytest.approx(ends, abs=0.2)
-    assert other.gap_mm == pytest.approx(one.gap_mm, rel=1e-5)
-
-
 def test_the_undercut_of_a_machine_behind_gears_is_that_without():
     own = PRESS.replace(motion=Motion("modified-sine", ratio="matched"), size=Size(100.0, 30.0))
     one, other = (undercut(build(spec)) for spec in (own, own.replace(drive_before=uneven_gears())))

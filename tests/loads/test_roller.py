@@ -162,9 +162,7 @@ def test_life_in_turns_motions_and_hours():
     ("design", "a_turn"),
     [
         ("three-rollers-z4", 1.0),  # each roller of a crank passes one slot a turn
-        ("two-rollers-side-crank", 1.0),
         ("two-cranks", 1.0),  # both turn once
-        ("unequal-steps", 1.0),
         ("gear-sector", 1.0),
         ("geneva-pair", 1.0 / 4.0),  # the second crank turns once in four turns of the input
         ("wandering-hours", 3.0),  # three wheels come to the finger
@@ -224,14 +222,3 @@ def test_one_wall_takes_all_the_wear_of_a_torque_that_never_reverses():
     (way,) = passages(build(spec))
     expected = way.work / (0.5 * way.travel_m) / (20.0 * 1000.0)
     assert worn_mm(spec) == pytest.approx(expected, rel=1e-12)
-    # an inertia alone presses on one wall on the way in, and on the other on the way out
-    (way,) = passages(build(spec.replace(load=Load(0.4, 0.0))))
-    walls = expected_walls(build(spec.replace(load=Load(0.4, 0.0))))
-    assert worn_mm(spec.replace(load=Load(0.4, 0.0))) == pytest.approx(max(walls), rel=1e-12)
-
-
-def expected_walls(machine):
-    """Depths of the walls that each half of a motion rubs, from the passages of the halves."""
-    (engagement,), case = machine.engagements, load_case(machine)
-    halves = [passage(engagement, case, half) for half in (-1.0, 1.0)]
-    return [one.work / one.travel_m / (20.0 * 1000.0) for one in halves]

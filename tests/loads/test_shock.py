@@ -154,17 +154,6 @@ def test_on_a_sphere(axes):
     assert found.jump < 0.0
 
 
-def test_the_square_root_warning():
-    """A hundredth of a percent of R/L costs 1.4 % of tan b."""
-    for gearing, z in ((External, 3), (External, 12), (Internal, 6)):
-        size = -contact_of(of(gearing(z)), 1e-4).jump / mp.tan(mp.pi / z)
-        assert 0.0137 < size < 0.0145
-        # fourfold the error, twice the jump; the next term is about sqrt(2 eps) of it
-        four = -contact_of(of(gearing(z)), 4e-8).jump
-        one = -contact_of(of(gearing(z)), 1e-8).jump
-        assert four / one == pytest.approx(2.0, rel=1e-3)
-
-
 def test_a_crank_that_is_too_short_meets_the_mouth():
     assert contact_of(of(External(5)), -1e-9) is None
     assert contact_of(of(External(5)), 0.0, 1e-9) is None

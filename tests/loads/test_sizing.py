@@ -171,15 +171,3 @@ def test_the_textbook_flywheel():
     low, high = 6000.0 * np.sin(cuts) - 4000.0 * np.cos(2.0 * cuts)
     assert high - low == pytest.approx(15125.0, rel=1e-13)
     assert (high - low) / (0.02 * omega(200.0) ** 2) == pytest.approx(1724.04, abs=5e-3)
-
-
-def test_the_turret_of_the_readme():
-    """Issue 11: 75.2 W of peak input power, RMS and mean torque, least 0.28 N m."""
-    design = load(str(repo.DESIGNS / "turret.toml"))
-    torque, power = design.loads["input_torque_Nm"], design.loads["power_W"]
-    assert power.max == pytest.approx(75.2, abs=0.05)
-    assert torque.mean == pytest.approx(2.75, abs=5e-3)
-    assert torque.min == pytest.approx(0.28, abs=5e-3)
-    assert torque.rms == pytest.approx(5.81, abs=6e-3)
-    assert design.timing.dwell_s >= 0.8
-    assert design.passes

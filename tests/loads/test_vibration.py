@@ -5,8 +5,6 @@ import math
 import numpy as np
 import pytest
 import vibration_witness as witness
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from swings import shares
 from words import law
 
@@ -44,14 +42,6 @@ def test_residuals_of_laws(name, damping):
     for ratio, found in zip(ratios, amplitudes(of(name), ratios, damping), strict=True):
         exact = witness.amplitude(name, ratio, damping)
         assert close(found, exact), (ratio, found, float(exact))
-
-
-@pytest.mark.long
-@given(st.sampled_from(LAWS), st.floats(0.01, 60.0), st.floats(0.0, 0.99))
-@settings(max_examples=60)
-def test_residuals_anywhere(name, ratio, damping):
-    found = amplitudes(of(name), [ratio], damping)[0]
-    assert close(found, witness.amplitude(name, ratio, damping))
 
 
 def test_the_witness_knows_the_closed_forms_of_the_textbooks():

@@ -225,13 +225,3 @@ def test_units_and_the_shaft():
     assert {k: v for k, v in given.items() if isinstance(v, float)} == pytest.approx(
         {k: v for k, v in found.items() if isinstance(v, float)}
     )
-
-
-def test_a_stop_has_no_steady_state():
-    """It makes at most z - 1 motions in a row, from rest."""
-    design = Design(External(5, stop=True))
-    oscillators = oscillators_of(design.mechanism, Oscillator(4.0, 0.05))
-    assert np.isnan(oscillators.steady_share).all()
-    values = design.vibration(4.0, 0.05).to_dict()
-    assert values["steady_share"] is None
-    assert any("stop blocks the crank" in str(warning) for warning in values["warnings"])

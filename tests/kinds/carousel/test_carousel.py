@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from drawing_witness import polygon
 from mpmath import mp
-from shapely import Point, affinity
+from shapely import affinity
 
 from geneva_cli import (
     Carousel,
@@ -26,7 +26,6 @@ from geneva_cli import (
     Spherical,
     Support,
 )
-from geneva_cli.extras.servo.against import against
 from geneva_cli.geometry.plates import plates
 from geneva_cli.loads.highest_speed import kinetic_power_W
 from geneva_cli.loads.product import product_motion
@@ -118,10 +117,6 @@ def test_a_turn_of_the_carrier(wheel):
     table = Design(wheel, Carousel(rollers=1)).motion(361).to_dict()
     turned = table["absolute_deg"][-1] - table["absolute_deg"][0]
     assert turned == pytest.approx(360.0 + wheel.SIGN * 360.0 / wheel.z, abs=1e-12)
-
-
-def test_without_a_carrier_no_absolute_columns():
-    assert "absolute_deg" not in Design(External(6)).motion(9).to_dict()
 
 
 POINTS = 3  # point masses on the wheel: the fewest whose inertia has no direction
@@ -217,13 +212,6 @@ def test_losses_count_where_the_input_drives():
     Q = lossless.cycle.states(x).input_torque_Nm
     expected = np.where(Q > 0.0, Q / 0.7, Q)
     assert lossy.cycle.states(x).input_torque_Nm == pytest.approx(expected, rel=1e-12)
-
-
-@pytest.mark.long
-def test_the_indexer_formula_covers_the_exact_torque():
-    for wheel in WHEELS:
-        design = Design(wheel, Carousel(), load=Load(inertia_kgm2=0.05, torque_Nm=0.2))
-        assert sizing(design.cycle)[0]["input_torque_ratio"] >= 1.0
 
 
 def test_inertia_ratio_counts_from_the_ground():
@@ -408,13 +396,6 @@ def test_what_a_product_feels_at_any_place_on_the_wheel(wheel):
     assert felt.friction_needed[0] == pytest.approx(felt.acceleration_m_s2.max[0] / 9.80665)
 
 
-def test_studies_of_machines_on_the_ground_refuse_a_carrier(tmp_path):
-    spec = tmp_path / "spec.toml"
-    spec.write_text('[wheel]\nz = 4\n[drive]\nkind = "carousel"\n')
-    with pytest.raises(GenevaError, match="wheels on a carrier, and an alternative"):
-        against(str(spec), (), ["cam"])
-
-
 @pytest.mark.parametrize(("z", "most"), [(3, 5), (4, 3), (5, 3), (6, 2), (8, 2), (24, 2)])
 def test_only_one_wheel_moves_at_a_time(z, most):
     """Wheels that would move together would also meet: 2 L sin(180°/n) against 2 L cos b."""
@@ -469,30 +450,6 @@ def test_wheels_pass_each_other_and_the_disc():
             assert one.intersection(lock).area < 1e-3 * lock.area
     (check,) = (c for c in design.checks if c.name == "wheels_apart_mm")
     assert nearest >= check.value > 0.0
-
-
-def test_the_carrier_has_an_eye_for_each_wheel():
-    for wheels in (1, 2, 3):
-        design = Design(External(4), Carousel(wheels=wheels))
-        (carrier,) = plates(design.drawing("frame").solid)
-        assert carrier.name == "carrier"
-        axes = {complex(*hole.centre) for hole in carrier.holes}
-        expected = {
-            100.0,
-            *(100.0 - 100.0 * np.exp(2j * np.pi * k / wheels) for k in range(wheels)),
-        }
-        assert all(min(abs(a - b) for b in axes) < 1e-9 for a in expected)
-        assert len(axes) == wheels + 1
-        eyes = polygon(carrier.outline, 1e-3)
-        walls = [eyes.exterior.distance(Point(*h.centre)) - h.radius for h in carrier.holes]
-        assert min(walls) >= 5.0 - 2e-3  # L/20, less a chord
-        rows = design.part_table("parts").to_rows()
-        rows = {row["name"]: row for row in rows if row["row"] == "part"}
-        assert rows["wheel"]["count"] == rows["wheel's shaft"]["count"] == wheels
-        assert rows["carrier"]["count"] == rows["locking disc"]["count"] == 1
-    # the carrier would hold no internal wheel: a plate below it holds the finger
-    (frame,) = plates(Design(Internal(4), Carousel()).drawing("frame").solid)
-    assert frame.name == "frame"
 
 
 @pytest.mark.long

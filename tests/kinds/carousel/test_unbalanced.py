@@ -177,24 +177,6 @@ def test_the_lock_and_the_pivot_in_the_dwells(wheel):
     assert held_torque_Nm(design.mechanism) == pytest.approx(max(moments), rel=1e-13)
 
 
-@pytest.mark.long
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("angle", [0.0, 130.0, 220.0])
-def test_the_place_of_a_horns_stress_names_the_turn(angle):
-    """All horns are equal, and a force bends one most at its mouth: the greatest of five turns."""
-    spec = design_of(External(5), angle=angle).spec.with_("size.face_width_mm", 10.0)
-    design = Design.of(spec)
-    (check,) = (one for one in design.checks if one.name == "horn_stress_MPa")
-    (one,) = design.mechanism.engagements
-    ends = one.entry_deg + 1e-9, one.exit_deg - 1e-9  # inside, as there is no force in the dwell
-    mouths = np.array([360.0 * k + end for k in range(5) for end in ends])
-    forces = abs(design.cycle.states(mouths).pin_force_N)
-    here = abs(mouths - check.at_deg)
-    assert here.min() < 1e-6
-    # equal forces of two turns differ by the nanodegree to their mouths
-    assert forces[np.argmin(here)] == pytest.approx(forces.max(), rel=1e-6)
-
-
 def test_the_fastest_speed_reaches_the_limit():
     """At it the pin force is the limit: inertia and unbalance grow with the square of the speed."""
     spec = design_of(External(5)).spec.with_("limits.pin_force_max_N", 40.0)
@@ -230,18 +212,6 @@ def test_two_fingers_meet_the_body_in_all_its_directions(z, apart):
     assert loads.rms == pytest.approx(math.sqrt(2.0) * one.rms, rel=1e-10)
     # finger and direction come together again after lcm(z, 2) motions, two in a turn
     assert both.mechanism.under_load.period_deg == pytest.approx(180.0 * math.lcm(z, 2))
-
-
-def test_backwards_the_torque_is_that_of_a_film_that_runs_backwards():
-    """Without losses every torque has the other sign, at the mirrored angle of the input."""
-    design = design_of(External(5))
-    loads, back = (one.cycle.extremes for one in (design, design.backwards))
-    for name in ("wheel_torque_Nm", "input_torque_Nm"):
-        assert back[name].max == pytest.approx(-loads[name].min, rel=1e-12)
-        assert back[name].min == pytest.approx(-loads[name].max, rel=1e-12)
-    x = np.linspace(-50.0, 50.0, 21)
-    forwards = design.cycle.states(x).wheel_torque_Nm
-    assert design.backwards.cycle.states(x).wheel_torque_Nm == pytest.approx(-forwards[::-1])
 
 
 @pytest.mark.long

@@ -10,12 +10,11 @@ import pytest
 import repo
 from other_shape import with_shape
 
-from geneva_cli import Design, Linear, Load, Size
+from geneva_cli import Design, Linear, Size
 from geneva_cli.design import load
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import solids
-from geneva_cli.kinds.linear.frame import rack_stressed
 from geneva_cli.kinds.linear.outlines import turned_rack
 from geneva_cli.kinds.linear.rack import locking_sector, rack_contour, rack_sizes
 from geneva_cli.parts.turn.full_turn import full_turn
@@ -111,15 +110,6 @@ def test_checks():
     assert thin["rack_horn_mm"].passes is False
 
 
-def test_the_assembly_has_the_crank_at_mid_motion():
-    """The roller is at the origin, and the sector beyond the crank's axis."""
-    shapes = design().drawing("assembly").shapes
-    roller = next(one for one in shapes if one.layer == "ROLLER")
-    assert roller.centre == pytest.approx((0.0, 0.0), abs=1e-13)
-    sector = next(one for one in shapes if one.layer == "CRANK")
-    assert min(p.start[0] for p in sector.segments) == pytest.approx(R, abs=1e-12)
-
-
 def test_area_of_the_arm():
     """Two discs, of hub and eye, and the quadrilaterals between their common tangents.
 
@@ -186,92 +176,6 @@ def test_the_rack_covers_its_guide_in_each_step(count, lock):
     assert half == pytest.approx(R - r - 0.1)
     ends = bounds(bar.outline)
     assert (ends.y0, ends.y1) == pytest.approx((box.y0, box.y1), abs=1e-9)
-
-
-def test_the_crank_shaft_bears_pin_force_and_torque():
-    """The ASME code's moment, by hand: at a the crank's pin force F turns it by F R cos a.
-
-    F = m R w² (-sin a) + F0 at 60 rpm, without friction. The bearing in the frame's middle is half
-    a rack, the arm and half a frame from the middle of the rack, all 5 mm thick.
-    """
-    loaded = design().with_("load.mass_kg", 4.0).with_("load.force_N", 30.0)
-    values = loaded.report.table.to_dict()
-    a = np.radians(np.linspace(-90.0, 90.0, 200_001))
-    force = 4.0 * 0.05 * (2.0 * math.pi) ** 2 * -np.sin(a) + 30.0
-    moment = np.hypot(1.5 * force * 0.010, force * 0.05 * np.cos(a)).max()
-    # the scan's peak is within 1e-10 of the true one, which is flat
-    assert values["strength.crank_shaft.moment_Nm"] == pytest.approx(moment, rel=1e-9)
-    stress = 16e3 * moment / (math.pi * 10.0**3)
-    assert values["strength.crank_shaft.stress_MPa"] == pytest.approx(stress, rel=1e-9)
-    rows = {one.name: one for one in loaded.checks}
-    assert {"crank_shaft_stress_MPa", "arm_stress_MPa", "pin_stress_MPa"} <= set(rows)
-    assert "wheel_shaft_stress_MPa" not in rows
-
-
-def test_the_arm_is_stressed_in_its_own_sizes():
-    machine = design(pin_gap_mm=0.5, arm_thickness_mm=6.0, crank_keyway="DIN 6885-1")
-    of = rack_stressed(machine.with_("size.arm_bore_mm", 16.0).mechanism)
-    arm = of.arm
-    assert (arm.length, arm.thickness) == (R, 6.0)
-    assert arm.offset == 0.5 * (5.0 + 6.0) + 0.5  # from the rack's middle to the arm's
-    assert of.crank_shaft == (16.0, 2.5 + 0.5 + 6.0 + 3.0)  # to the frame's middle
-    assert of.crank_key.length == 6.0
-
-
-def ends_by_equilibrium(a: float, loaded: Design, x0: float, half: float) -> tuple[float, float]:
-    """Forces on the bar at both ends of its guide, from the force that the roller exerts.
-
-    Unknown are two forces along x, at y = half and -half: their sum and their moment about the
-    guide's middle balance those of the roller. Friction acts on the rack as the roller slides.
-    """
-    mu, w = loaded.spec.load.friction, 2.0 * math.pi
-    push = loaded.spec.load.mass_kg * 0.05 * w * w * -math.sin(a) + loaded.spec.load.force_N
-    side = math.copysign(1.0, push)
-    touch = np.array([R * (1.0 - math.cos(a)), R * math.sin(a) + side * r])
-    slides = math.copysign(1.0, R * math.sin(a) + side * r)  # of a body that turns by -w
-    force = np.array([mu * abs(push) * slides, push])
-    moment = (touch[0] - x0) * force[1] - touch[1] * force[0]
-    matrix = np.array([[1.0, 1.0], [-half, half]])
-    upper, lower = np.linalg.solve(matrix, [-force[0], -moment])
-    return upper, lower
-
-
-@pytest.mark.long
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    ("mass", "force", "mu"), [(4.0, 30.0, 0.1), (4.0, 0.0, 0.3), (0.0, 9.0, 0)]
-)
-def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
-    load = Load(mass_kg=mass, force_N=force, friction=mu, guide_friction=0.0)
-    loaded = Design(Linear(6), size=design(**PARTS).spec.size, load=load)
-    values = loaded.report.table.to_dict()
-    bar, half = span(solids_of()["guide bar"]), 0.5 * values["guide.length_mm"]
-    x0 = 0.5 * sum(bar)
-    assert half == pytest.approx(R - r - 0.1)
-    angles = np.radians(np.linspace(-90.0, 90.0, 20_001))
-    ends = [max(map(abs, ends_by_equilibrium(a, loaded, x0, half))) for a in angles]
-    # the scan's spacing of 0.009 degrees is within 1e-7 of a smooth peak, and has both ends
-    assert values["guide.force_N"] == pytest.approx(max(ends), rel=1e-7)
-    lever = R - x0 - mu * (R - r)
-    assert values["guide.locks_at_friction"] == pytest.approx(half / lever, rel=1e-14)
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("no_advice")
-def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
-    """At entry, without friction in the slot: both ends' friction is nu (|N1| + |N2|)."""
-    loaded = design(**PARTS).with_("load.force_N", 10.0)
-    values = loaded.report.table.to_dict()
-    x0, half = 0.5 * sum(span(solids_of()["guide bar"])), 0.5 * values["guide.length_mm"]
-    ends = ends_by_equilibrium(-0.5 * math.pi, loaded, x0, half)
-    friction = values["guide.locks_at_friction"] * sum(map(abs, ends))
-    assert friction == pytest.approx(10.0, rel=1e-12)
-    rows = {one.name: one for one in loaded.with_("load.friction", 0.2).checks}
-    assert rows["guide_locks"].limit == 0.2
-    assert rows["guide_locks"].passes
-    assert "guide_locks" not in {one.name for one in loaded.checks}
-    dry = loaded.with_("load.guide_friction", 0.7)
-    assert not {one.name: one for one in dry.checks}["guide_locks"].passes
 
 
 @pytest.mark.long

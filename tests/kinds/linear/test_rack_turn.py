@@ -6,7 +6,6 @@ of the clearances; and small moves of the rack until parts overlap.
 
 import math
 import random
-from itertools import product
 
 import numpy as np
 import pytest
@@ -151,29 +150,3 @@ def test_a_stop_is_where_parts_begin_to_overlap(seed):
             assert (least(lead)[free] >= -1e-8).all()
         stopped = free & (stop.lead < 1.0)
         assert (least(way * (stop.lead + 1e-3))[stopped] < 0.0).all()
-
-
-@pytest.mark.long
-def test_an_overlap_is_as_deep_at_the_end_of_the_ring():
-    """In the middle of a dwell all corners of an overlap lie on both outlines.
-
-    The witness: points on the rack and on the ring, and the distances of those that lie in the
-    other part. In the ring they are from its outside, its inside and its straight end.
-    """
-    parts = rack_of(slot_clearance_mm=0.05, lock_clearance_mm=0.05)
-    sizes, shift = parts.sizes, math.radians(1.0)
-    outline = Polyarc([rack_contour(sizes, 5)])
-    rack, ring = outline.samples(1e-6, 1e-3), Polyarc([locking_sector(sizes)]).samples(1e-6, 0.02)
-    for turn, sense in product((90.5, 150.0, 179.9, 180.0), (1.0, -1.0)):
-        pose = parts.gaps.pose(np.array([turn]))
-        a, travel = math.radians(turn), R + sense * R * shift
-        x, y = rack[:, 0] - R, rack[:, 1] + travel
-        far, behind = np.hypot(x, y), x * math.cos(a) - y * math.sin(a)
-        depth = np.minimum.reduce([sizes.lock - far, far - sizes.floor, behind]).max()
-        x = R - ring[:, 0] * math.cos(a) - ring[:, 1] * math.sin(a)
-        y = ring[:, 0] * math.sin(a) - ring[:, 1] * math.cos(a) - travel
-        depth = max(depth, -float(outline.signed(np.column_stack((x, y))).min()), 0.0)
-        gap = float(parts.gaps.locking(pose, sense * shift)[0])
-        # between two points the depth changes by less than their spacing
-        assert max(-gap, 0.0) == pytest.approx(depth, abs=2e-3)
-        assert turn < 100.0 or gap < -0.3

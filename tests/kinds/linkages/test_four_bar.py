@@ -8,7 +8,7 @@ stationary there and the wheel's place a double root: the hardest case of the se
 import math
 
 import pytest
-from machine_witness import linkage, path_closed
+from machine_witness import linkage
 from witness import mp, taylor, to_radians
 from words import Drive, Keys, Spec, Wheel
 
@@ -98,46 +98,3 @@ def test_the_whole_curve(engagement):
         psi[0] -= (mp.mpf(FIRST) + 45) * mp.pi / 180
         for value, want in zip(engagement.motion(x).derivatives(), psi, strict=True):
             assert value == pytest.approx(float(want), rel=1e-12, abs=2e-12)
-
-
-def coupler(phi, a, g, b, c, k, kap):
-    """Place of the coupler's point with three derivatives, by theory 1.10's closed forms."""
-    i = mp.mpc(0, 1)
-    d = g - a * mp.expj(phi)
-    t3 = mp.arg(d) + mp.acos((b * b + abs(d) ** 2 - c * c) / (2 * b * abs(d)))
-    t4 = mp.arg(a * mp.expj(phi) + b * mp.expj(t3) - g)
-    S, C = mp.sin(t3 - t4), mp.cos(t3 - t4)
-    w3, w4 = -a * mp.sin(phi - t4) / (b * S), -a * mp.sin(phi - t3) / (c * S)
-    a3 = (-a * mp.cos(phi - t4) - b * w3**2 * C + c * w4**2) / (b * S)
-    a4 = (-a * mp.cos(phi - t3) - b * w3**2 + c * w4**2 * C) / (c * S)
-    j3 = w3**3 + (a * mp.sin(phi - t4) - 3 * b * w3 * a3 * C + 3 * c * w4 * a4) / (b * S)
-    A, E = a * mp.expj(phi), k * mp.expj(t3 + kap)
-    return (
-        A + E,
-        i * A + i * w3 * E,
-        -A + (i * a3 - w3**2) * E,
-        -i * A + (i * j3 - 3 * w3 * a3 - i * w3**3) * E,
-    )
-
-
-def test_closed_forms_of_the_linkage(engagement):
-    """Hand-derived, for the reference: 1.10 for the path and 1.6 for the wheel."""
-    links = [mp.mpf(v) for v in ("0.4", "0.9", "1", "1", AC)]
-    angle = mp.mpf(BAC) * mp.pi / 180
-    centre = mp.mpc(*CENTRE)
-    for t in (-0.9, -0.4, 0.0, 0.3, 0.8):
-        x = t * engagement.exit_deg
-        P, *way = coupler(mp.pi + to_radians(x), *links, angle)
-        want = [float(v) for v in path_closed(P - centre, *way)]
-        got = engagement.motion(x).derivatives()[1:]
-        for value, exact in zip(got, want, strict=True):
-            assert value == pytest.approx(exact, rel=1e-12, abs=2e-12)
-
-
-def test_entry_is_tangent_to_the_slot(engagement):
-    """The wheel's own witness: the pin's velocity at both ends has no part across the slot."""
-    for deg in (engagement.entry_deg, engagement.exit_deg):
-        x, y = engagement.path(deg, 1)
-        across = x.c[0] * y.c[1] - y.c[0] * x.c[1]
-        size = math.hypot(x.c[0], y.c[0]) * math.hypot(x.c[1], y.c[1])
-        assert abs(across) <= 1e-12 * size

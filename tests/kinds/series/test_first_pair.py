@@ -8,7 +8,6 @@ import repo
 
 from geneva_cli import Design, External, GenevaPair, Load, Size, load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.mass import mass_properties
 from geneva_cli.geometry.plates import plates
 from geneva_cli.geometry.shapes import Circle
 
@@ -48,20 +47,6 @@ def test_its_shafts_are_those_of_the_second_crank_and_of_the_first_link(pair):
     (link,) = (plate for plate in plates(links.solid) if plate.name == "first crank")
     shaft = next(hole for hole in link.holes if hole.centre[0] == 0.0)
     assert bore(design.drawing("first-crank")) == shaft.radius
-
-
-def test_it_is_in_the_list_below_the_second_cranks_arm(pair):
-    design, _ = pair
-    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
-    for name, part in (("first wheel", "first-wheel"), ("first locking disc", "first-crank")):
-        row, drawing = rows[name], design.drawing(part)
-        plate = next(p for p in plates(drawing.solid) if p.layer in ("WHEEL", "CRANK"))
-        assert row["mass_kg"] == mass_properties(plate, 7850.0).mass_kg
-        # in the plane of the first crank's roller, between the arm and that crank
-        roller = rows["first crank's roller"]
-        assert (row["z_low_mm"], row["z_high_mm"]) == (roller["z_low_mm"], roller["z_high_mm"])
-        assert row["z_high_mm"] == rows["arm"]["z_low_mm"]
-        assert row["z_low_mm"] == rows["first crank"]["z_high_mm"]
 
 
 def test_one_wheel_has_no_first():

@@ -7,7 +7,6 @@ import pytest
 from scipy.spatial import cKDTree
 
 from geneva_cli import Design, External, Size, Spherical
-from geneva_cli.kinds.spherical.gaps import BallGaps
 from geneva_cli.kinds.spherical.regions import at_mid_motion
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.gaps import NEAR
@@ -29,26 +28,6 @@ def sampled(arcs):
     share = np.linspace(0.0, 1.0, EACH)
     every = [arcs.at(np.full(EACH, i), share * arcs.sweep[i]) for i in range(len(arcs))]
     return np.concatenate(every)
-
-
-def angles(a, b):
-    return 2.0 * np.arcsin(np.minimum(0.5 * np.linalg.norm(a[:, None] - b[None], axis=2), 1.0))
-
-
-@pytest.mark.long
-def test_distances_are_those_of_sampled_points():
-    """Within half a step of the samples, squared, over twice the distance."""
-    found = parts_of(Design(Spherical(5, axes_deg=70), size=Size(80.0, 5.0, **CLEAR)).mechanism)
-    for arcs in (found.gaps.wheel, *found.gaps.sectors):
-        edge = sampled(arcs)
-        rng = np.random.default_rng(1)
-        points = np.concatenate((rng.normal(size=(60, 3)), edge[::97] + 0.02))
-        points /= np.linalg.norm(points, axis=1)[:, None]
-        away = arcs.signed(points)
-        least = angles(points, edge).min(axis=1)
-        step = (arcs.sweep * np.sin(arcs.angle)).max() / (EACH - 1)
-        assert (np.abs(away) <= least + 1e-12).all()
-        assert (least - np.abs(away) <= step).all()
 
 
 def test_nearly_parallel_shafts_are_a_flat_machine():
@@ -90,22 +69,6 @@ def test_gaps_are_those_of_sampled_edges(axes, z):
     for x, gap in zip(at, told, strict=True):
         by_points = least_gap(found, x)
         assert min(by_points - step, wide) <= gap <= min(by_points, wide) + 1e-9
-
-
-def spoilt(**sizes):
-    """The least gaps of rollers and lock in a turn, of which some angles are larger by so much."""
-    found = parts_of(Design(Spherical(6, axes_deg=100), size=Size(80.0, 5.0, **CLEAR)).mechanism)
-    ball = found.ball._replace(**{k: getattr(found.ball, k) + v / 80.0 for k, v in sizes.items()})
-    gaps = BallGaps(found.assembly, ball, found.shells.crank)
-    at = found.assembly.start_deg + np.linspace(0.0, 360.0, 721)[:-1]
-    return gaps.rollers(gaps.pose(at)).min(), gaps.locking(gaps.pose(at)).min()
-
-
-def test_spoilt_machines_overlap_by_as_much():
-    assert spoilt() == pytest.approx((0.05, 0.04), abs=1e-9)
-    assert spoilt(roller=0.15)[0] == pytest.approx(-0.10, abs=1e-9)
-    assert spoilt(recess=-0.10)[1] == pytest.approx(-0.06, abs=1e-9)
-    assert min(spoilt(rim=0.5)) < -0.01
 
 
 def test_a_sector_is_narrower_where_the_wheel_sweeps_over_its_ends():

@@ -100,15 +100,6 @@ def points(regions, each=200):
     )
 
 
-def test_a_hub_is_longer_than_the_wheel_by_its_key():
-    size = Size(80.0, 5.0, wheel_bore_mm=10.0, wheel_hub_mm=24.0, wheel_hub_length_mm=7.0)
-    own = ball(Design(Spherical(6), size=size).mechanism)
-    inside, outside = own.span_mm
-    assert own.hub_length_mm(size) == pytest.approx(outside - inside + 7.0, rel=1e-14)
-    without = own.hub_length_mm(size.replace(wheel_hub_length_mm=None))
-    assert without == pytest.approx(own.arm_span_mm[1] - inside, rel=1e-14)
-
-
 def test_the_boundary_is_that_of_the_definition(machine):
     found = sizes(machine)
     assert np.abs(in_wheel(found, edge_points(found, 40))).max() < 1e-14
