@@ -4,7 +4,7 @@ import numpy as np
 from design_arrays import MACHINES, drawn
 
 from geneva_cli.loads.contact import NEAR_CUSP
-from geneva_cli.loads.cycle_quantities import QUANTITIES, SQUARED
+from geneva_cli.loads.cycle_quantities import NEVER_NEGATIVE, QUANTITIES, SQUARED
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
@@ -115,6 +115,7 @@ def dense_means(cycle, name, parts=2000):
 
     def both(engagement, stretch, x):
         value = cycle.plain(cycle.along(engagement, stretch, x.ravel()), name).reshape(x.shape)
+        value = np.abs(value) if name in NEVER_NEGATIVE else value  # told as a size
         return np.stack((value, value * value))
 
     for engagement, stretch in cycle.stretches:

@@ -1,12 +1,13 @@
 """Parts of a spherical machine, by hand: crank, cones, bores, shafts and slots laid flat."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 import repo
 from test_parts_by_hand import L
-from test_sheet import TOLERANCE, printed
+from test_sheet import TOLERANCE
 from test_turned_shafts import steps
 from words import Spec, Wheel
 
@@ -16,6 +17,13 @@ from geneva_cli.geometry.sphere import place
 from geneva_cli.kinds.spherical.drawings import wheel_cone
 from geneva_cli.kinds.spherical.sheet import flat_slot
 from geneva_cli.parts.parts import parts_of
+
+
+def printed(block):
+    """The points of a table, as they are read from its texts."""
+    downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
+    texts = [label.text for label in downwards if re.fullmatch(r"-?\d+\.\d{3}", label.text)]
+    return [(float(x), float(y)) for x, y in zip(texts[::2], texts[1::2], strict=True)]
 
 
 def test_the_crank_of_a_sphere():
