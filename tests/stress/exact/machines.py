@@ -43,12 +43,15 @@ def read(text):
 
 
 def varied_specs(spec):
-    """The spec with one number that shapes the motion a unit nearer to 0, for each of them."""
+    """The spec with one number that shapes the motion moved by a unit, for each of them."""
     common = {field.key for field in fields(Drive)}
     for part in ("wheel", "drive", "motion"):
         for key, v in spec.table(part).items():
             if isinstance(v, float) and v and key not in common:
-                yield spec.with_(f"{part}.{key}", math.nextafter(v, 0.0))
+                try:
+                    yield spec.with_(f"{part}.{key}", math.nextafter(v, math.inf))
+                except GenevaError:  # the greatest value that may be
+                    yield spec.with_(f"{part}.{key}", math.nextafter(v, 0.0))
 
 
 def compare_machine(table, name, text, mechanism, sample):
