@@ -78,7 +78,6 @@ def test_designs_have_one_zero(path: Path) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("name", FAR)
 def test_far_places_have_one_zero(name: str, tmp_path: Path) -> None:

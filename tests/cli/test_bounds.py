@@ -89,7 +89,6 @@ def test_too_much_is_refused_at_once(arguments):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("L", "share"), [(1.0, 1e-9), (1e6, 1e-12), (1.0, 1e-16), (1e6, 1e-16)], ids="{:g}".format
 )
@@ -115,7 +114,6 @@ def test_a_spec_of_a_gigabyte():
 # 36,000 rows of three numbers and a text are 9 MB as Python's objects; pyarrow reads and writes
 # ahead in blocks of 4 MB, and keeps what it has had
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("file", "how", "more"), [("a.csv", "--random", 6.0), ("a.parquet", "grid", 40.0)]
 )

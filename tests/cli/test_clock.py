@@ -34,7 +34,6 @@ def printed(line: str, seconds_a_reading: int) -> str:
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("line", "shown"),
     [

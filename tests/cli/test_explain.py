@@ -208,7 +208,6 @@ def test_no_proof_is_of_nothing():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(48)
 @pytest.mark.parametrize("entry", WARNINGS, ids=lambda e: e.names[0])
 def test_a_warning_shows_in_its_bad_example_and_not_in_the_good_one(
     entry: Entry, tmp_path, monkeypatch

@@ -42,7 +42,6 @@ def test_help_of_a_command_ends_with_its_examples(name):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(16)
 @pytest.mark.parametrize(("name", "example"), EXAMPLES, ids=[e for _, e in EXAMPLES])
 def test_an_example_runs_as_it_stands(name, example, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -36,7 +36,6 @@ def test_the_design_of_the_folder_turns_within_its_tolerances():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize("format", ["table", "csv", "md", "json"])
 def test_the_same_seed_the_same_bytes(format):
     one, other = (

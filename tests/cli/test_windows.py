@@ -62,7 +62,6 @@ def test_pages_fit(topic):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize("environment", LOOKS, ids=str)
 def test_a_terminal_itself_says_how_wide_it_is(environment):
     """And what it can show; messages on standard error are broken between words too."""

@@ -47,7 +47,6 @@ PEAKS = {"velocity": velocity_peaks, "acceleration": acceleration_peaks}
 CASES = [("external", "velocity"), ("external", "acceleration"), ("internal", "acceleration")]
 
 
-@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(("gearing", "quantity"), CASES)
 def test_none_is_missed(gearing, quantity):
@@ -88,7 +87,6 @@ def test_inside_a_slow_crank_never_passes_its_jump(z):
     assert (inner <= jump).all()
 
 
-@pytest.mark.long
 @pytest.mark.sampled(12)
 @pytest.mark.parametrize(("gearing", "quantity"), CASES)
 @pytest.mark.parametrize("z", [3, 11, 1000])

@@ -83,7 +83,6 @@ built = pytest.mark.parametrize(("z", "places"), BUILT)
 
 
 @pytest.mark.long
-@pytest.mark.sampled(6)
 @built
 def test_motion_and_loads_are_those_of_one_crank(z, places):
     """Equal to the last digit: the same engine, which other tests prove by closed forms."""
@@ -177,7 +176,6 @@ SHAPED = [  # slots of other shapes
 
 
 @pytest.mark.long
-@pytest.mark.sampled(8)
 @pytest.mark.parametrize("design", [*(with_cranks(*one) for one in BUILT), *SHAPED])
 def test_no_crank_meets_the_wheel_or_another_one(design):
     """Polygons at dense angles, each crank placed by hand; the program's gaps are of one crank.
@@ -239,7 +237,6 @@ def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(6)
 @built
 def test_backwards_the_cranks_stand_and_work_as_in_a_mirror(z, places):
     """In a mirror about the line of centres, with the input turned back."""

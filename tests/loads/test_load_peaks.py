@@ -239,7 +239,6 @@ def test_a_motion_between_two_angles_has_no_loads():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize("left", [1e-6, 3e-8, 1e-10])
 def test_forces_of_a_wheel_that_hurries_go_with_the_square_of_its_speed(left):
     """Curved slots behind gears of e = 1 - left, whose wheel is 1 / left times as fast.

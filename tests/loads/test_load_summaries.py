@@ -22,7 +22,6 @@ ULP = 2.0**-52
 KNOTTED = ("points of a law", "gears by points")  # a spline's higher derivatives jump
 
 
-@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     "name", ["crank", "two rollers", "offset, slowed", "spherical", "matched", *KNOTTED]

@@ -108,7 +108,6 @@ FILES = ["side-crank-z6", "cam-geneva", "epicyclic-z4"]
 
 
 @pytest.mark.long
-@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", [*MACHINES, *FILES])
 def test_work_and_turns_of_bodies_cut_free(name):
     """Gauss's rule with 20 nodes over the pieces between reversals, of Newton's and Euler's forces.

@@ -55,7 +55,6 @@ def test_every_machine(path):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("z", "gearing", "A", "damping"),
     [(3, "external", 0.0, 0.1), (6, "internal", 0.0, 0.0), (5, "external", 0.7, 0.02)],

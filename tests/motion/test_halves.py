@@ -60,7 +60,6 @@ def greatest(size):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize("quantity", ["velocity", "acceleration", "jerk"])
 def test_peaks_behind_a_ratio_that_is_not_even(quantity):
     """The wheel's angle in closed form: both ends lie 60 degrees from mid-motion, all the same."""

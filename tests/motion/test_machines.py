@@ -278,7 +278,6 @@ def test_the_wheel_turns_one_step_from_rest_to_rest(machine, witness, case):
             assert abs(mp.mpf(float(wheel[1])) - mp.mpf(float(wheel[0])) - 2 * w.b) <= 1e-14
 
 
-@pytest.mark.long
 @pytest.mark.sampled(96)
 @every
 def test_error_within_16_ulp_of_the_peak(machine, exact, case):

@@ -29,7 +29,6 @@ def limit(z):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize("z, side", [(3, -1.0), (5, 1.0), (24, -1.0), (10**6, 1.0)])
 def test_near_the_limit(z, side):
     table = Table()

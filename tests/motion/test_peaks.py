@@ -88,7 +88,6 @@ def rows(text):
     return {int(z): [float(n) for n in rest] for z, *rest in lines}
 
 
-@pytest.mark.long
 @pytest.mark.sampled(12)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", OFFSETS)
@@ -110,7 +109,6 @@ def test_against_roots_at_50_digits(machine, gearing, A):
         assert found.ends.jerk_exit == pytest.approx(jerk, rel=0.0, abs=small), z
 
 
-@pytest.mark.long
 @pytest.mark.sampled(12)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-9])

@@ -21,7 +21,6 @@ def cycloidal(u):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(6)
 @pytest.mark.parametrize("period", [False, True])
 @pytest.mark.parametrize("count", [7, 8, 21])
 def test_splines_are_those_of_mpmath(count, period):

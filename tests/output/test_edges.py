@@ -65,7 +65,6 @@ def test_rounds_and_blocks_in_closed_form():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize("gearing", [External(6), Internal(6), External(4)])
 def test_insets_are_those_of_shapely(gearing):
     design = Design(gearing)
@@ -83,7 +82,6 @@ def test_insets_are_those_of_shapely(gearing):
                 assert found.symmetric_difference(wanted).area < 3e-5 * whole.length
 
 
-@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("gearing", [External(6), Internal(6)])
 @pytest.mark.parametrize("tolerance", some([0.05, 0.0005], [0.05]))

@@ -85,7 +85,6 @@ def test_owner_is_kept():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize("spec", ["-", "/dev/stdin"])
 def test_standard_input_is_not_replaced(spec):
     text = "[wheel]\nz = 6\n"

@@ -49,7 +49,6 @@ def texts(folder):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(8)
 @pytest.mark.parametrize("n", range(8))
 def test_a_killed_run_is_made_good_by_the_next(folder, n):
     """Killed before each renaming: of both new files, the list, both to their places, the list.

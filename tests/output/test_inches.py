@@ -93,7 +93,6 @@ def test_a_figure_is_scaled():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("words", "wants"),
     [

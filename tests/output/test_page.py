@@ -71,7 +71,6 @@ def wheel_by_core(design, at):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(42)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
     design = design_of(name)

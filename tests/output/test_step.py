@@ -75,7 +75,6 @@ def test_any_outline_is_a_closed_solid(turn, holes, low, high):
     require_solid(file, body, plate)
 
 
-@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("curves", ["arcs", "spline"])
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "press-curved", "two-pins-z4"])

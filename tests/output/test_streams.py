@@ -84,7 +84,6 @@ def closed(arguments, streams):
     )
 
 
-@pytest.mark.long
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize("streams", CLOSED)
 @pytest.mark.parametrize("spec", ["spec.toml", "warns.toml"])

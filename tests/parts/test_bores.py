@@ -73,7 +73,6 @@ def face(shape):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(48)
 @pytest.mark.parametrize("shafts", ["plain", "turned"])
 @pytest.mark.parametrize("bore", ["D", "hex", "DIN 6885-1"])
 @pytest.mark.parametrize(

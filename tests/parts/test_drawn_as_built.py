@@ -85,7 +85,6 @@ def test_drawings_show_what_the_solids_have(name, given):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(6)
 @pytest.mark.parametrize("kind", registry.DRIVES)
 def test_drawings_of_random_machines(kind, tmp_path):
     whole = [assert_machine(design) for _, design in samples(tmp_path, kind)]

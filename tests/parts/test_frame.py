@@ -146,7 +146,6 @@ def test_a_bridge_bears_the_crank_of_a_side_crank(A):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "keys", "said"),
     [

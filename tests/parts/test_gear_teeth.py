@@ -141,7 +141,6 @@ def cut_in_steps(rack, radius, tip, count, steps=1500):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("count", "shift"), [(20, 0.0), (12, 0.45), (60, -0.3)])
 def test_a_rack_that_rolls_leaves_these_teeth(count, shift):
     """Flank, fillet and root against the union of 1500 positions of the tool.
@@ -192,7 +191,6 @@ def free_turn(still, moved, most):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("drive", "z", "keys"),
     [
@@ -233,7 +231,6 @@ def pair(drive, **keys):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize("kind", ["elliptical", "side-crank"])
 def test_noncircular_gears_mesh(kind):
     """Turned by the ratio in closed form: no overlap, and contact with half the backlash a side."""

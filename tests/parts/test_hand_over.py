@@ -73,7 +73,6 @@ def test_the_least_rim_is_where_the_clearance_is_used_up(no_advice):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("friction", "clearance", "state"),
     [
@@ -104,7 +103,6 @@ DRIVEN = [
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("name", "keys", "driven"), DRIVEN)
 def test_half_of_the_motion_must_be_driven(name, keys, driven, no_advice):
     design = load(str(repo.DESIGNS / f"{name}.toml"), keys)

@@ -33,7 +33,6 @@ SPECS = {
 
 
 @pytest.mark.long
-@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", SPECS)
 def test_one_motion_stands_for_all(name):
     """The same gaps and plays, of a part of the turn; gaps to what their search leaves."""

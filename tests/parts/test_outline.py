@@ -482,7 +482,6 @@ def worst(found: Parts, wanted: Polygon) -> float:
 
 
 @pytest.mark.long
-@pytest.mark.sampled(32)
 @pytest.mark.parametrize("case", CURVED_SLOTS, ids=name)
 def test_curved_slots_against_every_place_of_the_roller(case: dict) -> None:
     """On the mean, and at the worst place: there the flattened arcs of both polygons may differ by

@@ -37,7 +37,6 @@ def least_gap(design, name, where, radius, turn):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("hub", [2.0, 4.0])
 def test_a_coupler_over_the_wheels_hub(hub):

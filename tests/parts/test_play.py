@@ -149,7 +149,6 @@ SIZES = {
 }
 
 
-@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", SIZES)
 def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
@@ -195,7 +194,6 @@ CHANGES = {
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", CHANGES)
 def test_play_where_the_roller_changes_walls(name: str) -> None:
     """A narrow peak between two positions: 2 to 3 times as high as those, against a dense scan."""

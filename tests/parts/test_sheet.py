@@ -44,7 +44,6 @@ def sheets():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(10)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_text_of_a_design_stands_on_anything(path, sheets):
     design, found = sheets(path.stem)
@@ -105,7 +104,6 @@ def test_the_title_block_has_the_keys_of_drawing():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(18)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_each_item_of_the_list_has_one_balloon(path, sheets):
     design, found = sheets(path.stem)

@@ -136,7 +136,6 @@ def test_no_gap_within_an_interval_is_below_its_bound(name):
     check_bounds(parts, np.random.default_rng(3))
 
 
-@pytest.mark.long
 @pytest.mark.sampled(40)
 @pytest.mark.parametrize("name", FLAT)
 def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):

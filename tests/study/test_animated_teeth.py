@@ -33,7 +33,6 @@ def toothed(shown, t):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "sets"),
     [

@@ -112,7 +112,6 @@ def has(cells: set[str], told: str, value: Any) -> bool:
 
 
 @pytest.mark.long
-@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", KINDS)
 def test_every_value_of_the_report_is_on_the_page(name: str) -> None:
     design, found = of(name)
@@ -136,7 +135,6 @@ def _parts(cell: str) -> list[str]:
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("name", KINDS)
 def test_a_page_is_well_formed_and_needs_nothing_else(name: str) -> None:

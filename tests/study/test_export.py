@@ -50,7 +50,6 @@ def test_the_files_of_a_laser(spec, tmp_path):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("design", "trade", "keys", "warned"),
     [("gear-sector", "laser", [], True), ("gear-sector", "laser", ["gear_module_mm=3"], False)],

@@ -29,7 +29,6 @@ def geneva(*words: str) -> str:
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["tolerances", "press-curved", "unequal-steps", "spherical-z6"])
 def test_every_group_has_the_names_that_are_listed(name):
     proof = load(str(repo.DESIGNS / f"{name}.toml")).parts

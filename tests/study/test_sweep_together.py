@@ -22,7 +22,6 @@ def test_a_design_that_cannot_be_built_spoils_no_batch():
     assert first[2] is last[2] is True and first[1] == pytest.approx(last[1], rel=1e-14)
 
 
-@pytest.mark.long
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "varied"),

@@ -141,7 +141,6 @@ def test_the_side_crank_paper_s_half_turn():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(18)
 @pytest.mark.parametrize("gearing", GEARINGS)
 @pytest.mark.parametrize("z", [3, 6, 11])
 @pytest.mark.parametrize("share", [0.9, 0.6, 0.35])
@@ -320,7 +319,6 @@ def test_the_angle_of_the_shafts_in_50_digits():
 # Turned, written, checked and exported: a sample of the trial in tests/stress/stress_synth.py
 
 
-@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("options", "number"),

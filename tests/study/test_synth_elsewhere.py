@@ -27,7 +27,6 @@ def curved(found):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize("z", [6, 8, 11])
 def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
     """No motion of a dense sweep between the two has parts that may be built."""

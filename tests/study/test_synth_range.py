@@ -67,7 +67,6 @@ WISHES = [
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_keeps_every_wish(options):
     target, (found, *_) = searched(**options)
@@ -212,7 +211,6 @@ def dense(spec, key, values, names):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("limit", "field", "most"),
     [

@@ -18,7 +18,6 @@ MENDED = [  # what is found to fail with the usual roller, and the roller that m
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize("drive, wheel, name, radius", MENDED, ids=["gear-sector", "two rollers"])
 def test_the_first_roller_that_passes_every_check_is_taken(drive, wheel, name, radius):
     """As trying one after the other has it, with all their checks."""

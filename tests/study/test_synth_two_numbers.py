@@ -37,7 +37,6 @@ def both(found):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("z", "low", "high", "bound"),
     [

@@ -143,7 +143,6 @@ NEAREST = {
 }
 
 
-@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", NEAREST)
 def test_no_nearer_value_passes(name: str, tmp_path: Path) -> None:

@@ -181,7 +181,6 @@ def test_a_key_by_hand():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(8)
 @pytest.mark.parametrize("seed", range(8))
 def test_no_default_passes_beyond_its_steel(seed):
     """Machines over decades of size and load: what passes has stresses below the steel's.
@@ -279,7 +278,6 @@ def test_sizes_are_for_the_lock_as_it_is_cut(wheel, clearance):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("roller_mm", "z"), [(12.0, 3), (16.0, 4), (16.0, 5)])
 def test_shafts_are_for_the_locking_sector_that_the_wheel_leaves(roller_mm, z):
     """An internal wheel narrows its locking sector, so that the same torque needs more force.

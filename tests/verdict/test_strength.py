@@ -79,7 +79,6 @@ def test_a_row_where_something_is_allowed():
     }
 
 
-@pytest.mark.long
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", ROWS)
 def test_each_can_fail_and_one_key_mends_it(name):

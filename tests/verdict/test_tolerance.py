@@ -353,7 +353,6 @@ def test_the_histogram_has_the_mean_and_deviation_of_its_machines(distribution):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize("distribution", ["normal", "uniform"])
 def test_plays_in_motion_are_the_greatest_over_it(distribution):
     """The play is widest at mid-motion, but the worst machine's error elsewhere.

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections import namedtuple
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
@@ -33,19 +32,49 @@ OWN_KEYS = (
 )
 
 
-class Candidate(
-    namedtuple(  # values are None where they do not apply, or without a cycle time
-        "Candidate",
-        "z gearing rollers drive A eccentricity phase axes_deg alpha0_deg law ratio motion_deg "
-        "dwell_deg tau k velocity_max acceleration_max acceleration_entry jerk_max power_max n_rpm "
-        "acceleration_max_rad_s2 parts offset_mm planet_ratio fixed motion_s dwell_s crank_mm "
-        "ground_mm coupler_mm rocker_mm point_mm point_deg entry_deg sector_deg first_z index_mm "
-        "acceleration_max_m_s2 wheels",
-    )
-):
+class Candidate(NamedTuple):
     """One machine as a row: its description, costs (invariants), and whether it can be built."""
 
-    __slots__ = ()
+    z: int
+    gearing: str
+    rollers: int
+    drive: str
+    A: float | None
+    eccentricity: float | None
+    phase: str | None
+    axes_deg: float | None
+    alpha0_deg: float | None
+    law: str | None
+    ratio: float
+    motion_deg: float
+    dwell_deg: float
+    tau: float
+    k: float
+    velocity_max: float
+    acceleration_max: float
+    acceleration_entry: float
+    jerk_max: float
+    power_max: float
+    n_rpm: float | None  # with a cycle time: the input speed, and the peak in rad/s²
+    acceleration_max_rad_s2: float | None
+    parts: str | None  # whether they can be built; None if they are not drawn
+    offset_mm: float | None
+    planet_ratio: float | str | None
+    fixed: str | None
+    motion_s: float | None  # with a cycle time
+    dwell_s: float | None
+    crank_mm: float | None  # a four-bar's keys
+    ground_mm: float | None
+    coupler_mm: float | None
+    rocker_mm: float | None
+    point_mm: float | None
+    point_deg: float | None
+    entry_deg: float | None
+    sector_deg: float | None
+    first_z: int | None
+    index_mm: float | None  # of a rack
+    acceleration_max_m_s2: float | None
+    wheels: int | None  # on a carrier
 
     @property
     def is_driven(self) -> bool:
@@ -181,11 +210,11 @@ def _candidate(
     spec, time, output = machine.spec, timings(machine)[0], machine.output
     motion = spec.motion
     keys = spec.wheel.as_dict() | spec.drive.as_dict()
-    own = {name: keys.get(name) for name in OWN_KEYS}
+    own: dict[str, Any] = {name: keys.get(name) for name in OWN_KEYS}
     own |= {key: getattr(time, key) for key in ("motion_deg", "dwell_deg", "tau", "k", "index_mm")}
     own |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=True)}
     own["offset_mm"] = own["offset_mm"] or None
-    timed = dict.fromkeys(TIMED)
+    timed: dict[str, Any] = dict.fromkeys(TIMED)
     if target.timed:
         n = spec.drive.n_rpm
         timed |= {"n_rpm": n, "motion_s": time.motion_s, "dwell_s": time.dwell_s}

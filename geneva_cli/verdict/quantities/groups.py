@@ -178,9 +178,7 @@ MACHINE = _alone(
 _INPUTS = " ".join(f"{table}.{{{' '.join(keys)}}}" for table, keys in ECHOED.items())
 # Quantities of a report, in the order shown, but those of kinds.
 _REPORT = (
-    _alone(
-        "inputs", " ".join(f"{t}.{key}" for t, keys in ECHOED.items() for key in keys), "inputs"
-    ),
+    _alone("inputs", _INPUTS, "inputs"),
     _batch(
         "timing",
         "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm",

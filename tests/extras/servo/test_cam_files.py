@@ -76,7 +76,6 @@ def test_codesys_points_keep_the_tolerance(name):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", SOME)
 def test_beckhoff_pairs(name):
     """At most 360 pairs, 0.1 degrees apart, and straight lines as near as the file says."""

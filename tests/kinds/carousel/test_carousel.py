@@ -227,7 +227,6 @@ SEVERAL = [(3, 2), (3, 5), (4, 3), (5, 3), (8, 2)]  # slots, wheels
 
 
 @pytest.mark.long
-@pytest.mark.sampled(6)
 @pytest.mark.parametrize(("z", "wheels"), SEVERAL)
 def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
     """The torques of all wheels, each behind the one before it, over a whole turn."""

@@ -125,7 +125,6 @@ def dense(design, count=200_001):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @every
 def test_extremes_and_means_over_a_turn_of_the_wheel(wheel):
     design = design_of(wheel)
@@ -200,7 +199,6 @@ def test_a_balanced_pair_has_the_loads_of_its_inertia():
 
 
 @pytest.mark.long
-@pytest.mark.sampled(6)
 @pytest.mark.parametrize("z", [4, 5, 6])
 @pytest.mark.parametrize("apart", [None, (0.0, 150.0)])
 def test_two_fingers_meet_the_body_in_all_its_directions(z, apart):
@@ -215,7 +213,6 @@ def test_two_fingers_meet_the_body_in_all_its_directions(z, apart):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @every
 def test_friction_by_the_forces_on_the_slot(wheel):
     """A finger presses with F on the wall that drives, and drags it with mu F where it slides.

@@ -65,7 +65,6 @@ def residuals(design: Design, *, follows: bool) -> list[float]:
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize("damping", [0.0, 0.05])
 def test_the_force_alone_is_exact(damping):
     """Without its stiffness. 1e-8: the integration's 1e-11 of a swing that is 100 residuals."""
@@ -80,7 +79,6 @@ def test_the_force_alone_is_exact(damping):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("stiffness", "damping"), [(200.0, 0.0), (200.0, 0.05), (20.0, 0.0)])
 def test_the_stiffness_of_the_force_counts_by_its_mean(stiffness, damping):
     """Within U/k of the greatest residual; it alone would change them by more than pi U/k."""

@@ -177,7 +177,6 @@ def lead(b, u, a_t, a):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "sector", "ratio"), [(3, 100.0, 0.8), (4, 150.0, 0.4)])
 def test_a_roller_that_overtakes_the_wheel_jams(z, sector, ratio):
     """The overlap is the greatest of rho sin(lead) on its way out, along the straight wall."""

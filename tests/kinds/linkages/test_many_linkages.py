@@ -70,7 +70,6 @@ def case(request):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 def test_the_same_designs_are_refused(case):
     found, singles = case
     assert found.refused.tolist() == [one is None for one in singles]
@@ -78,7 +77,6 @@ def test_the_same_designs_are_refused(case):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 def test_the_same_wheels_and_motions(case):
     found, singles = case
     m, singles = found.machine, [one for one in singles if one is not None]

@@ -125,7 +125,6 @@ def compared(keys, z):
     return len(expected), len(found)
 
 
-@pytest.mark.long
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("seed", range(4))
 def test_no_wheel_is_missed(seed):

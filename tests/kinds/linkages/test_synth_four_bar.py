@@ -45,7 +45,6 @@ def reach(drive):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("z", "motion"), [(3, 75.0), (4, 100.0), (6, 120.0), (12, 200.0)])
 def test_a_four_bar_makes_the_motion(z, motion):
     """Found in closed form; the machine is solved for in 50 digits, from its path alone.
@@ -101,7 +100,6 @@ def test_its_row_written_is_what_check_says_and_is_cut(tmp_path):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("bounds", "name", "low", "high"),
     [
@@ -157,7 +155,6 @@ def brute(z, n=400):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(3)
 @pytest.mark.parametrize("z", [4, 6, 9])
 def test_what_brute_force_finds_is_there_or_better(z):
     """Of hundreds of random four-bars with room the gentlest, for the motion of each."""

@@ -30,7 +30,6 @@ def sector(z, motion_deg):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "motion"), [(3, 61.0), (24, 300.0)])
 def test_gear_sectors_move_for_as_long_as_wished(z, motion):
     (row,) = of_kind("gear-sector", motion_deg=str(motion), z=str(z))
@@ -40,7 +39,6 @@ def test_gear_sectors_move_for_as_long_as_wished(z, motion):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "most"), [(6, 3), (7, 2)])
 def test_first_wheels_for_a_small_share_of_the_cycle(z, most):
     """Of the second crank's half motion f the first crank makes asin(sin f / sin b) - f, where the

@@ -109,7 +109,6 @@ def test_nearest_and_farthest_distances_against_dense_points(name):
     assert np.allclose(least, away[clear], atol=1e-3)
 
 
-@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_no_gap_within_an_interval_is_below_its_bound(name):

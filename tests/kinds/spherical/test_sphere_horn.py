@@ -109,7 +109,6 @@ def test_a_section_by_vectors_in_space(rub):
 
 
 @pytest.mark.long
-@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("z", "axes_deg", "L", "h", "b"),
     [

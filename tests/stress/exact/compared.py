@@ -18,7 +18,7 @@ PICK = {
 }
 
 
-def angles(engagement, even=9):
+def angles(engagement):
     """Input angles in degrees, ascending: evenly, and close to both ends, the middle, the cuts."""
     half = []
     for end in (engagement.entry_deg, engagement.exit_deg):
@@ -30,7 +30,7 @@ def angles(engagement, even=9):
         half += [end - math.copysign(d, end) for d in (1e-13, 1e-9, 1e-5, 0.01, 0.4999999, 0.51)]
         half += [end * t for t in (0.7499999999, 0.75, 0.7500000001, 1e-3, 1e-6, 1e-9, 1e-15)]
         half += [math.copysign(t, end) for t in (math.degrees(1e-15), 1e-15, 1e-12, 1e-4)]
-        half += [end * (i + 0.37) / even for i in range(even)]
+        half += [end * (i + 0.37) / 5 for i in range(5)]
     inside = {x for x in half if engagement.entry_deg <= x <= engagement.exit_deg}
     return np.array(sorted({0.0, *inside}))
 

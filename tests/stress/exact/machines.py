@@ -64,7 +64,7 @@ def compare_machine(table, name, text, mechanism, sample):
     for j, engagement in enumerate(mechanism.engagements):
         place = where if len(mechanism.engagements) == 1 else f"{where} engagement {j + 1}"
         w, *moved = [m[j] for m in witnesses]
-        x = angles(engagement, 5)[:: 3 if sample else 1]
+        x = angles(engagement)[:: 3 if sample else 1]
         joints = joints_of(w)  # a jump is read off on one side of them
         x = x[[all(abs(to_radians(v) - joint) > 1e-11 for joint in joints) for v in x]]
         exact = [w.derivatives(v) for v in x]
