@@ -63,6 +63,7 @@ REPORT = (
     "please report it in the issues of geneva-cli, with the spec; GENEVA_DEBUG=1 shows where it is"
 )
 HELP = {"help_option_names": ["-h", "--help"]}
+NO_PAGER = "--no-pager"
 USAGE: Any = typer.BadParameter.__base__  # Typer's error for arguments that no command takes
 
 
@@ -79,6 +80,8 @@ class PlainValues:
         """Options and arguments, each with its own conversion."""
         params: list[Any] = super().get_params(ctx)  # type: ignore[misc]
         for param in params:
+            if param.name == "help":
+                param.callback = _help
             if "process_value" not in vars(param):
                 kind = self.kinds.get(param.name)
                 param.process_value = partial(_value, param, kind, param.process_value)
@@ -101,6 +104,18 @@ def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
                 message = f"{typed!r} is not {meaning}"
                 raise typer.BadParameter(message, ctx=ctx, param=param) from None
     return param.callback(ctx, param, value) if param.callback else value
+
+
+def _help(ctx: Any, param: Any, is_requested: bool) -> None:
+    """Show the help of a command, through the pager if it is long."""
+    if is_requested and not ctx.resilient_parsing:
+        if sys.stdout.isatty():
+            from geneva_cli.output.terminal import pager
+
+            pager.write([ctx.get_help() + "\n"])
+        else:
+            print(ctx.get_help())
+        ctx.exit()
 
 
 class Command(PlainValues, TyperCommand):
@@ -199,6 +214,11 @@ class LazyGroup(PlainValues, TyperGroup):
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the options before the command; a wrong one becomes a line and an exit code."""
         shows_help = not args
+        if NO_PAGER in args:  # before or behind the command
+            from geneva_cli.output.terminal import pager
+
+            pager.is_wanted = False
+            args = [word for word in args if word != NO_PAGER]
         try:
             return super().parse_args(ctx, args)
         except USAGE as error:
@@ -331,6 +351,9 @@ app = typer.Typer(cls=LazyGroup, rich_markup_mode=None, pretty_exceptions_enable
 def geneva(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+    no_pager: Annotated[
+        bool, typer.Option(NO_PAGER, help="Print long output on a terminal without a stop.")
     ] = False,
 ) -> None:
     """Design calculator for Geneva (Maltese-cross) mechanisms."""

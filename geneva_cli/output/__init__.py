@@ -294,7 +294,7 @@ def show_markdown(text: str) -> None:
     """Print a text in Markdown, laid out on a terminal and unchanged elsewhere."""
     refuse_columns()
     if not is_seen("-"):
-        sys.stdout.write(text)
+        _put([text], "-", ())
         return
     from geneva_cli.output.terminal.layout import window
     from geneva_cli.output.terminal.page_reader import chunks
@@ -313,5 +313,10 @@ def _put(
         return
     if binary:
         raise GenevaError(f"--format {binary}: not for standard output; give -o FILE.{binary}")
-    for chunk in chunks:
-        sys.stdout.write(str(chunk))
+    text = map(str, chunks)
+    if is_seen(output):
+        from geneva_cli.output.terminal import pager
+
+        pager.write(text)
+    else:
+        sys.stdout.writelines(text)

@@ -6,9 +6,10 @@ from functools import cache
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.manual.explained import Entry, entries
+from geneva_cli.manual import TOPICS, search
+from geneva_cli.manual.explained import GROUPS, Entry, entries
 from geneva_cli.motion import registry
-from geneva_cli.names import spoken, unit_of
+from geneva_cli.names import described, heading, spoken, unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 
 TEXTS = ("why", "formula", "source", "to_do", "bad", "good")  # of an entry, as it has them
@@ -34,27 +35,70 @@ class Meaning(NamedTuple):
 def meanings(word: str) -> list[Meaning]:
     """All meanings of a word, full (``timing.dwell_s``) or shortened (``dwell_s``).
 
-    It may be the words in which `check` and other summaries print a name. Raises GenevaError, with
-    the nearest name, for an unknown word.
+    It may be the words in which any output prints a name. Empty for an unknown word.
 
     >>> [(m.group, m.unit) for m in meanings("loads.pin_force_N.rms")]
     [('quantity', 'N')]
-    >>> [m.group for m in meanings("jerk_max")], [m.name for m in meanings("pin stress")]
-    (['check', 'quantity', 'key'], ['pin_stress_MPa'])
+    >>> [m.group for m in meanings("jerk_max")], [m.name for m in meanings("flywheel")]
+    (['check', 'quantity', 'key'], ['sizing.flywheel_kgm2'])
     """
-    known_meanings = _lookup(word)
-    if not known_meanings:
-        plain, known = word.casefold(), names()
-        printed = (name for name in known if spoken(name)[0].casefold() == plain)
-        known_meanings = _lookup(next(printed, plain.replace(" ", "-")))
-    if not known_meanings:
+    plain = word.casefold()
+    exact = _lookup(word) or _lookup(plain.replace(" ", "-"))
+    if exact:
+        return exact
+    printed = [one for name in names() if plain in _printed(name) for one in _lookup(name)]
+    return list(dict.fromkeys(printed))
+
+
+def _printed(name: str) -> set[str]:
+    """The words in which tables and documents print a name, in small letters."""
+    last = name.rpartition(".")[2]
+    words = [*spoken(name), spoken(last)[0], described(last)[0], heading(name), heading(last)]
+    return {text.casefold() for text in (words[0], *words[2:])}
+
+
+def related(word: str) -> list[tuple[str, str, str]]:
+    """Group, name and a sentence of everything that a word is part of, as ``listed`` has them.
+
+    The word may be a group, such as ``checks``. Names and headings come before texts; a word that
+    no text has is looked for in the manual. Raises GenevaError, with the nearest name, if it stands
+    nowhere.
+
+    >>> len(related("laws")), related("loads")[0][:2]
+    (12, ('quantity', 'loads.omega_rad_s'))
+    """
+    plain = word.casefold()
+    everything = [*listed(), *(("key", key.name, key.meaning) for key in _keys())]
+    group = {**GROUPS, "keys": "key"}.get(plain)
+    if group:
+        return [one for one in everything if one[0] == group]
+    wanted = plain.replace("_", " ").split()
+    texts = {
+        one: (" ".join(_printed(one[1])), f"{one[1]} {one[2]}".casefold()) for one in everything
+    }
+    found = [
+        one for place in (0, 1) for one in texts if all(w in texts[one][place] for w in wanted)
+    ]
+    found = found or [("page", f"help {hit.topic}", hit.line) for hit in search(word)]
+    if not found:
+        known = names()
         known += [CHECKS + n for e in entries() if e.group == "check" for n in e.names]
         among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
         raise GenevaError(
             f'"{cut(word)}" is not a check, quantity, kind, law, warning, part, choice or '
             f"key{nearest(word, among)}; `geneva explain` lists them"
         )
-    return known_meanings
+    return list(dict.fromkeys(found))
+
+
+def groups() -> list[tuple[str, int, str, str]]:
+    """Each group of words: its name, how many they are, what they are, and three of them."""
+    out = []
+    for page, group in GROUPS.items():
+        own = [name for entry in entries() if entry.group == group for name in entry.names]
+        some = dict.fromkeys(own[i * len(own) // 3] for i in range(3))
+        out.append((page, len(own), TOPICS[page], ", ".join(some)))
+    return out
 
 
 def listed() -> list[tuple[str, str, str]]:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from geneva_cli.errors import clean
 from geneva_cli.output.text import WIDTH, cell
-from geneva_cli.table import in_digits
+from geneva_cli.table import for_people
 
 GAP = "  "  # between two columns
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
@@ -28,13 +28,14 @@ class ShownColumn(NamedTuple):
     unit: str
     cells: Sequence[str]
     is_text: bool
+    decides: bool = False  # it is never left out
 
-    def least(self) -> int:
-        """Least width in letters to which it can be narrowed."""
+    def least(self, narrow: int) -> int:
+        """Least width in letters to which it can be narrowed, ``narrow`` for prose."""
         if not self.is_prose():
             return self.natural()
-        # A column of prose is narrowed to 28 letters before another column is omitted.
-        return max([min(self.natural(), 28), *map(width_of, self._words())])
+        narrow = min(narrow, 12) if self.decides else narrow
+        return max([min(self.natural(), narrow), *map(width_of, self._words())])
 
     def natural(self) -> int:
         """Width in letters of its longest cell, and of its heading broken between words."""
@@ -90,13 +91,16 @@ def _parts(word: str, width: int) -> list[str]:
     return re.split(r"(?<=[/,=])|(?<=::)", word)  # behind a sign
 
 
-def widths(columns: Sequence[ShownColumn], width: int) -> list[int] | None:
+NARROW = 28  # letters to which prose is narrowed before another column is omitted
+
+
+def widths(columns: Sequence[ShownColumn], width: int, narrow: int = NARROW) -> list[int] | None:
     """The columns' widths, the widest prose narrowed first; None if they exceed ``width``."""
     sizes = [column.natural() for column in columns]
     spare = width - len(GAP) * (len(columns) - 1) - sum(sizes)
     if spare >= 0:
         return sizes
-    least = [column.least() for column in columns]
+    least = [column.least(narrow) for column in columns]
     if sum(least) - sum(sizes) > spare:
         return None
     while spare < 0:
@@ -113,10 +117,11 @@ def fitting(
     rank = {name: i for i, name in enumerate(order)}
     kept = list(columns)
     while True:
-        sizes = widths(kept, width)
-        if sizes is not None or len(kept) == 1:
-            return kept, sizes or [column.least() for column in kept]
-        kept.remove(max(kept, key=lambda column: rank[column.name]))
+        others = [column for column in kept if not column.decides and column.name != order[0]]
+        sizes = widths(kept, width, NARROW if len(others) > 1 else 18)
+        if sizes is not None or not others:
+            return kept, sizes or [column.least(NARROW) for column in kept]
+        kept.remove(max(others, key=lambda column: rank[column.name]))
 
 
 def heads(columns: Sequence[ShownColumn], sizes: Sequence[int], is_styled: bool) -> Iterator[str]:
@@ -178,14 +183,14 @@ def styled(text: str, style: str, is_styled: bool) -> str:
     return f"{style}{text}{PLAIN}" if is_styled and style and text else text
 
 
-NUMBER = 11  # letters of the widest number with five digits, -1.2345e-10
+NUMBER = 11  # letters of the widest number, -123456.789 mm
 
 
 def value(number: Any, unit: str = "") -> str:
     """A value for people at a terminal, with its unit.
 
     >>> value(34.733492, "N m"), value(53173000.0), value(2.8e8, "h")
-    ('34.733 N m', '5.3173e7', 'practically unlimited')
+    ('34.73 N m', '5.317e7', 'practically unlimited')
     """
     return with_unit(bare(number, unit), unit)
 
@@ -202,7 +207,7 @@ def bare(number: Any, unit: str) -> str:
     # A life of more than 114 years of running day and night is meaningless.
     if unit == "h" and number > 1e6:
         return "practically unlimited"
-    digits, e, power = in_digits(number, 5).partition("e")
+    digits, e, power = for_people(number, unit).partition("e")
     return f"{digits}e{int(power)}" if e else digits
 
 
