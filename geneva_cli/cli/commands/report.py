@@ -32,7 +32,7 @@ def run(
     The exit status is 1 if a check fails, as with `check`.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show_answer, show_document
+    from geneva_cli.output import choice, show_answer, show_document
     from geneva_cli.output.formats import is_document
     from geneva_cli.study.summary.report_summary import of_report
 
@@ -44,7 +44,7 @@ def run(
         made = document(design) if full else short_document(design)
         show_document(made, output, format, design.spec.files)
     else:
-        show_answer(of_report(design, full), output, format, design.spec.files)
+        show_answer(of_report(design, full or bool(choice.columns)), output, format, design.spec.files)
     if output != "-":
         say(design.spec.path, design.warnings)
     if not design.passes:
