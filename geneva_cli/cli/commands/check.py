@@ -17,9 +17,7 @@ def run(
     verbose: Annotated[
         bool, typer.Option("-v", "--verbose", help="Every check, a row each.")
     ] = False,
-    proof: Annotated[
-        float | None, option("MM", "Prove that no parts overlap by more.", name="--proof")
-    ] = None,
+    certify: Annotated[float | None, option("MM", "Prove that no parts overlap by more.")] = None,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",
@@ -35,7 +33,7 @@ def run(
     from geneva_cli.study.verdicts import of_checks, verdicts
 
     name = table_as(output, format)
-    results = list(verdicts(specs, settings or (), proof))
+    results = list(verdicts(specs, settings or (), certify))
     judged = [v for v in results if not v.error]
     if judged or name == "json":
         answer = of_checks(results, verbose or name != "table", name == "json")

@@ -44,7 +44,9 @@ def run(
         made = document(design) if full else short_document(design)
         show_document(made, output, format, design.spec.files)
     else:
-        show_answer(of_report(design, full or bool(choice.columns)), output, format, design.spec.files)
+        show_answer(
+            of_report(design, full or bool(choice.columns)), output, format, design.spec.files
+        )
     if output != "-":
         say(design.spec.path, design.warnings)
     if not design.passes:
