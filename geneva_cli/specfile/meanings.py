@@ -9,10 +9,11 @@ from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.manual import TOPICS, search
 from geneva_cli.manual.explained import GROUPS, Entry, entries
 from geneva_cli.motion import registry
-from geneva_cli.names import described, heading, spoken, unit_of
+from geneva_cli.names import SHORT_UNITS, UNITS, described, heading, spoken, unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 
 TEXTS = ("why", "formula", "source", "to_do", "bad", "good")  # of an entry, as it has them
+UNIT_WORDS = {*UNITS.values(), *SHORT_UNITS.values(), "°"}  # behind a heading's comma
 CHECKS, INPUTS = "checks.", "inputs."  # beginnings of a report's names of checks and of keys
 
 
@@ -42,19 +43,38 @@ def meanings(word: str) -> list[Meaning]:
     >>> [m.group for m in meanings("jerk_max")], [m.name for m in meanings("flywheel")]
     (['check', 'quantity', 'key'], ['sizing.flywheel_kgm2'])
     """
-    plain = word.casefold()
-    exact = _lookup(word) or _lookup(plain.replace(" ", "-"))
+    exact = _lookup(word) or _lookup(word.casefold().replace(" ", "-"))
     if exact:
         return exact
-    printed = [one for name in names() if plain in _printed(name) for one in _lookup(name)]
-    return list(dict.fromkeys(printed))
+    wanted, known = _words(word), names()
+    printed = [name for name in known if wanted in _printed(name)]
+    if not printed:  # a quantity with an ending, as pin force max
+        ends = [name for name in known if name.startswith(".")]
+        parts = {end: [words for words in _printed(end) if words <= wanted] for end in ends}
+        printed = [
+            name + end
+            for end, some in parts.items()
+            if some
+            for name in known
+            if any(own | words == wanted for own in _printed(name) for words in some)
+        ]
+    return list(dict.fromkeys(one for name in printed for one in _lookup(name)))
 
 
-def _printed(name: str) -> set[str]:
-    """The words in which tables and documents print a name, in small letters."""
+def _words(text: str) -> frozenset[str]:
+    """The words of a heading without its unit, in any order: torque on the input, input torque."""
+    words, _, unit = text.rpartition(", ")
+    text = words if words and unit in UNIT_WORDS else text
+    whole = frozenset(text.casefold().replace("'s", "").replace(",", " ").split())
+    return whole - {"at", "in", "inputs", "of", "on", "the", "to"} or whole
+
+
+@cache
+def _printed(name: str) -> frozenset[frozenset[str]]:
+    """The words in which tables and documents print a name, whole or its last part."""
     last = name.rpartition(".")[2]
-    words = [*spoken(name), spoken(last)[0], described(last)[0], heading(name), heading(last)]
-    return {text.casefold() for text in (words[0], *words[2:])}
+    texts = spoken(name)[0], spoken(last)[0], described(last)[0]
+    return frozenset(filter(None, map(_words, texts)))
 
 
 def related(word: str) -> list[tuple[str, str, str]]:
@@ -72,10 +92,8 @@ def related(word: str) -> list[tuple[str, str, str]]:
     group = {**GROUPS, "keys": "key"}.get(plain)
     if group:
         return [one for one in everything if one[0] == group]
-    wanted = plain.replace("_", " ").split()
-    texts = {
-        one: (" ".join(_printed(one[1])), f"{one[1]} {one[2]}".casefold()) for one in everything
-    }
+    wanted = _words(word.replace("_", " "))
+    texts = {one: (heading(one[1]), f"{one[1]} {one[2]}".casefold()) for one in everything}
     found = [
         one for place in (0, 1) for one in texts if all(w in texts[one][place] for w in wanted)
     ]
