@@ -128,7 +128,7 @@ def _table() -> dict[str, str]:
 
 
 # Requirements on the machine's size, process and walls, which no advice reduces.
-REQUIRED = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
+REQUIRED = ("center_distance_mm", "crank_radius_mm", "face_width_mm", "process", "wall_min_mm")
 _WORD = re.compile(r"(?:([\w.]+)\.)?(\w+)([*><+~=?])(.*)")
 
 
@@ -197,9 +197,12 @@ def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     words = [words for key, words in own.items() if key in check.why]
     words += [_table().get(name, _table()["OTHERS"]), *own.values()]
     limited = spec.limits.as_dict().get(name) is not None
+    L, R = spec.size.center_distance_mm, spec.size.crank_radius_mm
     for word in " ".join(words).split():
-        if word == _table()["LARGER"] and not limited and spec.size.center_distance_mm:
-            continue
+        if word == _table()["LARGER"] and (L or R):
+            if not limited or (L and R):
+                continue
+            word = word if L else word.replace("center_distance_mm", "crank_radius_mm")
         yield from _remedies(word, mechanism)
 
 
