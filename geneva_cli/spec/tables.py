@@ -676,6 +676,9 @@ class Limits(SpecTable):
     acceleration_max: Annotated[Positive, "acceleration d2psi/dtheta2"] = None
     acceleration_entry_max: Annotated[Positive, "acceleration at entry"] = None
     jerk_max: Annotated[Positive, "jerk d3psi/dtheta3"] = None
+    entry_velocity_max: Annotated[
+        Positive, "jump of velocity at entry and exit; default 0.01 of a machine as built"
+    ] = None
     pin_force_max_N: Annotated[Positive, "greatest force of roller on slot"] = None
     input_torque_max_Nm: Annotated[Positive, "greatest torque on input shaft"] = None
     pressure_angle_max_deg: Annotated[float | None, Range(0.0, 90.0, "(]"), "pressure angle"] = None

@@ -9,8 +9,8 @@ to either side of the perpendicular from the crank's axis:
 
 The roller comes from outside an external wheel. It crosses the outer one first, which strikes the
 wheel backwards; most rims end before it. With an l below sin b the centre never reaches the axis.
-The motion is then taken from where the slot comes to rest by itself, at asin l: the index is less
-than the step.
+The roller then turns a slot from -asin l to asin l only, and something else must turn the wheel the
+rest of its step.
 
 An offset slot is made so that it is tangent to the crank's circle at one end. This is the end at
 which it stands farther from the line of centres: sin(angle) = l + e. The other end is one step away
@@ -80,6 +80,21 @@ class RestingSlot(NamedTuple):
         return PinPose(self.crank_deg, wheel, self.along, slope, (-x, -y))
 
 
+class AsBuilt(NamedTuple):
+    """A roller's place on a crank as built.
+
+    ``crosses`` is true if the roller's centre crosses the axis of the slot at rest inside the rim,
+    before and after its motion. ``gained`` is the wheel's angle beyond its next rest, radians, at
+    which the centre leaves the rim. ``mouth`` is the distance of the perpendicular from the crank's
+    axis to a radial slot at rest. ``first`` is the slot at rest before the motion.
+    """
+
+    crosses: Truth
+    gained: float
+    mouth: float
+    first: RestingSlot
+
+
 def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> RollerPlace:
     """Place of a roller on a crank radius l in slots of offset e, on a wheel with a ``rim``.
 
@@ -107,15 +122,23 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     # the pin's direction from the wheel's axis where it leaves the rim
     cosine = (1.0 + rim * rim - l * l) / (2.0 * rim)
     leaves = m.acos(smaller(larger(cosine, 0.0 * l - 1.0), 0.0 * l + 1.0)) + m.asin(e / rim)
-    own = step if isinstance(reaches, bool) and reaches else HalfStep.of_deg(m.degrees(half))
     return RollerPlace(
-        own,
+        step,
         0.5 * (exit_.crank_deg - entry.crank_deg),
         (entry, mid, exit_),
         l,
         skew,
-        built=AsBuilt(inside, leaves - tilt - step.b, step.sin_cos[1], first, last),
+        built=AsBuilt(inside, leaves - tilt - step.b, step.sin_cos[1], first),
     )
+
+
+def as_derived(place: RollerPlace, sign: float) -> RollerPlace:
+    """A place of a crank whose R/L is what its slots need, as one of a crank as built."""
+    skew, b = place.skew, place.step.b
+    angle = (skew.tilt if skew else 0.0) - b
+    first = RestingSlot(sign, place.ratio, angle, -place.ratio)
+    built = AsBuilt(True, 0.0 * b, place.step.sin_cos[1], first)
+    return place._replace(closed=None, built=built)
 
 
 def _too_long() -> GenevaError:
