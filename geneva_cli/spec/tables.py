@@ -693,6 +693,14 @@ class Limits(SpecTable):
     product_acceleration_max_m_s2: Annotated[
         Positive, "greatest acceleration of the product, in m/s²"
     ] = None
+    dwell_min_s: Annotated[Positive, "shortest time at rest"] = None
+    motion_max_s: Annotated[Positive, "longest time of a motion"] = None
+    cycle_max_s: Annotated[Positive, "longest time of a motion and the dwell after it"] = None
+    index_play_max_deg: Annotated[Positive, "greatest play of the wheel in its motion"] = None
+    dwell_play_max_deg: Annotated[Positive, "greatest play of the wheel in its dwell"] = None
+    dwell_position_max_deg: Annotated[
+        Positive, "greatest error of the resting wheel's angle within [tolerance]"
+    ] = None
 
 
 # The tables of every kind of machine, in the order of a file. Each is a field of ``Spec``, with an
