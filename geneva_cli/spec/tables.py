@@ -42,7 +42,9 @@ class Size(SpecTable):
         "solve for it",
     ] = None
     crank_radius_mm: Annotated[
-        Positive, "crank radius R, to the roller's centre; in place of center_distance_mm"
+        Positive,
+        "crank radius R, to the roller's centre; alone it sets L, with center_distance_mm and "
+        "another R/L than straight slots need the machine is taken as built",
     ] = None
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     process: Annotated[
@@ -695,6 +697,14 @@ class Limits(SpecTable):
     ] = None
     product_acceleration_max_m_s2: Annotated[
         Positive, "greatest acceleration of the product, in m/s²"
+    ] = None
+    dwell_min_s: Annotated[Positive, "shortest time at rest"] = None
+    motion_max_s: Annotated[Positive, "longest time of a motion"] = None
+    cycle_max_s: Annotated[Positive, "longest time of a motion and the dwell after it"] = None
+    index_play_max_deg: Annotated[Positive, "greatest play of the wheel in its motion"] = None
+    dwell_play_max_deg: Annotated[Positive, "greatest play of the wheel in its dwell"] = None
+    dwell_position_max_deg: Annotated[
+        Positive, "greatest error of the resting wheel's angle within [tolerance]"
     ] = None
 
 

@@ -24,7 +24,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.wheels.gearing import RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, middle
-from geneva_cli.numerics.arrays import Truth, choose, larger, library, smaller
+from geneva_cli.numerics.arrays import Truth, choose, choose_record, larger, library, smaller
 
 AT_RIM = 1e-6  # of L: a crossing that is not farther outside is at the rim
 
@@ -63,13 +63,15 @@ class RestingSlot(NamedTuple):
 
     def is_inside(self, e: float, rim: float) -> Truth:
         """True if the crossing of a slot of offset e is not beyond the rim."""
-        inside: Truth = self.sign * (library(e, rim).hypot(self.along, e) - rim) <= AT_RIM
+        m = library(e, rim, self.along)
+        inside: Truth = self.sign * (m.hypot(self.along, e) - rim) <= AT_RIM
         return inside
 
     @property
     def crank_deg(self) -> float:
         """Crank angle of the crossing from the line of centres."""
-        m, x, y = library(self.angle, self.l), self.beyond, self.across
+        x, y = self.beyond, self.across
+        m = library(self.angle, x, y)
         s, c = m.sin(self.angle), m.cos(self.angle)
         return m.degrees(m.atan2(x * s + y * c, (y * s - x * c) * self.sign))
 
@@ -103,14 +105,15 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     """
     radial = isinstance(e, float) and e == 0.0
     refuse(l + abs(e) >= 1.0, _too_long)
-    first, last, reaches = _radial(sign, step, l) if radial else _offset(step, l, e)
-    inside, ends = reaches, []
-    for end in (first, last):
-        outer = end._replace(outer=True)
-        end = end._replace(outer=reaches & outer.is_inside(e, rim))
-        inside = inside & end.is_inside(e, rim)
-        ends.append(end)
-    first, last = ends
+    first, last, reaches = ends = _radial(sign, step, l)
+    if not radial:
+        first, last, reaches = choose_record(e == 0.0, ends, _offset(sign, step, l, e))
+    # the outer crossing comes first, if it is inside the rim
+    first, last = (
+        end._replace(outer=reaches & end._replace(outer=True).is_inside(e, rim))
+        for end in (first, last)
+    )
+    inside = reaches & first.is_inside(e, rim) & last.is_inside(e, rim)
     half, tilt = 0.5 * (last.angle - first.angle), 0.5 * (last.angle + first.angle)
     half = choose(reaches, step.b, half)
     entry, exit_ = first.pose(-half), last.pose(half)
@@ -154,7 +157,7 @@ def _radial(sign: float, step: HalfStep, l: float) -> tuple[RestingSlot, Resting
     sin_b = step.sin_cos[0]
     reaches: Truth = l >= sin_b
     across = choose(reaches, sin_b + 0.0 * l, l)
-    angle = choose(reaches, step.b + 0.0 * l, library(l).asin(across))
+    angle = choose(reaches, step.b + 0.0 * l, library(across).asin(across))
     return (
         RestingSlot(sign, l, -angle, -across),
         RestingSlot(sign, l, angle, across),
@@ -162,9 +165,11 @@ def _radial(sign: float, step: HalfStep, l: float) -> tuple[RestingSlot, Resting
     )
 
 
-def _offset(step: HalfStep, l: float, e: float) -> tuple[RestingSlot, RestingSlot, Truth]:
+def _offset(
+    sign: float, step: HalfStep, l: float, e: float
+) -> tuple[RestingSlot, RestingSlot, Truth]:
     """The same for slots of offset e, tangent to the crank's circle at one end."""
-    m, size = library(l, e), abs(e)
+    m, size = library(l, e, step.b), abs(e)
     far, least = m.asin(l + size), m.asin(l - size)
     reaches: Truth = 2.0 * step.b - far <= least
     near = choose(reaches, 2.0 * step.b - far, least)
@@ -172,4 +177,4 @@ def _offset(step: HalfStep, l: float, e: float) -> tuple[RestingSlot, RestingSlo
     tangent_exit = e > 0.0
     first = -choose(tangent_exit, near, far), -choose(tangent_exit, across, l)
     last = choose(tangent_exit, far, near), choose(tangent_exit, l, across)
-    return RestingSlot(1.0, l, *first), RestingSlot(1.0, l, *last), reaches
+    return RestingSlot(sign, l, *first), RestingSlot(sign, l, *last), reaches

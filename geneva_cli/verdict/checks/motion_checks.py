@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import greatest_jumps, worst, worst_of
+from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.verdict.checks.check import Check, compared
@@ -63,6 +64,18 @@ def entry_velocity(name: str, mechanism: Mechanism) -> Check | None:
     end = own[0].entry_deg if sizes[0] >= sizes[1] else own[0].exit_deg
     at_deg = mechanism.shown_deg(own[0].mid_deg + end) if own[0].built else None
     return compared(name, max(sizes), "at most", limit, at_deg)
+
+
+def limited_time(name: str, mechanism: Mechanism) -> Check | None:
+    """The shortest dwell, or the longest motion or cycle, seconds, that ``[limits]`` bounds."""
+    limit = mechanism.spec.limits.as_dict()[name]
+    if limit is None:
+        return None
+    times = timings(mechanism)
+    if name == "dwell_min_s":
+        return compared(name, min(one.dwell_s for one in times), "at least", limit)
+    longest = max(one.motion_s if name == "motion_max_s" else one.cycle_s for one in times)
+    return compared(name, longest, "at most", limit)
 
 
 def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:
