@@ -13,13 +13,14 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
+from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.kept import cached_property
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import (
     Array,
     Batchable,
+    Truth,
     all_true,
     array,
     blocks,
@@ -27,9 +28,6 @@ from geneva_cli.numerics.arrays import (
     library,
 )
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.wheels.as_built import AsBuilt
 
 K = TypeVar("K", float, "Array")
 
@@ -191,6 +189,22 @@ class Slot(Batchable, ABC):
     def touches(self, input_deg: Number) -> Number:
         """1 where the roller drives the wheel, 0 where something else does."""
         return 1.0
+
+
+class AsBuilt(NamedTuple):
+    """What a crank as built has: its R/L is not what its straight slots need.
+
+    ``crosses`` is true if the roller's centre crosses the axis of the slot at rest inside the rim,
+    before and after its motion. ``gained`` is the wheel's angle beyond its next rest, radians, at
+    which the centre leaves the rim. ``angle`` is the direction of the slot at rest before the
+    motion, radians from the line of centres. ``outer`` is true if the roller enters at the crossing
+    beyond the foot of the perpendicular from the crank's axis.
+    """
+
+    crosses: Truth
+    gained: float
+    angle: float
+    outer: Truth
 
 
 class Peak(NamedTuple, Generic[K]):

@@ -353,7 +353,7 @@ class Spec(SpecTable):
         >>> Spec(External(6)).moving[-1]
         100.0
         """
-        size, built = self.size, ()
+        size, built = self.size, tuple[object, ...]()
         if size.crank_radius_mm is not None and size.center_distance_mm is not None:
             # a crank as built enters where its roller crosses the slot's axis inside the rim
             built = (size.crank_radius_mm, size.wheel_radius_mm, size.roller_radius_mm)
