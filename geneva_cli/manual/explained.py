@@ -27,7 +27,7 @@ class Entry(NamedTuple):
     page: str
     names: tuple[str, ...]
     meaning: str
-    why: str = ""
+    why: str = ""  # those of entries that were not shortened yet
     formula: str = ""
     unit: str = ""
     source: str = ""

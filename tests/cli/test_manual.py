@@ -25,11 +25,11 @@ ROOT = repo.ROOT
 README = ROOT / "README.md"
 PAGES = [README, *(Path(path(topic)) for topic in TOPICS)]
 UPDATE = bool(os.environ.get("GENEVA_UPDATE"))
-BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
 FENCE = re.compile(r"```([a-z]+)\n(.*?)```", re.DOTALL)
 NAMED = re.compile(r"# (add to )?(\S+\.\w+)\n")  # first line of a block that is a file
-ALONE = [README, *(p for p in PAGES if p.parent.name in ("tutorial", "howto"))]  # make their files
-SILENT = re.compile(r"^(\$ .*\n)\n(?=\$ )", re.MULTILINE)  # a command without output
+CONTINUED = "\\\n"  # the end of a line whose command goes on in the next
+COMMAND = re.compile(r"^\$ ((?:.*\\\n)*.*)", re.MULTILINE)  # of a block with its output
+SILENT = re.compile(r"^(\$ (?:.*\\\n)*.*\n)\n(?=\$ )", re.MULTILINE)  # a command without output
 DRAWN = re.compile(r"<!-- (geneva .*?) -o (\S+\.svg) -->")
 SHOWN = re.compile(r'<img src="([^"]+)"')
 COLUMNS = 78  # of the terminal that examples are seen on: with their indent they fill one of 80
@@ -65,8 +65,8 @@ def run(command: str) -> str:
 
 def replay(block: str) -> str:
     """The block with the output of each of its commands as it is today."""
-    commands = [line[2:] for line in block.splitlines() if line.startswith("$ ")]
-    shown = "\n".join(f"$ {command}\n{run(command)}" for command in commands)
+    commands = COMMAND.findall(block)
+    shown = "\n".join(f"$ {one}\n{run(one.replace(CONTINUED, ' '))}" for one in commands)
     return SILENT.sub(r"\1", shown)
 
 
@@ -104,11 +104,8 @@ def test_the_examples_print_what_is_shown(
     file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     text = text_of(file)
-    if file in ALONE:
-        monkeypatch.chdir(tmp_path)
-        today = FENCE.sub(lambda m: f"```{m[1]}\n{do(m[1], m[2])}```", text)
-    else:
-        today = BLOCK.sub(lambda m: f"```console\n{replay(m[1])}```", text)
+    monkeypatch.chdir(tmp_path)  # a page makes the files that it reads
+    today = FENCE.sub(lambda m: f"```{m[1]}\n{do(m[1], m[2])}```", text)
     if UPDATE:
         file.write_text(today, encoding="utf-8")
     assert text == today or UPDATE
@@ -135,7 +132,7 @@ def test_the_pictures_are_what_their_commands_draw(file: Path, tmp_path: Path) -
 
 def commands_in(block: str) -> list[str]:
     """The commands of a shell block, but those of a job array's variables."""
-    lines = block.replace("\\\n", " ").splitlines()
+    lines = block.replace(CONTINUED, " ").splitlines()
     return [line for line in lines if line.startswith("geneva ") and "$" not in line]
 
 
