@@ -1,13 +1,12 @@
 """The manual: a page of Markdown for each topic, in a folder for each kind of page.
 
-A new page is a file, and a line below.
+A new page is a file, and a line below. ``cli.pages`` prints those of reference that have no file.
 """
 
 from __future__ import annotations
 
 import os
 import re
-from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 
@@ -74,7 +73,6 @@ GROUPS: dict[str, dict[str, str]] = {
         "certificates": "peaks and the full turn: what is proved, and by what argument",
         "numbers": "why our numbers differ from published ones",
         "geneva-or-servo": "the same step by a cam indexer or a servo",
-        "house": "how the program is built, for people who change it",
     },
 }
 TITLES = {
@@ -84,63 +82,6 @@ TITLES = {
     "explanation": "Explanation: why it is so",
 }
 TOPICS = {topic: about for pages in GROUPS.values() for topic, about in pages.items()}
-
-
-class Hit(NamedTuple):
-    """A section of a page in which a word stands, and the first line with it."""
-
-    topic: str  # the word for ``geneva help``
-    section: str
-    line: str
-
-
-def search(word: str) -> list[Hit]:
-    """Sections of all pages in which a word begins so, in any case; one hit for each section.
-
-    Of words that stand nowhere together, the sections in which all of them stand.
-
-    Sections with the word in their heading come first. The output of examples is not searched.
-
-    >>> {hit.topic for hit in search("Whitworth")}
-    {'kinds'}
-    >>> {hit.topic for hit in search("taplo")}
-    {'spec'}
-    """
-    whole, words = _search(word), word.split()
-    if whole or len(words) < 2:
-        return whole
-    # sections with all of the words
-    first, *others = map(_search, words)
-    sections = [{hit[:2] for hit in hits} for hits in others]
-    return [hit for hit in first if all(hit[:2] in one for one in sections)]
-
-
-def _search(word: str) -> list[Hit]:
-    wanted = re.compile(rf"(?<![^\W\d_]){re.escape(word)}", re.IGNORECASE)
-    hits: dict[tuple[str, str], Hit] = {}
-    for topic in TOPICS:
-        section, fence = "", ""
-        for line in page(topic).splitlines():
-            if line.startswith("```"):
-                fence = "" if fence else line
-            elif fence == "```console" and not line.startswith("$ "):
-                continue
-            elif not fence and line.startswith("#"):  # in code it is a comment
-                section = line.lstrip("# ")
-            if wanted.search(line):
-                hits.setdefault((topic, section), Hit(topic, section, _excerpt(line, wanted)))
-    return sorted(hits.values(), key=lambda hit: not wanted.search(hit.section))
-
-
-def _excerpt(line: str, wanted: re.Pattern[str]) -> str:
-    """The part of a line that has a word in it."""
-    plain = " ".join(line.replace("`", "").replace("*", "").lstrip("# ").split())
-    match = wanted.search(plain)
-    at, word = (match.start(), match.group()) if match else (0, "")
-    around = 24  # characters on each side of the word
-    start = max(0, plain.rfind(" ", 0, max(0, at - around)) + 1) if at > around else 0
-    end = plain.find(" ", at + len(word) + around)
-    return plain[start : end if end > 0 else len(plain)]
 
 
 def contents() -> str:
@@ -159,13 +100,13 @@ def contents() -> str:
 
 
 def path(topic: str) -> str:
-    """File of a topic's page."""
+    """File of a topic's page, where it has one."""
     group = next(group for group, pages in GROUPS.items() if topic in pages)
     return os.path.join(os.path.dirname(__file__), group, f"{topic}.md")
 
 
 def page(topic: str) -> str:
-    """A topic's page as Markdown; without its pictures.
+    """A topic's page as Markdown, from its file; without its pictures.
 
     Raises GenevaError where there is no such topic.
 

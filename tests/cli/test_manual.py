@@ -18,12 +18,13 @@ from windows import looking
 from geneva_cli import output
 from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.cli.commands import help
-from geneva_cli.manual import GROUPS, TITLES, TOPICS, page, path
+from geneva_cli.cli.pages import PRINTED, page
+from geneva_cli.manual import GROUPS, TITLES, TOPICS, path
 
 pytestmark = pytest.mark.usefixtures("made_once")
 ROOT = repo.ROOT
 README = ROOT / "README.md"
-PAGES = [README, *(Path(path(topic)) for topic in TOPICS)]
+PAGES = [README, *(Path(path(topic)) for topic in TOPICS if topic not in PRINTED)]
 UPDATE = bool(os.environ.get("GENEVA_UPDATE"))
 FENCE = re.compile(r"```([a-z]+)\n(.*?)```", re.DOTALL)
 NAMED = re.compile(r"# (add to )?(\S+\.\w+)\n")  # first line of a block that is a file
