@@ -2,7 +2,6 @@
 
 import re
 
-import pytest
 from repo import ROOT
 from typer.main import get_command
 

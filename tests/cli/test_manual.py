@@ -40,8 +40,8 @@ NUMBER = re.compile(r"-?\d+\.\d+")
 def searching(file: Path) -> object:
     """A page; long runs and updates alone take those that search or draw for a second or more."""
     search = "sweep-front", "dwell-time", "reduce-acceleration", "find-tolerances", "tolerances"
-    files = "mill", "inches", "ci", "laser", "write-report", "drawing-sheet", "spherical-sheet"
-    more = "hand-over", "certificates", "print", "shafts", "plots", "size-motor", "law-from-csv"
+    files = "processes", "inches", "ci", "write-report", "drawing-sheet", "hand-over", "cad"
+    more = "accuracy", "shafts", "plots", "size-motor", "law-from-csv", "stop-swinging"
     long = file.stem in (*search, *files, *more) and not UPDATE
     return pytest.param(file, marks=pytest.mark.long) if long else file
 
@@ -82,6 +82,18 @@ def do(kind: str, block: str) -> str:
         with open(name[2], "a" if name[1] else "w", encoding="utf-8") as file:
             file.write(block)
     return block
+
+
+@pytest.mark.parametrize("file", PAGES[1:], ids=lambda file: file.stem)
+def test_a_line_to_paste_is_not_broken_by_a_window(file: Path) -> None:
+    """A command fits into 80 columns with its indent, or goes on behind a backslash."""
+    pasted = []
+    for kind, block in FENCE.findall(text_of(file)):
+        commands = block.splitlines() if kind == "sh" else []
+        commands += [f"$ {c}" for c in COMMAND.findall(block)] if kind == "console" else []
+        pasted += [line for command in commands for line in command.splitlines()]
+    assert [line for line in pasted if len(line) > COLUMNS] == []
+    assert [line for line in pasted if re.search(r" (-o|--output) ?\\?$", line)] == []
 
 
 def text_of(file: Path) -> str:
