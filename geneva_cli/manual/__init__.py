@@ -106,5 +106,4 @@ def page(topic: str) -> str:
         )
     with open(path(topic), encoding="utf-8") as file:
         text = file.read()
-    without_comments = re.sub(r"<!--.*?-->\n*", "", text, flags=re.DOTALL)
-    return re.sub(r"<img [^>]*>(<br>|\n)?", "", without_comments)
+    return re.sub(r"<img [^>]*>(<br>|\n)?", "", text)

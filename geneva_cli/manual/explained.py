@@ -68,10 +68,10 @@ def head(page: str) -> str:
 
 
 def text(page: str) -> str:
-    """Text of a page without comments and pictures; that of quantities is printed as a table."""
+    """Text of a page without pictures; that of quantities is printed as a table."""
     name = "quantities.txt" if page == "quantities" else os.path.join("reference", f"{page}.md")
     with open(os.path.join(os.path.dirname(__file__), name), encoding="utf-8") as file:
-        return re.sub(r"<!--.*?-->|<img [^>]*>", "", file.read(), flags=re.DOTALL)
+        return re.sub(r"<img [^>]*>", "", file.read())
 
 
 def _read(page: str) -> list[Entry]:

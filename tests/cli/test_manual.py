@@ -6,12 +6,12 @@
 import os
 import re
 import shlex
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 import repo
-from sampling import some
 from typer.testing import CliRunner
 from windows import looking
 
@@ -31,7 +31,8 @@ NAMED = re.compile(r"# (add to )?(\S+\.\w+)\n")  # first line of a block that is
 CONTINUED = "\\\n"  # the end of a line whose command goes on in the next
 COMMAND = re.compile(r"^\$ ((?:.*\\\n)*.*)", re.MULTILINE)  # of a block with its output
 SILENT = re.compile(r"^(\$ (?:.*\\\n)*.*\n)\n(?=\$ )", re.MULTILINE)  # a command without output
-DRAWN = re.compile(r"<!-- (geneva .*?) -o (\S+\.svg) -->")
+PICTURES = ROOT / "geneva_cli/manual/pictures"
+DRAWN = tomllib.loads((ROOT / "tests/cli/pictures.toml").read_text(encoding="utf-8"))
 SHOWN = re.compile(r'<img src="([^"]+)"')
 COLUMNS = 78  # of the terminal that examples are seen on: with their indent they fill one of 80
 NUMBER = re.compile(r"-?\d+\.\d+")
@@ -124,23 +125,23 @@ def test_the_examples_print_what_is_shown(
     assert text == today or UPDATE
 
 
-@pytest.mark.parametrize("file", PAGES, ids=lambda file: file.stem)
-def test_the_pictures_are_what_their_commands_draw(file: Path, tmp_path: Path) -> None:
+def test_pages_show_the_pictures_that_are_drawn() -> None:
+    shown = {PICTURES / Path(name).name for file in PAGES for name in SHOWN.findall(text_of(file))}
+    assert shown == {PICTURES / name for name in DRAWN} == set(PICTURES.glob("*.svg"))
+
+
+@pytest.mark.sampled(1 if UPDATE else 3)
+@pytest.mark.parametrize("name", DRAWN)
+def test_a_picture_is_what_its_command_draws(name: str, tmp_path: Path) -> None:
     """To a hundredth of a unit: another processor may round another last digit."""
-    drawn = {}
-    commands = DRAWN.findall(text_of(file))
-    assert {name for _, name in commands} == set(SHOWN.findall(text_of(file)))
-    for command, name in commands if UPDATE else some(commands, commands[:2]):
-        drawn[name] = new = tmp_path / Path(name).name
-        invoke([*shlex.split(command)[1:], "-o", str(new)])
-    for name, new in drawn.items():
-        kept = file.parent / name
-        if UPDATE:
-            kept.write_text(text_of(new), encoding="utf-8")
-        old, today = text_of(kept), text_of(new)
-        assert NUMBER.sub("", old) == NUMBER.sub("", today)
-        numbers = [[float(n) for n in NUMBER.findall(text)] for text in (old, today)]
-        assert numbers[0] == pytest.approx(numbers[1], abs=0.01)
+    kept, new = PICTURES / name, tmp_path / name
+    invoke([*shlex.split(DRAWN[name])[1:], "-o", str(new)])
+    if UPDATE:
+        kept.write_text(text_of(new), encoding="utf-8")
+    old, today = text_of(kept), text_of(new)
+    assert NUMBER.sub("", old) == NUMBER.sub("", today)
+    numbers = [[float(n) for n in NUMBER.findall(text)] for text in (old, today)]
+    assert numbers[0] == pytest.approx(numbers[1], abs=0.01)
 
 
 def commands_in(block: str) -> list[str]:
