@@ -109,6 +109,13 @@ class Transmission(Drive, kw_only=True):
         turns = round(crank_deg / whole)
         return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
 
+    def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
+        """Centre distance L for a crank radius, mm: straight slots fix R/L, or the motion does."""
+        if motion is None:
+            return wheel.distance_mm(radius_mm)
+        motion_deg = 2.0 * self.about(wheel.half_motion_deg(wheel.step)).input_deg
+        return radius_mm / self._ratio(wheel, motion, motion_deg - motion.alpha0_deg)
+
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """Plan of straight slots, which give the motion; or of curved slots, from a law."""
         if motion is not None:
@@ -163,6 +170,14 @@ class Transmission(Drive, kw_only=True):
         refuse_alpha0(motion.alpha0_deg, natural)
         refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
         ratio = self._ratio(wheel, motion, motion_deg)
+        refuse(
+            ratio != ratio,
+            lambda: GenevaError(
+                'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
+                "below 1; set a number, or change alpha0_deg or the law",
+                ("motion", "ratio"),
+            ),
+        )
         here = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         path = MiddlePath(here.anchor(pose, here.input_deg), here.even)
@@ -174,21 +189,12 @@ class Transmission(Drive, kw_only=True):
         return Plan((engagement,), period, ratio, rollers_max(motion_deg), L)
 
     def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
-        """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion."""
+        """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion, or NaN."""
         if motion.ratio is None:
             return wheel.step.sin_cos[0]
         if not isinstance(motion.ratio, str):
             return motion.ratio
-        matched = self.matched_ratio(wheel, motion.law, motion_deg)
-        refuse(
-            matched != matched,
-            lambda: GenevaError(
-                'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
-                "below 1; set a number, or change alpha0_deg or the law",
-                ("motion", "ratio"),
-            ),
-        )
-        return matched
+        return self.matched_ratio(wheel, motion.law, motion_deg)
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does.

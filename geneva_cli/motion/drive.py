@@ -7,6 +7,7 @@ from abc import abstractmethod
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.motion.engagement import Displacement, Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
@@ -57,6 +58,8 @@ class Drive(SpecTable, kw_only=True):
     ONE_ARM: ClassVar[bool] = True
     # True if its crank can carry a locking disc about the line of centres
     LOCKS: ClassVar[bool] = True
+    # key that sets its size
+    LENGTH: ClassVar[str] = "center_distance_mm"
     # what turns the input shaft of another drive, in [drive.before]; empty if it cannot
     IN_FRONT: ClassVar[str] = ""
     # reason why no drive may stand before it; empty if one may
@@ -203,6 +206,20 @@ class Drive(SpecTable, kw_only=True):
         None for a drive whose proportions are solved for in doubles.
         """
         return None
+
+    def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
+        """Centre distance L for a crank radius R, mm, where the kind's shape fixes R/L.
+
+        Raises GenevaError for a drive whose roller does not keep its distance from the crank.
+
+        >>> round(Crank().distance_mm(External(6), None, 30.0), 9)
+        60.0
+        """
+        raise GenevaError(
+            f'kind = "{self.NAME}" has no crank of one radius: set {self.LENGTH} instead of '
+            "crank_radius_mm",
+            ("size", "crank_radius_mm"),
+        )
 
     @abstractmethod
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:

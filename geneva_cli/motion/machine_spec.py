@@ -16,7 +16,6 @@ from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import SpecTable, refuse_kind
 from geneva_cli.spec.tables import (
-    DISTANCE_MM,
     LISTS,
     PLAIN,
     Z_DRAWN,
@@ -117,6 +116,7 @@ class Spec(SpecTable):
         for one in self.mass:
             if not isinstance(one, Mass):
                 raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
+        vars(self)["size"] = self._sized(self.size)
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
@@ -131,6 +131,14 @@ class Spec(SpecTable):
             if limits[key] is not None:
                 text = f"{key} needs a load, and without one there is nothing to limit: set "
                 refuse(self._unloaded, partial(GenevaError, text + self.load_keys, ("limits", key)))
+
+    def _sized(self, size: Size) -> Size:
+        """The sizes with the centre distance that follows from the crank radius, if it does."""
+        radius, derived = size.crank_radius_mm, size.derived_distance_mm
+        if radius is None or size.center_distance_mm is not None:
+            return size if derived is None else size.replace(derived_distance_mm=None)
+        L = self.drive.distance_mm(self.wheel, self.motion, radius)
+        return size.replace(derived_distance_mm=L)
 
     def table(self, name: str) -> dict[str, Any]:
         """Values of a table by key; those of ``motion`` include the keys of its law.
@@ -349,12 +357,11 @@ class Spec(SpecTable):
 
     @property
     def given_distance_mm(self) -> float:
-        """Centre distance L in millimetres from the spec, or its default.
+        """Centre distance L in millimetres from the spec or its crank radius, or the default.
 
         Some drives solve for another one.
 
         >>> Spec(External(6)).given_distance_mm
         100.0
         """
-        distance = self.size.center_distance_mm
-        return DISTANCE_MM if distance is None else distance
+        return self.size.distance_mm

@@ -5,6 +5,7 @@ other keys. The annotations are objects, since evaluating text on import would t
 """
 
 from collections.abc import Callable
+from dataclasses import field
 from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError
@@ -39,6 +40,9 @@ class Size(SpecTable):
         Positive,
         "centre distance L; spherical: sphere radius; linear: crank radius; default 100; linkages "
         "solve for it",
+    ] = None
+    crank_radius_mm: Annotated[
+        Positive, "crank radius R, to the roller's centre; in place of center_distance_mm"
     ] = None
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     process: Annotated[
@@ -239,6 +243,17 @@ class Size(SpecTable):
     washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
     edge_chamfer_mm: Annotated[Positive, "chamfer of all edges, at 45 degrees"] = None
     edge_fillet_mm: Annotated[Positive, "rounding radius of all edges"] = None
+    # no key: L of a machine that is given by crank_radius_mm, which its ``Spec`` computes
+    derived_distance_mm: float | None = field(default=None, kw_only=True, repr=False)
+
+    @property
+    def distance_mm(self) -> float:
+        """Centre distance L: its key, or derived from the crank radius, or the default.
+
+        >>> Size(center_distance_mm=160.0).distance_mm, Size().distance_mm
+        (160.0, 100.0)
+        """
+        return value_or(self.center_distance_mm, value_or(self.derived_distance_mm, DISTANCE_MM))
 
     @property
     def edge_mm(self) -> float:
@@ -302,7 +317,7 @@ class Size(SpecTable):
         narrow bore lets in its turned shaft. Sizes that are not set have their defaults without a
         load, before they are rounded down.
         """
-        L = value_or(self.center_distance_mm, DISTANCE_MM)
+        L = self.distance_mm
         roller, thick = self.roller_radius(L), self.thicknesses(L)
         bore = value_or(self.wheel_bore_mm, L / 6.0)
         across = L if self.lock_radius_mm is None else 2.0 * self.lock_radius_mm
@@ -677,6 +692,14 @@ class Limits(SpecTable):
     ] = None
     product_acceleration_max_m_s2: Annotated[
         Positive, "greatest acceleration of the product, in m/s²"
+    ] = None
+    dwell_min_s: Annotated[Positive, "shortest time at rest"] = None
+    motion_max_s: Annotated[Positive, "longest time of a motion"] = None
+    cycle_max_s: Annotated[Positive, "longest time of a motion and the dwell after it"] = None
+    index_play_max_deg: Annotated[Positive, "greatest play of the wheel in its motion"] = None
+    dwell_play_max_deg: Annotated[Positive, "greatest play of the wheel in its dwell"] = None
+    dwell_position_max_deg: Annotated[
+        Positive, "greatest error of the resting wheel's angle within [tolerance]"
     ] = None
 
 

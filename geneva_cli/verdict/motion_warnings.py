@@ -51,15 +51,29 @@ def _of_wheel(mechanism: Mechanism) -> Iterator[Notice]:
 def _of_distance(mechanism: Mechanism) -> Iterator[Notice]:
     """A warning for a rim that is given without the centre distance on which it depends."""
     size = mechanism.spec.size
-    if size.wheel_radius_mm is None or size.center_distance_mm is not None:
+    given = size.center_distance_mm is not None or size.crank_radius_mm is not None
+    if size.wheel_radius_mm is None or given:
         return
     L = mechanism.center_distance_mm
     if mechanism.spec.given_distance_mm == L:  # some drives solve for it
         yield Notice(
             "no-centre-distance",
             f"wheel_radius_mm = {size.wheel_radius_mm:g} is given without a centre distance, so "
-            f"L = {L:g} mm is taken: set center_distance_mm in [size]",
+            f"L = {L:g} mm is taken: set center_distance_mm in [size]{_of_mouth(mechanism)}",
         )
+
+
+def _of_mouth(mechanism: Mechanism) -> str:
+    """The centre distance at which the roller's centre enters at the spec's rim, in words.
+
+    Empty for wheels whose mouth is not proportional to L, and for spheres and racks.
+    """
+    spec, engagement = mechanism.spec, mechanism.engagements[0]
+    if spec.wheel.skewed or not (spec.wheel.FLAT and spec.output.turns):
+        return ""
+    x, y = engagement.path(engagement.entry_deg, 0)
+    L = (spec.size.wheel_radius_mm or 0.0) / math.hypot(x.c[0], y.c[0])
+    return f"; with {L:.6g} the roller would enter at this radius"
 
 
 def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:

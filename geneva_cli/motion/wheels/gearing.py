@@ -204,6 +204,16 @@ class Gearing(SpecTable):
         closed = self.SIGN, l, classic.gap(1.0, *step)
         return RollerPlace(step, three[2].crank_deg, three, l, closed=closed)
 
+    def distance_mm(self, crank_radius_mm: float) -> float:
+        """Centre distance L for a crank radius R, mm, with straight slots.
+
+        Raises GenevaError for a wheel whose rollers have different crank radii.
+
+        >>> round(Spherical(6).distance_mm(30.0), 9)
+        60.0
+        """
+        return crank_radius_mm / self.place(self.step, 1.0).ratio
+
     def rest(self, ratio: float) -> float:
         """Least distance of a pin on any circle from the wheel's axis: 1 - l, inside 1 + l."""
         return 1.0 - self.SIGN * ratio

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import worst, worst_of
+from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.checks.check import Check, compared
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT, turns_back
@@ -35,6 +36,18 @@ def limited_peak(name: str, mechanism: Mechanism) -> Check | None:
     else:
         value = worst_of(mechanism, name.removesuffix("_max")).max
     return compared(name, value, "at most", limit)
+
+
+def limited_time(name: str, mechanism: Mechanism) -> Check | None:
+    """The shortest dwell, or the longest motion or cycle, seconds, that ``[limits]`` bounds."""
+    limit = mechanism.spec.limits.as_dict()[name]
+    if limit is None:
+        return None
+    times = timings(mechanism)
+    if name == "dwell_min_s":
+        return compared(name, min(one.dwell_s for one in times), "at least", limit)
+    longest = max(one.motion_s if name == "motion_max_s" else one.cycle_s for one in times)
+    return compared(name, longest, "at most", limit)
 
 
 def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:

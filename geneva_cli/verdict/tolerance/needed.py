@@ -27,7 +27,7 @@ from geneva_cli.motion.records import thing
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.spec.tables import Tolerance
+from geneva_cli.spec.tables import Limits, Tolerance
 from geneva_cli.verdict.checks.all_checks import turn_checks
 
 SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
@@ -214,7 +214,7 @@ def _slot_offset_mm(
 def _failing_check(spec: Spec) -> tuple[bool | None, str] | None:
     """The check of a whole turn that fails; None if all pass."""
     try:
-        parts = parts_of(build(spec.replace(tolerance=Tolerance())))
+        parts = parts_of(build(spec.replace(tolerance=Tolerance(), limits=Limits())))
         rows = list(turn_checks(parts, parts.turned.turn))
     except GenevaError as error:
         return None, str(error)
