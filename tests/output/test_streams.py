@@ -174,3 +174,54 @@ def test_ctrl_c_while_importing(module):
     command = [sys.executable, "-c", INTERRUPTED, module]
     found = subprocess.run([*command, "on"], capture_output=True, text=True, timeout=60)
     assert (found.returncode, found.stdout, found.stderr) == (130, "", "")
+
+
+LINES = {
+    "plot spec.toml --format svg": True,
+    "report spec.toml --format html": True,
+    "peaks spec.toml --format md": True,
+    "peaks spec.toml --format csv": True,
+    "help symbols": True,
+    "schema": True,
+    "new external": True,
+    "peaks spec.toml": False,
+}
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("line", LINES)
+@pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
+def test_files_on_standard_output_are_utf8(line, encoding):
+    """An .svg in the console's encoding was not valid XML. Tables for people follow the console."""
+    put("spec.toml", 'title = "Größe 六"\n[wheel]\nz = 6\n')
+    command = [GENEVA, *line.split()]
+    environment = os.environ | {"PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"}
+    found = subprocess.run(command, capture_output=True, timeout=60, env=environment)
+    utf8 = subprocess.run(
+        command, capture_output=True, timeout=60, env=environment | {"PYTHONIOENCODING": "utf-8"}
+    )
+    assert found.returncode == 0 and b"\r" not in found.stdout
+    assert LINES[line] == (found.stdout == utf8.stdout)
+    if not LINES[line]:
+        text = utf8.stdout.decode()
+        assert found.stdout.decode(encoding) == text.encode(encoding, "backslashreplace").decode(
+            encoding
+        )
+
+
+CLOSED_PIPE = """
+import errno, sys
+from geneva_cli import streams
+class Closed:
+    def write(self, data):
+        raise OSError(errno.EINVAL, "Invalid argument")
+streams.open_streams()
+sys.stdout.buffer.raw.raw = Closed()
+print("a row", flush=True)
+"""
+
+
+def test_a_closed_pipe_of_windows():
+    """It is an invalid argument there: the reader has what it wanted, and nobody is bothered."""
+    found = subprocess.run([sys.executable, "-c", CLOSED_PIPE], capture_output=True, timeout=60)
+    assert (found.returncode, found.stderr) == (141, b"")
