@@ -146,7 +146,7 @@ def _remove_stale(folder: str, name: str) -> None:
 
 
 def _remove_unlocked(path: str) -> None:
-    with suppress(OSError), open(os.open(path, os.O_RDONLY | CAREFUL)) as file:
+    with suppress(OSError), open(os.open(path, os.O_RDONLY | CAREFUL), "rb") as file:
         lock(file.fileno())
         if stat.S_ISREG(os.lstat(path).st_mode):
             remove(file, path)

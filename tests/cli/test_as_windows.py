@@ -108,7 +108,9 @@ VARIED = ["sweep", "spec.toml", "--vary", "drive.n_rpm=1..40000", "-o", "rows.cs
 def stop(words, begun):
     """Run some words, and stop them as Ctrl-C or Ctrl-Break does once ``begun()`` is true."""
     group = {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP} if os.name == "nt" else {}
-    process = subprocess.Popen([*LAUNCHER, *words], stderr=subprocess.PIPE, text=True, **group)
+    process = subprocess.Popen(
+        [*LAUNCHER, *words], stderr=subprocess.PIPE, encoding="utf-8", **group
+    )
     deadline = time.monotonic() + 60
     while not begun() and process.poll() is None and time.monotonic() < deadline:
         time.sleep(0.005)
@@ -162,7 +164,7 @@ with closing(GrowingFile("rows.csv", "a,b\\n", "request", False)) as file:
 def test_two_writers(monkeypatch):
     """The second is refused before it computes, and the first ends as if it were alone."""
     monkeypatch.setenv("PYTHONPATH", str(repo.TESTS))
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "encoding": "utf-8"}
     with subprocess.Popen([sys.executable, "-c", HOLD], **pipes) as process:
         assert process.stdout.readline() == "held\n"
         rows, folder = results([" ".join(VARIED), "export spec.toml --for print -o shop"])
