@@ -150,7 +150,9 @@ def _named_here(table: T, points: dict[str, Points], taken: set[str]) -> T:
         if not isinstance(value, Points):
             continue
         name = os.path.basename(value.file) or "points.csv"
-        while name in taken or name in points:
+        # Windows and macOS take A.csv and a.csv for one file.
+        others = {other.lower() for other in (*taken, *points)}
+        while name.lower() in others:
             name = f"points-{name}"
         points[name] = Points(value.pairs, name)
         table = table.replace(**{field.attribute: points[name]})
