@@ -353,7 +353,12 @@ class Spec(SpecTable):
         >>> Spec(External(6)).moving[-1]
         100.0
         """
-        return self.wheel, self.drive, self.drive_before, self.motion, self.given_distance_mm
+        size, built = self.size, ()
+        if size.crank_radius_mm is not None and size.center_distance_mm is not None:
+            # a crank as built enters where its roller crosses the slot's axis inside the rim
+            built = (size.crank_radius_mm, size.wheel_radius_mm, size.roller_radius_mm)
+        own = self.wheel, self.drive, self.drive_before, self.motion
+        return (*own, *built, self.given_distance_mm)
 
     @property
     def given_distance_mm(self) -> float:

@@ -42,7 +42,9 @@ class Size(SpecTable):
         "solve for it",
     ] = None
     crank_radius_mm: Annotated[
-        Positive, "crank radius R, to the roller's centre; in place of center_distance_mm"
+        Positive,
+        "crank radius R, to the roller's centre; alone it sets L, with center_distance_mm and "
+        "another R/L than straight slots need the machine is taken as built",
     ] = None
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     process: Annotated[
@@ -676,6 +678,9 @@ class Limits(SpecTable):
     acceleration_max: Annotated[Positive, "acceleration d2psi/dtheta2"] = None
     acceleration_entry_max: Annotated[Positive, "acceleration at entry"] = None
     jerk_max: Annotated[Positive, "jerk d3psi/dtheta3"] = None
+    entry_velocity_max: Annotated[
+        Positive, "jump of velocity at entry and exit; default 0.01 of a machine as built"
+    ] = None
     pin_force_max_N: Annotated[Positive, "greatest force of roller on slot"] = None
     input_torque_max_Nm: Annotated[Positive, "greatest torque on input shaft"] = None
     pressure_angle_max_deg: Annotated[float | None, Range(0.0, 90.0, "(]"), "pressure angle"] = None

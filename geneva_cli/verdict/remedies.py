@@ -47,6 +47,7 @@ BLUNTER: lock_edge_mm*10 WIDER LARGER
 CRANK: crank_bore_mm*0.2 crank_bore_mm=0
 THICK: wheel_thickness_mm? face_width_mm? lock_thickness_mm? arm_thickness_mm?
 velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
+entry_velocity_max: crank_radius_mm= wheel_radius_mm~
 pin_force_max_N: SLOWER LARGER MILDER
 input_torque_max_Nm product_acceleration_max_m_s2 product_slip: SLOWER MILDER
 contact_stress_max_MPa: SLOWER WIDER LARGER MILDER
