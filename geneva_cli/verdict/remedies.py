@@ -272,8 +272,7 @@ def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
     value: Value = spec.table(table)[key]
     if value is not None or table != "size":
         return value
-    from geneva_cli.parts.machine_sizes import built, sized
+    from geneva_cli.parts.machine_sizes import built
 
-    flat = sized(mechanism) if key == "arm_bore_mm" else None
-    of_machine: Value = 2.0 * flat[1].arm_bore if flat else built(mechanism).as_dict()[key]
+    of_machine: Value = built(mechanism).as_dict()[key]
     return of_machine
