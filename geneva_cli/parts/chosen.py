@@ -45,6 +45,43 @@ class Chosen(NamedTuple):
     why: str
 
 
+class ByLoad(NamedTuple):
+    """The sizes that a load chose, by their keys; and those that it chose without an option."""
+
+    sizes: Mapping[str, Chosen]
+    before: Mapping[str, Chosen]
+
+    @property
+    def words(self) -> str:
+        """The sizes in words, as "crank shaft 12, pin 7"; empty without any."""
+        texts = (NAMES[key].format(self.sizes[key].value) for key in NAMES if key in self.sizes)
+        return ", ".join(dict.fromkeys(text for text in texts if not text.endswith(" 0")))
+
+    @property
+    def changes(self) -> str:
+        """The sizes that were chosen anew, as "crank shaft 12 → 17 mm"; empty if none was."""
+        return ", ".join(dict.fromkeys(self._changes()))
+
+    def _changes(self) -> Iterator[str]:
+        for key, name in NAMES.items():
+            now, was = (sizes[key].value if key in sizes else 0.0 for sizes in self)
+            # a bore of 0 ends the shaft in the arm, whose bore is a key of its own
+            if now and was and now != was:
+                yield name.format(was).replace(f"{was:g}", f"{was:g} → {now:g} mm")
+
+    @property
+    def record(self) -> dict[str, dict[str, float | str | None]]:
+        """The sizes as json has them: ``value``, ``was`` (null if unchanged) and ``why``."""
+        return {
+            key: {"value": one.value, "was": self._was(key), "why": one.why}
+            for key, one in self.sizes.items()
+        }
+
+    def _was(self, key: str) -> float | None:
+        was = self.before[key].value if key in self.before else None
+        return None if was == self.sizes[key].value else was
+
+
 def chosen(mechanism: Mechanism) -> dict[str, Chosen]:
     """Return every size that a rule or the load chose, by its key ``size.NAME``; mm.
 
@@ -79,25 +116,6 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
         return {}
     whys = _loads(mechanism)
     return {f"size.{key}": Chosen(values[key], f"by load: {whys[key]}") for key in held}
-
-
-def in_words(sizes: Mapping[str, Chosen]) -> str:
-    """Return sizes in the words of people: "crank shaft 12, pin 7"; empty without any."""
-    texts = (NAMES[key].format(sizes[key].value) for key in NAMES if key in sizes)
-    return ", ".join(dict.fromkeys(text for text in texts if not text.endswith(" 0")))
-
-
-def changes(new: Mapping[str, Chosen], before: Mapping[str, Chosen]) -> str:
-    """Return the sizes that were chosen anew: "crank shaft 12 → 17 mm"; empty if none was."""
-    return ", ".join(dict.fromkeys(_changes(new, before)))
-
-
-def _changes(new: Mapping[str, Chosen], before: Mapping[str, Chosen]) -> Iterator[str]:
-    for key, name in NAMES.items():
-        if key in new and key in before and new[key].value != before[key].value:
-            was, now = (sizes[key].value for sizes in (before, new))
-            if was and now:  # a shaft that ends in the arm has its size there
-                yield name.format(was).replace(f"{was:g}", f"{was:g} → {now:g} mm")
 
 
 def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float]) -> bool:

@@ -38,7 +38,6 @@ from geneva_cli.parts.sizes import (
     refuse_wide_pin,
 )
 from geneva_cli.spec.default_sizes import Thicknesses, value_or
-from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 if TYPE_CHECKING:
@@ -111,7 +110,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     sizes = sized_ball(mechanism)
     if sizes is None:
         return NO_SIZES
-    size, L = mechanism.spec.size, sizes.radius_mm
+    size = mechanism.spec.size
     spans = {"wheel": sizes.span_mm, "lock": sizes.lock_span_mm, "arm": sizes.arm_span_mm}
     # the digits beyond the twelfth are rounding of the faces' radii
     thick = {f"{part}_thickness_mm": _less(*span) for part, span in spans.items()}
