@@ -17,15 +17,17 @@ from geneva_cli.table import Reading, record_table, rows_table
 KEPT = "its comments and its order are not kept"
 
 
-def of_sizes(design: Design) -> Answer:
+def of_sizes(design: Design, as_json: bool) -> Answer:
     """The answer of ``geneva size``: a row for each size that a rule or the load chose."""
     spec, sizes = design.spec, design.chosen
     rows = rows_table(("key", "value", "why"), [(key, *one) for key, one in sizes.items()])
     rows = rows.replaced(reading=Reading(("key", "value", "why")))
-    record = record_table({"spec": spec.path, "title": spec.title or None, "rows": rows})
+    data = rows
+    if as_json:
+        data = record_table({"spec": spec.path, "title": spec.title or None, "rows": rows})
     count, loaded = len(sizes), len(design.chosen_by_load.sizes)
     text = f"{count} sizes chosen, {loaded} of them by the load" if count else "no size to choose"
-    return Answer((Summary(f"{title_of(design)}: {text}"),), rows if count else None, record)
+    return Answer((Summary(f"{title_of(design)}: {text}"),), rows if count else None, data)
 
 
 def sized_text(design: Design) -> tuple[str, str]:

@@ -31,13 +31,15 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import show_answer, show_text
-    from geneva_cli.output.formats import FORMATS
+    from geneva_cli.output.formats import FORMATS, table_as
     from geneva_cli.study.chosen_sizes import of_sizes, sized_text
 
     design = load(spec, settings or ())
     extension = os.path.splitext(output)[1].lower().removeprefix(".")
     if not output or format or extension in FORMATS:
-        show_answer(of_sizes(design), output or "-", format, design.spec.files)
+        output = output or "-"
+        answer = of_sizes(design, table_as(output, format) == "json")
+        show_answer(answer, output, format, design.spec.files)
         return
     text, lost = sized_text(design)
     show_text(text, output, design.spec.files)
