@@ -80,8 +80,8 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     state = tmp_path / "rows.csv.geneva"
     header, *rows = whole.splitlines(keepends=True)
     with closing(GrowingFile(str(file), header, request(SPEC, GRID).key, False)) as left:
-        left.append("".join(rows[:2]))
-        left.append(rows[2])
+        left.append("".join(rows[:2]).encode(), 2)
+        left.append(rows[2].encode(), 1)
     half = state.read_bytes()[:-20]
     state.write_bytes(half)
     resumed = geneva(*arguments, "-o", str(file), "--resume")
