@@ -34,7 +34,8 @@ def text_of(columns: Sequence[Any], infinity: str = "inf") -> str:
     """
     parts: list[str | Sequence[str]] = []  # one text for all rows, or one for each
     for is_numbers, group in groupby(columns, _is_numbers):
-        parts += [_number_lines([*group], infinity)] if is_numbers else map(_fields, group)
+        own = [*group]
+        parts += [_number_lines(own, infinity)] if is_numbers else map(_fields, own)
     varied = [k for k, part in enumerate(parts) if not isinstance(part, str)]
     if len(varied) == 1:  # the usual sweep: numbers, and no error; rows need no work of Python
         (k,) = varied
@@ -74,9 +75,8 @@ def _number_lines(columns: Sequence[Any], infinity: str) -> list[str]:
         import orjson  # makes the digits in a tenth of the time
     except ImportError:
         return plain(block)
-    lines: list[str] = (
-        orjson.dumps(block, option=orjson.OPT_SERIALIZE_NUMPY)[2:-2].decode().split("],[")
-    )
+    text = orjson.dumps(block, option=orjson.OPT_SERIALIZE_NUMPY).decode()
+    lines: list[str] = text[2:-2].split("],[")
     # The numbers outside this range have exponents, which orjson writes in another way than repr.
     size = abs(block)
     other = ((size < 1e-4) & (size != 0.0) | ~(size < 1e16)).any(axis=1)

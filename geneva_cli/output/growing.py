@@ -141,12 +141,17 @@ class GrowingFile:
         self.file.flush()
         self.end = self.file.tell()
 
-    def finish(self, fill: Callable[[Iterator[bytes], BinaryIO], None] | None = None) -> None:
-        """Replace the file by the lines, or by the output of ``fill`` for them, in one step."""
+    def finish(
+        self, fill: Callable[[Callable[[], Iterator[bytes]], BinaryIO], None] | None = None
+    ) -> None:
+        """Replace the file by the blocks, or by what ``fill`` makes of them, in one step.
+
+        ``fill`` takes a function that yields the blocks, and the file.
+        """
         with write_errors(self.path):
             with replacing(self.path, self.inputs) as file:
                 if fill:
-                    fill(self._lines(), file)
+                    fill(self._lines, file)
                 else:
                     file.writelines(self._lines())
             if self.resume:
@@ -261,8 +266,10 @@ class GrowingTable:
     def finish(self, texts: Collection[str] = ()) -> None:
         """Give the complete file its name; ``texts`` are columns that hold no numbers."""
         if self.file and self.parquet:
-            from geneva_cli.output.parquet import write_blocks
+            from geneva_cli.output.parquet import block_of, write_blocks
 
+            if not self.file.done:  # the names of the columns are in each block
+                self.file.append(block_of(self.names, [[] for _ in self.names]), 0)
             self.file.finish(partial(write_blocks, texts=texts))
         elif self.file:
             self.file.finish()

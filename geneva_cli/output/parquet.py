@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -36,32 +36,29 @@ def block_of(names: Sequence[str], columns: Sequence[Any]) -> bytes:
     return sink.getvalue().to_pybytes()
 
 
-def write_blocks(blocks: Iterable[bytes], target: BinaryIO, texts: Collection[str] = ()) -> None:
+def write_blocks(
+    blocks: Callable[[], Iterable[bytes]], target: BinaryIO, texts: Collection[str] = ()
+) -> None:
     """Write blocks of rows, at least one, as parquet: numbers, truth values or texts.
 
+    They are read twice: the type of a column follows from all its rows.
     Columns named in ``texts`` are texts even if all their rows are empty, so that the files of
     several shards have one schema.
     """
     import pyarrow as pa
     from pyarrow import parquet
 
-    tables = [_read(block) for block in blocks]
+    types: dict[str, set[pa.DataType]] = {}
+    for block in blocks():
+        for field in pa.ipc.open_stream(block).schema:
+            types.setdefault(field.name, set()).add(field.type)
     schema = pa.schema(
-        [
-            (name, pa.string() if name in texts else _common({t.schema.types[i] for t in tables}))
-            for i, name in enumerate(tables[0].schema.names)
-        ]
+        [(name, pa.string() if name in texts else _common(own)) for name, own in types.items()]
     )
     words = [field.name for field in schema if field.type == pa.string()]
     with parquet.ParquetWriter(target, schema, use_dictionary=words) as out:
-        for group in _groups(tables):
+        for group in _groups(pa.ipc.open_stream(block).read_all() for block in blocks()):
             out.write_table(pa.concat_tables([_cast(table, schema) for table in group]))
-
-
-def _read(block: bytes) -> pa.Table:
-    import pyarrow as pa
-
-    return pa.ipc.open_stream(block).read_all()
 
 
 def _groups(tables: Iterable[pa.Table]) -> Iterator[list[pa.Table]]:

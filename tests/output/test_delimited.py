@@ -10,18 +10,15 @@ from geneva_cli.output.delimited import FEW, text_of
 
 SIZES = 10.0 ** np.arange(-320, 309)
 # ends of the ranges in which numerals have no exponent, and their neighbours
-EDGES = [
-    f(x, y) for x in (1e-4, 1e-5, 1e16, 1e15, 2.0**53) for y in (0, 9e99) for f in (np.nextafter,)
-]
+ENDS = (1e-4, 1e-5, 1e15, 1e16, 2.0**53)
+EDGES = [x for end in ENDS for x in np.nextafter(end, (0.0, end, 1e99))]
 
 
 def numbers():
     random = np.random.default_rng(3)
     bits = random.integers(0, 2**63, 3 * FEW, dtype=np.uint64).view(np.float64)
     usual = random.uniform(-200.0, 200.0, 3 * FEW)
-    few = np.array(
-        [*SIZES, *EDGES, 0.0, -0.0, 5e-324, 1.7976931348623157e308, 0.1, 1.0, 1e-4, 1e16]
-    )
+    few = np.array([*SIZES, *EDGES, 0.0, -0.0, 5e-324, 1.7976931348623157e308, 0.1, 1.0])
     whole = np.concatenate([bits[np.isfinite(bits)], usual, few, -few, np.round(usual, 3)])
     return whole[: len(whole) - len(whole) % 2].reshape(-1, 2)
 
@@ -44,9 +41,8 @@ def test_what_is_no_number_stands_between_them():
     x[7] = np.inf
     words = ["one, two"] * count
     some = [None, "=b", True, 4] * (count // 4)
-    rows = [
-        *csv.reader(text_of([words, x, np.arange(count), some, [None] * count], "").splitlines())
-    ]
+    columns = [words, x, np.arange(count), some, [None] * count]
+    rows = [*csv.reader(text_of(columns, infinity="").splitlines())]
     assert [row[0] for row in rows] == words
     assert [row[1] for row in rows] == [repr(v) if np.isfinite(v) else "" for v in x.tolist()]
     assert [row[2] for row in rows] == [str(i) for i in range(count)]
