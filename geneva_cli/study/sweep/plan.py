@@ -13,7 +13,7 @@ from geneva_cli.numerics.jet import Array
 from geneva_cli.study.rows import Column, Rows
 from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
 
-BLOCK = 4096  # designs of a batch; a power of two, which keeps a Sobol sequence balanced
+BLOCK = 16384  # designs of a batch; a power of two, which keeps a Sobol sequence balanced
 
 
 class SweepPlan(NamedTuple):
