@@ -55,6 +55,21 @@ class Branches(NamedTuple):
         return Branches(row[which], *(each[which] for each in columns))
 
 
+class Meetings(NamedTuple):
+    """Intervals of the wheel's angle, radians, at which two branches meet, one of each array.
+
+    The levels are those at which they touch at the ends of the interval.
+    """
+
+    row: Whole  # the pose
+    start: Array
+    end: Array
+    start_level: Array
+    end_level: Array
+    other: Branches
+    wheel: Branches
+
+
 class Stops(ABC):
     """Stops of one machine's wheel, which repeats after ``pitch`` radians."""
 
@@ -90,6 +105,28 @@ class Stops(ABC):
     ) -> tuple[Array, Array]:
         """Return how far the wheel turns back and on until branches meet, and their level there."""
         leads, levels = np.full((2, len(turn)), most), np.zeros((2, len(turn)))
+        for met in self.meetings(others, wheel):
+            start, end = met.start - turn[met.row], met.end - turn[met.row]
+            shift = self.pitch * np.round(0.5 * (start + end) / self.pitch)
+            start, end = start - shift, end - shift
+            for k, (near, far, level) in enumerate(
+                ((-end, -start, met.end_level), (start, end, met.start_level))
+            ):
+                lead = np.where(far < 0.0, near + self.pitch, np.maximum(near, 0.0))
+                hit = np.flatnonzero(lead < most)
+                np.minimum.at(leads[k], met.row[hit], lead[hit])
+                hit = hit[lead[hit] == leads[k, met.row[hit]]]
+                levels[k, met.row[hit]] = level[hit]
+        return leads, levels
+
+    def meetings(self, others: Branches, wheel: Branches) -> Iterator[Meetings]:
+        """Yield the intervals of the wheel's angle at which other branches meet the wheel's.
+
+        The others, of n poses, are in the fixed frame, and those of the wheel in its own. The angle
+        of an interval may be whole pitches away.
+        """
+        reached = (others.low <= wheel.high.max()) & (others.high >= wheel.low.min())
+        others = others.at(np.flatnonzero(reached))
         step = max(1, BLOCK // max(1, len(wheel.low)))
         for block in range(0, len(others.low), step):
             some = others.at(slice(block, block + step))
@@ -102,17 +139,16 @@ class Stops(ABC):
                 tries = np.array((*ends, *(np.clip(level, *ends) for level in tangents)))
                 place = np.array([self.place(one, x) - self.place(two, x) for x in tries])
             low, high, every = np.argmin(place, axis=0), np.argmax(place, axis=0), np.arange(len(i))
-            spare, place = one.half + two.half, place - turn[one.row]
-            start, end = place[low, every] - spare, place[high, every] + spare
-            shift = self.pitch * np.round(0.5 * (start + end) / self.pitch)
-            start, end = start - shift, end - shift
-            for k, (near, far, at) in enumerate(((-end, -start, high), (start, end, low))):
-                lead = np.where(far < 0.0, near + self.pitch, np.maximum(near, 0.0))
-                hit = np.flatnonzero(lead < most)
-                np.minimum.at(leads[k], one.row[hit], lead[hit])
-                hit = hit[lead[hit] == leads[k, one.row[hit]]]
-                levels[k, one.row[hit]] = tries[at[hit], hit]
-        return leads, levels
+            spare = one.half + two.half
+            yield Meetings(
+                one.row,
+                place[low, every] - spare,
+                place[high, every] + spare,
+                tries[low, every],
+                tries[high, every],
+                one,
+                two,
+            )
 
     @abstractmethod
     def wheel(self, inset: float) -> Branches:

@@ -1,0 +1,148 @@
+"""The angles that a wheel of any outline may have, at each angle of its crank.
+
+The branches of both outlines meet at intervals of the wheel's angle (``stops``). Their union is
+what the wheel cannot have, and its gaps are the free ranges. The wheel's axis is the origin, and
+the crank's axis is at (L, 0). At crank angle 0 the first roller points to the wheel's axis, for an
+internal wheel away from it. The wheel turns counterclockwise as the crank's angle rises.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.parts.turn.stops import Branches, Meetings, TurningStops
+
+SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
+
+
+class Range(NamedTuple):
+    """A range of the wheel's angle, radians: free, or blocked by an overlap."""
+
+    is_free: bool
+    low: float
+    high: float
+
+
+class FreeRanges:
+    """Free ranges of a wheel at any angles of its crank.
+
+    Both outlines are in their own frames, in mm. ``sense`` is 1 for an external wheel, -1 for an
+    internal one. Parts that overlap by at most ``slack`` mm count as touching. ``pitch`` is the
+    step of the wheel, radians: if the outline repeats after it, one sector is enough.
+    """
+
+    def __init__(
+        self, wheel: Polyarc, crank: Polyarc, L: float, sense: float, pitch: float, slack: float
+    ) -> None:
+        self.crank, self.L, self.sense, self.slack = crank, L, sense, slack
+        sector = one_sector(wheel, pitch, slack)
+        self.period = math.tau if sector is None else pitch
+        some = wheel if sector is None else wheel.subset(sector)
+        self.stops = TurningStops(some, self.period, crank, L, 0.0)
+        self.own = self.stops.wheel(0.0)
+
+    def crank_direction(self, crank_angle: Array) -> Array:
+        """Return the direction of the crank's x axis, radians, at crank angles (n,)."""
+        return np.pi - crank_angle if self.sense > 0.0 else crank_angle
+
+    def placed(self, crank_angle: Array) -> Branches:
+        """Return the branches of the crank, smaller by the slack, in the fixed frame."""
+        axis = np.tile((self.L, 0.0), (len(crank_angle), 1))
+        direction = self.crank_direction(crank_angle)
+        return self.stops.branches(self.crank, axis, direction, self.slack)
+
+    def at(self, crank_angle: Array) -> Ranges:
+        """Return the free ranges at crank angles (n,), radians."""
+        rows, starts, ends = [], [], []
+        block = max(1, (1 << 19) // len(self.crank))  # poses whose branches fit into memory
+        for first in range(0, len(crank_angle), block):
+            for met in self.meetings(crank_angle[first : first + block]):
+                rows.append(first + met.row)
+                starts.append(met.start)
+                ends.append(met.end)
+        if not rows:
+            rows, starts, ends = [np.zeros(0, dtype=int)], [np.zeros(0)], [np.zeros(0)]
+        every = (np.concatenate(each) for each in (rows, starts, ends))
+        return Ranges(*every, len(crank_angle), self.period)
+
+    def meetings(self, crank_angle: Array) -> list[Meetings]:
+        """Return the pairs of branches that meet at crank angles (n,)."""
+        return list(self.stops.meetings(self.placed(crank_angle), self.own))
+
+
+class Ranges:
+    """The free ranges of n poses, from the intervals that are blocked in them."""
+
+    def __init__(
+        self, row: Whole, start: Array, end: Array, count: int, period: float
+    ) -> None:
+        self.period = period
+        shift = period * np.floor(start / period)
+        merged = union(row, start - shift - SAME, end - shift + SAME)
+        # with the copies a period before and after, those that cross an end of the period merge
+        row, start, end = (np.concatenate((each, each, each)) for each in merged)
+        copy = np.repeat((0.0, -period, period), len(merged[0]))
+        row, start, end = union(row, start + copy, end + copy)
+        self.ends = np.searchsorted(row, np.arange(count + 1)).tolist()
+        self.low, self.high = start.tolist(), end.tolist()
+
+    def around(self, i: int, angle: float) -> Range:
+        """Return the range about an angle of the wheel, radians, in the i-th pose.
+
+        Without any part near, it is free for half a period to either side.
+        """
+        shift = self.period * math.floor(angle / self.period)
+        first, last = self.ends[i], self.ends[i + 1]
+        k = bisect_left(self.low, angle - shift, first, last)
+        before = self.high[k - 1] + shift if k > first else angle - 0.5 * self.period
+        after = self.low[k] + shift if k < last else angle + 0.5 * self.period
+        if angle < before:
+            return Range(False, self.low[k - 1] + shift, before)
+        return Range(True, before, after)
+
+
+def union(row: Whole, start: Array, end: Array) -> tuple[Whole, Array, Array]:
+    """Return the union of intervals in each row: rows, starts and ends, ascending."""
+    if not len(row):
+        return row, start, end
+    order = np.lexsort((start, row))
+    row, start, end = row[order], start[order], end[order]
+    # rows are far apart on one axis, so that one running maximum serves all of them
+    spread = 2.0 * (float(np.abs(start).max()) + float(np.abs(end).max()) + 1.0)
+    reach = np.maximum.accumulate(end + spread * row)
+    begins = np.append(True, (start + spread * row)[1:] > reach[:-1])
+    first = np.flatnonzero(begins)
+    return row[first], start[first], np.maximum.reduceat(end, first)
+
+
+def one_sector(outline: Polyarc, pitch: float, near: float) -> Whole | None:
+    """Return the pieces of one of the sectors that repeat after ``pitch``; None if none does.
+
+    Pieces that differ by at most ``near`` mm are the same.
+    """
+    count = round(math.tau / pitch)
+    if len(outline) % count:
+        return None
+    sides = np.column_stack((outline.x0 + 1j * outline.y0, outline.x1 + 1j * outline.y1))
+    bend = outline.sense * outline.sin_half
+    turned = sides * np.exp(1j * pitch)
+    after = np.empty(len(outline), dtype=int)
+    block = max(1, (1 << 22) // len(outline))
+    for first in range(0, len(outline), block):
+        some = turned[first : first + block]
+        away = np.abs(some[:, :1] - sides[:, 0]) + np.abs(some[:, 1:] - sides[:, 1])
+        after[first : first + block] = np.argmin(away, axis=1)
+    moved = np.abs(turned - sides[after]).max()
+    if moved > near or np.abs(bend - bend[after]).max() > 1e-9:
+        return None
+    least = here = np.arange(len(outline))
+    for _ in range(count - 1):
+        here = after[here]
+        least = np.minimum(least, here)
+    return np.unique(least)
