@@ -10,15 +10,19 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
+from collections.abc import Iterator
+from copy import copy
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.parts.turn.stops import Branches, Meetings, TurningStops
+from geneva_cli.parts.turn.stops import Meetings, TurningStops
 
 SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
+BLOCK = 32  # crank angles that are computed together, as much the same pieces are near then
+FEW = 4000  # pairs of pieces that are not worth a selection
 
 
 class Range(NamedTuple):
@@ -40,40 +44,75 @@ class FreeRanges:
     def __init__(
         self, wheel: Polyarc, crank: Polyarc, L: float, sense: float, pitch: float, slack: float
     ) -> None:
-        self.crank, self.L, self.sense, self.slack = crank, L, sense, slack
+        self.whole, self.crank, self.L, self.sense, self.slack = wheel, crank, L, sense, slack
         sector = one_sector(wheel, pitch, slack)
         self.period = math.tau if sector is None else pitch
-        some = wheel if sector is None else wheel.subset(sector)
-        self.stops = TurningStops(some, self.period, crank, L, 0.0)
+        self.window: tuple[float, float] | None = None
+        self._meets(wheel if sector is None else wheel.subset(sector))
+
+    def _meets(self, wheel: Polyarc) -> None:
+        self.stops = TurningStops(wheel, self.period, self.crank, self.L, 0.0)
         self.own = self.stops.wheel(0.0)
+
+    def near(self, low: float, high: float, wheel: float, most: float) -> FreeRanges:
+        """Return the ranges of the pieces that may touch between two crank angles, radians.
+
+        The wheel is within ``most`` radians of an angle. Farther ends of a range are missing.
+        """
+        if len(self.crank) * len(self.whole) < FEW:
+            return self
+        half, whole = 0.5 * abs(high - low), self.whole
+        x, y = self._fixed(0.5 * (low + high))
+        reach = self.crank.size + half * np.hypot(self.crank.ox, self.crank.oy) + self.slack
+        rim = float((np.hypot(whole.ox, whole.oy) + whole.size).max())
+        ours = np.flatnonzero(np.hypot(x, y) - reach <= rim)
+        c, s = math.cos(wheel), math.sin(wheel)
+        wx, wy = whole.ox * c - whole.oy * s, whole.ox * s + whole.oy * c
+        own = whole.size + most * np.hypot(wx, wy)
+        around = float((np.hypot(x - self.L, y) + reach).max())
+        theirs = np.flatnonzero(np.hypot(wx - self.L, wy) - own <= around)
+        away = np.hypot(x[ours, None] - wx[theirs], y[ours, None] - wy[theirs])
+        close = away <= reach[ours, None] + own[theirs]
+        out = copy(self)
+        out.crank = self.crank.subset(ours[close.any(axis=1)])
+        out.period, out.window = math.tau, (wheel, most)
+        out._meets(whole.subset(theirs[close.any(axis=0)]))
+        return out
+
+    def _fixed(self, crank_angle: float) -> tuple[Array, Array]:
+        """Return the middles of the crank's pieces in the fixed frame."""
+        turn = float(self.crank_direction(np.array([crank_angle]))[0])
+        c, s, crank = math.cos(turn), math.sin(turn), self.crank
+        return self.L + crank.ox * c - crank.oy * s, crank.ox * s + crank.oy * c
 
     def crank_direction(self, crank_angle: Array) -> Array:
         """Return the direction of the crank's x axis, radians, at crank angles (n,)."""
         return np.pi - crank_angle if self.sense > 0.0 else crank_angle
 
-    def placed(self, crank_angle: Array) -> Branches:
-        """Return the branches of the crank, smaller by the slack, in the fixed frame."""
-        axis = np.tile((self.L, 0.0), (len(crank_angle), 1))
-        direction = self.crank_direction(crank_angle)
-        return self.stops.branches(self.crank, axis, direction, self.slack)
-
     def at(self, crank_angle: Array) -> Ranges:
         """Return the free ranges at crank angles (n,), radians."""
-        rows, starts, ends = [], [], []
-        block = max(1, (1 << 19) // len(self.crank))  # poses whose branches fit into memory
-        for first in range(0, len(crank_angle), block):
-            for met in self.meetings(crank_angle[first : first + block]):
+        rows, starts, ends = [np.zeros(0, dtype=int)], [np.zeros(0)], [np.zeros(0)]
+        for first in range(0, len(crank_angle), BLOCK):
+            for met in self.meetings(crank_angle[first : first + BLOCK]):
                 rows.append(first + met.row)
                 starts.append(met.start)
                 ends.append(met.end)
-        if not rows:
-            rows, starts, ends = [np.zeros(0, dtype=int)], [np.zeros(0)], [np.zeros(0)]
         every = (np.concatenate(each) for each in (rows, starts, ends))
         return Ranges(*every, len(crank_angle), self.period)
 
-    def meetings(self, crank_angle: Array) -> list[Meetings]:
-        """Return the pairs of branches that meet at crank angles (n,)."""
-        return list(self.stops.meetings(self.placed(crank_angle), self.own))
+    def meetings(self, crank_angle: Array) -> Iterator[Meetings]:
+        """Yield the pairs of branches that meet at crank angles (n,), which are near each other."""
+        middle, half = 0.5 * (crank_angle[0] + crank_angle[-1]), 0.5 * np.ptp(crank_angle)
+        reach = self.crank.size + half * np.hypot(self.crank.ox, self.crank.oy)
+        far = np.hypot(*self._fixed(float(middle)))
+        levels = self.own.low.min(initial=np.inf), self.own.high.max(initial=0.0)
+        some = np.flatnonzero((far - reach <= levels[1]) & (far + reach >= levels[0]))
+        if not len(some):
+            return
+        axis = np.tile((self.L, 0.0), (len(crank_angle), 1))
+        direction = self.crank_direction(crank_angle)
+        crank = self.stops.branches(self.crank.subset(some), axis, direction, self.slack)
+        yield from self.stops.meetings(crank, self.own, self.window)
 
 
 class Ranges:

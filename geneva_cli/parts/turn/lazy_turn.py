@@ -16,6 +16,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.turn.free_ranges import FreeRanges, Range, Ranges
 
 STEPS = 1440  # positions of a turn of the crank: a quarter of a degree apart
+MANY = 30000  # pairs of pieces above which positions are half a degree apart
 PARTS = 16  # parts into which a step is divided where the wheel begins or ends to move, or runs
 SLOW = 4.0  # velocity of the wheel, of the crank's, up to which a step is not divided
 # Velocity above which a corner blocks. The wheel's corner then moves within 2 degrees of the common
@@ -84,8 +85,9 @@ class Turner:
 
     def __init__(self, free: FreeRanges, start: float) -> None:
         self.free, self.start = free, start
-        self.grid = start + math.tau * np.arange(STEPS) / STEPS
-        self.ranges = free.at(self.grid)
+        many = len(free.crank) * len(free.stops.outline) > MANY
+        self.steps = STEPS // 2 if many else STEPS
+        self.ranges = free.at(start + math.tau * np.arange(self.steps) / self.steps)
 
     def rest(self, wheel: float) -> Range:
         """Return the range about an angle of the wheel where the crank's turn starts."""
@@ -99,9 +101,9 @@ class Turner:
         path = _Path(self.free, way, exact)
         try:
             path.begin(self.start, self.rest(wheel), wheel)
-            for k in range(1, turns * STEPS + 1):
-                around = _looker(self.ranges, way * k % STEPS)
-                path.to(self.start + way * math.tau * k / STEPS, around)
+            for k in range(1, turns * self.steps + 1):
+                around = _looker(self.ranges, way * k % self.steps)
+                path.to(self.start + way * math.tau * k / self.steps, around)
         except _Stuck as stuck:
             return path.done(stuck.jam)
         return path.done(None)
@@ -157,9 +159,10 @@ class _Path:
 
     def _first(self, good: float, bad: float, wheel: float) -> float:
         """Return the crank angle from which on the wheel is not free, just before it."""
+        free = self.free.near(good, bad, wheel, SAME)
         while abs(bad - good) > 1e-14 * math.tau:
             places = np.linspace(good, bad, PARTS + 1)
-            ranges = self.free.at(places[1:-1])
+            ranges = free.at(places[1:-1])
             hit = [i for i in range(PARTS - 1) if not ranges.around(i, wheel).is_free]
             i = hit[0] if hit else PARTS - 1
             if places[i] == good and places[i + 1] == bad:
@@ -179,7 +182,7 @@ class _Path:
             there = around(wheel)
             raise _Stuck(Jam(before, wheel, there.low, there.high))
         places = np.linspace(before, crank, PARTS + 1)[1:]
-        ranges = self.free.at(places)
+        ranges = self.free.near(before, crank, wheel, STEEPEST * step).at(places)
         for i in range(PARTS):
             self._follow(float(places[i]), _looker(ranges, i))
 
@@ -197,9 +200,10 @@ class _Path:
         end, farthest, there = before, wheel, around
         if self.exact:
             low, high = self.rows[max(len(self.rows) - 2, 0)][0], crank
+            free = self.free.near(low, high, wheel, SLOW * abs(high - low))
             for _ in range(7):
                 places = np.linspace(low, high, PARTS + 1)
-                ranges = self.free.at(places)
+                ranges = free.at(places)
                 moved = [_pushed(ranges.around(i, wheel), wheel) for i in range(PARTS + 1)]
                 k = max(range(PARTS + 1), key=lambda i: abs(moved[i] - wheel))
                 if abs(moved[k] - wheel) > abs(farthest - wheel):
