@@ -173,7 +173,9 @@ def _crossing(outline: Polyarc, i: Whole, j: Whole, adjacent: Mask) -> Point | N
         # at a joint that is rounded, two tangent pieces cross, but at hardly any angle
         (ax, ay), (bx, by) = _normal(one, px, py), _normal(two, px, py)
         ends = [(s.x0, s.y0, s.x1, s.y1) for s in (one, two)]
-        near = [np.minimum(np.hypot(a - px, b - py), np.hypot(c - px, d - py)) for a, b, c, d in ends]
+        near = [
+            np.minimum(np.hypot(a - px, b - py), np.hypot(c - px, d - py)) for a, b, c, d in ends
+        ]
         depth = np.abs(ax * by - ay * bx) * np.maximum(*near)
         k = np.flatnonzero(inside & ~(adjacent & (depth < 4.0 * JOINED_MM)))
         if len(k):

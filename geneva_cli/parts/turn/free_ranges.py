@@ -44,6 +44,11 @@ class FreeRanges:
     def __init__(
         self, wheel: Polyarc, crank: Polyarc, L: float, sense: float, pitch: float, slack: float
     ) -> None:
+        far = levels(crank)[1].max()
+        low, high = levels(wheel)
+        wheel = wheel.subset(np.flatnonzero((high >= L - far - slack) & (low <= L + far + slack)))
+        low, high = levels(crank)
+        crank = crank.subset(np.flatnonzero(L - high <= levels(wheel)[1].max(initial=0.0)))
         self.whole, self.crank, self.L, self.sense, self.slack = wheel, crank, L, sense, slack
         sector = one_sector(wheel, pitch, slack)
         self.period = math.tau if sector is None else pitch
@@ -118,9 +123,7 @@ class FreeRanges:
 class Ranges:
     """The free ranges of n poses, from the intervals that are blocked in them."""
 
-    def __init__(
-        self, row: Whole, start: Array, end: Array, count: int, period: float
-    ) -> None:
+    def __init__(self, row: Whole, start: Array, end: Array, count: int, period: float) -> None:
         self.period = period
         shift = period * np.floor(start / period)
         merged = union(row, start - shift - SAME, end - shift + SAME)
@@ -158,6 +161,16 @@ def union(row: Whole, start: Array, end: Array) -> tuple[Whole, Array, Array]:
     begins = np.append(True, (start + spread * row)[1:] > reach[:-1])
     first = np.flatnonzero(begins)
     return row[first], start[first], np.maximum.reduceat(end, first)
+
+
+def levels(outline: Polyarc) -> tuple[Array, Array]:
+    """Return bounds of the distance of the points of each piece from the origin, mm."""
+    middle, far = np.hypot(outline.ox, outline.oy), np.hypot(outline.cx, outline.cy)
+    low, high = np.maximum(middle - outline.size, 0.0), middle + outline.size
+    # of a whole circle
+    least, most = np.abs(far - outline.radius), far + outline.radius
+    arc = outline.arc
+    return np.where(arc, np.maximum(low, least), low), np.where(arc, np.minimum(high, most), high)
 
 
 def one_sector(outline: Polyarc, pitch: float, near: float) -> Whole | None:
