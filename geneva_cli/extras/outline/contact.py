@@ -122,10 +122,10 @@ class Contact(NamedTuple):
         between = np.remainder(self.wheel.ahead - self.crank.ahead + np.pi, 2.0 * np.pi) - np.pi
         w = np.maximum(self.wheel.far, 1e-300)
         # the distance of the edge from the crank's axis stays as it is
-        s, c = sin_cos(normal)
+        cosine = sin_cos(normal)[1]
         own = self.crank.far - self.L * np.cos(self.crank.ahead)
         gap = w * np.cos(between) - self.crank.far
-        along = c * self.L + own + gap
+        along = cosine * self.L + own + gap
         across = w * w - along * along
         with np.errstate(all="ignore"):
             gamma = atan2(sqrt(_positive(across)), along)

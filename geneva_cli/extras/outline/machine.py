@@ -13,9 +13,10 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import Loop, loops
 from geneva_cli.geometry.measure import turned_pieces
 from geneva_cli.geometry.moments import oriented
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.output.reading import read_drawing
+from geneva_cli.output.foreign import read_drawing
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_ranges import FreeRanges
@@ -62,37 +63,26 @@ def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
     crank turns, and where no part reaches the other.
     """
     spec, place = mechanism.spec, _assembly(mechanism)
-    outline, notes, are_exact = spec.outline, list[Notice](), []
-    bodies: dict[str, list[Loop]] = {}
-    for part, file in (("wheel", outline.wheel), ("crank", outline.crank)):
-        if file is None:
-            continue
-        path = os.path.join(os.path.dirname(spec.path), file)
-        drawn = read_drawing(path)
-        notes += [Notice("outline-units", f"{cut(file, 100)}: {text}") for text in drawn.notes]
-        pieces = _placed(drawn.pieces, spec, part)
-        try:
-            bodies[part] = loops(pieces)
-        except GenevaError as error:
-            raise GenevaError(f"{cut(path, 300)}: {error}") from None
-        are_exact.append(drawn.is_exact and any(isinstance(piece, Arc) for piece in pieces))
-    if outline.wheel is None or outline.crank is None:
+    outline, notes = spec.outline, list[Notice]()
+    wheel, crank = (_drawn(spec, part, notes) for part in ("wheel", "crank"))
+    if not (wheel and crank):
         own = parts_of(mechanism).flat.outlines
-    wheel = _contours(bodies["wheel"]) if "wheel" in bodies else (own.wheel,)
-    crank = _contours(bodies["crank"]) if "crank" in bodies else tuple(own.crank)
-    crank, roller = _with_rollers(crank, mechanism, place, bodies.get("crank", []))
+    theirs = wheel.contours if wheel else (own.wheel,)
+    ours, roller = _with_rollers(crank, mechanism, place, tuple(own.crank) if not crank else ())
+    are_exact = [drawn.is_exact for drawn in (wheel, crank) if drawn]
     slack = outline.slack_mm or (EXACT_MM if all(are_exact) else FACETED_MM)
     L, z = place.L, spec.wheel.z
-    _require_reach(Polyarc(wheel), Polyarc(crank), L)
-    free = FreeRanges(Polyarc(wheel), Polyarc(crank), L, place.sign, math.tau / z, slack)
+    both = Polyarc(theirs), Polyarc(ours)
+    _require_reach(*both, L)
+    free = FreeRanges(*both, L, place.sign, math.tau / z, slack)
     first = place.motions[0]
-    dwell = mechanism_dwell_deg(place)
+    dwell = _dwell_deg(place)
     start = math.radians(first.entry - 0.5 * dwell)
     rest = -first.engagement.half_step
-    return DrawnMachine(place, wheel, crank, roller, free, start, rest, tuple(notes))
+    return DrawnMachine(place, theirs, ours, roller, free, start, rest, tuple(notes))
 
 
-def mechanism_dwell_deg(place: Assembly) -> float:
+def _dwell_deg(place: Assembly) -> float:
     """Return the dwell before the first motion of the plain crank, degrees."""
     first, last = place.motions[0], place.motions[-1]
     return first.entry + place.turn_deg - last.exit
@@ -116,14 +106,36 @@ def _assembly(mechanism: Mechanism) -> Assembly:
     return place
 
 
-def _placed(pieces: tuple[Line | Arc, ...], spec: object, part: str) -> list[Line | Arc]:
-    """Return the pieces of a drawing in the frame of our own: mirrored about x, then turned."""
-    outline = vars(spec)["outline"]
-    out = list(pieces)
-    if outline.mirror in (part, "both"):
-        out = [_mirrored(piece) for piece in out]
-    turn = math.radians(vars(outline)[f"{part}_turn_deg"])
-    return list(turned_pieces(out, turn)) if turn else out  # type: ignore[arg-type]  # no cubics
+class _Drawn(NamedTuple):
+    """The outlines of a drawing in the frame of our own; exact ones have arcs, and no facets."""
+
+    loops: tuple[Loop, ...]
+    is_exact: bool
+
+    @property
+    def contours(self) -> tuple[Contour, ...]:
+        return tuple(loop.contour for loop in self.loops)
+
+
+def _drawn(spec: Spec, part: str, notes: list[Notice]) -> _Drawn | None:
+    """Return the outlines of a part's drawing, mirrored about x and then turned; None without."""
+    outline = vars(spec.outline)
+    file = outline[part]
+    if file is None:
+        return None
+    path = os.path.join(os.path.dirname(spec.path), file)
+    drawn = read_drawing(path)
+    notes += [Notice("outline-units", f"{cut(file, 100)}: {text}") for text in drawn.notes]
+    pieces = list(drawn.pieces)
+    if outline["mirror"] in (part, "both"):
+        pieces = [_mirrored(piece) for piece in pieces]
+    turn = math.radians(outline[f"{part}_turn_deg"])
+    pieces = [p for p in turned_pieces(pieces, turn) if not isinstance(p, Cubic)]
+    try:
+        own = tuple(loops(pieces))
+    except GenevaError as error:
+        raise GenevaError(f"{cut(path, 300)}: {error}") from None
+    return _Drawn(own, drawn.is_exact and any(isinstance(piece, Arc) for piece in pieces))
 
 
 def _mirrored(piece: Line | Arc) -> Line | Arc:
@@ -133,12 +145,8 @@ def _mirrored(piece: Line | Arc) -> Line | Arc:
     return Line((x0, -y0), (x1, -y1))
 
 
-def _contours(several: list[Loop]) -> tuple[Contour, ...]:
-    return tuple(loop.contour for loop in several)
-
-
 def _with_rollers(
-    crank: tuple[Contour, ...], mechanism: Mechanism, place: Assembly, drawn: list[Loop]
+    drawn: _Drawn | None, mechanism: Mechanism, place: Assembly, own: tuple[Contour, ...]
 ) -> tuple[tuple[Contour, ...], Roller]:
     """Return the crank with its rollers: those that its drawing has, or our own."""
     axis = np.array((place.L, 0.0))
@@ -148,16 +156,15 @@ def _with_rollers(
     ahead = np.pi if place.sign > 0.0 else 0.0
     turned = [complex(*pin) * complex(math.cos(-ahead), math.sin(-ahead)) for pin in pins]
     R = abs(turned[0])
-    for loop in drawn:
+    crank = drawn.contours if drawn else own
+    for loop in drawn.loops if drawn else ():
         circle = _as_circle(loop)
         if circle and not loop.is_hole and abs(complex(*circle.centre)) > circle.radius:
             return crank, Roller(abs(complex(*circle.centre)), circle.radius, True, R)
-    if drawn:
-        inside = Polyarc(crank).signed(np.array([(turned[0].real, turned[0].imag)]))[0]
-        if inside < 0.0:
-            return crank, Roller(R, radius, True, R)
-    own = [oriented(Circle("ROLLER", (pin.real, pin.imag), radius), ())[0] for pin in turned]
-    return (*crank, *own), Roller(R, radius, False, R)
+    if drawn and Polyarc(crank).signed(np.array([(turned[0].real, turned[0].imag)]))[0] < 0.0:
+        return crank, Roller(R, radius, True, R)
+    rollers = [oriented(Circle("ROLLER", (pin.real, pin.imag), radius), ())[0] for pin in turned]
+    return (*crank, *rollers), Roller(R, radius, False, R)
 
 
 def _as_circle(loop: Loop) -> Circle | None:
@@ -185,7 +192,7 @@ def _require_reach(wheel: Polyarc, crank: Polyarc, L: float) -> None:
     if L - far > rim or L + far < inner:
         raise GenevaError(
             f"no part reaches the other: the crank reaches {far:.6g} mm from its axis, the wheel "
-            f"lies {inner:.4g} to {rim:.6g} mm from its own, and the axes are {L:.6g} mm apart; set "
-            "center_distance_mm in [size], and check the drawings' units",
+            f"lies {inner:.4g} to {rim:.6g} mm from its own, and the axes are {L:.6g} mm apart; "
+            "set center_distance_mm in [size], and check the drawings' units",
             ("outline",),
         )

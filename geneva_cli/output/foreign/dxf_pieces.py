@@ -15,7 +15,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.measure import mapped
 from geneva_cli.geometry.shapes import Arc, Contour, Line
 from geneva_cli.output.ezdxf_alone import Document, readfile
-from geneva_cli.output.reading.drawn import Drawn, arc_pieces, bulged, ellipse_pieces, fitted
+from geneva_cli.output.foreign.drawn import Drawn, arc_pieces, bulged, ellipse_pieces, fitted
 
 # $INSUNITS: millimetres in one unit
 UNITS = {

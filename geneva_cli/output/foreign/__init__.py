@@ -7,7 +7,7 @@ import os
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.geometry.shapes import Arc, Line
-from geneva_cli.output.reading.drawn import Drawn
+from geneva_cli.output.foreign.drawn import Drawn
 
 BYTES_MAX = 1 << 26  # 64 MB; a machine's outline has some kilobytes
 PIECES_MAX = 20_000  # more take minutes to turn
@@ -27,11 +27,11 @@ def read_drawing(path: str) -> Drawn:
     data = _bytes(path, shown)
     try:
         if ending == ".dxf":
-            from geneva_cli.output.reading.dxf_pieces import read_dxf
+            from geneva_cli.output.foreign.dxf_pieces import read_dxf
 
             drawn = read_dxf(data)
         else:
-            from geneva_cli.output.reading.svg_pieces import read_svg
+            from geneva_cli.output.foreign.svg_pieces import read_svg
 
             drawn = read_svg(data)
         _require_usable(drawn.pieces)
