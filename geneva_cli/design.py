@@ -33,6 +33,7 @@ from geneva_cli.spec.tables import (
     Load,
     Mass,
     Motor,
+    Outline,
     Product,
     RollerMaterial,
     Shaft,
@@ -156,6 +157,7 @@ class Design:
         product: Product | None = None,
         limits: Limits | None = None,
         drawing: TitleBlock | None = None,
+        outline: Outline | None = None,
         title: str = "",
         drive_before: Drive | None = None,
     ) -> None:
@@ -780,7 +782,16 @@ class Design:
         """
         from geneva_cli.verdict.checks import proofs
 
-        return [*self._judged, *proofs(self.parts)]
+        return self._judged if self.is_drawn else [*self._judged, *proofs(self.parts)]
+
+    @property
+    def is_drawn(self) -> bool:
+        """True if drawings replace the outlines of its parts: ``[outline]``.
+
+        >>> Design(External(6), outline=Outline(wheel="wheel.dxf")).is_drawn
+        True
+        """
+        return self.spec.outline.is_given
 
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
@@ -803,6 +814,9 @@ class Design:
         """Every check but the proof."""
         from geneva_cli.verdict.advice import judged
 
+        if self.is_drawn:
+            rows: list[Check] = load_extra("outline", "checks")(self.mechanism)
+            return rows
         # a machine without parts is judged without NumPy
         return judged(self.mechanism, self.parts if self.spec.is_turned else None)
 
@@ -885,6 +899,9 @@ class Design:
         from geneva_cli.verdict.both_directions import all_warnings
         from geneva_cli.verdict.warnings import warnings
 
+        if self.is_drawn:
+            notes: list[Notice] = load_extra("outline", "warnings")(self.mechanism)
+            return notes
         # the other direction's would be called backwards, which this one is
         return (warnings if self.is_backwards else all_warnings)(self.parts)
 
