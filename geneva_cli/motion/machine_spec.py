@@ -23,6 +23,7 @@ from geneva_cli.spec.tables import (
     Load,
     Mass,
     Motor,
+    Outline,
     Product,
     RollerMaterial,
     Shaft,
@@ -102,6 +103,7 @@ class Spec(SpecTable):
     product: Product = field(default_factory=Product)
     limits: Limits = field(default_factory=Limits)
     drawing: TitleBlock = field(default_factory=TitleBlock)
+    outline: Outline = field(default_factory=Outline)
     title: str = ""
     path: str = ""
     files: tuple[str, ...] = ()

@@ -664,6 +664,41 @@ class TitleBlock(SpecTable):
     ] = None
 
 
+class Outline(SpecTable):
+    """``[outline]``: drawings of wheel and crank that replace the computed outlines.
+
+    >>> Outline(wheel="wheel.dxf").is_given, Outline().is_given
+    (True, False)
+    """
+
+    TABLE: ClassVar[str] = "outline"
+
+    wheel: Annotated[str | None, None, "the wheel: a .dxf or .svg file, its axis at the origin"] = (
+        None
+    )
+    crank: Annotated[
+        str | None, None, "the crank: a file, its axis at the origin, the first roller on +x"
+    ] = None
+    wheel_turn_deg: Annotated[float, Range(-360.0, 360.0), "turn the wheel's drawing by this"] = 0.0
+    crank_turn_deg: Annotated[float, Range(-360.0, 360.0), "turn the crank's drawing by this"] = 0.0
+    mirror: Annotated[
+        str, OneOf(("none", "wheel", "crank", "both")), "drawings seen from the other side"
+    ] = "none"
+    slack_mm: Annotated[
+        float | None, Range(1e-9, 1.0), "overlap that counts as touching; default 1e-6 or 1e-3"
+    ] = None
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The names of the drawings."""
+        return tuple(name for name in (self.wheel, self.crank) if name is not None)
+
+    @property
+    def is_given(self) -> bool:
+        """True if a drawing replaces an outline."""
+        return bool(self.files)
+
+
 class Limits(SpecTable):
     """``[limits]``: limits that ``geneva check`` compares the design with.
 
@@ -722,6 +757,7 @@ PLAIN: dict[str, type[SpecTable]] = {
     "tolerance": Tolerance,
     "product": Product,
     "drawing": TitleBlock,
+    "outline": Outline,
     "limits": Limits,
 }
 LISTS = ("mass",)

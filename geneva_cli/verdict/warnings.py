@@ -64,7 +64,7 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
         yield Notice(
             "bent-parts",
             f"a {spec.size.process} cuts flat plates, but these parts are shells of a sphere: cut "
-            "them laid flat (geneva help spherical-sheet) and roll them to their cones, or set "
+            "them laid flat (geneva help drawing-sheet) and roll them to their cones, or set "
             'process = "mill" or "print"',
         )
     yield from _small_holes(named, shop.hole)
