@@ -362,6 +362,9 @@ class Design:
         """
         from geneva_cli.motion.peaks import peaks_table
 
+        if self.is_drawn:
+            own: Table = load_extra("outline", "peaks")(self.mechanism)
+            return own
         return peaks_table(self.mechanism)
 
     @question
@@ -422,6 +425,11 @@ class Design:
         """
         from geneva_cli.motion.motion_table import knots_deg, motion_table, periods, turns_table
 
+        if self.is_drawn:
+            if turns is not None:
+                raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
+            own: Table = load_extra("outline", "motion")(self.mechanism, samples)
+            return own
         if turns is None:
             return motion_table(self.mechanism, samples)
         count = periods(self.mechanism, turns)
