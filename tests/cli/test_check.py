@@ -57,8 +57,11 @@ def test_a_headline_counts_warnings() -> None:
 def test_json_has_the_warnings_and_strict_obeys_them() -> None:
     found = run(PLAIN, TURRET, "--format", "json")
     tree = json.loads(found.stdout)
-    assert list(tree) == ["rows", "passes", "warnings"]
+    assert list(tree) == ["rows", "passes", "warnings", "chosen"]
     assert tree["passes"] is True
+    assert list(tree["chosen"]) == [PLAIN, TURRET] and tree["chosen"][PLAIN] == {}
+    pin = tree["chosen"][TURRET]["size.pin_mm"]
+    assert pin == {"value": 12.0, "was": None, "why": "by load: 202.5 N on the pin"}
     (warning,) = tree["warnings"]
     assert list(warning) == ["spec", "name", "text"]
     assert (warning["spec"], warning["name"]) == (TURRET, "wheel-left-out")

@@ -233,6 +233,8 @@ def test_unusual_but_right(text):
 def test_no_file():
     refused(run("peaks", "gone.toml"), "No such file", "geneva new", place="gone.toml: ")
     refused(run("peaks", ""), "No such file", place="'': ")
+    copy = "geneva new --from-design turret -o turret.toml"
+    refused(run("peaks", "elsewhere/turret.toml"), copy, place="elsewhere/turret.toml: ")
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="no /dev/zero here")

@@ -93,6 +93,7 @@ ROWS = [
     Row("profile press-straight.toml --part sheet --format pdf", "tomli numpy"),
     Row("profile press-straight.toml --part sheet --format dxf", "tomli numpy ezdxf json"),
     Row("export --help", "numpy"),
+    Row("size turret.toml", "tomli numpy"),
     Row("report press-straight.toml", "tomli numpy"),
     Row("report spherical-z6.toml", "tomli numpy"),  # its loads
     Row("report press-curved.toml", "tomli numpy"),

@@ -16,7 +16,8 @@ from windows import COLUMNS, bare, look_at_page, look_at_table, require_width
 
 from geneva_cli import output
 from geneva_cli.cli.app import COMMANDS, app
-from geneva_cli.manual import TOPICS, page
+from geneva_cli.cli.pages import page
+from geneva_cli.manual import TOPICS
 from geneva_cli.output.terminal.layout import Window, value
 from geneva_cli.output.terminal.terminal_tables import chunks
 from geneva_cli.table import record_table, rows_table

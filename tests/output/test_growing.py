@@ -20,11 +20,15 @@ def path(tmp_path):
     return str(tmp_path / "rows.csv")
 
 
+def add(file, text):
+    file.append(text.encode(), text.count("\n"))
+
+
 def begun(path, *blocks, header=HEADER):
     """What a stopped run leaves."""
     with closing(GrowingFile(path, header, KEY, False)) as file:
         for block in blocks:
-            file.append(block)
+            add(file, block)
 
 
 def change(path, old, new):
@@ -41,7 +45,7 @@ def resumed(path, *blocks, header=HEADER):
     with closing(GrowingFile(path, header, KEY, True)) as file:
         done, message = file.done, file.message
         for block in blocks:
-            file.append(block)
+            add(file, block)
         file.finish()
     return done, message, read(path)
 
@@ -51,7 +55,7 @@ def test_it_is_there_only_when_it_is_whole(path):
         file.write("old")
     os.chmod(path, 0o640)  # Windows knows no groups
     with closing(GrowingFile(path, HEADER, KEY, False)) as file:
-        file.append("1,2\n")
+        add(file, "1,2\n")
         assert read(path) == "old"
         file.finish()
     assert read(path) == "a,b\n1,2\n"
@@ -105,7 +109,7 @@ def test_a_block_that_is_lost_doubled_or_moved_is_noticed(path):
 def test_a_state_that_is_changed_meanwhile_does_not_become_the_file(path):
     with closing(GrowingFile(path, HEADER, KEY, False)) as file:
         for block in THREE:
-            file.append(block)
+            add(file, block)
         change(path, b"5,6", b"5,7")
         with pytest.raises(GenevaError, match="somebody has changed this file"):
             file.finish()
@@ -149,7 +153,7 @@ import sys
 from contextlib import closing
 from geneva_cli.output.growing import GrowingFile
 with closing(GrowingFile(sys.argv[1], "a,b\\n", "request", False)) as file:
-    file.append("1,2\\n")
+    file.append(b"1,2\\n", 1)
     print("held", flush=True)
     sys.stdin.readline()
     file.finish()
@@ -189,7 +193,7 @@ def whole(path, *lines):
     """A file made by a run that may be asked for again."""
     with closing(GrowingFile(path, HEADER, KEY, True)) as file:
         for line in lines:
-            file.append(line)
+            add(file, line)
         file.finish()
 
 

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from contextlib import closing
 
+import numpy as np
 import pytest
 import repo
 from typer.testing import CliRunner
@@ -86,8 +87,8 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     state = tmp_path / "rows.csv.geneva"
     header, *rows = whole.splitlines(keepends=True)
     with closing(GrowingFile(str(file), header, request(SPEC, GRID).key, False)) as left:
-        left.append("".join(rows[:2]))
-        left.append(rows[2])
+        left.append("".join(rows[:2]).encode(), 2)
+        left.append(rows[2].encode(), 1)
     half = state.read_bytes()[:-20]
     state.write_bytes(half)
     resumed = geneva(*arguments, "-o", str(file), "--resume")
@@ -125,13 +126,23 @@ def test_no_input_is_written_over(tmp_path, monkeypatch, arguments):
     assert {name: (tmp_path / name).read_text(encoding="utf-8") for name in os.listdir()} == files
 
 
-def test_parquet_holds_the_same(tmp_path):
+def parquet(path):
+    """The schema of a file, and its rows."""
     from pyarrow import parquet
 
+    table = parquet.read_table(path)
+    return dict(zip(table.schema.names, map(str, table.schema.types), strict=True)), (
+        table.to_pylist()
+    )
+
+
+def test_parquet_holds_the_same(tmp_path):
     file = tmp_path / "rows.parquet"
     arguments = ["sweep", SPEC, "--vary", GRID[0], "--vary", "motion.law=cycloidal,3-4-5"]
     assert geneva(*arguments, "-o", str(file)).exit_code == 0
-    found = parquet.read_table(file).to_pylist()
+    types, found = parquet(file)
+    assert {name for name, own in types.items() if own == "string"} == {"motion.law", "error"}
+    assert set(types.values()) == {"string", "double"}
     printed = list(csv.DictReader(io.StringIO(geneva(*arguments).stdout)))
     assert len(found) == len(printed) == 8
     for row, text in zip(found, printed, strict=True):
@@ -139,6 +150,34 @@ def test_parquet_holds_the_same(tmp_path):
         assert (row["velocity.max"] is None) == (text["velocity.max"] == "")
         assert row["velocity.max"] is None or row["velocity.max"] == float(text["velocity.max"])
     assert os.listdir(tmp_path) == ["rows.parquet"]
+
+
+def test_parquet_of_no_rows_has_its_columns(tmp_path):
+    file = tmp_path / "none.parquet"
+    none = ["--vary", "drive.A=0,0.5", "--subject-to", "dwell_s >= 5", "-o", str(file)]
+    assert geneva("sweep", SPEC, *none).exit_code == 0
+    types, found = parquet(file)
+    assert found == [] and types["timing.dwell_s"] == "double" and types["error"] == "string"
+
+
+def test_types_of_a_column_follow_from_all_blocks(tmp_path):
+    """Numbers that one block has and words of another are words; whole numbers are numbers."""
+    from geneva_cli.output.growing import GrowingTable
+
+    path = str(tmp_path / "rows.parquet")
+    with closing(GrowingTable(["a", "b", "c", "d"], "key", True, path)) as rows:
+        rows.append([np.array([4, 6]), [True, None], [None, None], np.array([1, 2])])
+        rows.append([["x", None], [None, None], [1.0, None], np.array([0.5, np.inf])])
+        rows.finish()
+    assert parquet(path) == (
+        {"a": "string", "b": "bool", "c": "double", "d": "double"},
+        [
+            {"a": "4", "b": True, "c": None, "d": 1.0},
+            {"a": "6", "b": None, "c": None, "d": 2.0},
+            {"a": "x", "b": None, "c": 1.0, "d": 0.5},
+            {"a": None, "b": None, "c": None, "d": None},
+        ],
+    )
 
 
 @pytest.mark.sampled(6)

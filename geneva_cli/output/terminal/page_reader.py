@@ -23,6 +23,7 @@ from geneva_cli.output.text import WIDTH
 
 FENCE = "```"
 INDENT = "  "  # before code
+PROSE = 20  # letters to which a column of prose is narrowed before a table becomes a list
 LINK = re.compile(r"\[([^]]+)\]\([^)]*\)")
 CODE = re.compile(r"`([^`]+)`|\*\*([^*]+)\*\*")
 
@@ -95,7 +96,7 @@ def _table(block: list[str], window: Window) -> Iterator[str]:
     columns = [
         ShownColumn(name, name, "", cells, True) for name, *cells in zip(names, *rows, strict=True)
     ]
-    sizes = widths(columns, window.columns)
+    sizes = widths(columns, window.columns, PROSE)
     if sizes is not None:
         yield from heads(columns, sizes, window.styled)
         for texts in rows:
