@@ -12,7 +12,9 @@ from repo import DESIGNS, ROOT
 from geneva_cli import load
 from geneva_cli.manual import page
 
-NOTEBOOK = json.loads((ROOT / "geneva_cli" / "manual" / "howto" / "choosing.ipynb").read_text())
+NOTEBOOK = json.loads(
+    (ROOT / "geneva_cli" / "manual" / "howto" / "choosing.ipynb").read_text(encoding="utf-8")
+)
 
 
 def displayed(source, names):

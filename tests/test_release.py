@@ -11,14 +11,14 @@ from geneva_cli.cli.app import app
 
 def test_the_citation_and_the_changes_name_this_version():
     version = geneva_cli.__version__
-    citation = (ROOT / ".github/CITATION.cff").read_text()
-    changes = (ROOT / ".github/CHANGELOG.md").read_text()
+    citation = (ROOT / ".github/CITATION.cff").read_text(encoding="utf-8")
+    changes = (ROOT / ".github/CHANGELOG.md").read_text(encoding="utf-8")
     assert f"\nversion: {version}\n" in citation
     assert re.search(r"^## (\S+?),? ", changes, re.M)[1] == version
 
 
 def test_the_changes_name_every_command():
-    changes = (ROOT / ".github/CHANGELOG.md").read_text()
+    changes = (ROOT / ".github/CHANGELOG.md").read_text(encoding="utf-8")
     commands = set(get_command(app).commands)
     assert {name for name in commands if f"`{name}`" not in changes} == set()
 

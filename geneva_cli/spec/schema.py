@@ -221,7 +221,7 @@ def shortly(record: object) -> str:
         value = getattr(record, one.name)
         factory = one.default_factory
         default = one.default if factory is dataclasses.MISSING else factory()
-        if value != default:
+        if one.repr and value != default:
             text = shortly(value) if dataclasses.is_dataclass(value) else repr(value)
             arguments.append(f"{one.name}={cut(text, SHOWN_MAX)}")
     return f"{type(record).__name__}({', '.join(arguments)})"

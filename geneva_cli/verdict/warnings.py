@@ -164,7 +164,7 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
 
 def turn_warnings(parts: Parts) -> Iterator[Notice]:
     """Warnings about the parts' whole turn; none without such a turn."""
-    if not parts.mechanism.spec.is_turned:
+    if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return
     try:
         turn = parts.turned.turn

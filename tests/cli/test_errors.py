@@ -426,7 +426,7 @@ def test_an_option_of_one_value_is_given_once(arguments, option):
 def test_the_installed_command(arguments, place):
     """The same through a real process, whose streams and exit code a script would see."""
     write("spec.toml", "[wheel]\nz = 2\n")
-    found = subprocess.run([GENEVA, *arguments], capture_output=True, text=True)
+    found = subprocess.run([GENEVA, *arguments], capture_output=True, encoding="utf-8")
     assert (found.returncode, found.stdout) == (2, "")
     assert found.stderr.startswith(place)
     assert "Traceback" not in found.stderr

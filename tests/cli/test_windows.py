@@ -3,13 +3,10 @@
 What the manual's commands print is looked at where test_manual.py runs them.
 """
 
-import fcntl
 import os
-import pty
 import random
 import struct
 import subprocess
-import termios
 
 import pytest
 import repo
@@ -41,6 +38,10 @@ def seen(monkeypatch, columns, *words):
 
 def on_a_terminal(columns, environment, *words):
     """The same in a process of its own, on a pseudo-terminal."""
+    import fcntl
+    import pty
+    import termios
+
     master, slave = pty.openpty()
     fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     kept = {k: v for k, v in os.environ.items() if k not in ("COLUMNS", "NO_COLOR", "TERM")}
@@ -62,6 +63,7 @@ def test_pages_fit(topic):
     look_at_page(page(topic))
 
 
+@repo.posix("pseudo-terminals")
 @pytest.mark.long
 @pytest.mark.parametrize("environment", LOOKS, ids=str)
 def test_a_terminal_itself_says_how_wide_it_is(environment):
