@@ -6,13 +6,13 @@ from functools import cache
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.manual import TOPICS, search
+from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import GROUPS, Entry, entries
 from geneva_cli.motion import registry
 from geneva_cli.names import SHORT_UNITS, UNITS, described, heading, spoken, unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 
-TEXTS = ("why", "formula", "source", "to_do", "bad", "good")  # of an entry, as it has them
+TEXTS = ("formula", "source", "to_do")  # of an entry, as it has them
 UNIT_WORDS = {*UNITS.values(), *SHORT_UNITS.values(), "°"}  # behind a heading's comma
 CHECKS, INPUTS = "checks.", "inputs."  # beginnings of a report's names of checks and of keys
 
@@ -23,13 +23,10 @@ class Meaning(NamedTuple):
     group: str
     name: str
     meaning: str
-    why: str | None = None
     unit: str | None = None
     formula: str | None = None
     source: str | None = None
     to_do: str | None = None
-    bad: str | None = None  # a command that shows it
-    good: str | None = None  # the command after the repair
     manual: str | None = None  # the commands that show its pages
 
 
@@ -80,9 +77,7 @@ def _printed(name: str) -> frozenset[frozenset[str]]:
 def related(word: str) -> list[tuple[str, str, str]]:
     """Group, name and a sentence of everything that a word is part of, as ``listed`` has them.
 
-    The word may be a group, such as ``checks``. Names and headings come before texts; a word that
-    no text has is looked for in the manual. Raises GenevaError, with the nearest name, if it stands
-    nowhere.
+    The word may be a group, such as ``checks``. Names and headings come before texts.
 
     >>> len(related("laws")), related("loads")[0][:2]
     (12, ('quantity', 'loads.omega_rad_s'))
@@ -97,16 +92,18 @@ def related(word: str) -> list[tuple[str, str, str]]:
     found = [
         one for place in (0, 1) for one in texts if all(w in texts[one][place] for w in wanted)
     ]
-    found = found or [("page", f"help {hit.topic}", hit.line) for hit in search(word)]
-    if not found:
-        known = names()
-        known += [CHECKS + n for e in entries() if e.group == "check" for n in e.names]
-        among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
-        raise GenevaError(
-            f'"{cut(word)}" is not a check, quantity, kind, law, warning, part, choice or '
-            f"key{nearest(word, among)}; `geneva explain` lists them"
-        )
     return list(dict.fromkeys(found))
+
+
+def unknown(word: str) -> GenevaError:
+    """The error for a word that stands nowhere, with the nearest name."""
+    known = names()
+    known += [CHECKS + n for e in entries() if e.group == "check" for n in e.names]
+    among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
+    return GenevaError(
+        f'"{cut(word)}" is not a check, quantity, kind, law, warning, part, choice or '
+        f"key{nearest(word, among)}; `geneva explain` lists them"
+    )
 
 
 def groups() -> list[tuple[str, int, str, str]]:

@@ -28,6 +28,7 @@ def run(
     format: Format = "",
 ) -> None:
     """Explain a word of the output: meaning, formula, unit, source, what to do, manual page."""
+    from geneva_cli.cli.pages import search
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.output.formats import is_for_people
     from geneva_cli.specfile.meanings import (
@@ -37,12 +38,12 @@ def run(
         listed,
         meanings,
         related,
+        unknown,
     )
     from geneva_cli.table import Reading, rows_table
 
     word, names = " ".join(words or ()), ("group", "name", "about")
     people = is_for_people(output, format)
-    reading = Reading(names[1:])
     if not word and people:
         title = "`geneva explain WORD` says what a word of any output means; these are explained:"
         shown = rows_table(("words", "number", "about", "such_as"), groups(), title)
@@ -52,12 +53,14 @@ def run(
         show(rows_table(names, listed()), output, format)
         return
     entries = meanings(word)
-    if not people:
-        whole = rows_table(Meaning._fields, entries)
-        show(whole if entries else rows_table(names, related(word)), output, format)
-    elif not entries:
-        table = rows_table(names, related(word), f"{word}: `geneva explain NAME` says more.")
-        show(table.replaced(reading=reading), output, format)
+    if not entries:
+        found = related(word) or [("page", f"help {hit.topic}", hit.line) for hit in search(word)]
+        if not found:
+            raise unknown(word)
+        title = f"{word}: `geneva explain NAME` says more." if people else ""
+        show(rows_table(names, found, title).replaced(reading=Reading(names[1:])), output, format)
+    elif not people:
+        show(rows_table(Meaning._fields, entries), output, format)
     elif output == "-":
         show_markdown(as_markdown(entries))
     else:

@@ -22,7 +22,8 @@ def run(
     ] = None,
 ) -> None:
     """Show a page of the manual, the options of a command, or all places of a word."""
-    from geneva_cli.manual import TOPICS, Hit, contents, page, search
+    from geneva_cli.cli.pages import Hit, page, search
+    from geneva_cli.manual import TOPICS, contents
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.table import Reading, rows_table
 

@@ -17,6 +17,7 @@ from geneva_cli.output.text import WIDTH, cell
 from geneva_cli.table import for_people
 
 GAP = "  "  # between two columns
+PROSE = 28  # letters to which a column of prose is narrowed before another column is omitted
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 
 
@@ -30,12 +31,12 @@ class ShownColumn(NamedTuple):
     is_text: bool
     decides: bool = False  # it is never left out
 
-    def least(self, narrow: int) -> int:
-        """Least width in letters to which it can be narrowed, ``narrow`` for prose."""
+    def least(self, prose: int = PROSE) -> int:
+        """Least width in letters to which it can be narrowed; of prose at least ``prose``."""
         if not self.is_prose():
             return self.natural()
-        narrow = min(narrow, 12) if self.decides else narrow
-        return max([min(self.natural(), narrow), *map(width_of, self._words())])
+        prose = min(prose, 12) if self.decides else prose
+        return max([min(self.natural(), prose), *map(width_of, self._words())])
 
     def natural(self) -> int:
         """Width in letters of its longest cell, and of its heading broken between words."""
@@ -91,16 +92,13 @@ def _parts(word: str, width: int) -> list[str]:
     return re.split(r"(?<=[/,=])|(?<=::)", word)  # behind a sign
 
 
-NARROW = 28  # letters to which prose is narrowed before another column is omitted
-
-
-def widths(columns: Sequence[ShownColumn], width: int, narrow: int = NARROW) -> list[int] | None:
+def widths(columns: Sequence[ShownColumn], width: int, prose: int = PROSE) -> list[int] | None:
     """The columns' widths, the widest prose narrowed first; None if they exceed ``width``."""
     sizes = [column.natural() for column in columns]
     spare = width - len(GAP) * (len(columns) - 1) - sum(sizes)
     if spare >= 0:
         return sizes
-    least = [column.least(narrow) for column in columns]
+    least = [column.least(prose) for column in columns]
     if sum(least) - sum(sizes) > spare:
         return None
     while spare < 0:
@@ -118,9 +116,9 @@ def fitting(
     kept = list(columns)
     while True:
         others = [column for column in kept if not column.decides and column.name != order[0]]
-        sizes = widths(kept, width, NARROW if len(others) > 1 else 18)
+        sizes = widths(kept, width, PROSE if len(others) > 1 else 18)
         if sizes is not None or not others:
-            return kept, sizes or [column.least(NARROW) for column in kept]
+            return kept, sizes or [column.least(PROSE) for column in kept]
         kept.remove(max(others, key=lambda column: rank[column.name]))
 
 
