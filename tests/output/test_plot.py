@@ -264,6 +264,20 @@ def test_a_dot_of_a_png(draws, across, monkeypatch):
     assert share.sum() == pytest.approx(math.pi / 4.0 * (across * scale) ** 2, rel=0.05)
 
 
+def test_letters_of_a_png_are_drawn():
+    """By the font of the extra, whatever fonts the machine has: a wider text has more ink."""
+    panel = Panel(Axis("velocity", "Velocity"), (Curve(1, "one", (([0.0], [0.0]),)),))
+    titles = ("", "W", "WWWW")
+    drawn = [
+        imread(
+            io.BytesIO(plot_png.png_bytes(Figure(title, Axis("x", "x"), (panel,), (0.0, 1.0), ())))
+        )
+        for title in titles
+    ]
+    none, one, four = ((1.0 - pixels[:, :, :3]).sum() for pixels in drawn)
+    assert four - none == pytest.approx(4.0 * (one - none), rel=0.02) and one > none + 100.0
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("kind", [("png", b"\x89PNG"), ("pdf", b"%PDF")], ids=lambda k: k[0])
 def test_pictures(kind, tmp_path):

@@ -196,7 +196,7 @@ def _units_by_row(
     table: Table, rows: Sequence[Sequence[Any]], naming: Sequence[str]
 ) -> Sequence[str]:
     """The unit of each row's values, from its column of units or from the row's name."""
-    for name in ("unit", *naming):
+    for name in ("unit", *naming, "key"):
         if name in table.names:
             cells = [str(row[table.names.index(name)] or "") for row in rows]
             return cells if name == "unit" else [spoken(cell)[1] for cell in cells]
