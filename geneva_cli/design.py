@@ -816,7 +816,7 @@ class Design:
         from geneva_cli.verdict.checks import proofs
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
-        require_mm("--proof", to_mm, allowed, "the roller's radius")
+        require_mm("--certify", to_mm, allowed, "the roller's radius")
         return [*self._judged, *proofs(self.parts, to_mm)]
 
     @answer
