@@ -5,6 +5,7 @@ On Windows itself the same runs take place with nothing left out.
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -18,6 +19,8 @@ from typer.testing import CliRunner
 from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.output.formats import DOCUMENTS, DRAWN, FORMATS, PICTURES, SHEETS
 
+# as in as_windows.py, whose import hides them
+MODULES = "fcntl", "resource", "termios", "pty", "pwd", "grp", "tty", "curses", "readline"
 LAUNCHER = [sys.executable, str(repo.TESTS / "as_windows.py")]
 LINES = """
 table --z 6 -o table.txt
@@ -88,6 +91,15 @@ def results(lines):
 
 def unfinished():
     return [name for name in os.listdir() if name.startswith(".") or name.endswith(".geneva")]
+
+
+def test_no_test_imports_what_windows_lacks():
+    """At its top: a function of a test that is marked for it may."""
+    top = re.compile(rf"^(?:import|from) (?:{'|'.join(MODULES)})\b", re.MULTILINE)
+    files = [*repo.TESTS.rglob("*.py")]
+    assert len(files) > 100
+    wrong = [file for file in files if top.search(file.read_text(encoding="utf-8"))]
+    assert wrong == []
 
 
 def test_every_command_and_format():
