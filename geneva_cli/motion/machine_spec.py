@@ -13,6 +13,7 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.records import CRANK, named, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import all_true
+from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import SpecTable, refuse_kind
 from geneva_cli.spec.tables import (
@@ -102,6 +103,7 @@ class Spec(SpecTable):
     tolerance: Tolerance = field(default_factory=Tolerance)
     product: Product = field(default_factory=Product)
     limits: Limits = field(default_factory=Limits)
+    accept: Accept = field(default_factory=Accept)
     drawing: TitleBlock = field(default_factory=TitleBlock)
     outline: Outline = field(default_factory=Outline)
     title: str = ""
@@ -355,7 +357,7 @@ class Spec(SpecTable):
         >>> Spec(External(6)).moving[-1]
         100.0
         """
-        size, built = self.size, ()
+        size, built = self.size, tuple[object, ...]()
         if size.crank_radius_mm is not None and size.center_distance_mm is not None:
             # a crank as built enters where its roller crosses the slot's axis inside the rim
             built = (size.crank_radius_mm, size.wheel_radius_mm, size.roller_radius_mm)

@@ -306,5 +306,5 @@ def _as_built(spec: Spec) -> Plan | None:
     if place is None:
         return None
     if not isinstance(off, bool):
-        place = choose_record(off, place, as_derived(derived, wheel.SIGN))
+        place = choose_record(off, place, as_derived(derived))
     return spec.drive.as_built(wheel, place, L)

@@ -8,9 +8,10 @@ import numpy as np
 
 from geneva_cli.loads.tolerance.dimensions import Deviations
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.engagement import AsBuilt
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.wheels.as_built import RestingSlot
-from geneva_cli.numerics.arrays import Array, Mask, array
+from geneva_cli.numerics.arrays import Array, Mask, array, parameter
 
 
 class BuiltJump(NamedTuple):
@@ -20,7 +21,8 @@ class BuiltJump(NamedTuple):
     line of centres where the crank has turned by ``at_deg``.
     """
 
-    slot: RestingSlot
+    built: AsBuilt
+    sign: float
     offset: float
     L: float
     R: float
@@ -34,10 +36,11 @@ class BuiltJump(NamedTuple):
         """
         L = np.atleast_1d(array(by.center_distance_mm.c[0] + self.L))
         l = (by.crank_radius_mm.c[0] + self.R) / L
-        across = np.sin(self.slot.angle) - self.offset / L
+        across = np.sin(self.built.angle) - self.offset / L
         missed: Mask = abs(across) > l
         with np.errstate(all="ignore"):  # of machines that miss it
-            here = self.slot._replace(l=l, across=across)
+            own = self.built
+            here = RestingSlot(self.sign, parameter(l), own.angle, parameter(across), own.outer)
             rate = self.drive.crank_rate(array(here.crank_deg) + self.at_deg)
             jump = abs(here.velocity) * rate
         return np.where(missed, 0.0, jump), missed
@@ -51,5 +54,6 @@ def built_jumps(mechanism: Mechanism) -> list[BuiltJump]:
             angles = drive.roller_angles_deg
             at_deg = angles[i] if angles else 360.0 * i / drive.rollers
             offset, R = L * engagement.slot.offset, L * mechanism.ratio
-            out.append(BuiltJump(engagement.built.first, offset, L, R, drive, at_deg))
+            sign = mechanism.spec.wheel.SIGN
+            out.append(BuiltJump(engagement.built, sign, offset, L, R, drive, at_deg))
     return out

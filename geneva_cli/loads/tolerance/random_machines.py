@@ -11,7 +11,7 @@ import numpy as np
 
 from geneva_cli.loads.impacts.impacts import arm_mm
 from geneva_cli.loads.impacts.shock import RestingAxis
-from geneva_cli.loads.tolerance.built_jump import built_jumps
+from geneva_cli.loads.tolerance.built_jump import BuiltJump, built_jumps
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
 from geneva_cli.loads.tolerance.locking import CutLock
 from geneva_cli.loads.tolerance.motion_error import MotionError
@@ -53,10 +53,6 @@ class Draws(NamedTuple):
         # The plus or minus is three standard deviations; a quantile of 0 would be infinite.
         out: Array = ndtri(np.maximum(quantile, 2.0**-53)) / 3.0
         return out
-
-
-# sizes of the jumps at entry, and which machines miss their slot's axis, for deviations
-EntryJump: TypeAlias = Callable[[Deviations], tuple[Array, Mask]]
 
 
 class RandomMachines(NamedTuple):
@@ -219,6 +215,9 @@ class EntryJumpFunction(NamedTuple):
             jump[here] = np.nan_to_num(speed / lever)
             missed[here] = np.isnan(speed)
         return jump, missed
+
+
+EntryJump: TypeAlias = EntryJumpFunction | BuiltJump
 
 
 def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:

@@ -22,6 +22,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.engagement import AsBuilt
 from geneva_cli.motion.wheels.gearing import RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, middle
 from geneva_cli.numerics.arrays import Truth, choose, choose_record, larger, library, smaller
@@ -75,27 +76,6 @@ class RestingSlot(NamedTuple):
         s, c = m.sin(self.angle), m.cos(self.angle)
         return m.degrees(m.atan2(x * s + y * c, (y * s - x * c) * self.sign))
 
-    def pose(self, wheel: float) -> PinPose:
-        """Pose of the pin at the crossing, where the wheel's angle is ``wheel``, radians."""
-        x, y = self.beyond, self.across
-        slope = self.sign * y, -self.sign * x
-        return PinPose(self.crank_deg, wheel, self.along, slope, (-x, -y))
-
-
-class AsBuilt(NamedTuple):
-    """A roller's place on a crank as built.
-
-    ``crosses`` is true if the roller's centre crosses the axis of the slot at rest inside the rim,
-    before and after its motion. ``gained`` is the wheel's angle beyond its next rest, radians, at
-    which the centre leaves the rim. ``mouth`` is the distance of the perpendicular from the crank's
-    axis to a radial slot at rest. ``first`` is the slot at rest before the motion.
-    """
-
-    crosses: Truth
-    gained: float
-    mouth: float
-    first: RestingSlot
-
 
 def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> RollerPlace:
     """Place of a roller on a crank radius l in slots of offset e, on a wheel with a ``rim``.
@@ -116,7 +96,7 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     inside = reaches & first.is_inside(e, rim) & last.is_inside(e, rim)
     half, tilt = 0.5 * (last.angle - first.angle), 0.5 * (last.angle + first.angle)
     half = choose(reaches, step.b, half)
-    entry, exit_ = first.pose(-half), last.pose(half)
+    entry, exit_ = _pose(first, -half), _pose(last, half)
     mid, skew, m = middle(sign, l, 1.0 - sign * l), None, library(l, e, rim)
     if not radial:
         deepest = m.sqrt((1.0 - l - e) * (1.0 - l + e))
@@ -131,16 +111,14 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
         (entry, mid, exit_),
         l,
         skew,
-        built=AsBuilt(inside, leaves - tilt - step.b, step.sin_cos[1], first),
+        built=AsBuilt(inside, leaves - tilt - step.b, first.angle, first.outer),
     )
 
 
-def as_derived(place: RollerPlace, sign: float) -> RollerPlace:
+def as_derived(place: RollerPlace) -> RollerPlace:
     """A place of a crank whose R/L is what its slots need, as one of a crank as built."""
     skew, b = place.skew, place.step.b
-    angle = (skew.tilt if skew else 0.0) - b
-    first = RestingSlot(sign, place.ratio, angle, -place.ratio)
-    built = AsBuilt(True, 0.0 * b, place.step.sin_cos[1], first)
+    built = AsBuilt(True, 0.0 * b, (skew.tilt if skew else 0.0) - b, False)
     return place._replace(closed=None, built=built)
 
 
@@ -178,3 +156,10 @@ def _offset(
     first = -choose(tangent_exit, near, far), -choose(tangent_exit, across, l)
     last = choose(tangent_exit, far, near), choose(tangent_exit, l, across)
     return RestingSlot(sign, l, *first), RestingSlot(sign, l, *last), reaches
+
+
+def _pose(slot: RestingSlot, wheel: float) -> PinPose:
+    """Pose of the pin at the crossing, where the wheel's angle is ``wheel``, radians."""
+    x, y = slot.beyond, slot.across
+    slope = slot.sign * y, -slot.sign * x
+    return PinPose(slot.crank_deg, wheel, slot.along, slope, (-x, -y))

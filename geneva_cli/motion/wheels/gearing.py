@@ -17,9 +17,8 @@ from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
+    from geneva_cli.motion.engagement import AsBuilt, Displacement, Slot, WheelMotion
     from geneva_cli.motion.plane_motion import PlaneMotion
-    from geneva_cli.motion.wheels.as_built import AsBuilt
 
 
 # The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
