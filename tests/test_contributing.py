@@ -14,7 +14,7 @@ PATH = re.compile(r"`([\w./-]+/[\w./-]+)`")
 
 def run(folder, *words):
     python = [sys.executable, "-m", *words]
-    return subprocess.run(python, cwd=folder, capture_output=True, text=True, check=False)
+    return subprocess.run(python, cwd=folder, capture_output=True, encoding="utf-8", check=False)
 
 
 def put(path, block):

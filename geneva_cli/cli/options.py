@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
@@ -76,6 +77,13 @@ Output: TypeAlias = Annotated[str, output_option("FILE", "Write to this file; - 
 Format: TypeAlias = Annotated[
     str, option("FORMAT", one_of(FORMATS), name="--format", complete=FORMATS)
 ]
+
+
+def outline_settings(wheel: str | None, crank: str | None, slack: float | None) -> list[str]:
+    """The settings of ``[outline]`` that options stand for; files are those of this folder."""
+    files = (("wheel", wheel), ("crank", crank))
+    out = [f"outline.{name}={os.path.abspath(path)}" for name, path in files if path is not None]
+    return out if slack is None else [*out, f"outline.slack_mm={slack}"]
 
 
 def warn(design: Design) -> None:

@@ -24,7 +24,7 @@ from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import PinPose, PinTravel, middle
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import parameter
+from geneva_cli.numerics.arrays import Array, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
 
 if TYPE_CHECKING:
@@ -99,6 +99,10 @@ class Transmission(Drive, kw_only=True):
         """Peaks behind this transmission that need no general search; None if there are none."""
         return None
 
+    def crank_rate(self, crank_deg: Array) -> Array | float:
+        """Rate of the crank over its input shaft's at crank angles from mid-motion."""
+        return self.about(parameter(crank_deg)).advance(0.0, 1)[0].c[1]
+
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees.
 
@@ -120,7 +124,10 @@ class Transmission(Drive, kw_only=True):
         """Plan of straight slots, which give the motion; or of curved slots, from a law."""
         if motion is not None:
             return self._curved(wheel, motion, L)
-        rollers = places(wheel, self, L)
+        return self.straight(wheel, places(wheel, self, L), L)
+
+    def straight(self, wheel: Gearing, rollers: list[RollerPlace], L: float) -> Plan:
+        """Plan of straight slots for the places of the rollers on the crank."""
         self._refuse_reach(wheel, rollers[0].reach_deg)
         engagements = tuple(self.follows(wheel, place, L) for place in rollers)
         turn = 360.0 * self.turns
@@ -152,7 +159,16 @@ class Transmission(Drive, kw_only=True):
         rate = -wheel.SIGN * place.cone
         body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
         reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
-        return Engagement(here.input_deg, path, slot, motion, body, reactions, hub=place.hub)
+        return Engagement(
+            here.input_deg,
+            path,
+            slot,
+            motion,
+            body,
+            reactions,
+            hub=place.hub,
+            built=place.built,
+        )
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""

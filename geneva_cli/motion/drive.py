@@ -16,7 +16,7 @@ from geneva_cli.spec.schema import Example, SpecTable
 if TYPE_CHECKING:
     from geneva_cli.motion.laws.law import Law
     from geneva_cli.motion.motion import Motion
-    from geneva_cli.motion.wheels.gearing import Gearing
+    from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
     from geneva_cli.numerics.spline import Doubt
 
@@ -167,6 +167,10 @@ class Drive(SpecTable, kw_only=True):
         """
         return None
 
+    def crank_rate(self, crank_deg: Array) -> Array | float:
+        """Rate of the crank over its input shaft's at crank angles; NaN for a path of its own."""
+        return math.nan
+
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
         return crank_deg
@@ -220,6 +224,13 @@ class Drive(SpecTable, kw_only=True):
             "crank_radius_mm",
             ("size", "crank_radius_mm"),
         )
+
+    def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan | None:
+        """Plan of straight slots for a roller's place on a crank as built; None if it takes none.
+
+        ``L`` is the centre distance, mm. Raises GenevaError if rollers would jam.
+        """
+        return None
 
     @abstractmethod
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:

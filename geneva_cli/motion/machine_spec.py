@@ -24,6 +24,7 @@ from geneva_cli.spec.tables import (
     Load,
     Mass,
     Motor,
+    Outline,
     Product,
     RollerMaterial,
     Shaft,
@@ -104,6 +105,7 @@ class Spec(SpecTable):
     limits: Limits = field(default_factory=Limits)
     accept: Accept = field(default_factory=Accept)
     drawing: TitleBlock = field(default_factory=TitleBlock)
+    outline: Outline = field(default_factory=Outline)
     title: str = ""
     path: str = ""
     files: tuple[str, ...] = ()
@@ -355,7 +357,12 @@ class Spec(SpecTable):
         >>> Spec(External(6)).moving[-1]
         100.0
         """
-        return self.wheel, self.drive, self.drive_before, self.motion, self.given_distance_mm
+        size, built = self.size, tuple[object, ...]()
+        if size.crank_radius_mm is not None and size.center_distance_mm is not None:
+            # a crank as built enters where its roller crosses the slot's axis inside the rim
+            built = (size.crank_radius_mm, size.wheel_radius_mm, size.roller_radius_mm)
+        own = self.wheel, self.drive, self.drive_before, self.motion
+        return (*own, *built, self.given_distance_mm)
 
     @property
     def given_distance_mm(self) -> float:

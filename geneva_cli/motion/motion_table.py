@@ -30,12 +30,20 @@ def motion_columns(mechanism: Mechanism) -> tuple[str, ...]:
     On a carrier the wheel's motion from the ground follows, positive as the carrier turns.
     """
     output = mechanism.output.column
-    own = ("time_s", "input_deg", output, "velocity", "acceleration", "jerk", *_rates(mechanism))
+    own = (
+        "time_s",
+        "input_deg",
+        output,
+        "velocity",
+        "acceleration",
+        "jerk",
+        *rates_at_speed(mechanism),
+    )
     absolute = ("absolute_deg", "absolute_velocity", "absolute_acceleration")
     return (*own, *absolute) if mechanism.frame else own
 
 
-def _rates(mechanism: Mechanism) -> dict[str, float]:
+def rates_at_speed(mechanism: Mechanism) -> dict[str, float]:
     """Names of velocity and acceleration at the spec's speed, and what an invariant becomes there.
 
     Those of a wheel are of its angle, those of a rack of its travel.
@@ -140,9 +148,8 @@ def _columns(mechanism: Mechanism, input_deg: Array, periods: int) -> list[Array
     turned = periods * math.fsum(2.0 * one.half_step for one in mechanism.engagements)
     shown = (wheel + turned) * mechanism.output.per_radian
     columns = [times_s(mechanism, input_deg), input_deg, shown, *rates]
-    columns += [
-        rate * scale for rate, scale in zip(rates, _rates(mechanism).values(), strict=False)
-    ]
+    of_speed = rates_at_speed(mechanism).values()
+    columns += [rate * scale for rate, scale in zip(rates[:2], of_speed, strict=True)]
     if mechanism.frame:
         sense = mechanism.spec.wheel.SIGN
         columns.append(mechanism.absolute_deg(input_deg, shown))

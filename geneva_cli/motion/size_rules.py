@@ -85,16 +85,21 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
 
 
 def _refuse_two_ratios(spec: Spec, L: float, ratio: float) -> None:
-    """Raise GenevaError for a crank radius and a centre distance that contradict each other."""
+    """Raise GenevaError for a crank as built of a kind that needs its own R/L."""
     radius, distance = spec.size.crank_radius_mm, spec.size.center_distance_mm
     if radius is None or distance is None:
         return
     fitting_mm = spec.drive.distance_mm(spec.wheel, spec.motion, radius)
     text = (
-        "{key} = {radius:.9g} needs center_distance_mm = {fitting_mm:.9g}, and "
-        "center_distance_mm = {L:.9g} needs {key} = {own:.9g}: remove one of them"
+        "{key} = {radius:.9g} and center_distance_mm = {L:.9g} have R/L = {given:.6g}, but "
+        "this machine needs {ratio:.6g}; straight slots of an external or internal wheel on a "
+        "crank or a side-crank are taken as built: {key} = {own:.9g}, or center_distance_mm = "
+        "{fitting_mm:.9g}, or leave one of them out"
     )
-    values = {"radius": radius, "fitting_mm": fitting_mm, "L": L, "own": ratio * L}
+    if spec.motion is not None:
+        text += "; or set ratio = {given:.9g} in [motion]"
+    values = {"radius": radius, "L": L, "given": radius / L, "ratio": ratio}
+    values |= {"own": ratio * L, "fitting_mm": fitting_mm}
     off = abs(radius / L - ratio) > SAME_RATIO
     _refuse(off, ("size", "crank_radius_mm"), text, **values)
 

@@ -58,6 +58,8 @@ class Accept(SpecTable):
     small_hole: Reason = None
     no_bearing: Reason = None
     gears_without_teeth: Reason = None
+    taken_as_built: Reason = None
+    outline_units: Reason = None
     bent_parts: Reason = None
     narrow_for_process: Reason = None
 

@@ -43,7 +43,9 @@ class Size(SpecTable):
         "solve for it",
     ] = None
     crank_radius_mm: Annotated[
-        Positive, "crank radius R, to the roller's centre; in place of center_distance_mm"
+        Positive,
+        "crank radius R, to the roller's centre; alone it sets L, with center_distance_mm and "
+        "another R/L than straight slots need the machine is taken as built",
     ] = field(default=None, kw_only=True)
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     process: Annotated[
@@ -663,6 +665,41 @@ class TitleBlock(SpecTable):
     ] = None
 
 
+class Outline(SpecTable):
+    """``[outline]``: drawings of wheel and crank that replace the computed outlines.
+
+    >>> Outline(wheel="wheel.dxf").is_given, Outline().is_given
+    (True, False)
+    """
+
+    TABLE: ClassVar[str] = "outline"
+
+    wheel: Annotated[str | None, None, "the wheel: a .dxf or .svg file, its axis at the origin"] = (
+        None
+    )
+    crank: Annotated[
+        str | None, None, "the crank: a file, its axis at the origin, the first roller on +x"
+    ] = None
+    wheel_turn_deg: Annotated[float, Range(-360.0, 360.0), "turn the wheel's drawing by this"] = 0.0
+    crank_turn_deg: Annotated[float, Range(-360.0, 360.0), "turn the crank's drawing by this"] = 0.0
+    mirror: Annotated[
+        str, OneOf(("none", "wheel", "crank", "both")), "drawings seen from the other side"
+    ] = "none"
+    slack_mm: Annotated[
+        float | None, Range(1e-9, 1.0), "overlap that counts as touching; default 1e-6 or 1e-3"
+    ] = None
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The names of the drawings."""
+        return tuple(name for name in (self.wheel, self.crank) if name is not None)
+
+    @property
+    def is_given(self) -> bool:
+        """True if a drawing replaces an outline."""
+        return bool(self.files)
+
+
 class Limits(SpecTable):
     """``[limits]``: limits that ``geneva check`` compares the design with.
 
@@ -677,6 +714,9 @@ class Limits(SpecTable):
     acceleration_max: Annotated[Positive, "acceleration d2psi/dtheta2"] = None
     acceleration_entry_max: Annotated[Positive, "acceleration at entry"] = None
     jerk_max: Annotated[Positive, "jerk d3psi/dtheta3"] = None
+    entry_velocity_max: Annotated[
+        Positive, "jump of velocity at entry and exit; default 0.01 of a machine as built"
+    ] = None
     pin_force_max_N: Annotated[Positive, "greatest force of roller on slot"] = None
     input_torque_max_Nm: Annotated[Positive, "greatest torque on input shaft"] = None
     pressure_angle_max_deg: Annotated[float | None, Range(0.0, 90.0, "(]"), "pressure angle"] = None
@@ -718,6 +758,7 @@ PLAIN: dict[str, type[SpecTable]] = {
     "tolerance": Tolerance,
     "product": Product,
     "drawing": TitleBlock,
+    "outline": Outline,
     "limits": Limits,
     "accept": Accept,
 }

@@ -14,6 +14,7 @@ from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.all_checks import JAMS
 
 if TYPE_CHECKING:
+    from geneva_cli.parts.chosen import ByLoad
     from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.checks.check import Check
 
@@ -69,6 +70,17 @@ def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
     return record_table(left | ({"not_known": notes} if notes else {}), prose=record.prose)
 
 
+def chosen_lines(by_load: ByLoad, path: str) -> Iterator[SummaryLine]:
+    """The lines of the sizes that the load chose, and of those that an option changed."""
+    if by_load.words:
+        name = {"": "SPEC", "<stdin>": "-"}.get(path, path)
+        yield SummaryLine(
+            "sizes", f"chosen by load: {by_load.words} (geneva size {name} writes them)"
+        )
+    if by_load.changes:
+        yield SummaryLine("note", f"sizes chosen anew: {by_load.changes}")
+
+
 def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
     """A line for each check that fails."""
     return [_failure(check) for check in checks if check.passes is False]
@@ -110,6 +122,7 @@ def _failure(check: Check) -> SummaryLine:
         return SummaryLine(label, check.why, explained, FAILS)
     how = "with" if "=" in check.nearest else "by"  # a value, or leaving out a key
     advice = f"passes {how} {check.nearest}" if check.nearest else ""
+    advice += f" (sizes chosen anew: {check.anew})" if check.anew else ""
     refused = check.nearest and check.name in ("parts", "full_turn")  # the reason is the text
     change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
     note = f"{change} ({explained})" if change else explained

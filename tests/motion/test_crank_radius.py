@@ -133,8 +133,8 @@ def test_keys_that_agree_pass_and_others_name_both() -> None:
     for L in (60.0, 60.0001):  # R/L is off by less than a millionth
         both = Design(External(6), size=Size(crank_radius_mm=R, center_distance_mm=L))
         assert both.mechanism.center_distance_mm == L
-    design = Design(External(6), size=Size(crank_radius_mm=R, center_distance_mm=70.0))
-    with pytest.raises(GenevaError, match=r"needs center_distance_mm = 60, .* needs .* = 35:"):
+    design = Design(Spherical(6), size=Size(crank_radius_mm=R, center_distance_mm=70.0))
+    with pytest.raises(GenevaError, match=r"needs 0.5; .* = 35, or center_distance_mm = 60,"):
         _ = design.mechanism
 
 

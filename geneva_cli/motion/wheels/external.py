@@ -123,6 +123,14 @@ class External(Gearing):
             step, self.half_motion_deg(step), slot.poses, slot.poses[2].slope[0], slot
         )
 
+    def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace | None:
+        """Place of a roller on a crank of another R/L; None for unequal steps and with a stop."""
+        if self.steps or self.stop:
+            return None
+        from geneva_cli.motion.wheels.as_built import place
+
+        return place(self.SIGN, self.step, ratio, self.offset_mm / L, rim)
+
     def distance_mm(self, crank_radius_mm: float) -> float:
         """Centre distance L for a crank radius R, mm: R = L sin b cos d, e = L cos b sin d."""
         if self.steps:

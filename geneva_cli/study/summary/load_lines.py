@@ -15,7 +15,7 @@ from geneva_cli.loads.load_tables import no_load
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.table import Table
-from geneva_cli.verdict.headline import bare, below_summary, measured, warning
+from geneva_cli.verdict.headline import bare, below_summary, chosen_lines, measured, warning
 
 NO_BOUND = "no bound: see the warnings"
 
@@ -47,6 +47,7 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
         text = f"{measured(whole, 'kg m²')} on the input for a speed variation of {variation}"
         text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
         yield SummaryLine("flywheel", text)
+    yield from chosen_lines(design.chosen_by_load, design.spec.path)
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
@@ -165,7 +166,7 @@ def record_answer(
 ) -> Answer:
     """An answer of some lines and warnings, with the other values of a record below them."""
     summary = summary_of(design, lines, warnings)
-    return Answer((summary,), below_summary(record, without=("title",)), record)
+    return Answer((summary,), below_summary(record, without=("title", "chosen")), record)
 
 
 def summary_of(design: Design, lines: Iterable[SummaryLine], warnings: Sequence[str]) -> Summary:

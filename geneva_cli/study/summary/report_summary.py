@@ -15,6 +15,7 @@ from geneva_cli.verdict.headline import (
     bare,
     below_summary,
     both_ways_lines,
+    chosen_lines,
     failure_lines,
     headline,
     input_lines,
@@ -35,7 +36,7 @@ def of_report(design: Design) -> Answer:
     lines = (*first, *key_figures(design), *both, *warning_lines(checks, warnings))
     lines = (*lines, *unused_lines(design.unused_acceptances))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
-    shown = ("title", "passes", "checks_failed", "not_proved")
+    shown = ("title", "passes", "checks_failed", "not_proved", "chosen")
     return Answer((summary,), below_summary(record, without=shown), record)
 
 
@@ -59,6 +60,7 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
         yield from cycle_lines(design)
         yield from tightest(design.checks)
         yield motor_line(design)
+        yield from chosen_lines(design.chosen_by_load, design.spec.path)
     else:
         unit = design.mechanism.output.rate_unit
         for name, digit, power in (

@@ -52,7 +52,7 @@ def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
 
     ``to_mm`` is the tolerance of the proof, by default ``certificate.tolerance_mm``.
     """
-    if not parts.mechanism.spec.is_turned:
+    if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return []
     try:
         return list(applicable(PROOFS, parts, to_mm))
@@ -97,6 +97,9 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
         yield refused("parts", error)
         return
     yield from rows
+    if mechanism.no_turn:
+        yield Check("full_turn", None, "proved", None, None, mechanism.no_turn)
+        return
     if not turned:
         return
     from geneva_cli.parts.turn.pairs import WorkLimit

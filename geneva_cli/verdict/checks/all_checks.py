@@ -56,6 +56,7 @@ LIMITS: Checks = {
     **_of(
         "motion_checks",
         limited_peak="velocity_max acceleration_max acceleration_entry_max jerk_max",
+        entry_velocity="entry_velocity_max",
         limited_time="dwell_min_s motion_max_s cycle_max_s",
     ),
     **_of("load_checks", limited_load="pin_force_max_N input_torque_max_Nm"),

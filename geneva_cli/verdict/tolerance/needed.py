@@ -158,9 +158,10 @@ def required_clearances(
 
     ``sizes`` are the tolerances that apply, in millimetres and radians.
     """
-    spec, why = mechanism.spec, "there are no drawn parts to turn"
+    spec, why = mechanism.spec, mechanism.no_turn or "there are no drawn parts to turn"
+    drawn = spec.is_turned and not mechanism.no_turn
     try:
-        least = least_clearances(mechanism, parts.turned, sizes) if spec.is_turned else None
+        least = least_clearances(mechanism, parts.turned, sizes) if drawn else None
     except GenevaError as error:
         least, why = None, str(error)
     if least is None:
