@@ -22,6 +22,7 @@ class Accept(SpecTable):
     many_slots: Reason = None
     no_centre_distance: Reason = None
     nothing_holds: Reason = None
+    stop_in_motion: Reason = None
     loose_fit: Reason = None
     rounded_points: Reason = None
     turns_back: Reason = None
