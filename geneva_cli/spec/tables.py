@@ -47,6 +47,12 @@ class Size(SpecTable):
         "another R/L than straight slots need the machine is taken as built",
     ] = None
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
+    mouth_radius_mm: Annotated[
+        float, NOT_NEGATIVE, "rounding radius of the corners of straight slots' mouths"
+    ] = 0.0
+    horn_tip_mm: Annotated[
+        float, NOT_NEGATIVE, "horns thinner than this at their tips are cut back to flats so wide"
+    ] = 0.0
     process: Annotated[
         str | None, OneOf(PROCESSES), "manufacturing process; sets clearances, fits and limits"
     ] = None
