@@ -36,6 +36,7 @@ from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.slot_ends import wall_lost
 from geneva_cli.parts.outlines.wheel_circles import dial_bolts, wheel_part, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, NamedBuilds
@@ -95,7 +96,11 @@ class FlatParts(EdgedParts):
         # the corners are on the rim, half a slot's width from the slot's middle
         level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
         far = np.hypot(*self.assembly.driving(motion, at).T)
-        return self.assembly.sign * (level - far)
+        return self.assembly.sign * (level - far) - self._wall_lost
+
+    @cached_property
+    def _wall_lost(self) -> float:
+        return wall_lost(self.outlines)
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""

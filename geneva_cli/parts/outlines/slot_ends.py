@@ -17,11 +17,12 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.inset import away, between, corner
-from geneva_cli.geometry.measure import fraction_at
-from geneva_cli.geometry.shapes import Arc, Line, Point, Segment
+from geneva_cli.geometry.measure import fraction_at, segment_length, turned
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import mouth_corners, rest
 
@@ -122,3 +123,27 @@ def rounded(before: Line | Arc, after: Line | Arc, radius: float, sign: float) -
         Arc(first, last, math.tan(0.25 * sweep)),
         between(after, last, after.end),
     ]
+
+
+def cut_walls(outlines: Outlines, kind: Engagement, direction: float) -> Contour:
+    """Return the walls of a straight slot as the wheel has them, at a direction of a slot."""
+    walls, sizes = turned(outlines.slots[kind], direction), outlines.sizes
+    if not (sizes.mouth_radius or sizes.horn_tip):
+        return walls
+    first, *inner, last = walls.segments
+    lines = [piece for piece in outlines.wheel.segments if isinstance(piece, Line)]
+    inwards = next((line for line in lines if line.end == first.end), first)
+    outwards = next((line for line in lines if line.start == last.start), last)
+    return walls._replace(segments=(inwards, *inner, outwards))
+
+
+def wall_lost(outlines: Outlines) -> float:
+    """Return by how much the walls of straight slots end deeper than at sharp mouths, mm."""
+    lost = 0.0
+    if outlines.sizes.mouth_radius or outlines.sizes.horn_tip:
+        for kind, direction in outlines.assembly.slots:
+            sharp = turned(outlines.slots[kind], direction).segments
+            cut = cut_walls(outlines, kind, direction).segments
+            for i in (0, -1):
+                lost = max(lost, segment_length(sharp[i]) - segment_length(cut[i]))
+    return lost
