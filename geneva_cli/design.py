@@ -25,6 +25,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_extra
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
@@ -156,6 +157,7 @@ class Design:
         tolerance: Tolerance | None = None,
         product: Product | None = None,
         limits: Limits | None = None,
+        accept: Accept | None = None,
         drawing: TitleBlock | None = None,
         outline: Outline | None = None,
         title: str = "",
@@ -362,6 +364,9 @@ class Design:
         """
         from geneva_cli.motion.peaks import peaks_table
 
+        if self.is_drawn:
+            own: Table = load_extra("outline", "peaks")(self.mechanism)
+            return own
         return peaks_table(self.mechanism)
 
     @question
@@ -422,6 +427,11 @@ class Design:
         """
         from geneva_cli.motion.motion_table import knots_deg, motion_table, periods, turns_table
 
+        if self.is_drawn:
+            if turns is not None:
+                raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
+            own: Table = load_extra("outline", "motion")(self.mechanism, samples)
+            return own
         if turns is None:
             return motion_table(self.mechanism, samples)
         count = periods(self.mechanism, turns)
@@ -887,7 +897,7 @@ class Design:
         """
         from geneva_cli.verdict.motion_warnings import motion_warnings
 
-        return motion_warnings(self.mechanism)
+        return self.spec.accept.applied(motion_warnings(self.mechanism))
 
     @answer
     def warnings(self) -> list[Notice]:
@@ -903,7 +913,17 @@ class Design:
             notes: list[Notice] = load_extra("outline", "warnings")(self.mechanism)
             return notes
         # the other direction's would be called backwards, which this one is
-        return (warnings if self.is_backwards else all_warnings)(self.parts)
+        every = (warnings if self.is_backwards else all_warnings)(self.parts)
+        return self.spec.accept.applied(every)
+
+    @answer
+    def unused_acceptances(self) -> list[str]:
+        """Names of warnings in ``[accept]`` that do not occur.
+
+        >>> Design(External(6), accept=Accept(many_slots="agreed")).unused_acceptances
+        ['many-slots']
+        """
+        return self.spec.accept.unused(self.warnings)
 
     @answer
     def report(self) -> Report:

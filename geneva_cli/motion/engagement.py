@@ -223,6 +223,8 @@ class WheelMotion(Batchable, ABC):
     # False if the two halves of the path differ
     mirrored = True
     closed_peaks: ClosedPeaks | None = None
+    # True if the derivatives at many angles have a closed form, as quick as a polynomial
+    is_closed: ClassVar[bool] = False
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
     BREAKS_TO: ClassVar[float] = 0.0
 
@@ -283,21 +285,44 @@ class WheelMotion(Batchable, ABC):
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """Wheel angle and its derivatives at many ascending input angles (k,).
 
-        A symmetric motion at symmetric angles is computed once and mirrored. For n designs the
-        values are (n, k).
+        A symmetric motion at symmetric angles is computed once and mirrored. At very many angles
+        polynomials take the formulas' place, which are as exact. For n designs the values are
+        (n, k).
         """
         import numpy as np
 
+        from geneva_cli.numerics.fitted import LONG, fitted
+
         count = len(input_deg)
         mirrored = self.symmetric and bool((input_deg == -input_deg[::-1]).all())
+        own = input_deg[: (count + 1) // 2] if mirrored else input_deg
+        if len(own) >= LONG and not self.is_closed and self._is_single(input_deg):
+            seams = {0.0, *self.seams_deg}  # where the acceleration may vanish, and be small
+            values = fitted(lambda x: self._in_blocks(x, orders), own, sorted(seams))
+        else:
+            values = self._in_blocks(own, orders)
+        if not mirrored:
+            return values
+        images = (v if k % 2 else -v for v, k in zip(values, orders, strict=True))
+        rest = slice(count // 2 - 1, None, -1) if count > 1 else slice(0)
+        return [
+            np.concatenate((value, image[..., rest]), axis=-1)
+            for value, image in zip(values, images, strict=True)
+        ]
+
+    def _is_single(self, input_deg: Array) -> bool:
+        """True for one design, False for a batch."""
+        return self._requested(input_deg[:1], (1,))[0].ndim < 2
+
+    def _in_blocks(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
+        """Derivatives at angles, in blocks that stay in the cache."""
+        import numpy as np
+
         out: list[Array] = []
-        for block in blocks((count + 1) // 2 if mirrored else count, BLOCK):
+        for block in blocks(len(input_deg), BLOCK):
             values = self._requested(input_deg[block], orders)
-            out = out or [np.empty((*value.shape[:-1], count)) for value in values]
-            for whole, value, order in zip(out, values, orders, strict=True):
-                if mirrored:  # even orders change their sign
-                    image = whole[..., count - block.stop : count - block.start][..., ::-1]
-                    image[:] = value if order % 2 else -value
+            out = out or [np.empty((*value.shape[:-1], len(input_deg))) for value in values]
+            for whole, value in zip(out, values, strict=True):
                 whole[..., block] = value
         return out
 

@@ -13,6 +13,7 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.records import CRANK, named, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import all_true
+from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import SpecTable, refuse_kind
 from geneva_cli.spec.tables import (
@@ -102,6 +103,7 @@ class Spec(SpecTable):
     tolerance: Tolerance = field(default_factory=Tolerance)
     product: Product = field(default_factory=Product)
     limits: Limits = field(default_factory=Limits)
+    accept: Accept = field(default_factory=Accept)
     drawing: TitleBlock = field(default_factory=TitleBlock)
     outline: Outline = field(default_factory=Outline)
     title: str = ""

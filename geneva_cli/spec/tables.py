@@ -10,6 +10,7 @@ from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
+from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.default_sizes import Thicknesses, unrounded, value_or
 from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
@@ -45,7 +46,7 @@ class Size(SpecTable):
         Positive,
         "crank radius R, to the roller's centre; alone it sets L, with center_distance_mm and "
         "another R/L than straight slots need the machine is taken as built",
-    ] = None
+    ] = field(default=None, kw_only=True)
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     mouth_radius_mm: Annotated[
         float, NOT_NEGATIVE, "rounding radius of the corners of straight slots' mouths"
@@ -765,5 +766,6 @@ PLAIN: dict[str, type[SpecTable]] = {
     "drawing": TitleBlock,
     "outline": Outline,
     "limits": Limits,
+    "accept": Accept,
 }
 LISTS = ("mass",)

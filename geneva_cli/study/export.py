@@ -105,7 +105,8 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
 def shop_warnings(design: Design) -> list[str]:
     """The warnings about a design whose files go to a shop, with or without a process."""
     # with a process the design's own warnings have it already
-    return list(dict.fromkeys((*design.warnings, *gears_without_teeth(design.spec))))
+    toothless = design.spec.accept.applied(gears_without_teeth(design.spec))
+    return list(dict.fromkeys((*design.warnings, *toothless)))
 
 
 def _write(design: Design, name: str, path: str) -> None:

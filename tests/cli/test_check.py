@@ -63,7 +63,7 @@ def test_json_has_the_warnings_and_strict_obeys_them() -> None:
     pin = tree["chosen"][TURRET]["size.pin_mm"]
     assert pin == {"value": 12.0, "was": None, "why": "by load: 202.5 N on the pin"}
     (warning,) = tree["warnings"]
-    assert list(warning) == ["spec", "name", "text"]
+    assert list(warning) == ["spec", "name", "text", "accepted"]
     assert (warning["spec"], warning["name"]) == (TURRET, "wheel-left-out")
     assert warning["text"].startswith("the wheel's own inertia, as drawn, is 0.3024 kg m²")
     assert {row["spec"] for row in tree["rows"]} == {PLAIN, TURRET}

@@ -276,7 +276,7 @@ def warned(example: str) -> set[str]:
         ("max", ["quantity"]),
         ("side-crank", ["kind"]),
         ("cycloidal", ["law"]),
-        ("turns-back", ["warning"]),
+        ("turns-back", ["warning", "key"]),
         ("first-wheel", ["part"]),
         ("crank", ["kind", "part"]),
         ("inputs.drive.n_rpm", ["key"]),

@@ -5,6 +5,8 @@ from geneva_cli.motion.kind import Extra
 EXTRA = Extra(
     answers={
         "checks": "extras.outline.checks:checks",
+        "motion": "extras.outline.real_motion:motion",
+        "peaks": "extras.outline.real_motion:peaks",
         "warnings": "extras.outline.checks:warnings",
     }
 )

@@ -13,6 +13,7 @@ from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import DrawnMachine
 from geneva_cli.extras.outline.turning import (
     HELD_MIDDLE,
+    LOOSE,
     Impact,
     SenseResult,
     Turned,
@@ -26,7 +27,6 @@ from geneva_cli.parts.turn.free_ranges import levels
 from geneva_cli.verdict.checks.check import Check, compared
 
 ENTRY_VELOCITY = 0.01  # default of ``entry_velocity_max``
-LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
 
 
 def checks(mechanism: Mechanism) -> list[Check]:

@@ -18,6 +18,10 @@ from geneva_cli.parts.turn.lazy_turn import STEEPEST
 from geneva_cli.parts.turn.stops import Branches, Meetings
 
 ORDER = 3  # the jerk
+NEAR = 1e-6  # radians: what is farther away does not touch
+# A contact whose normal goes through the wheel's axis touches, but does not push: the least sine
+# of the angle between both.
+LEAST_LEVER = 1e-5
 CORNER = 1e-9  # of the level: nearer to the end of a branch its corner touches
 
 FIXED = 1e-9  # of L: a point so near to the crank's axis, as a disc's centre, moves no wheel
@@ -45,7 +49,6 @@ class Contact(NamedTuple):
     L: float
     crank: Side
     wheel: Side
-    direction: Array  # of the crank's x axis
     turn: Array  # of the wheel
     is_known: Mask
     point: Array  # (n, 2)
@@ -63,7 +66,6 @@ class Contact(NamedTuple):
         rest = (self.turn, *[np.zeros(len(self.turn))] * ORDER)
         out = []
         velocity = np.choose(which, [form[1] for form in forms])
-        # a contact whose normal goes through the wheel's axis touches, but does not push
         pushes = self.is_known & ~stands & (np.abs(velocity) <= 2.0 * STEEPEST)
         for k in range(ORDER + 1):
             value = np.choose(which, [form[k] for form in forms])
@@ -149,32 +151,37 @@ def contacts(free: FreeRanges, crank_angle: Array, wheel: Array) -> Contact:
     Of several contacts it is the one whose interval ends nearest to the wheel's angle.
     """
     n = len(crank_angle)
-    best = np.full(n, 1e-6)  # radians: farther away nothing touches
-    sides = np.zeros((2, 3, n))
-    level, at = np.zeros(n), np.zeros(n)
+    best = np.full(n, NEAR)
+    sides, point = np.zeros((2, 3, n)), np.zeros((n, 2))
     for met in _near(free, crank_angle, wheel):
-        for place, levels in ((met.start, met.start_level), (met.end, met.end_level)):
+        for place, level in ((met.start, met.start_level), (met.end, met.end_level)):
             off = place - wheel[met.row]
             shift = free.period * np.round(off / free.period)
-            off -= shift
-            k = np.flatnonzero(np.abs(off) < best[met.row])
-            k = k[np.argsort(-np.abs(off[k]), kind="stable")]  # the last one written is nearest
-            rows = met.row[k]
-            known = np.zeros(n)
-            known[rows] = np.abs(off[k])
-            taken = known[rows] == np.abs(off[k])
-            k, rows = k[taken], rows[taken]
-            best[rows] = np.abs(off[k])
-            sides[0][:, rows] = _side(met.other.at(k), levels[k])
-            sides[1][:, rows] = _side(met.wheel.at(k), levels[k])
-            sides[1][1, rows] += wheel[rows] + shift[k]
-            level[rows] = levels[k]
-            one = met.other.at(k)
-            at[rows] = free.stops.place(one, levels[k])
+            off = np.abs(off - shift)
+            k = np.flatnonzero(off < best[met.row])
+            one, rows = met.other.at(k), met.row[k]
+            at = free.stops.place(one, level[k])
+            touched = np.column_stack((level[k] * np.cos(at), level[k] * np.sin(at)))
+            ours, theirs = _side(one, level[k]), _side(met.wheel.at(k), level[k])
+            theirs[1] += wheel[rows] + shift[k]
+            able = np.flatnonzero(_lever(ours, theirs, touched) > LEAST_LEVER)
+            able = able[np.argsort(-off[k][able], kind="stable")]  # the nearest one comes last
+            for i in able:
+                best[rows[i]], point[rows[i]] = off[k[i]], touched[i]
+                sides[:, :, rows[i]] = ours[:, i], theirs[:, i]
     crank, own = (Side(far, ahead, edge > 0.5) for far, ahead, edge in sides)
-    point = np.column_stack((level * np.cos(at), level * np.sin(at)))
-    direction = free.crank_direction(crank_angle)
-    return Contact(free.sense, free.L, crank, own, direction, wheel, best < 1e-6, point)
+    return Contact(free.sense, free.L, crank, own, wheel, best < NEAR, point)
+
+
+def _lever(ours: Array, theirs: Array, touched: Array) -> Array:
+    """Return the sine of the angle between contact normals and directions from the wheel's axis."""
+    p, w = (side[0] * np.exp(1j * side[1]) for side in (ours, theirs))
+    normal = np.where(theirs[2] > 0.5, np.exp(1j * theirs[1]), p - w)
+    normal = np.where(ours[2] > 0.5, np.exp(1j * ours[1]), normal)
+    at = touched[:, 0] + 1j * touched[:, 1]
+    size = np.abs(normal) * np.abs(at)
+    sine = np.abs((normal.conjugate() * at).imag) / np.maximum(size, 1e-300)
+    return np.where(np.abs(normal) > 1e-9 * np.abs(at), sine, 0.0)
 
 
 def _near(free: FreeRanges, crank_angle: Array, wheel: Array) -> list[Meetings]:
@@ -187,7 +194,7 @@ def _near(free: FreeRanges, crank_angle: Array, wheel: Array) -> list[Meetings]:
     return out
 
 
-def _side(branch: Branches, level: Array) -> tuple[Array, Array, Array]:
+def _side(branch: Branches, level: Array) -> Array:
     """Return what of branches touches at a level: its corner, its circle's centre, or its edge."""
     near = CORNER * np.maximum(level, 1e-300)
     at_low, at_high = level - branch.low <= near, branch.high - level <= near
@@ -198,4 +205,4 @@ def _side(branch: Branches, level: Array) -> tuple[Array, Array, Array]:
     is_edge = ~is_corner & (branch.size == 0.0)
     far = np.where(is_corner, level, np.where(branch.size == 0.0, branch.excess, centre))
     ahead = branch.ahead + np.where(is_corner, branch.sign * corner_at, 0.0)
-    return far, ahead, is_edge.astype(float)
+    return np.array((far, ahead, is_edge))

@@ -18,6 +18,7 @@ SETTLED = 1e-9  # radians: the wheel rests where it rested a turn before
 TRIALS = 12  # places of rest that are tried over the free range
 HALVINGS = 12  # of the space between two of them
 LATE = 1e-3  # radians: a push that moves the wheel less is not counted as an impact
+LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
 HELD_MIDDLE = ("detent", "pin")  # they put the wheel back to the middle of its dwell
 SENSES = (1, -1)
 

@@ -82,7 +82,7 @@ def _shown(block: list[str], window: Window) -> Iterator[str]:
 
 def _broken(line: str, width: int) -> list[str]:
     """A line of code, broken between words in a narrow window; a rule is shortened."""
-    if set(line) <= set("- "):
+    if not any(map(str.isalnum, line)):
         return [line[:width].rstrip()]
     first, *more = wrapped(line, width)
     rest = " ".join(more)

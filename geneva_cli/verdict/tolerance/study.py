@@ -225,7 +225,7 @@ def tolerance_table(
         "clearances.lock_needed_mm": results.clearances.lock_mm,
         "clearances.turns": results.clearances.turns,
         "clearances.jam_share": results.jams,
-        "warnings": (*results.warnings, *_unscaled(results, radius_mm)),
+        "warnings": (*spec.accept.applied(results.warnings), *_unscaled(results, radius_mm)),
     }
     return record_table(values, spec.title)
 
