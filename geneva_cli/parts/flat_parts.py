@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NoReturn, Self, cast
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
@@ -100,7 +101,12 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def _wall_lost(self) -> float:
-        return wall_lost(self.outlines)
+        """By how much the walls of slots end deeper than at sharp mouths, mm."""
+        own = self.outlines
+        if not (own.sizes.mouth_radius or own.sizes.horn_tip):
+            return 0.0
+        each = [turned(own.slots[kind], at) for kind, at in own.assembly.slots]
+        return max(wall_lost(walls, own.wheel) for walls in each)
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""

@@ -50,10 +50,10 @@ class Size(SpecTable):
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     mouth_radius_mm: Annotated[
         float, NOT_NEGATIVE, "rounding radius of the corners of straight slots' mouths"
-    ] = 0.0
+    ] = field(default=0.0, kw_only=True)
     horn_tip_mm: Annotated[
         float, NOT_NEGATIVE, "horns thinner than this at their tips are cut back to flats so wide"
-    ] = 0.0
+    ] = field(default=0.0, kw_only=True)
     process: Annotated[
         str | None, OneOf(PROCESSES), "manufacturing process; sets clearances, fits and limits"
     ] = None

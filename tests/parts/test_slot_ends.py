@@ -82,7 +82,8 @@ def test_a_flat_is_as_long_as_the_tip_and_square_to_its_slot(own: Gearing, sign:
     for flat in flats:
         assert sorted((abs(flat.start[1]), abs(flat.end[1]))) == pytest.approx([W, W + tip])
     mouth = math.sqrt(math.hypot(L * math.cos(math.pi / Z), 5.0) ** 2 - W**2)
-    assert wall_lost(outlines) == pytest.approx(sign * (mouth - x), abs=1e-9)
+    [walls] = outlines.slots.values()
+    assert wall_lost(walls, outlines.wheel) == pytest.approx(sign * (mouth - x), abs=1e-9)
 
 
 def test_a_thick_horn_is_not_cut() -> None:

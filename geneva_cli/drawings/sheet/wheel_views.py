@@ -68,7 +68,8 @@ def _axes(view: View, parts: FlatParts) -> None:
     outlines = parts.outlines
     for i, (engagement, direction) in enumerate(outlines.assembly.slots):
         if not engagement.slot.curved:
-            for end, mouth in _ends(cut_walls(outlines, engagement, direction)):
+            walls = turned(outlines.slots[engagement], direction)
+            for end, mouth in _ends(cut_walls(walls, outlines.wheel)):
                 view.centre_line(*((end, mouth) if outlines.assembly.sign > 0.0 else (mouth, end)))
         elif i == 0:
             for line in pitch_lines(parts, engagement):
@@ -95,7 +96,7 @@ def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point
 
 def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
     direction = next(d for one, d in parts.assembly.slots if one is engagement)
-    walls = cut_walls(parts, engagement, direction)
+    walls = cut_walls(turned(parts.slots[engagement], direction), parts.wheel)
     ends = _ends(walls)
     end, mouth = ends[0]
     turn = math.atan2(mouth[1] - end[1], mouth[0] - end[0])

@@ -23,10 +23,9 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.slot_ends import horn_corners
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.sizes import Sizes, crank_reach_and_hub
-from geneva_cli.parts.slots.roller_paths import roller_centres
+from geneva_cli.parts.slots.roller_paths import HornSizes, horn_corners, roller_centres
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
 Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
@@ -142,9 +141,13 @@ def keyway_direction(assembly: Assembly) -> float:
     return next((0.5 * (start + end) for start, end in sectors(reliefs(assembly))), math.pi)
 
 
+def _horns(sizes: Sizes) -> HornSizes:
+    return HornSizes(sizes.roller, sizes.half_width, sizes.recess, sizes.rim, sizes.horn_tip)
+
+
 def lock_of(where: Assembly, size: Sizes, cut: Sequence[float] = ()) -> Lock:
     """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
-    mouths = horn_corners(where, size)
+    mouths = horn_corners(where, _horns(size))
     # arcs end where the motions do
     arcs = not is_whole(where, size) or where.mechanism.spec.size.relief == "arc"
     locking = sectors(reliefs(where) if arcs else widened(where, size, mouths))
@@ -177,7 +180,7 @@ def crank_contours(
         return _rings(assembly, sizes, swept, spare)
     around = reliefs(assembly)
     if relief == "sector":
-        mouths = horn_corners(assembly, sizes)
+        mouths = horn_corners(assembly, _horns(sizes))
         around = widened(assembly, sizes, mouths)
     if sum(one.end - one.start for one in around) > math.tau - SAME_ANGLE:
         raise GenevaError(

@@ -17,14 +17,8 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.inset import away, between, corner
-from geneva_cli.geometry.measure import fraction_at, segment_length, turned
+from geneva_cli.geometry.measure import fraction_at, segment_length
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
-from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import scalar
-from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.slots.roller_paths import mouth_corners, rest
 
 
 class Tip(NamedTuple):
@@ -34,64 +28,31 @@ class Tip(NamedTuple):
     recess: Point
 
 
-def tip(wall: Line, centre: Point, sizes: Sizes) -> Tip | None:
+def tip(wall: Line, centre: Point, recess: float, width: float) -> Tip | None:
     """Return the flat of a horn beside a wall that runs outwards; None for a horn thick enough.
 
-    ``centre`` is the recess's. Raises GenevaError where nothing of the wall would be left.
+    ``centre`` and ``recess`` are centre and radius of the recess, and ``width`` is the flat's.
+    Raises GenevaError where too little of the wall would be left.
     """
     (x, y), long = wall.start, math.dist(wall.start, wall.end)
     u, v = (wall.end[0] - x) / long, (wall.end[1] - y) / long
     foot = (centre[0] - x) * u + (centre[1] - y) * v
     side = (centre[1] - y) * u - (centre[0] - x) * v
-    depth = abs(side) - sizes.horn_tip
-    if not sizes.horn_tip or depth >= sizes.recess:
+    depth = abs(side) - width
+    if not width or depth >= recess:
         return None
-    at = foot - math.sqrt(sizes.recess**2 - depth * depth)
+    at = foot - math.sqrt(recess**2 - depth * depth)
     if at >= long:
         return None
     if at <= 0.5 * long:
         raise GenevaError(
-            f"horn_tip_mm = {sizes.horn_tip:g}: the horns would lose more than half of the slots; "
+            f"horn_tip_mm = {width:g}: the horns would lose more than half of the slots; "
             "use a smaller tip, or a smaller lock_radius_mm",
             ("size", "horn_tip_mm"),
         )
-    across = math.copysign(sizes.horn_tip, side)
+    across = math.copysign(width, side)
     on_wall = x + at * u, y + at * v
     return Tip(on_wall, (on_wall[0] - across * v, on_wall[1] + across * u))
-
-
-def horn_corners(assembly: Assembly, sizes: Sizes) -> dict[Engagement, tuple[float, float]]:
-    """Return the distances from the wheel's axis of each slot's horns at their recesses, mm.
-
-    They are those of the horns before and after a motion, which are mouths' corners unless the
-    horns are cut back.
-    """
-    mouths = mouth_corners(assembly, sizes.roller, sizes.recess, sizes.rim)
-    if not (sizes.horn_tip and sizes.lock):
-        return mouths
-    return {
-        kind: (_cut(assembly, sizes, kind, -1.0, entry), _cut(assembly, sizes, kind, 1.0, exit_))
-        for kind, (entry, exit_) in mouths.items()
-    }
-
-
-def _cut(assembly: Assembly, sizes: Sizes, kind: Engagement, end: float, mouth: float) -> float:
-    """Return the distance of one horn's corner at its recess, with ``mouth`` that of its mouth."""
-    x, y = kind.slot(kind.end_deg(end), 0)
-    u, v = kind.slot(0.0, 0)
-    L, centre = assembly.L, rest(assembly, kind, end)
-    start = L * scalar(u.c[0]), L * scalar(v.c[0])
-    out = L * scalar(x.c[0]) - start[0], L * scalar(y.c[0]) - start[1]
-    long = math.hypot(*out)
-    ux, uy = out[0] / long, out[1] / long
-    side = math.copysign(
-        sizes.half_width, (centre[1] - start[1]) * ux - (centre[0] - start[0]) * uy
-    )
-    x0, y0 = start[0] - side * uy, start[1] + side * ux
-    level = math.sqrt(max(mouth * mouth - (y0 * ux - x0 * uy) ** 2, 0.0))
-    along = assembly.sign * level - (x0 * ux + y0 * uy)
-    cut = tip(Line((x0, y0), (x0 + along * ux, y0 + along * uy)), centre, sizes)
-    return math.hypot(*cut.recess) if cut else mouth
 
 
 def rounded(before: Line | Arc, after: Line | Arc, radius: float, sign: float) -> list[Segment]:
@@ -125,25 +86,16 @@ def rounded(before: Line | Arc, after: Line | Arc, radius: float, sign: float) -
     ]
 
 
-def cut_walls(outlines: Outlines, kind: Engagement, direction: float) -> Contour:
-    """Return the walls of a straight slot as the wheel has them, at a direction of a slot."""
-    walls, sizes = turned(outlines.slots[kind], direction), outlines.sizes
-    if not (sizes.mouth_radius or sizes.horn_tip):
-        return walls
+def cut_walls(walls: Contour, wheel: Contour) -> Contour:
+    """Return the walls of a straight slot at its place as the contour of the wheel has them."""
     first, *inner, last = walls.segments
-    lines = [piece for piece in outlines.wheel.segments if isinstance(piece, Line)]
+    lines = [piece for piece in wheel.segments if isinstance(piece, Line)]
     inwards = next((line for line in lines if line.end == first.end), first)
     outwards = next((line for line in lines if line.start == last.start), last)
     return walls._replace(segments=(inwards, *inner, outwards))
 
 
-def wall_lost(outlines: Outlines) -> float:
-    """Return by how much the walls of straight slots end deeper than at sharp mouths, mm."""
-    lost = 0.0
-    if outlines.sizes.mouth_radius or outlines.sizes.horn_tip:
-        for kind, direction in outlines.assembly.slots:
-            sharp = turned(outlines.slots[kind], direction).segments
-            cut = cut_walls(outlines, kind, direction).segments
-            for i in (0, -1):
-                lost = max(lost, segment_length(sharp[i]) - segment_length(cut[i]))
-    return lost
+def wall_lost(walls: Contour, wheel: Contour) -> float:
+    """Return by how much the walls of a straight slot end deeper than at sharp mouths, mm."""
+    cut = cut_walls(walls, wheel).segments
+    return max(segment_length(walls.segments[i]) - segment_length(cut[i]) for i in (0, -1))

@@ -195,7 +195,9 @@ def _rim(
     if sizes.lock and sizes.horn_tip:
         one, other = before[-1], after[0]
         assert isinstance(one, Line) and isinstance(other, Line)
-        flats = [tip(one, axis, sizes), tip(Line(other.end, other.start), axis, sizes)]
+        k, flat = sizes.recess, sizes.horn_tip
+        inwards = Line(other.end, other.start)
+        flats = [tip(one, axis, k, flat), tip(inwards, axis, k, flat)]
         before[-1] = one._replace(end=flats[0].wall) if flats[0] else one
         after[0] = other._replace(start=flats[1].wall) if flats[1] else other
     return _pieces(assembly, sizes, (before[-1].end, after[0].start), flats, at)
