@@ -25,6 +25,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_extra
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
@@ -33,6 +34,7 @@ from geneva_cli.spec.tables import (
     Load,
     Mass,
     Motor,
+    Outline,
     Product,
     RollerMaterial,
     Shaft,
@@ -155,7 +157,9 @@ class Design:
         tolerance: Tolerance | None = None,
         product: Product | None = None,
         limits: Limits | None = None,
+        accept: Accept | None = None,
         drawing: TitleBlock | None = None,
+        outline: Outline | None = None,
         title: str = "",
         drive_before: Drive | None = None,
     ) -> None:
@@ -360,6 +364,9 @@ class Design:
         """
         from geneva_cli.motion.peaks import peaks_table
 
+        if self.is_drawn:
+            own: Table = load_extra("outline", "peaks")(self.mechanism)
+            return own
         return peaks_table(self.mechanism)
 
     @question
@@ -420,6 +427,11 @@ class Design:
         """
         from geneva_cli.motion.motion_table import knots_deg, motion_table, periods, turns_table
 
+        if self.is_drawn:
+            if turns is not None:
+                raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
+            own: Table = load_extra("outline", "motion")(self.mechanism, samples)
+            return own
         if turns is None:
             return motion_table(self.mechanism, samples)
         count = periods(self.mechanism, turns)
@@ -780,7 +792,16 @@ class Design:
         """
         from geneva_cli.verdict.checks import proofs
 
-        return [*self._judged, *proofs(self.parts)]
+        return self._judged if self.is_drawn else [*self._judged, *proofs(self.parts)]
+
+    @property
+    def is_drawn(self) -> bool:
+        """True if drawings replace the outlines of its parts: ``[outline]``.
+
+        >>> Design(External(6), outline=Outline(wheel="wheel.dxf")).is_drawn
+        True
+        """
+        return self.spec.outline.is_given
 
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
@@ -803,6 +824,9 @@ class Design:
         """Every check but the proof."""
         from geneva_cli.verdict.advice import judged
 
+        if self.is_drawn:
+            rows: list[Check] = load_extra("outline", "checks")(self.mechanism)
+            return rows
         # a machine without parts is judged without NumPy
         return judged(self.mechanism, self.parts if self.spec.is_turned else None)
 
@@ -873,7 +897,7 @@ class Design:
         """
         from geneva_cli.verdict.motion_warnings import motion_warnings
 
-        return motion_warnings(self.mechanism)
+        return self.spec.accept.applied(motion_warnings(self.mechanism))
 
     @answer
     def warnings(self) -> list[Notice]:
@@ -885,8 +909,21 @@ class Design:
         from geneva_cli.verdict.both_directions import all_warnings
         from geneva_cli.verdict.warnings import warnings
 
+        if self.is_drawn:
+            notes: list[Notice] = load_extra("outline", "warnings")(self.mechanism)
+            return notes
         # the other direction's would be called backwards, which this one is
-        return (warnings if self.is_backwards else all_warnings)(self.parts)
+        every = (warnings if self.is_backwards else all_warnings)(self.parts)
+        return self.spec.accept.applied(every)
+
+    @answer
+    def unused_acceptances(self) -> list[str]:
+        """Names of warnings in ``[accept]`` that do not occur.
+
+        >>> Design(External(6), accept=Accept(many_slots="agreed")).unused_acceptances
+        ['many-slots']
+        """
+        return self.spec.accept.unused(self.warnings)
 
     @answer
     def report(self) -> Report:

@@ -105,7 +105,8 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
 def shop_warnings(design: Design) -> list[str]:
     """The warnings about a design whose files go to a shop, with or without a process."""
     # with a process the design's own warnings have it already
-    return list(dict.fromkeys((*design.warnings, *gears_without_teeth(design.spec))))
+    toothless = design.spec.accept.applied(gears_without_teeth(design.spec))
+    return list(dict.fromkeys((*design.warnings, *toothless)))
 
 
 def _write(design: Design, name: str, path: str) -> None:
@@ -149,7 +150,9 @@ def _named_here(table: T, points: dict[str, Points], taken: set[str]) -> T:
         if not isinstance(value, Points):
             continue
         name = os.path.basename(value.file) or "points.csv"
-        while name in taken or name in points:
+        # Windows and macOS take A.csv and a.csv for one file.
+        others = {other.lower() for other in (*taken, *points)}
+        while name.lower() in others:
             name = f"points-{name}"
         points[name] = Points(value.pairs, name)
         table = table.replace(**{field.attribute: points[name]})

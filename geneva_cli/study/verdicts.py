@@ -23,6 +23,7 @@ from geneva_cli.verdict.headline import (
     input_lines,
     proof_lines,
     tightest,
+    unused_lines,
     warning_lines,
 )
 
@@ -34,6 +35,7 @@ class Verdict(NamedTuple):
     files: tuple[str, ...] = ()  # all files that the design was read from
     checks: tuple[Check, ...] = ()
     warnings: tuple[Notice, ...] = ()
+    unused: tuple[str, ...] = ()  # names of accepted warnings that do not occur
     with_units: tuple[str, ...] = ()  # inputs that have a unit in the file
     error: str = ""
     both_ways: bool = False  # True if the machine must turn both ways
@@ -58,6 +60,7 @@ def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = No
             files=design.spec.files,
             checks=tuple(checks),
             warnings=tuple(design.warnings),
+            unused=tuple(design.unused_acceptances),
             with_units=tuple(design.with_units),
             both_ways=design.spec.drive.both_ways,
             chosen=design.chosen_by_load,
@@ -103,7 +106,7 @@ def checks_record(verdicts: Sequence[Verdict]) -> Table:
     A spec that could not be read is a row of its own kind. Of several specs, the sizes stand below
     the path of each.
     """
-    warnings = [(v.path, w.name, str(w)) for v in verdicts for w in v.warnings]
+    warnings = [(v.path, w.name, w.plain, w.accepted or None) for v in verdicts for w in v.warnings]
     errors = [(v.path, v.error) for v in verdicts if v.error]
     paths, chosen = [v.path for v in verdicts], [v.chosen.record for v in verdicts]
     rows = checks_table(verdicts, directed=True)  # keys are those of every machine
@@ -111,7 +114,7 @@ def checks_record(verdicts: Sequence[Verdict]) -> Table:
         {
             "rows": (rows, rows_table(("spec", "error"), errors)) if errors else rows,
             "passes": all(v.passes for v in verdicts),
-            "warnings": rows_table(("spec", "name", "text"), warnings),
+            "warnings": rows_table(("spec", "name", "text", "accepted"), warnings),
             "chosen": chosen[0] if len(chosen) == 1 else dict(zip(paths, chosen, strict=True)),
         }
     )
@@ -147,8 +150,8 @@ def _head(verdict: Verdict) -> Summary:
 
 def _lines(verdict: Verdict) -> tuple[SummaryLine, ...]:
     checks = verdict.checks
-    inputs = input_lines(verdict.with_units)
-    return (*failure_lines(checks), *inputs, *warning_lines(checks, verdict.warnings))
+    inputs, warnings = input_lines(verdict.with_units), warning_lines(checks, verdict.warnings)
+    return (*failure_lines(checks), *inputs, *warnings, *unused_lines(verdict.unused))
 
 
 def _count(judged: Sequence[Verdict], unread: int) -> Summary:

@@ -137,7 +137,7 @@ class Trial:
                 yield from untold(among, way.mechanism)
             if parts and spec.is_turned and spec.has_parts:
                 yield from untold(standing(way.mechanism), way.built)
-            if parts and spec.is_turned and turn:
+            if parts and spec.is_turned and turn and not way.mechanism.no_turn:
                 yield from untold(TURNING, way, way.turned.turn)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, SummaryLine
-from geneva_cli.errors import Notice, is_warning
+from geneva_cli.errors import Notice, is_warning, open_warnings
 from geneva_cli.names import spoken
 from geneva_cli.output import shown, shown_text
 from geneva_cli.output.document.blocks import value_text
@@ -50,9 +50,12 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
     for check in checks:
         if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
             text += f", {meaning(check)}"
-    if warnings:
-        text += f", {len(warnings)} warning{'s' * (len(warnings) != 1)}"
-    state = FAILS if failed else WARNS if not_proved or warnings else PASSES
+    left = open_warnings(warnings)
+    if left:
+        text += f", {len(left)} warning{'s' * (len(left) != 1)}"
+    if accepted := len(warnings) - len(left):
+        text += f", {accepted} warning{'s' * (accepted != 1)} accepted"
+    state = FAILS if failed else WARNS if not_proved or left else PASSES
     return state, text
 
 
@@ -97,9 +100,17 @@ def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[Summ
 
 
 def warning(text: str) -> SummaryLine:
-    """The line of a warning, and the command that explains it."""
+    """The line of a warning, and the command that explains it; of an accepted one its reason."""
     explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
+    if isinstance(text, Notice) and text.accepted:
+        return SummaryLine("accepted", f"{text.name}: {text.accepted}", explained)
     return SummaryLine("warning", shown_text(text), explained, WARNS)
+
+
+def unused_lines(names: Iterable[str]) -> list[SummaryLine]:
+    """A note on each accepted warning that does not occur."""
+    text = "no such warning occurs: it can be removed from [accept]"
+    return [SummaryLine("note", f"{name}: {text}") for name in names]
 
 
 def input_lines(with_units: Iterable[str]) -> list[SummaryLine]:

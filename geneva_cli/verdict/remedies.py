@@ -47,10 +47,17 @@ BLUNTER: lock_edge_mm*10 WIDER LARGER
 CRANK: crank_bore_mm*0.2 crank_bore_mm=0
 THICK: wheel_thickness_mm? face_width_mm? lock_thickness_mm? arm_thickness_mm?
 velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
+entry_velocity_max: crank_radius_mm= wheel_radius_mm~
 pin_force_max_N: SLOWER LARGER MILDER
 input_torque_max_Nm product_acceleration_max_m_s2 product_slip: SLOWER MILDER
 contact_stress_max_MPa: SLOWER WIDER LARGER MILDER
-stopping_torque_Nm: drive.n_rpm*30
+stopping_torque_Nm cycle_max_s: drive.n_rpm*30
+motion_max_s: drive.n_rpm*30 MILDER
+dwell_min_s: SLOWER MILDER
+index_play_max_deg: TIGHTER
+dwell_play_max_deg: lock_clearance_mm>0
+dwell_position_max_deg: lock_clearance_mm>0 tolerance.lock_radius_mm>0
+  tolerance.recess_radius_mm>0 tolerance.center_distance_mm>0 tolerance.slot_angle_deg>0
 entry_shock_N: tolerance.crank_radius_mm>0 tolerance.center_distance_mm>0 SLOWER
 reversal_shock_N: TIGHTER SLOWER
 reversal_stress_MPa: TIGHTER SLOWER WIDER LARGER
@@ -129,7 +136,7 @@ def _table() -> dict[str, str]:
 
 
 # Requirements on the machine's size, process and walls, which no advice reduces.
-REQUIRED = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
+REQUIRED = ("center_distance_mm", "crank_radius_mm", "face_width_mm", "process", "wall_min_mm")
 _WORD = re.compile(r"(?:([\w.]+)\.)?(\w+)([*><+~=?])(.*)")
 
 
@@ -198,9 +205,12 @@ def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     words = [words for key, words in own.items() if key in check.why]
     words += [_table().get(name, _table()["OTHERS"]), *own.values()]
     limited = spec.limits.as_dict().get(name) is not None
+    L, R = spec.size.center_distance_mm, spec.size.crank_radius_mm
     for word in " ".join(words).split():
-        if word == _table()["LARGER"] and not limited and spec.size.center_distance_mm:
-            continue
+        if word == _table()["LARGER"] and (L or R):
+            if not limited or (L and R):
+                continue
+            word = word if L else word.replace("center_distance_mm", "crank_radius_mm")
         yield from _remedies(word, mechanism)
 
 

@@ -158,7 +158,7 @@ def loaded(words, **settings):
     found = subprocess.run(
         [sys.executable, "-c", PROBE, *words],
         stderr=subprocess.PIPE,
-        text=True,
+        encoding="utf-8",
         timeout=60,
         **settings,
     )
@@ -205,6 +205,7 @@ def test_every_command_has_a_row():
     assert {row.line.split()[0] for row in ROWS} >= set(COMMANDS)
 
 
+@repo.posix("fork, without which each run takes a second; the imports are the same everywhere")
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.line)
 def test_heavy_modules(forks, row):

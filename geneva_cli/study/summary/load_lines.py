@@ -8,6 +8,7 @@ from typing import Any
 
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
+from geneva_cli.errors import open_warnings
 from geneva_cli.loads.indexer_formula import recommended_motor
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import no_load
@@ -171,7 +172,8 @@ def record_answer(
 def summary_of(design: Design, lines: Iterable[SummaryLine], warnings: Sequence[str]) -> Summary:
     """Some lines and warnings about a design, whose headline counts the warnings."""
     head = f"{title_of(design)}{counted(warnings)}"
-    return Summary(head, (*lines, *map(warning, warnings)), WARNS if warnings else "")
+    state = WARNS if open_warnings(warnings) else ""
+    return Summary(head, (*lines, *map(warning, warnings)), state)
 
 
 def title_of(design: Design) -> str:
@@ -189,5 +191,5 @@ def counted(warnings: Sequence[str]) -> str:
     >>> counted(["a", "b"]), counted([])
     (': 2 warnings', '')
     """
-    many = len(warnings)
+    many = len(open_warnings(warnings))
     return f": {many} warning{'s' * (many != 1)}" if many else ""

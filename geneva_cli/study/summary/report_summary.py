@@ -21,6 +21,7 @@ from geneva_cli.verdict.headline import (
     input_lines,
     measured,
     tightest,
+    unused_lines,
     warning_lines,
 )
 
@@ -33,6 +34,7 @@ def of_report(design: Design) -> Answer:
     first = (*failure_lines(checks), *input_lines(design.with_units))
     both = both_ways_lines(checks) if design.spec.drive.both_ways else ()
     lines = (*first, *key_figures(design), *both, *warning_lines(checks, warnings))
+    lines = (*lines, *unused_lines(design.unused_acceptances))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
     shown = ("title", "passes", "checks_failed", "not_proved", "chosen")
     return Answer((summary,), below_summary(record, without=shown), record)
