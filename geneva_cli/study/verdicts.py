@@ -139,7 +139,7 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
         each = ((v.path, (*_lines(v), *anew_lines(v.chosen))) for v in judged)
         details = [Summary(path, lines) for path, lines in each if lines]
         unread = len(verdicts) - len(judged)
-        summaries = [*map(_head, judged), _count(judged, unread), *details]
+        summaries = [*map(_head, judged), _count(judged, unread), *_sized(judged), *details]
     return Answer(tuple(summaries), table if page else None, data)
 
 
@@ -168,7 +168,11 @@ def _count(judged: Sequence[Verdict], unread: int) -> Summary:
     )
     text += f", {unread} cannot be read" if unread else ""
     text += f", {warned} with warnings" if warned else ""
+    return Summary(text, state=FAILS if failed or unread else WARNS if warned else PASSES)
+
+
+def _sized(judged: Sequence[Verdict]) -> list[Summary]:
+    """How many specs have sizes that their loads chose; nothing without any."""
     sized = sum(bool(v.chosen.sizes) for v in judged)
-    said = f"chosen by load in {sized} of them (geneva size SPEC writes them)"
-    lines = (SummaryLine("sizes", said),) if sized else ()
-    return Summary(text, lines, FAILS if failed or unread else WARNS if warned else PASSES)
+    said = f"chosen by load in {sized} of {len(judged)} specs (geneva size SPEC writes them)"
+    return [Summary(f"sizes {said}")] if sized else []
