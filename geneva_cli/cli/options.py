@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
@@ -78,6 +79,13 @@ Format: TypeAlias = Annotated[
 ]
 
 
+def outline_settings(wheel: str | None, crank: str | None, slack: float | None) -> list[str]:
+    """The settings of ``[outline]`` that options stand for; files are those of this folder."""
+    files = (("wheel", wheel), ("crank", crank))
+    out = [f"outline.{name}={os.path.abspath(path)}" for name, path in files if path is not None]
+    return out if slack is None else [*out, f"outline.slack_mm={slack}"]
+
+
 def warn(design: Design) -> None:
     """Print the warnings about the motion on standard error."""
     say(design.spec.path, design.motion_warnings)
@@ -88,8 +96,11 @@ def say(path: str, warnings: Iterable[str]) -> None:
     from geneva_cli.output import shown_text
 
     for text in warnings:
-        named = f"{text} [{text.name}]" if isinstance(text, Notice) else text
-        print(clean(f"{path}: warning: {shown_text(named)}"), file=sys.stderr)
+        named, kind = text, "warning"
+        if isinstance(text, Notice):
+            named = f"{text.plain} [{text.name}]"
+            kind = f"warning, accepted ({text.accepted})" if text.accepted else kind
+        print(clean(f"{path}: {kind}: {shown_text(named)}"), file=sys.stderr)
 
 
 def require_written(design: Design, verdict: tuple[str, list[str]], force: bool) -> None:

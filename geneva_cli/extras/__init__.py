@@ -5,5 +5,6 @@ The list holds folders. Each has ``EXTRA``, its record, and imports nothing else
 
 FOLDERS = (
     "certify",
+    "outline",
     "servo",
 )

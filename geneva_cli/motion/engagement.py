@@ -17,7 +17,16 @@ from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.kept import cached_property
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, Batchable, all_true, array, blocks, library
+from geneva_cli.numerics.arrays import (
+    Array,
+    Batchable,
+    Truth,
+    all_true,
+    array,
+    blocks,
+    choose,
+    library,
+)
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 K = TypeVar("K", float, "Array")
@@ -182,6 +191,22 @@ class Slot(Batchable, ABC):
         return 1.0
 
 
+class AsBuilt(NamedTuple):
+    """What a crank as built has: its R/L is not what its straight slots need.
+
+    ``crosses`` is true if the roller's centre crosses the axis of the slot at rest inside the rim,
+    before and after its motion. ``gained`` is the wheel's angle beyond its next rest, radians, at
+    which the centre leaves the rim. ``angle`` is the direction of the slot at rest before the
+    motion, radians from the line of centres. ``outer`` is true if the roller enters at the crossing
+    beyond the foot of the perpendicular from the crank's axis.
+    """
+
+    crosses: Truth
+    gained: float
+    angle: float
+    outer: Truth
+
+
 class Peak(NamedTuple, Generic[K]):
     """Greatest size of a quantity, and the signed input angle of its first occurrence, degrees.
 
@@ -324,7 +349,8 @@ class Engagement(Batchable):
     -1 with the wheel, 1 against it. ``groove`` is the path if a fixed groove guides the roller
     along the crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a
     sphere. ``mid_angle`` is the wheel's angle at mid-motion, radians from the first mid-motion, if
-    the loads depend on it (``Mechanism.unbalanced``).
+    the loads depend on it (``Mechanism.unbalanced``). ``built`` describes a crank as built, whose
+    R/L is not what the slots need: the wheel's velocity then jumps at entry and exit.
     """
 
     mid_deg: float
@@ -337,6 +363,7 @@ class Engagement(Batchable):
     groove: Groove | None = None
     hub: float = 1.0
     mid_angle: float | None = None
+    built: AsBuilt | None = None
 
     @property
     def entry_deg(self) -> float:
@@ -347,6 +374,27 @@ class Engagement(Batchable):
     def exit_deg(self) -> float:
         """Input angle at which the motion ends, degrees from mid-motion."""
         return self.motion.exit_deg
+
+    @property
+    def jumps(self) -> tuple[Number, Number]:
+        """Velocities to which the wheel jumps at entry, and from which it stops at exit.
+
+        They are 0 but on a crank as built, and NaN there if the roller's centre never crosses the
+        axis of the slot at rest inside the rim.
+        """
+        if self.built is None:
+            return 0.0, 0.0
+        rates = (self.motion.rate(at, 0).c[0] for at in (self.entry_deg, self.exit_deg))
+        entry, exit_ = (choose(self.built.crosses, rate, math.nan) for rate in rates)
+        return entry, exit_
+
+    @property
+    def gained(self) -> Number:
+        """Wheel angle beyond its next rest at which the roller leaves the rim, radians.
+
+        It is 0 but on a crank as built; negative where the roller leaves before that rest.
+        """
+        return 0.0 if self.built is None else self.built.gained
 
     def end_deg(self, end: float) -> float:
         """Input angle at entry, where ``end`` is -1, or at exit, where it is 1."""

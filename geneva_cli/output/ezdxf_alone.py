@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from configparser import ConfigParser
 from contextlib import contextmanager
 
-__all__ = ["BaseLayout", "Document", "Modelspace", "options"]
+__all__ = ["BaseLayout", "Document", "Modelspace", "options", "readfile"]
 
 
 @contextmanager
@@ -34,5 +34,6 @@ def _alone() -> Iterator[None]:
 with _alone():
     from ezdxf._options import options
     from ezdxf.document import Drawing as Document
+    from ezdxf.filemanagement import readfile
     from ezdxf.layouts.base import BaseLayout
     from ezdxf.layouts.layout import Modelspace

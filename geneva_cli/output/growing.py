@@ -21,15 +21,10 @@ from typing import Any, BinaryIO
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import refuse_columns, refuse_inches
 from geneva_cli.output.delimited import one_line, text_of
-from geneva_cli.output.files import (
-    digest_of,
-    lock_or_refuse,
-    place,
-    refuse_input,
-    replacing,
-    write_errors,
-)
+from geneva_cli.output.files import digest_of, place, refuse_input, replacing, write_errors
 from geneva_cli.output.finite import refuse_nan
+from geneva_cli.output.locks import CAREFUL, lock_or_refuse, remove
+from geneva_cli.streams import use_utf8
 
 SUFFIX = ".geneva"
 TITLE = b"geneva sweep state 1 "
@@ -157,7 +152,7 @@ class GrowingFile:
             if self.resume:
                 self._begin(self.first + f"whole {digest_of(self.real)}\n".encode())
             else:
-                os.unlink(self.state)
+                remove(self.file, self.state)
             self.close()
 
     def _lines(self) -> Iterator[bytes]:
@@ -184,7 +179,7 @@ def _open_locked(path: str, inputs: Iterable[str]) -> BinaryIO:
             raise _not_ours(path)
         refuse_input(path, status, inputs)
     # A link or a pipe that somebody puts there now is neither followed nor waited for.
-    flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK
+    flags = os.O_RDWR | os.O_CREAT | CAREFUL
     file = os.fdopen(os.open(path, flags, 0o666), "r+b")
     try:
         name = cut(os.path.basename(path.removesuffix(SUFFIX)))
@@ -244,6 +239,7 @@ class GrowingTable:
         elif resume:
             raise GenevaError("--resume continues a file: give -o FILE")
         else:
+            use_utf8()
             sys.stdout.write(first)
 
     def append(self, columns: Sequence[Any]) -> None:

@@ -76,12 +76,15 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
     files = _Files(name)
     drive = dict(tree.get("drive", {}))
     before = drive.pop("before", None)
+    plain = _plain(tree, files)
+    drawn = plain["outline"].files if "outline" in plain else ()
+    files.read += [os.path.join(files.folder, drawing) for drawing in drawn]
     return Spec(
         wheel=_kind(tree["wheel"], WHEELS, files),
         drive=_kind(drive, DRIVES, files),
         drive_before=None if before is None else _before(before, files),
         motion=_motion(tree["motion"], files) if "motion" in tree else None,
-        **_plain(tree, files),
+        **plain,
         title=clean(free_text("title", title, ("title",))),
         path=name,
         files=tuple(files.read),

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from geneva_cli import load
 from geneva_cli.cli.app import app
+from geneva_cli.parts.parts import parts_of
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.sweep.plan import plan
 from geneva_cli.study.sweep.run import Sweep, sweep
@@ -65,3 +67,18 @@ def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
         return CliRunner().invoke(app, [*call, "--format", "csv"]).stdout.splitlines()[-1]
 
     assert last("0..0.8:0.0001") == last("0..0.8:0.002")
+
+
+def test_parts_are_kept_for_another_speed_and_not_for_another_drive():
+    """Two rollers leave another locking disc, though no key of a size is another."""
+
+    def machine(*settings):
+        return load(os.path.join(DESIGNS, "side-crank-z6.toml"), settings).mechanism
+
+    first = parts_of(machine()).turned
+    faster, other = machine("drive.n_rpm=90"), machine("drive.rollers=2")
+    same = first.following(faster)
+    assert same.mechanism is faster and same.outlines.wheel is first.outlines.wheel
+    following, alone = first.following(other), parts_of(other).outlines
+    assert following.mechanism is other and following.outlines.crank == alone.crank
+    assert alone.crank != first.outlines.crank

@@ -5,10 +5,11 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.options import Format, Output, Settings, flag, option, say
-from geneva_cli.errors import clean
+from geneva_cli.cli.options import Format, Output, Settings, flag, option, outline_settings, say
+from geneva_cli.errors import clean, open_warnings
 
 EXAMPLES = ("geneva check spec.toml", "geneva check spec.toml --set size.slot_clearance_mm=0.05")
+DRAWN = "A drawing from elsewhere"
 
 
 def run(
@@ -19,6 +20,14 @@ def run(
     ] = False,
     proof: Annotated[
         float | None, option("MM", "Prove that no parts overlap by more.", name="--proof")
+    ] = None,
+    wheel: Annotated[
+        str | None, option("FILE", "The wheel as somebody drew it: .dxf or .svg.", DRAWN)
+    ] = None,
+    crank: Annotated[str | None, option("FILE", "The crank: .dxf or .svg.", DRAWN)] = None,
+    slack: Annotated[
+        float | None,
+        option("MM", "Overlap that counts as touching.  [default: 1e-6, or 0.001]", DRAWN),
     ] = None,
     settings: Settings = None,
     output: Output = "-",
@@ -34,7 +43,8 @@ def run(
     from geneva_cli.study.verdicts import of_checks, verdicts
 
     name = table_as(output, format)
-    results = list(verdicts(specs, settings or (), proof))
+    drawn = outline_settings(wheel, crank, slack)
+    results = list(verdicts(specs, [*(settings or ()), *drawn], proof))
     judged = [v for v in results if not v.error]
     if judged or name == "json":
         is_short = is_watched(output, format) and not verbose
@@ -47,5 +57,6 @@ def run(
             say(v.path, v.warnings)
     if len(judged) < len(results):
         raise typer.Exit(2)
-    if not all(v.passes for v in results) or (strict and any(v.warnings for v in results)):
+    warned = strict and any(open_warnings(v.warnings) for v in results)
+    if warned or not all(v.passes for v in results):
         raise typer.Exit(1)

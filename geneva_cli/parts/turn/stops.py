@@ -55,6 +55,21 @@ class Branches(NamedTuple):
         return Branches(row[which], *(each[which] for each in columns))
 
 
+class Meetings(NamedTuple):
+    """Intervals of the wheel's angle, radians, at which two branches meet, one of each array.
+
+    The levels are those at which they touch at the ends of the interval.
+    """
+
+    row: Whole  # the pose
+    start: Array
+    end: Array
+    start_level: Array
+    end_level: Array
+    other: Branches
+    wheel: Branches
+
+
 class Stops(ABC):
     """Stops of one machine's wheel, which repeats after ``pitch`` radians."""
 
@@ -90,29 +105,58 @@ class Stops(ABC):
     ) -> tuple[Array, Array]:
         """Return how far the wheel turns back and on until branches meet, and their level there."""
         leads, levels = np.full((2, len(turn)), most), np.zeros((2, len(turn)))
+        for met in self.meetings(others, wheel):
+            start, end = met.start - turn[met.row], met.end - turn[met.row]
+            shift = self.pitch * np.round(0.5 * (start + end) / self.pitch)
+            start, end = start - shift, end - shift
+            for k, (near, far, level) in enumerate(
+                ((-end, -start, met.end_level), (start, end, met.start_level))
+            ):
+                lead = np.where(far < 0.0, near + self.pitch, np.maximum(near, 0.0))
+                hit = np.flatnonzero(lead < most)
+                np.minimum.at(leads[k], met.row[hit], lead[hit])
+                hit = hit[lead[hit] == leads[k, met.row[hit]]]
+                levels[k, met.row[hit]] = level[hit]
+        return leads, levels
+
+    def meetings(
+        self, others: Branches, wheel: Branches, window: tuple[float, float] | None = None
+    ) -> Iterator[Meetings]:
+        """Yield the intervals of the wheel's angle at which other branches meet the wheel's.
+
+        The others, of n poses, are in the fixed frame, and those of the wheel in its own. The angle
+        of an interval may be whole pitches away. With a ``window``, an angle of the wheel and a
+        distance from it, radians, only intervals that may reach into it are needed.
+        """
         step = max(1, BLOCK // max(1, len(wheel.low)))
         for block in range(0, len(others.low), step):
             some = others.at(slice(block, block + step))
             common = (some.low[:, None] <= wheel.high) & (some.high[:, None] >= wheel.low)
+            if window is not None:
+                (one_at, one_half), (two_at, two_half) = spread(some), spread(wheel)
+                away = one_at[:, None] - two_at - window[0]
+                away -= self.pitch * np.round(away / self.pitch)
+                common &= np.abs(away) <= one_half[:, None] + two_half + window[1]
             i, j = np.nonzero(common)
             one, two = some.at(i), wheel.at(j)
             ends = np.maximum(one.low, two.low), np.minimum(one.high, two.high)
+            place = [self.place(one, level) - self.place(two, level) for level in ends]
+            second = place[1] > place[0]
+            low, high = np.minimum(*place), np.maximum(*place)
+            at_low, at_high = np.where(second, *ends), np.where(second, *ends[::-1])
+            bent = np.flatnonzero((one.size != 0.0) | (two.size != 0.0))
+            first, other = one.at(bent), two.at(bent)
             with np.errstate(all="ignore"):
-                tangents = (np.nan_to_num(level) for level in self.tangents(one, two))
-                tries = np.array((*ends, *(np.clip(level, *ends) for level in tangents)))
-                place = np.array([self.place(one, x) - self.place(two, x) for x in tries])
-            low, high, every = np.argmin(place, axis=0), np.argmax(place, axis=0), np.arange(len(i))
-            spare, place = one.half + two.half, place - turn[one.row]
-            start, end = place[low, every] - spare, place[high, every] + spare
-            shift = self.pitch * np.round(0.5 * (start + end) / self.pitch)
-            start, end = start - shift, end - shift
-            for k, (near, far, at) in enumerate(((-end, -start, high), (start, end, low))):
-                lead = np.where(far < 0.0, near + self.pitch, np.maximum(near, 0.0))
-                hit = np.flatnonzero(lead < most)
-                np.minimum.at(leads[k], one.row[hit], lead[hit])
-                hit = hit[lead[hit] == leads[k, one.row[hit]]]
-                levels[k, one.row[hit]] = tries[at[hit], hit]
-        return leads, levels
+                for tangent in self.tangents(first, other):
+                    level = np.clip(np.nan_to_num(tangent), ends[0][bent], ends[1][bent])
+                    here = self.place(first, level) - self.place(other, level)
+                    for least, at, less in (
+                        (low, at_low, here < low[bent]),
+                        (high, at_high, here > high[bent]),
+                    ):
+                        least[bent[less]], at[bent[less]] = here[less], level[less]
+            spare = one.half + two.half
+            yield Meetings(one.row, low - spare, high + spare, at_low, at_high, one, two)
 
     @abstractmethod
     def wheel(self, inset: float) -> Branches:
@@ -140,6 +184,17 @@ class Stops(ABC):
     @abstractmethod
     def lean(self, level: Array, pins: Array, close: float) -> Array:
         """Return the sine of the pressure angle where rollers touch, ``close`` inside them."""
+
+
+def spread(branches: Branches) -> tuple[Array, Array]:
+    """Return middles of the places of branches, radians, and bounds of their distance from them."""
+    ends = branches.at_low, branches.at_high
+    middle = branches.ahead + 0.5 * branches.sign * (ends[0] + ends[1])
+    # an arc may be widest between its ends; 1 + size * excess is its centre's distance over radius
+    far = np.maximum(1.0 + branches.size * branches.excess, 1.0)
+    widest = np.arcsin(1.0 / far)
+    wide = np.where(branches.size > 0.0, widest, 0.0)
+    return middle, 0.5 * np.abs(ends[1] - ends[0]) + branches.half + wide
 
 
 def cut(

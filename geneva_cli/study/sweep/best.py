@@ -73,6 +73,8 @@ def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
 
 
 def _notes(request: SweepRequest, values: Mapping[str, float], machine: Mechanism) -> Iterable[str]:
+    if anew := request.chosen_anew(machine):
+        yield f"# sizes chosen anew: {anew}"
     for c in request.constraints:
         yield f"# {c}: {values[c.name]:.9g}{c.standing(values[c.name])}"
     for name, value in zip(request.of_best.names, request.of_best.of(machine), strict=True):

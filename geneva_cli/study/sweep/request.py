@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.parts.chosen import ByLoad, by_load
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.fields import Pick
@@ -93,6 +96,12 @@ class SweepRequest(NamedTuple):
         rows = foremost(best)
         if len(rows):
             yield rows
+
+    def chosen_anew(self, machine: Mechanism) -> str:
+        """The sizes that the load of a design chooses other than that of the spec, in words."""
+        with suppress(GenevaError):  # the spec may lack a varied key
+            return ByLoad(by_load(machine), by_load(build(self.sweep.text.spec()))).changes
+        return ""
 
 
 def _keeping(rows: Rows, bounds: Iterable[tuple[int, Constraint]]) -> Rows:
@@ -207,9 +216,24 @@ class Outcome:
             unknown = [f"no design has a value of {name}" for name in self._unknown.values()]
             why = dict.fromkeys([*unknown, *self._nearness.phrases()])
             notes.append(f"none of {self.all:,} rows is left: {'; '.join(why)}")
-        return notes
+        return [*notes, *self._chosen()]
+
+    def _chosen(self) -> Iterator[str]:
+        """The note on sizes that the load of each row chooses, where quantities depend on them."""
+        sweep = self.request.sweep
+        if not any(group.table.startswith(OF_SIZES) for group in sweep.pick.groups):
+            return
+        with suppress(GenevaError):  # the spec may lack a varied key
+            if words := ByLoad(by_load(build(sweep.text.spec())), {}).words:
+                name = {"<stdin>": "-"}.get(sweep.text.name, sweep.text.name)
+                yield (
+                    f"note: each row has the sizes that its own load needs, the spec {words}; "
+                    f"`geneva size {name}` writes those, so that they stay"
+                )
 
 
+# Tables of quantities that depend on the sizes of the parts.
+OF_SIZES = ("parts", "strength", "life", "checks", "tolerance")
 ROWS = 5  # the first rows, and as many of the best; up to twice as many are all shown
 
 Numbered = tuple[Cell, ...]  # a row behind its number, counted from 1

@@ -1,0 +1,202 @@
+"""The checks of a drawn machine, with what its turn gives in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import suppress
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError, Notice
+from geneva_cli.extras.outline.contact import contacts
+from geneva_cli.extras.outline.machine import DrawnMachine
+from geneva_cli.extras.outline.turning import (
+    HELD_MIDDLE,
+    LOOSE,
+    Impact,
+    SenseResult,
+    Turned,
+    impacts,
+    turned,
+)
+from geneva_cli.geometry.loops import shown
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.parts import parts_of
+from geneva_cli.parts.turn.free_ranges import levels
+from geneva_cli.verdict.checks.check import Check, compared
+
+ENTRY_VELOCITY = 0.01  # default of ``entry_velocity_max``
+
+
+def checks(mechanism: Mechanism) -> list[Check]:
+    """Return the checks of a machine with drawn outlines, one after the other.
+
+    Raises GenevaError for a drawing that is no outline.
+    """
+    result = turned(mechanism)
+    rows = [_turns(result, mechanism), _hold(result, mechanism), *_rests(result, mechanism)]
+    return [*rows, *_entry(result, mechanism), *_drift(result, mechanism)]
+
+
+def warnings(mechanism: Mechanism) -> list[Notice]:
+    """Return the warnings about drawings: how they were read."""
+    return list(turned(mechanism).machine.notes)
+
+
+def _turns(result: Turned, mechanism: Mechanism) -> Check:
+    z = mechanism.spec.wheel.z
+    worst = min(result.senses, key=lambda sense: sense.passed)
+    if worst.jam is not None:
+        at = _shown_deg(result.machine, worst.jam.crank)
+        why = "; ".join(dict.fromkeys(_jam_text(result.machine, s) for s in result.senses if s.jam))
+        return Check("turns", float(worst.passed), "at least", float(z), False, why, at)
+    if not result.has_indexed:
+        index = math.degrees(worst.first.index)
+        why = (
+            f"the crank turns, but the wheel goes on by {abs(index):.4g}° only: no roller finds a "
+            "slot; check [size], wheel_turn_deg and crank_turn_deg in [outline]"
+        )
+        return Check("turns", 0.0, "at least", float(z), False, why)
+    return Check("turns", float(z), "at least", float(z), True, _summary(result, mechanism))
+
+
+def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
+    """Where the wheel jams, and what meets there."""
+    assert sense.jam is not None
+    crank, wheel = sense.jam.crank, sense.jam.wheel
+    way = "forwards" if sense.way > 0 else "backwards"
+    text = (
+        f"jams {way} at input angle {_shown_deg(machine, crank):.6g}° with the wheel at "
+        f"{_from_rest(machine, wheel):.6g}°"
+    )
+    touching = contacts(machine.free, np.array([crank]), np.array([wheel]))
+    if not touching.is_known[0]:
+        return text
+    own, theirs = touching.named(0)
+    point = complex(*touching.point[0])
+    on_wheel = point * complex(math.cos(wheel), -math.sin(wheel))
+    where = shown((on_wheel.real, on_wheel.imag))
+    return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} of its drawing"
+
+
+def _from_rest(machine: DrawnMachine, wheel: float) -> float:
+    """A wheel's angle in its own step, degrees from the middle of it."""
+    step = machine.step / machine.slots_a_turn
+    return math.degrees(math.remainder(wheel - machine.rest, step) + machine.rest)
+
+
+def _shown_deg(machine: DrawnMachine, crank: float) -> float:
+    return machine.assembly.shown_deg(math.degrees(crank))
+
+
+def _summary(result: Turned, mechanism: Mechanism) -> str:
+    """What the turn gives, in words."""
+    machine, turn = result.machine, result.senses[0].first
+    index = math.degrees(turn.index) / machine.slots_a_turn
+    moving = turn.is_moving
+    free = np.degrees(turn.high - turn.low)
+    rest = math.degrees(result.rest.high - result.rest.low)
+    first = turn.pushes[0]
+    last = max((p for p in turn.pushes if abs(p.end_wheel - p.begin_wheel) > 1e-3), default=first)
+    begin, end = (_shown_deg(machine, x) for x in (first.begin, last.end))
+    text = (
+        f"turns both ways through every slot: index {index:.7g}°, moved from {begin:.5g} to "
+        f"{end:.5g}° of the input, "
+    )
+    held = f"play in the dwell {rest:.4g}°" if result.is_held else "nothing holds it in the dwell"
+    motion = float(free[moving].max(initial=0.0))
+    text += f"{held}, in motion {motion:.4g}°"
+    widest = float(free[~moving].max(initial=0.0))
+    if widest > rest * (1.0 + 1e-6) + 1e-6:
+        text += f", at most {widest:.4g}° while it rests"
+    lag = lag_deg(result)
+    if lag > 1e-5:
+        text += f"; it lags up to {lag:.3g}° behind the ideal motion"
+    return text
+
+
+def lag_deg(result: Turned) -> float:
+    """Return how far the wheel lags behind the ideal motion at most, degrees."""
+    turn, worst = result.senses[0].first, 0.0
+    at = np.degrees(turn.crank)
+    passed = 0.0
+    for engagement, mid in result.machine.assembly.motions:
+        inside = (at - mid > engagement.entry_deg) & (at - mid < engagement.exit_deg)
+        ideal = engagement.motion(at[inside] - mid, 0).arrays()[0]
+        behind = passed + ideal - turn.wheel[inside]
+        worst = max(worst, math.degrees(float(np.max(behind, initial=0.0))))
+        passed += 2.0 * engagement.half_step
+    return worst
+
+
+def _hold(result: Turned, mechanism: Mechanism) -> Check:
+    """Check that the outlines hold the wheel in the dwell, or ``held_by`` of the spec."""
+    holds = result.is_held or mechanism.spec.wheel.held_by is not None
+    return Check("dwell_hold", float(holds), "at least", 1.0, holds)
+
+
+def _rests(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
+    """Check the places of rest from which the wheel turns, where it may stand in a range."""
+    if not result.rest.is_free:
+        why = (
+            "parts overlap in the middle of the dwell: check wheel_turn_deg, crank_turn_deg and "
+            "mirror in [outline]"
+        )
+        yield Check("turning_rests_deg", None, "at least", 0.0, False, why)
+        return
+    low, high = result.rest.low, result.rest.high
+    if high - low < LOOSE:
+        return
+    begin, end = result.turning or (result.machine.rest, result.machine.rest)
+    put_back = mechanism.spec.wheel.held_by in HELD_MIDDLE
+    limit = 0.0 if put_back else math.degrees(high - low)
+    value = math.degrees(end - begin)
+    if end - begin > (high - low) * (1.0 - 1e-6):
+        value = math.degrees(high - low)
+    ok = value > 0.0 if put_back else value >= limit
+    text = "from no place of rest it turns"
+    if value:
+        a, b = math.degrees(begin), math.degrees(end)
+        text = f"turns if it rests between {a:.5g} and {b:.5g}°"
+        text += f", and may stand between {math.degrees(low):.5g} and {math.degrees(high):.5g}°"
+    must_be = "above" if put_back else "at least"
+    yield Check("turning_rests_deg", value, must_be, limit, ok, "" if ok else text)
+
+
+def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
+    """Check the velocity with which the wheel is set in motion."""
+    every = impacts(result)
+    if not every:
+        return
+    worst = max(every, key=lambda one: abs(one.velocity))
+    limit = vars(mechanism.spec.limits).get("entry_velocity_max") or ENTRY_VELOCITY
+    at = _shown_deg(result.machine, worst.crank)
+    row = compared("entry_velocity_max", abs(worst.velocity), "at most", limit, at)
+    yield row if row.passes else row._replace(why=_ideal_text(result, mechanism, worst))
+
+
+def _ideal_text(result: Turned, mechanism: Mechanism, worst: Impact) -> str:
+    """What would enter without an impact."""
+    roller = result.machine.roller
+    R, ideal = roller.distance, roller.ideal_distance
+    text = f"the wheel is set in motion at {_from_rest(result.machine, worst.wheel):.5g}°"
+    if abs(R - ideal) > 1e-4 * ideal:
+        text += f"; R is {R:.5g} mm, and {ideal:.5g} would enter without an impact"
+    with suppress(GenevaError):
+        own = parts_of(mechanism).flat.outlines.sizes.rim
+        low, high = levels(result.machine.free.whole)
+        sign = result.machine.assembly.sign
+        rim = float(high.max() if sign > 0.0 else low.min())
+        if sign * (own - rim) > 1e-3:
+            text += f"; the rim is at {rim:.5g} mm, and must reach {own:.4g}"
+    return text
+
+
+def _drift(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
+    """Check that a wheel which keeps its place rests at the same place after each index."""
+    if mechanism.spec.wheel.held_by in HELD_MIDDLE or not result.turns:
+        return
+    drift = max(abs(sense.drift) for sense in result.senses)
+    play = result.rest.high - result.rest.low
+    yield compared("drift_deg", math.degrees(drift), "at most", math.degrees(play))

@@ -1,0 +1,189 @@
+"""The motion that drawn outlines give: a table over a turn of the crank, and its peaks.
+
+It is piecewise: at rest, or pushed by one contact after the other. Velocity, acceleration and jerk
+follow from the geometry of the contact. At the beginning of a push the velocity may leap: that is
+an impact, at which the acceleration has no bound.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.extras.outline.contact import contacts
+from geneva_cli.extras.outline.turning import LATE, LOOSE, Turned, turned
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.motion_table import check_samples, inputs, times_s
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.jet import Jet, atan2, composed
+from geneva_cli.parts.turn.lazy_turn import LazyTurn, Push
+from geneva_cli.table import Table, record_table
+
+FINE = 33  # places about a peak, in each round of the search
+FIELDS = ("max", "at_deg", "entry", "exit")
+QUANTITIES = ("velocity", "acceleration", "jerk", "power")
+
+
+def steady_turn(result: Turned) -> LazyTurn:
+    """Return the last turn of the crank forwards, after which the wheel rests as before.
+
+    Raises GenevaError if the wheel jams or is not turned.
+    """
+    if not result.turns:
+        raise GenevaError(
+            "the wheel does not turn, so there is no motion: `geneva check` says where it jams",
+            ("outline",),
+        )
+    turns = result.senses[0].turns
+    if result.rest.high - result.rest.low < LOOSE:
+        return turns[0]
+    steps = (len(turns) - 1) * result.machine.step
+    last = turns[-1]
+    pushes = tuple(
+        p._replace(begin_wheel=p.begin_wheel - steps, end_wheel=p.end_wheel - steps)
+        for p in last.pushes
+    )
+    moved = (last.wheel - steps, last.low - steps, last.high - steps)
+    return LazyTurn(last.crank, *moved, pushes, last.jam)
+
+
+def motion(mechanism: Mechanism, samples: int) -> Table:
+    """Return ``samples`` rows, evenly spaced in the input angle, over a period from the entry.
+
+    Raises GenevaError for a number of samples out of range, and if the wheel does not turn.
+    """
+    check_samples(samples)
+    result = turned(mechanism)
+    turn = steady_turn(result)
+    input_deg = inputs(mechanism, samples, 0, samples)
+    theta = crank_jet(mechanism, input_deg)
+    start = turn.crank[0]
+    laps = np.floor((theta.c[0] - start) / math.tau)
+    crank = theta.c[0] - math.tau * laps
+    wheel, rates = at_crank(result, turn, crank)
+    outer = Jet((wheel, rates[0], rates[1] / 2.0, rates[2] / 6.0))
+    psi = composed(outer, theta)
+    _, velocity, acceleration, jerk = psi.arrays()
+    # the crank's angle is within half a turn of mid-motion; whole turns add whole steps
+    turns = np.cumsum(np.concatenate(([0.0], np.diff(crank) < -math.pi)))
+    shown = np.degrees(wheel + turns * turn.index)
+    names = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
+    columns = [times_s(mechanism, input_deg), input_deg, shown, velocity, acceleration, jerk]
+    return Table(names, columns)
+
+
+def crank_jet(mechanism: Mechanism, input_deg: Array) -> Jet:
+    """Return the crank's angle from mid-motion, radians, with its derivatives by the input's."""
+    first = mechanism.engagements[0]
+    whole = 360.0 * mechanism.spec.turns
+    at = input_deg - first.mid_deg
+    at = at - whole * np.round(at / whole)
+    x, y = first.path(at, 3)
+    out = atan2(y, 1.0 - x) if mechanism.spec.wheel.SIGN > 0.0 else atan2(y, x - 1.0)
+    size = np.zeros(len(at))
+    return Jet([c + size for c in out.c])
+
+
+def at_crank(result: Turned, turn: LazyTurn, crank: Array) -> tuple[Array, list[Array]]:
+    """Return the wheel's angle and three derivatives by the crank's, at crank angles of a turn.
+
+    While it rests the derivatives are 0. At either end of a push they are those inside it.
+    """
+    free = result.machine.free
+    before = np.clip(np.searchsorted(turn.crank, crank, side="right") - 1, 0, None)
+    wheel = turn.wheel[before].copy()
+    rates = [np.zeros(len(crank)) for _ in range(3)]
+    for push in turn.pushes:
+        inside = np.flatnonzero((crank >= push.begin) & (crank <= push.end))
+        if not len(inside):
+            continue
+        ranges = free.at(crank[inside])
+        for i, k in enumerate(inside):
+            there = ranges.around(i, wheel[k])
+            if not there.is_free:
+                wheel[k] = min(there.low, there.high, key=lambda end: abs(end - wheel[k]))
+        found = contacts(free, crank[inside], wheel[inside]).motion(crank[inside])
+        for rate, own in zip(rates, found[1:], strict=True):
+            rate[inside] = own
+    return wheel, rates
+
+
+def peaks(mechanism: Mechanism) -> Table:
+    """Return the greatest velocity, acceleration, jerk and power, as ``geneva peaks`` prints them.
+
+    They are those inside the pushes; the impacts at their beginnings are apart, as ``impact``.
+    """
+    result = turned(mechanism)
+    turn = steady_turn(result)
+    values: dict[str, object] = {"spec": mechanism.spec.path, "title": mechanism.spec.title or None}
+    pushes = [p for p in turn.pushes if abs(p.end_wheel - p.begin_wheel) > LATE]
+    ends = np.array((inside(pushes[0])[0], inside(pushes[-1])[1]))
+    best: dict[str, tuple[float, float]] = dict.fromkeys(QUANTITIES, (0.0, math.nan))
+    for push in pushes:
+        rows = turn.crank[(turn.crank >= push.begin) & (turn.crank <= push.end)]
+        grid = np.unique(np.concatenate((rows, (push.begin, push.end))))
+        grid[[0, -1]] = inside(push)
+        for name in QUANTITIES:
+            found = _peak(result, turn, mechanism, name, grid)
+            if found[0] > best[name][0]:
+                best[name] = found
+    for name, (size, at) in best.items():
+        values[f"{name}.max"] = size
+        values[f"{name}.at_deg"] = result.machine.assembly.shown_deg(math.degrees(at))
+        first, last = _quantity(result, turn, mechanism, name, ends)
+        values[f"{name}.entry"] = abs(float(first))
+        values[f"{name}.exit"] = abs(float(last))
+    begin, end = (_input_deg(result, x) for x in (pushes[0].begin, pushes[-1].end))
+    values["motion_deg"] = end - begin
+    values["dwell_deg"] = mechanism.whole_deg - (end - begin)
+    values["stations"] = None
+    fields = {**dict.fromkeys(QUANTITIES, FIELDS), "power": FIELDS[:2]}
+    names = [f"{name}.{field}" for name in QUANTITIES for field in fields[name]]
+    ordered = ("spec", "title", *names, "motion_deg", "dwell_deg", "stations")
+    return record_table({name: values[name] for name in ordered})
+
+
+def inside(push: Push) -> tuple[float, float]:
+    """Return crank angles just inside a push, radians, where only its own contact touches."""
+    return push.begin + 1e-9, push.end - 1e-7
+
+
+def _input_deg(result: Turned, crank: float) -> float:
+    """The input angle at a crank angle, degrees, which rises from turn to turn."""
+    return result.machine.assembly.to_input(math.degrees(crank))
+
+
+def _quantity(
+    result: Turned, turn: LazyTurn, mechanism: Mechanism, name: str, crank: Array
+) -> Array:
+    """A quantity at crank angles in pushes, by the input's angle."""
+    wheel, rates = at_crank(result, turn, crank)
+    input_deg = np.array([_input_deg(result, float(x)) for x in crank])
+    inner = crank_jet(mechanism, input_deg)
+    outer = Jet((wheel, rates[0], rates[1] / 2.0, rates[2] / 6.0))
+    _, velocity, acceleration, jerk = composed(outer, inner).arrays()
+    known = {
+        "velocity": velocity,
+        "acceleration": acceleration,
+        "jerk": jerk,
+        "power": velocity * acceleration,
+    }
+    return known[name]
+
+
+def _peak(
+    result: Turned, turn: LazyTurn, mechanism: Mechanism, name: str, grid: Array
+) -> tuple[float, float]:
+    """Return the greatest size of a quantity over a push, and its crank angle."""
+    best = (0.0, float(grid[0]))
+    low, high = grid[0], grid[-1]
+    for _ in range(6):
+        size = np.abs(_quantity(result, turn, mechanism, name, grid))
+        k = int(np.argmax(size))
+        if size[k] > best[0]:
+            best = float(size[k]), float(grid[k])
+        low, high = grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
+        grid = np.linspace(low, high, FINE)
+    return best

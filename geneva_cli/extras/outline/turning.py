@@ -1,0 +1,177 @@
+"""Whether the wheel of a drawn machine turns: both senses, every slot, every place of rest."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.extras.outline.contact import Contact, contacts
+from geneva_cli.extras.outline.machine import DrawnMachine, drawn_machine
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.parts.turn.free_ranges import Range
+from geneva_cli.parts.turn.lazy_turn import Jam, LazyTurn, Push, Turner
+
+SETTLED = 1e-9  # radians: the wheel rests where it rested a turn before
+TRIALS = 12  # places of rest that are tried over the free range
+HALVINGS = 12  # of the space between two of them
+LATE = 1e-3  # radians: a push that moves the wheel less is not counted as an impact
+LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
+HELD_MIDDLE = ("detent", "pin")  # they put the wheel back to the middle of its dwell
+SENSES = (1, -1)
+
+
+class Impact(NamedTuple):
+    """The velocity of the wheel, of the crank's, just after a push begins, and where it does."""
+
+    velocity: float
+    crank: float  # radians
+    wheel: float
+    way: int
+
+
+class SenseResult(NamedTuple):
+    """The motion in one sense: ``turns`` has one turn of the crank after the other."""
+
+    way: int
+    turns: tuple[LazyTurn, ...]
+    passed: int  # slots without a jam
+    drift: float  # radians in the last turn
+
+    @property
+    def jam(self) -> Jam | None:
+        """Where it jams."""
+        return self.turns[-1].jam
+
+    @property
+    def first(self) -> LazyTurn:
+        """The first turn of the crank."""
+        return self.turns[0]
+
+
+class Turned(NamedTuple):
+    """What a turn of the wheel gives. Angles are radians of the crank and of the wheel."""
+
+    machine: DrawnMachine
+    turner: Turner
+    senses: tuple[SenseResult, SenseResult]
+    rest: Range  # where the wheel may stand in the dwell
+    is_held: bool  # the outlines hold the wheel in the dwell
+    turning: tuple[float, float] | None  # places of rest from which it turns in both senses
+
+    @property
+    def turns(self) -> bool:
+        """True if it turns in both senses, from the middle of its dwell on."""
+        return all(sense.jam is None for sense in self.senses) and self.has_indexed
+
+    @property
+    def has_indexed(self) -> bool:
+        """True if the wheel has gone on by more than half of a step in each sense."""
+        step = self.machine.step
+        return all(sense.way * sense.first.index > 0.5 * step for sense in self.senses)
+
+
+@lru_cache(maxsize=4)
+def turned(mechanism: Mechanism) -> Turned:
+    """Return the turn of a machine with drawn outlines. Raises GenevaError as its drawings do."""
+    machine = drawn_machine(mechanism)
+    turner = Turner(machine.free, machine.start)
+    rest = turner.rest(machine.rest)
+    half = 0.5 * math.tau / mechanism.spec.wheel.z
+    low, high = max(rest.low, machine.rest - half), min(rest.high, machine.rest + half)
+    is_held = rest.is_free and high - low < 2.0 * half * (1.0 - 1e-9)
+    middle = machine.rest
+    senses = tuple(_sense(turner, machine, mechanism, way, middle) for way in SENSES)
+    turning = _turning(turner, machine, (low, high)) if rest.is_free else None
+    limited = Range(rest.is_free, low, high)
+    return Turned(machine, turner, (senses[0], senses[1]), limited, is_held, turning)
+
+
+def _sense(
+    turner: Turner, machine: DrawnMachine, mechanism: Mechanism, way: int, rest: float
+) -> SenseResult:
+    """Turn the crank until the wheel has made a turn, jams, or rests as a turn before."""
+    wheel = mechanism.spec.wheel
+    is_put_back = wheel.held_by in HELD_MIDDLE
+    is_alike = machine.free.period < 6.0  # one sector stands for all
+    every = max(1, round(wheel.z / machine.slots_a_turn))
+    out: list[LazyTurn] = []
+    at, drift = rest, 0.0
+    for k in range(every):
+        turn = turner.turn(at, 1, way)
+        out.append(turn)
+        if turn.jam is not None or not len(turn.wheel):
+            return SenseResult(way, tuple(out), k * machine.slots_a_turn, drift)
+        drift = float(turn.wheel[-1]) - at - way * machine.step
+        at = float(turn.wheel[-1])
+        if is_put_back:
+            at = rest + (k + 1) * way * machine.step
+        if is_alike and (is_put_back or abs(drift) < SETTLED):
+            break
+    return SenseResult(way, tuple(out), wheel.z, drift)
+
+
+def _turning(
+    turner: Turner, machine: DrawnMachine, span: tuple[float, float]
+) -> tuple[float, float] | None:
+    """Return the places of rest around the middle from which the wheel turns; None without any."""
+    low, high = span
+
+    def goes(rest: float) -> bool:
+        for way in SENSES:
+            turn = turner.turn(rest, 1, way, exact=False)
+            if turn.jam is not None or way * turn.index < 0.5 * machine.step:
+                return False
+        return True
+
+    middle = min(max(machine.rest, low), high)
+    places = np.linspace(low, high, TRIALS + 1)
+    places[0], places[-1] = low + 1e-9 * (high - low), high - 1e-9 * (high - low)
+    if high - low < 1e-5:
+        return (low, high) if goes(middle) else None
+    good = [goes(float(place)) for place in places]
+    if not any(good):
+        return (middle, middle) if goes(middle) else None
+    first = min((i for i, ok in enumerate(good) if ok), key=lambda i: abs(places[i] - middle))
+    ends = []
+    for step in (-1, 1):
+        i = first
+        while 0 <= i + step <= TRIALS and good[i + step]:
+            i += step
+        inside, outside = float(places[i]), float(places[min(max(i + step, 0), TRIALS)])
+        for _ in range(HALVINGS if inside != outside else 0):
+            half = 0.5 * (inside + outside)
+            inside, outside = (half, outside) if goes(half) else (inside, half)
+        ends.append(inside)
+    return ends[0], ends[1]
+
+
+def impacts(result: Turned) -> list[Impact]:
+    """Return the impacts of both senses: the velocities at which pushes begin."""
+    out = []
+    for sense in result.senses:
+        for turn in sense.turns:
+            for push in turn.pushes:
+                if abs(push.end_wheel - push.begin_wheel) < LATE:
+                    continue
+                out.append(_impact(result.machine, push, sense.way))
+    return out
+
+
+def _impact(machine: DrawnMachine, push: Push, way: int) -> Impact:
+    at = after(push, way)
+    return Impact(float(rates(machine, at)[1][0]), push.begin, push.begin_wheel, way)
+
+
+def after(push: Push, way: int) -> tuple[float, float]:
+    """Return crank and wheel angles just after a push begins."""
+    return push.begin + way * 1e-12, push.begin_wheel
+
+
+def rates(machine: DrawnMachine, at: tuple[float, float]) -> tuple[np.ndarray, ...]:
+    """Return the wheel's angle and its derivatives by the crank's at one position that touches."""
+    crank, wheel = np.array([at[0]]), np.array([at[1]])
+    found: Contact = contacts(machine.free, crank, wheel)
+    return found.motion(crank)

@@ -1,0 +1,227 @@
+"""Pieces of a drawing that others made, as closed outlines with the material on their left.
+
+Ends that lie within ``JOINED_MM`` of each other are joined. Outlines are told apart by nesting: one
+that lies in no other bounds a plate, one inside it a hole, one inside that a plate again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.measure import at
+from geneva_cli.geometry.moments import with_material_left
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, closed
+from geneva_cli.numerics.arrays import Array, Mask, Whole
+
+JOINED_MM = 1e-3  # ends that are nearer to each other are one
+SHORTEST_MM = 1e-6  # shorter pieces are left out
+
+
+class Loop(NamedTuple):
+    """A closed outline with the material on its left; ``depth`` outlines lie around it."""
+
+    contour: Contour
+    depth: int
+
+    @property
+    def is_hole(self) -> bool:
+        """True if the material lies outside."""
+        return self.depth % 2 == 1
+
+
+def loops(pieces: Sequence[Line | Arc]) -> list[Loop]:
+    """Return the closed outlines that pieces in any order make, in mm.
+
+    Raises GenevaError, naming the place, for an outline that is open, branches or crosses itself
+    or another one, and for no piece at all.
+    """
+    kept = list(_distinct(pieces))
+    if not kept:
+        raise GenevaError("nothing is drawn: no lines, arcs, circles, polylines or splines")
+    contours = [with_material_left(closed("", chain), True) for chain in _chains(kept)]
+    _refuse_crossings(contours)
+    around = _nesting(contours)
+    return [
+        Loop(contour if depth % 2 == 0 else with_material_left(contour, False), depth)
+        for contour, depth in zip(contours, around, strict=True)
+    ]
+
+
+def shown(point: Point) -> str:
+    """A place in a drawing, for messages.
+
+    >>> shown((12.0, -0.33333))
+    '(12, -0.3333)'
+    """
+    x, y = (f"{v:.6f}"[:-2].rstrip("0").rstrip(".") for v in point)
+    return f"({x}, {y})".replace("-0,", "0,").replace("-0)", "0)")
+
+
+def _distinct(pieces: Sequence[Line | Arc]) -> Iterator[Line | Arc]:
+    """Yield the pieces that have a length, each once."""
+    seen: set[tuple[int, ...]] = set()
+    for piece in pieces:
+        middle = at(piece, 0.5)
+        if max(math.dist(piece.start, middle), math.dist(middle, piece.end)) < SHORTEST_MM:
+            continue
+        ends = sorted((piece.start, piece.end))
+        key = tuple(round(v / SHORTEST_MM) for point in (*ends, middle) for v in point)
+        if key not in seen:
+            seen.add(key)
+            yield piece
+
+
+def _chains(pieces: list[Line | Arc]) -> Iterator[list[Line | Arc]]:
+    """Yield closed chains of pieces, end to end."""
+    ends = [point for piece in pieces for point in (piece.start, piece.end)]
+    partner = _partners(ends)
+    used = [False] * len(pieces)
+    for first in range(len(pieces)):
+        if used[first]:
+            continue
+        chain: list[Line | Arc] = []
+        end = 2 * first  # the end from which a piece is run through
+        while not used[end // 2]:
+            piece = pieces[end // 2]
+            used[end // 2] = True
+            if end % 2:
+                piece = _reversed(piece)
+            chain.append(piece._replace(start=chain[-1].end) if chain else piece)
+            end = partner[end ^ 1]
+        yield chain
+
+
+def _reversed(piece: Line | Arc) -> Line | Arc:
+    if isinstance(piece, Arc):
+        return Arc(piece.end, piece.start, -piece.bulge)
+    return Line(piece.end, piece.start)
+
+
+def _partners(ends: list[Point]) -> list[int]:
+    """Return for each end the other end at the same place.
+
+    Raises GenevaError for an end without another, and for more than two at a place.
+    """
+    cells: dict[tuple[int, int], list[int]] = defaultdict(list)
+    for i, (x, y) in enumerate(ends):
+        cells[math.floor(x / JOINED_MM), math.floor(y / JOINED_MM)].append(i)
+    out = []
+    for i, point in enumerate(ends):
+        cx, cy = (math.floor(v / JOINED_MM) for v in point)
+        near = [
+            j
+            for dx in (-1, 0, 1)
+            for dy in (-1, 0, 1)
+            for j in cells.get((cx + dx, cy + dy), ())
+            if j != i and math.dist(point, ends[j]) <= JOINED_MM
+        ]
+        if not near:
+            raise _open(i, ends)
+        if len(near) > 1:
+            raise GenevaError(
+                f"{len(near) + 1} ends meet at {shown(point)}: an outline does not branch; leave "
+                "out the lines that bound no part"
+            )
+        out.append(near[0])
+    return out
+
+
+def _open(i: int, ends: list[Point]) -> GenevaError:
+    others = [(math.dist(ends[i], p), p) for j, p in enumerate(ends) if j != i]
+    gap, nearest = min(others)
+    return GenevaError(
+        f"the outline is open at {shown(ends[i])}: the nearest other end is {gap:.4g} mm away, at "
+        f"{shown(nearest)}; ends are joined up to {JOINED_MM:g} mm"
+    )
+
+
+def _refuse_crossings(contours: list[Contour]) -> None:
+    """Raise GenevaError for the first place at which outlines cross."""
+    outline = Polyarc(contours)
+    count = len(outline)
+    lengths = [len(contour.segments) for contour in contours]
+    begins = np.repeat(np.cumsum([0, *lengths[:-1]]), lengths)
+    following = begins + np.concatenate([np.roll(np.arange(n), -1) for n in lengths])
+    for first in range(0, count, 512):
+        some = np.arange(first, min(first + 512, count))
+        apart = np.hypot(outline.ox[some, None] - outline.ox, outline.oy[some, None] - outline.oy)
+        i, j = np.nonzero(apart <= outline.size[some, None] + outline.size)
+        i = some[i]
+        i, j = i[j > i], j[j > i]
+        place = _crossing(outline, i, j, (following[i] == j) | (following[j] == i))
+        if place is not None:
+            raise GenevaError(
+                f"outlines cross at {shown(place)}: an outline must not cross itself or another"
+            )
+
+
+def _crossing(outline: Polyarc, i: Whole, j: Whole, adjacent: Mask) -> Point | None:
+    """Return a place at which pieces i and j cross away from a common end; None without one."""
+    one, two = outline.subset(i), outline.subset(j)
+    for x, y in _meetings(one, two):
+        known = np.isfinite(x) & np.isfinite(y)
+        px, py = np.where(known, x, 0.0), np.where(known, y, 0.0)
+        seen = [some.distances(px, py) for some in (one, two)]
+        inside = known & np.all([(s.distance < SHORTEST_MM) & s.facing for s in seen], axis=0)
+        # at a joint that is rounded, two tangent pieces cross, but at hardly any angle
+        (ax, ay), (bx, by) = _normal(one, px, py), _normal(two, px, py)
+        ends = [(s.x0, s.y0, s.x1, s.y1) for s in (one, two)]
+        near = [
+            np.minimum(np.hypot(a - px, b - py), np.hypot(c - px, d - py)) for a, b, c, d in ends
+        ]
+        depth = np.abs(ax * by - ay * bx) * np.maximum(*near)
+        k = np.flatnonzero(inside & ~(adjacent & (depth < 4.0 * JOINED_MM)))
+        if len(k):
+            return float(px[k[0]]), float(py[k[0]])
+    return None
+
+
+def _normal(pieces: Polyarc, x: Array, y: Array) -> tuple[Array, Array]:
+    """Return the unit normals of pieces at points of them."""
+    nx = np.where(pieces.arc, (x - pieces.cx) / np.where(pieces.arc, pieces.radius, 1.0), pieces.mx)
+    ny = np.where(pieces.arc, (y - pieces.cy) / np.where(pieces.arc, pieces.radius, 1.0), pieces.my)
+    return nx, ny
+
+
+@np.errstate(all="ignore")
+def _meetings(one: Polyarc, two: Polyarc) -> list[tuple[Array, Array]]:
+    """Return the points at which whole lines and circles cross; not a number where they do not."""
+    both, lines = one.arc & two.arc, ~one.arc & ~two.arc
+    # the line through both points: a piece itself, or the common chord of two circles
+    dx, dy = two.cx - one.cx, two.cy - one.cy
+    square = dx * dx + dy * dy
+    along = 0.5 * (square + one.radius**2 - two.radius**2) / square
+    x0 = np.where(both, one.cx + along * dx, np.where(one.arc, two.x0, one.x0))
+    y0 = np.where(both, one.cy + along * dy, np.where(one.arc, two.y0, one.y0))
+    ux = np.where(both, -dy, np.where(one.arc, two.dx, one.dx))
+    uy = np.where(both, dx, np.where(one.arc, two.dy, one.dy))
+    size = np.hypot(ux, uy)
+    ux, uy = ux / size, uy / size
+    cx, cy = np.where(one.arc, one.cx, two.cx), np.where(one.arc, one.cy, two.cy)
+    radius = np.where(one.arc, one.radius, two.radius)
+    foot = (cx - x0) * ux + (cy - y0) * uy
+    off = (cx - x0) * uy - (cy - y0) * ux
+    half = np.sqrt(radius * radius - off * off)
+    cross = ux * two.dy - uy * two.dx
+    straight = ((two.x0 - x0) * two.dy - (two.y0 - y0) * two.dx) / cross
+    at = [np.where(lines, straight, foot + sign * half) for sign in (1.0, -1.0)]
+    return [(x0 + t * ux, y0 + t * uy) for t in at]
+
+
+def _nesting(contours: list[Contour]) -> list[int]:
+    """Return in how many other outlines each outline lies."""
+    inside = [Polyarc([contour]) for contour in contours]
+    points = np.array([contour.segments[0].start for contour in contours])
+    depth = np.zeros(len(contours), dtype=int)
+    for i, outline in enumerate(inside):
+        within = outline.signed(points) < 0.0
+        within[i] = False
+        depth += within
+    return [int(number) for number in depth]

@@ -1,0 +1,100 @@
+"""A drawing as it was read, and the pieces of its curves."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.geometry.fit.arcs import arcs
+from geneva_cli.geometry.fit.path import Curve
+from geneva_cli.geometry.shapes import Arc, Line, Point, about
+
+CURVE_MM = 1e-4  # greatest distance of the arcs that replace a curve which is no arc
+
+
+class Drawn(NamedTuple):
+    """Lines and arcs of a drawing, mm, and what a user should know about how they were read.
+
+    ``is_exact`` is False if curves were replaced by arcs.
+    """
+
+    pieces: tuple[Line | Arc, ...]
+    notes: tuple[str, ...] = ()
+    is_exact: bool = True
+
+
+def arc_pieces(centre: Point, radius: float, start: float, sweep: float) -> list[Line | Arc]:
+    """Return an arc from a direction on, radians, in parts of at most half a turn."""
+    count = max(1, math.ceil(abs(sweep) / math.pi - 1e-12))
+    return [about(centre, radius, start + sweep * i / count, sweep / count) for i in range(count)]
+
+
+def bulged(points: Sequence[tuple[float, float, float]], close: bool) -> list[Line | Arc]:
+    """Return the pieces of a polyline from its points (x, y, bulge)."""
+    ends = [*points, points[0]] if close and points else list(points)
+    return [Arc(p[:2], q[:2], p[2]) if p[2] else Line(p[:2], q[:2]) for p, q in pairwise(ends)]
+
+
+def ellipse_pieces(
+    centre: complex, axes: tuple[complex, complex], span: tuple[float, float], unit: float = 1.0
+) -> list[Line | Arc]:
+    """Return an ellipse centre + major cos t + minor sin t from one parameter on, as arcs.
+
+    Both half ``axes`` are complex numbers at right angles. ``span`` has the first parameter and how
+    far it goes on, and ``unit`` the millimetres in a unit of the drawing.
+    """
+    (major, minor), (start, sweep) = axes, span
+    if abs(abs(major) - abs(minor)) <= 1e-9 * abs(major):
+        way = math.copysign(1.0, (major.conjugate() * minor).imag)
+        at = centre.real, centre.imag
+        return arc_pieces(at, abs(major), cmath.phase(major) + way * start, way * sweep)
+
+    def curve(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        points = centre + major * np.cos(t) + minor * np.sin(t)
+        tangents = minor * np.cos(t) - major * np.sin(t)
+        return _pairs(points), _pairs(math.copysign(1.0, sweep) * tangents / np.abs(tangents))
+
+    return fitted(curve, start, start + sweep, unit)
+
+
+def bezier_pieces(poles: Sequence[complex], unit: float = 1.0) -> list[Line | Arc]:
+    """Return a quadratic or cubic Bézier curve as arcs within ``CURVE_MM``."""
+    if len(poles) == 3:
+        a, b, c = poles
+        poles = (a, a + 2.0 * (b - a) / 3.0, c + 2.0 * (b - c) / 3.0, c)
+    p, q, r, s = poles
+    size = max(abs(x - p) for x in poles)
+    if size == 0.0:
+        return []
+    chord = s - p
+    bend = max(abs(((x - p) * chord.conjugate()).imag) for x in (q, r))
+    if abs(chord) and bend <= 1e-9 * size * abs(chord):  # all poles on the chord
+        return [Line((p.real, p.imag), (s.real, s.imag))]
+
+    def curve(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        u = 1.0 - t
+        points = p * u**3 + 3.0 * q * u * u * t + 3.0 * r * u * t * t + s * t**3
+        rate = (q - p) * u * u + 2.0 * (r - q) * u * t + (s - r) * t * t
+        near = np.where(
+            t < 0.5,
+            next(x for x in (q, r, s) if x != p) - p,
+            s - next(x for x in (r, q, p) if x != s),
+        )
+        rate = np.where(np.abs(rate) > 1e-12 * size, rate, near)
+        return _pairs(points), _pairs(rate / np.abs(rate))
+
+    return fitted(curve, 0.0, 1.0, unit)
+
+
+def fitted(curve: Curve, start: float, end: float, unit: float) -> list[Line | Arc]:
+    """Return a smooth curve as arcs within ``CURVE_MM``; a unit of the drawing has ``unit`` mm."""
+    return list(arcs(curve, start, end, CURVE_MM / unit))
+
+
+def _pairs(points: np.ndarray) -> np.ndarray:
+    return np.column_stack((points.real, points.imag))

@@ -1,0 +1,200 @@
+"""The angles that a wheel of any outline may have, at each angle of its crank.
+
+The branches of both outlines meet at intervals of the wheel's angle (``stops``). Their union is
+what the wheel cannot have, and its gaps are the free ranges. The wheel's axis is the origin, and
+the crank's axis is at (L, 0). At crank angle 0 the first roller points to the wheel's axis, for an
+internal wheel away from it. The wheel turns counterclockwise as the crank's angle rises.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Iterator
+from copy import copy
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.parts.turn.stops import Meetings, TurningStops
+
+SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
+BLOCK = 32  # crank angles that are computed together, as much the same pieces are near then
+FEW = 4000  # pairs of pieces that are not worth a selection
+
+
+class Range(NamedTuple):
+    """A range of the wheel's angle, radians: free, or blocked by an overlap."""
+
+    is_free: bool
+    low: float
+    high: float
+
+
+class FreeRanges:
+    """Free ranges of a wheel at any angles of its crank.
+
+    Both outlines are in their own frames, in mm. ``sense`` is 1 for an external wheel, -1 for an
+    internal one. Parts that overlap by at most ``slack`` mm count as touching. ``pitch`` is the
+    step of the wheel, radians: if the outline repeats after it, one sector is enough.
+    """
+
+    def __init__(
+        self, wheel: Polyarc, crank: Polyarc, L: float, sense: float, pitch: float, slack: float
+    ) -> None:
+        far = levels(crank)[1].max()
+        low, high = levels(wheel)
+        wheel = wheel.subset(np.flatnonzero((high >= L - far - slack) & (low <= L + far + slack)))
+        low, high = levels(crank)
+        crank = crank.subset(np.flatnonzero(L - high <= levels(wheel)[1].max(initial=0.0)))
+        self.whole, self.crank, self.L, self.sense, self.slack = wheel, crank, L, sense, slack
+        sector = one_sector(wheel, pitch, slack)
+        self.period = math.tau if sector is None else pitch
+        self.window: tuple[float, float] | None = None
+        self._meets(wheel if sector is None else wheel.subset(sector))
+
+    def _meets(self, wheel: Polyarc) -> None:
+        self.stops = TurningStops(wheel, self.period, self.crank, self.L, 0.0)
+        self.own = self.stops.wheel(0.0)
+
+    def near(self, low: float, high: float, wheel: float, most: float) -> FreeRanges:
+        """Return the ranges of the pieces that may touch between two crank angles, radians.
+
+        The wheel is within ``most`` radians of an angle. Farther ends of a range are missing.
+        """
+        if len(self.crank) * len(self.whole) < FEW:
+            return self
+        half, whole = 0.5 * abs(high - low), self.whole
+        x, y = self._fixed(0.5 * (low + high))
+        reach = self.crank.size + half * np.hypot(self.crank.ox, self.crank.oy) + self.slack
+        rim = float((np.hypot(whole.ox, whole.oy) + whole.size).max())
+        ours = np.flatnonzero(np.hypot(x, y) - reach <= rim)
+        c, s = math.cos(wheel), math.sin(wheel)
+        wx, wy = whole.ox * c - whole.oy * s, whole.ox * s + whole.oy * c
+        own = whole.size + most * np.hypot(wx, wy)
+        around = float((np.hypot(x - self.L, y) + reach).max())
+        theirs = np.flatnonzero(np.hypot(wx - self.L, wy) - own <= around)
+        away = np.hypot(x[ours, None] - wx[theirs], y[ours, None] - wy[theirs])
+        close = away <= reach[ours, None] + own[theirs]
+        out = copy(self)
+        out.crank = self.crank.subset(ours[close.any(axis=1)])
+        out.period, out.window = math.tau, (wheel, most)
+        out._meets(whole.subset(theirs[close.any(axis=0)]))
+        return out
+
+    def _fixed(self, crank_angle: float) -> tuple[Array, Array]:
+        """Return the middles of the crank's pieces in the fixed frame."""
+        turn = float(self.crank_direction(np.array([crank_angle]))[0])
+        c, s, crank = math.cos(turn), math.sin(turn), self.crank
+        return self.L + crank.ox * c - crank.oy * s, crank.ox * s + crank.oy * c
+
+    def crank_direction(self, crank_angle: Array) -> Array:
+        """Return the direction of the crank's x axis, radians, at crank angles (n,)."""
+        return np.pi - crank_angle if self.sense > 0.0 else crank_angle
+
+    def at(self, crank_angle: Array) -> Ranges:
+        """Return the free ranges at crank angles (n,), radians."""
+        rows, starts, ends = [np.zeros(0, dtype=int)], [np.zeros(0)], [np.zeros(0)]
+        for first in range(0, len(crank_angle), BLOCK):
+            for met in self.meetings(crank_angle[first : first + BLOCK]):
+                rows.append(first + met.row)
+                starts.append(met.start)
+                ends.append(met.end)
+        every = (np.concatenate(each) for each in (rows, starts, ends))
+        return Ranges(*every, len(crank_angle), self.period)
+
+    def meetings(self, crank_angle: Array) -> Iterator[Meetings]:
+        """Yield the pairs of branches that meet at crank angles (n,), which are near each other."""
+        middle, half = 0.5 * (crank_angle[0] + crank_angle[-1]), 0.5 * np.ptp(crank_angle)
+        reach = self.crank.size + half * np.hypot(self.crank.ox, self.crank.oy)
+        far = np.hypot(*self._fixed(float(middle)))
+        levels = self.own.low.min(initial=np.inf), self.own.high.max(initial=0.0)
+        some = np.flatnonzero((far - reach <= levels[1]) & (far + reach >= levels[0]))
+        if not len(some):
+            return
+        axis = np.tile((self.L, 0.0), (len(crank_angle), 1))
+        direction = self.crank_direction(crank_angle)
+        crank = self.stops.branches(self.crank.subset(some), axis, direction, self.slack)
+        yield from self.stops.meetings(crank, self.own, self.window)
+
+
+class Ranges:
+    """The free ranges of n poses, from the intervals that are blocked in them."""
+
+    def __init__(self, row: Whole, start: Array, end: Array, count: int, period: float) -> None:
+        self.period = period
+        shift = period * np.floor(start / period)
+        merged = union(row, start - shift - SAME, end - shift + SAME)
+        # with the copies a period before and after, those that cross an end of the period merge
+        row, start, end = (np.concatenate((each, each, each)) for each in merged)
+        copy = np.repeat((0.0, -period, period), len(merged[0]))
+        row, start, end = union(row, start + copy, end + copy)
+        self.ends = np.searchsorted(row, np.arange(count + 1)).tolist()
+        self.low, self.high = start.tolist(), end.tolist()
+
+    def around(self, i: int, angle: float) -> Range:
+        """Return the range about an angle of the wheel, radians, in the i-th pose.
+
+        Without any part near, it is free for half a period to either side.
+        """
+        shift = self.period * math.floor(angle / self.period)
+        first, last = self.ends[i], self.ends[i + 1]
+        k = bisect_left(self.low, angle - shift, first, last)
+        before = self.high[k - 1] + shift if k > first else angle - 0.5 * self.period
+        after = self.low[k] + shift if k < last else angle + 0.5 * self.period
+        if angle < before:
+            return Range(False, self.low[k - 1] + shift, before)
+        return Range(True, before, after)
+
+
+def union(row: Whole, start: Array, end: Array) -> tuple[Whole, Array, Array]:
+    """Return the union of intervals in each row: rows, starts and ends, ascending."""
+    if not len(row):
+        return row, start, end
+    order = np.lexsort((start, row))
+    row, start, end = row[order], start[order], end[order]
+    # rows are far apart on one axis, so that one running maximum serves all of them
+    spread = 2.0 * (float(np.abs(start).max()) + float(np.abs(end).max()) + 1.0)
+    reach = np.maximum.accumulate(end + spread * row)
+    begins = np.append(True, (start + spread * row)[1:] > reach[:-1])
+    first = np.flatnonzero(begins)
+    return row[first], start[first], np.maximum.reduceat(end, first)
+
+
+def levels(outline: Polyarc) -> tuple[Array, Array]:
+    """Return bounds of the distance of the points of each piece from the origin, mm."""
+    middle, far = np.hypot(outline.ox, outline.oy), np.hypot(outline.cx, outline.cy)
+    low, high = np.maximum(middle - outline.size, 0.0), middle + outline.size
+    # of a whole circle
+    least, most = np.abs(far - outline.radius), far + outline.radius
+    arc = outline.arc
+    return np.where(arc, np.maximum(low, least), low), np.where(arc, np.minimum(high, most), high)
+
+
+def one_sector(outline: Polyarc, pitch: float, near: float) -> Whole | None:
+    """Return the pieces of one of the sectors that repeat after ``pitch``; None if none does.
+
+    Pieces that differ by at most ``near`` mm are the same.
+    """
+    count = round(math.tau / pitch)
+    if len(outline) % count:
+        return None
+    sides = np.column_stack((outline.x0 + 1j * outline.y0, outline.x1 + 1j * outline.y1))
+    bend = outline.sense * outline.sin_half
+    turned = sides * np.exp(1j * pitch)
+    after = np.empty(len(outline), dtype=int)
+    block = max(1, (1 << 22) // len(outline))
+    for first in range(0, len(outline), block):
+        some = turned[first : first + block]
+        away = np.abs(some[:, :1] - sides[:, 0]) + np.abs(some[:, 1:] - sides[:, 1])
+        after[first : first + block] = np.argmin(away, axis=1)
+    moved = np.abs(turned - sides[after]).max()
+    if moved > near or np.abs(bend - bend[after]).max() > 1e-9:
+        return None
+    least = here = np.arange(len(outline))
+    for _ in range(count - 1):
+        here = after[here]
+        least = np.minimum(least, here)
+    return np.unique(least)

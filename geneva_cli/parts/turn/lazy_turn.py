@@ -1,0 +1,226 @@
+"""The motion of a wheel that moves only when it is pushed.
+
+The crank turns. The wheel keeps its angle until a part overlaps it, and then goes along with the
+nearer end of the blocked range. It stops where the push ends. Inertia and friction play no part.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.parts.turn.free_ranges import FreeRanges, Range, Ranges
+
+STEPS = 1440  # positions of a turn of the crank: a quarter of a degree apart
+MANY = 30000  # pairs of pieces above which positions are half a degree apart
+PARTS = 16  # parts into which a step is divided where the wheel begins or ends to move, or runs
+SLOW = 4.0  # velocity of the wheel, of the crank's, up to which a step is not divided
+# Velocity above which a corner blocks. The wheel's corner then moves within 2 degrees of the common
+# normal's right angle: friction stops such a push.
+STEEPEST = 30.0
+SHORTEST = 1e-10  # radians of the crank: a step that is not divided any more
+SAME = 1e-11  # radians of the wheel: a smaller move is rounding
+
+
+class Push(NamedTuple):
+    """A stretch in which a part pushes the wheel: crank and wheel angles, radians."""
+
+    begin: float
+    begin_wheel: float
+    end: float
+    end_wheel: float
+
+
+class Jam(NamedTuple):
+    """The angles of crank and wheel at which the wheel is stuck, and what is blocked then."""
+
+    crank: float
+    wheel: float
+    low: float
+    high: float
+
+
+class LazyTurn(NamedTuple):
+    """The wheel at ascending or descending crank angles (n,), radians, and its free range there."""
+
+    crank: Array
+    wheel: Array
+    low: Array
+    high: Array
+    pushes: tuple[Push, ...]
+    jam: Jam | None
+
+    @property
+    def index(self) -> float:
+        """How far the wheel has turned, radians."""
+        return float(self.wheel[-1] - self.wheel[0])
+
+    @property
+    def is_moving(self) -> Array:
+        """Mask (n,) of the positions at which the wheel is pushed, or just was."""
+        mask = np.zeros(len(self.crank), dtype=bool)
+        for push in self.pushes:
+            low, high = sorted((push.begin, push.end))
+            mask |= (self.crank >= low) & (self.crank <= high)
+        return mask
+
+
+class _Stuck(Exception):
+    """The wheel cannot follow; not an error of a spec."""
+
+    def __init__(self, jam: Jam) -> None:
+        super().__init__(jam)
+        self.jam = jam
+
+
+class Turner:
+    """Turns a wheel by its crank, from one position and one sense to the next.
+
+    The free ranges of a whole turn of the crank are computed once.
+    """
+
+    def __init__(self, free: FreeRanges, start: float) -> None:
+        self.free, self.start = free, start
+        many = len(free.crank) * len(free.stops.outline) > MANY
+        self.steps = STEPS // 2 if many else STEPS
+        self.ranges = free.at(start + math.tau * np.arange(self.steps) / self.steps)
+
+    def rest(self, wheel: float) -> Range:
+        """Return the range about an angle of the wheel where the crank's turn starts."""
+        return self.ranges.around(0, wheel)
+
+    def turn(self, wheel: float, turns: int = 1, way: int = 1, exact: bool = True) -> LazyTurn:
+        """Return the motion over so many turns of the crank, forwards or (``way`` = -1) backwards.
+
+        Without ``exact`` the angles at which pushes begin and end are those of the grid.
+        """
+        path = _Path(self.free, way, exact)
+        try:
+            path.begin(self.start, self.rest(wheel), wheel)
+            for k in range(1, turns * self.steps + 1):
+                around = _looker(self.ranges, way * k % self.steps)
+                path.to(self.start + way * math.tau * k / self.steps, around)
+        except _Stuck as stuck:
+            return path.done(stuck.jam)
+        return path.done(None)
+
+
+def _looker(ranges: Ranges, i: int) -> Callable[[float], Range]:
+    return lambda wheel: ranges.around(i, wheel)
+
+
+class _Path:
+    """The path of a wheel, as it comes about."""
+
+    def __init__(self, free: FreeRanges, way: int, exact: bool) -> None:
+        self.free, self.way, self.exact = free, way, exact
+        self.rows: list[tuple[float, float, float, float]] = []
+        self.pushes: list[Push] = []
+        self.begun: tuple[float, float] | None = None  # of the push that goes on
+
+    def begin(self, crank: float, rest: Range, wheel: float) -> None:
+        """Start from a position, pushed out of an overlap of rounding."""
+        if not rest.is_free:
+            near = min((rest.low, rest.high), key=lambda end: abs(end - wheel))
+            if abs(near - wheel) > 1e-3:  # radians: more is no rounding
+                raise _Stuck(Jam(crank, wheel, rest.low, rest.high))
+            wheel = near
+            rest = Range(True, near, near)
+        self.rows.append((crank, wheel, rest.low, rest.high))
+
+    def done(self, jam: Jam | None) -> LazyTurn:
+        """Return the motion."""
+        if self.begun is not None:
+            self.pushes.append(Push(*self.begun, *self.rows[-1][:2]))
+        columns = np.array(self.rows).reshape(-1, 4).T
+        return LazyTurn(*columns, tuple(self.pushes), jam)
+
+    def to(self, crank: float, around: Callable[[float], Range]) -> None:
+        """Go on to the next position of the crank."""
+        before, wheel = self.rows[-1][:2]
+        there = around(wheel)
+        if self.begun is None:
+            if there.is_free:
+                self.rows.append((crank, wheel, there.low, there.high))
+                return
+            first = self._first(before, crank, wheel) if self.exact else before
+            self.begun = first, wheel
+            if first != before:
+                there = self.free.at(np.array([first])).around(0, wheel)
+                self.rows.append((first, wheel, there.low, there.high))
+        elif there.is_free:
+            self._release(crank, around)
+            return
+        self._follow(crank, around)
+
+    def _first(self, good: float, bad: float, wheel: float) -> float:
+        """Return the crank angle from which on the wheel is not free, just before it."""
+        free = self.free.near(good, bad, wheel, SAME)
+        while abs(bad - good) > 1e-14 * math.tau:
+            places = np.linspace(good, bad, PARTS + 1)
+            ranges = free.at(places[1:-1])
+            hit = [i for i in range(PARTS - 1) if not ranges.around(i, wheel).is_free]
+            i = hit[0] if hit else PARTS - 1
+            if places[i] == good and places[i + 1] == bad:
+                break
+            good, bad = float(places[i]), float(places[i + 1])
+        return good
+
+    def _follow(self, crank: float, around: Callable[[float], Range]) -> None:
+        """Go on to a crank angle to which the wheel is pushed."""
+        before, wheel = self.rows[-1][:2]
+        step, pushed = abs(crank - before), _pushed(around(wheel), wheel)
+        steepest = STEEPEST if step < 1e-4 else SLOW
+        if abs(pushed - wheel) <= steepest * step + SAME:
+            self._add(crank, pushed, around)
+            return
+        if step < SHORTEST:
+            there = around(wheel)
+            raise _Stuck(Jam(before, wheel, there.low, there.high))
+        places = np.linspace(before, crank, PARTS + 1)[1:]
+        ranges = self.free.near(before, crank, wheel, STEEPEST * step).at(places)
+        for i in range(PARTS):
+            self._follow(float(places[i]), _looker(ranges, i))
+
+    def _add(self, crank: float, wheel: float, around: Callable[[float], Range]) -> None:
+        """Add a position that touches, with the free range on the other side."""
+        sides = [around(wheel), around(wheel - SAME), around(wheel + SAME)]
+        free = [there for there in sides if there.is_free]
+        low, high = (free[0].low, free[0].high) if free else (wheel, wheel)
+        self.rows.append((crank, wheel, low, high))
+
+    def _release(self, crank: float, around: Callable[[float], Range]) -> None:
+        """End a push: where the wheel is moved farthest, before or after the last position."""
+        assert self.begun is not None
+        before, wheel = self.rows[-1][:2]
+        end, farthest, there = before, wheel, around
+        if self.exact:
+            low, high = self.rows[max(len(self.rows) - 2, 0)][0], crank
+            free = self.free.near(low, high, wheel, SLOW * abs(high - low))
+            for _ in range(7):
+                places = np.linspace(low, high, PARTS + 1)
+                ranges = free.at(places)
+                moved = [_pushed(ranges.around(i, wheel), wheel) for i in range(PARTS + 1)]
+                k = max(range(PARTS + 1), key=lambda i: abs(moved[i] - wheel))
+                if abs(moved[k] - wheel) > abs(farthest - wheel):
+                    end, farthest, there = float(places[k]), moved[k], _looker(ranges, k)
+                k = int(np.argmin(np.abs(places - end)))
+                low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, PARTS)])
+        if end != before:
+            if (end - before) * self.way < 0.0:
+                del self.rows[-1]
+            self._add(end, farthest, there)
+        self.pushes.append(Push(*self.begun, end, farthest))
+        self.begun = None
+        self._add(crank, farthest, around)
+
+
+def _pushed(there: Range, wheel: float) -> float:
+    """The angle to which the wheel is pushed out of a range."""
+    if there.is_free:
+        return wheel
+    return min((there.low, there.high), key=lambda end: abs(end - wheel))
