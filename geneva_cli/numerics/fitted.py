@@ -139,10 +139,10 @@ def _polynomial(coefficients: Sequence[float], t: Array) -> Array:
 def _rule() -> tuple[Array, Array, Array, Array]:
     """Places from -1 to 1; matrices from Chebyshev terms to values there, back, and to powers."""
     nodes = np.round(4096.0 * -np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)) / 4096.0
-    values = np.polynomial.chebyshev.chebvander(nodes, DEGREE)
+    values: Array = np.polynomial.chebyshev.chebvander(nodes, DEGREE)
     powers = np.zeros((DEGREE + 1, DEGREE + 1))
     for k in range(DEGREE + 1):
         powers[k, : k + 1] = np.polynomial.chebyshev.cheb2poly([0.0] * k + [1.0])
     # the normal equations are well-conditioned here, and ten times as exact as pinv
-    fit = values @ np.linalg.inv(values.T @ values)
+    fit: Array = values @ np.linalg.inv(values.T @ values)
     return nodes, values.T, fit, powers
