@@ -139,7 +139,7 @@ def _polynomial(coefficients: Sequence[float], t: Array) -> Array:
 def _rule() -> tuple[Array, Array, Array, Array]:
     """Places from -1 to 1; matrices from Chebyshev terms to values there, back, and to powers."""
     nodes = np.round(4096.0 * -np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)) / 4096.0
-    values: Array = np.polynomial.chebyshev.chebvander(nodes, DEGREE)
+    values: Array = np.asarray(np.polynomial.chebyshev.chebvander(nodes, DEGREE), dtype=float)
     powers = np.zeros((DEGREE + 1, DEGREE + 1))
     for k in range(DEGREE + 1):
         powers[k, : k + 1] = np.polynomial.chebyshev.cheb2poly([0.0] * k + [1.0])
