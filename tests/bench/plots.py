@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import os
 from collections.abc import Sequence
@@ -28,7 +29,7 @@ def write(subject: Subject, rows: Sequence[BenchRow], path: str) -> bool:
         return False
     lines = math.ceil(len(shown) / COLUMNS)
     figure, axes = pyplot.subplots(
-        lines, COLUMNS, figsize=(4.2 * COLUMNS, 3.2 * lines), squeeze=False, layout="constrained"
+        lines, COLUMNS, figsize=(4.0 * COLUMNS, 3.6 * lines), squeeze=False, layout="constrained"
     )
     figure.suptitle(f"{subject.title}\nacross: time over the baseline's; up: {subject.error}")
     for panel in axes.flat[len(shown) :]:
@@ -42,13 +43,18 @@ def write(subject: Subject, rows: Sequence[BenchRow], path: str) -> bool:
 
 
 def _draw(panel, task: str, rows: Sequence[BenchRow]) -> None:  # type: ignore[no-untyped-def]
-    panel.set(xscale="log", yscale="log")
-    panel.set_title(task, fontsize=8)
-    for row in rows:
-        place = row.time_ratio, max(row.error or 0.0, LEAST)
-        panel.plot(*place, "o" if row.ours else "s", color="tab:blue" if row.ours else "0.5")
-        name = row.method if row.size is None else f"{row.method} ({row.size:g})"
-        panel.annotate(name, place, (0, 5), textcoords="offset points", fontsize=6, ha="center")
-    panel.margins(0.3)
+    panel.set(xscale="log", yscale="log", title=task)
+    sizes = {row.size for row in rows}
+    for row, marker in zip(rows, itertools.cycle("osD^vPX*"), strict=False):
+        name = row.method if len(sizes) < 2 or row.size is None else f"{row.method} ({row.size:g})"
+        place = [row.time_ratio], [max(row.error or 0.0, LEAST)]
+        colour = {"color": "tab:blue"} if row.ours else {"markerfacecolor": "none", "color": "0.3"}
+        panel.plot(*place, marker, label=name, **colour)
+    panel.margins(0.2, 0.2)
     panel.grid(True, which="major", color="0.9")
     panel.tick_params(labelsize=7)
+    panel.xaxis.set_major_formatter("{x:g}")
+    panel.xaxis.set_minor_formatter("")
+    panel.yaxis.set_minor_formatter("")
+    panel.title.set_size(8)
+    panel.legend(fontsize=6, loc="upper center", bbox_to_anchor=(0.5, -0.08), frameon=False)
