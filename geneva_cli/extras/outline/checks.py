@@ -47,6 +47,12 @@ def warnings(mechanism: Mechanism) -> list[Notice]:
 def _turns(result: Turned, mechanism: Mechanism) -> Check:
     z = mechanism.spec.wheel.z
     worst = min(result.senses, key=lambda sense: sense.passed)
+    if not result.rest.is_free:
+        why = (
+            "parts overlap in the middle of the dwell: check wheel_turn_deg, crank_turn_deg and "
+            "mirror in [outline]"
+        )
+        return Check("turns", 0.0, "at least", float(z), False, why)
     if worst.jam is not None:
         at = _shown_deg(result.machine, worst.jam.crank)
         why = "; ".join(dict.fromkeys(_jam_text(result.machine, s) for s in result.senses if s.jam))
@@ -70,13 +76,13 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
         f"jams {way} at input angle {_shown_deg(machine, crank):.6g}° with the wheel at "
         f"{_from_rest(machine, wheel):.6g}°"
     )
-    touching = contacts(machine.free, np.array([crank]), np.array([wheel]))
+    # just beyond the jam, where the parts overlap a little
+    beyond = np.array([crank + 1e-8 * sense.way])
+    touching = contacts(machine.free, beyond, np.array([wheel]), near=0.5, lever=-1.0)
     if not touching.is_known[0]:
         return text
     own, theirs = touching.named(0)
-    point = complex(*touching.point[0])
-    on_wheel = point * complex(math.cos(wheel), -math.sin(wheel))
-    where = shown((on_wheel.real, on_wheel.imag))
+    where = shown((float(touching.point[0, 0]), float(touching.point[0, 1])))
     return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} of its drawing"
 
 
@@ -138,15 +144,8 @@ def _hold(result: Turned, mechanism: Mechanism) -> Check:
 
 def _rests(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check the places of rest from which the wheel turns, where it may stand in a range."""
-    if not result.rest.is_free:
-        why = (
-            "parts overlap in the middle of the dwell: check wheel_turn_deg, crank_turn_deg and "
-            "mirror in [outline]"
-        )
-        yield Check("turning_rests_deg", None, "at least", 0.0, False, why)
-        return
     low, high = result.rest.low, result.rest.high
-    if high - low < LOOSE:
+    if high - low < LOOSE or not result.rest.is_free:
         return
     begin, end = result.turning or (result.machine.rest, result.machine.rest)
     put_back = mechanism.spec.wheel.held_by in HELD_MIDDLE

@@ -19,7 +19,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.output.foreign import read_drawing
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.free_ranges import FreeRanges
+from geneva_cli.parts.turn.free_ranges import FreeRanges, levels
 
 EXACT_MM, FACETED_MM = 1e-6, 1e-3  # overlaps that count as touching: of arcs, of short lines
 
@@ -186,9 +186,8 @@ def _as_circle(loop: Loop) -> Circle | None:
 
 def _require_reach(wheel: Polyarc, crank: Polyarc, L: float) -> None:
     """Raise GenevaError if no part reaches the other."""
-    far = float((np.hypot(crank.ox, crank.oy) + crank.size).max())
-    rim = float((np.hypot(wheel.ox, wheel.oy) + wheel.size).max())
-    inner = float(np.hypot(wheel.x0, wheel.y0).min())
+    far = float(levels(crank)[1].max())
+    inner, rim = (float(v) for v in (levels(wheel)[0].min(), levels(wheel)[1].max()))
     if L - far > rim or L + far < inner:
         raise GenevaError(
             f"no part reaches the other: the crank reaches {far:.6g} mm from its axis, the wheel "
