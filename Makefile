@@ -1,7 +1,7 @@
 # Everything runs in .venv, made on first use by the Python found below (3.11 or newer).
 PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 python3.11 python,\
   $(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
-BIN = .venv/bin
+BIN = .venv/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 # Not --quiet: mkdocs then counts no warning, and --strict passes whatever is broken.
 DOCS = $(BIN)/mkdocs build --strict --config-file .ci/mkdocs.yml
 # Python compiles a file when it is first used; pip would compile all of them: 15 s of 37.

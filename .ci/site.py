@@ -6,6 +6,7 @@ from typing import Any
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 
+from geneva_cli.cli.pages import PRINTED
 from geneva_cli.manual import GROUPS, TITLES
 
 START = "index.md"
@@ -24,12 +25,14 @@ def on_config(config: Any) -> Any:
 
 
 def on_files(files: Files, config: Any) -> Files:
-    """Add the start page: all pages, with what each is about."""
+    """Add the pages that the code prints, and the start: all pages, with what each is about."""
     parts = ["# geneva\n\nDesign calculator for Geneva (Maltese-cross) mechanisms.\n"]
     for group, pages in GROUPS.items():
         lines = [f"- [{topic}]({group}/{topic}.md): {about}" for topic, about in pages.items()]
         parts.append("\n".join([f"## {TITLES[group]}\n", *lines, ""]))
     files.append(File.generated(config, START, content="\n".join(parts)))
+    for topic, made in PRINTED.items():
+        files.append(File.generated(config, f"reference/{topic}.md", content=made()))
     return files
 
 

@@ -25,6 +25,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_extra
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
@@ -53,6 +54,7 @@ if TYPE_CHECKING:
     from geneva_cli.loads.load_peaks import LoadSummary
     from geneva_cli.motion.peaks import Peaks
     from geneva_cli.motion.timing import Timing
+    from geneva_cli.parts.chosen import ByLoad, Chosen
     from geneva_cli.parts.parts import Parts
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
@@ -155,6 +157,7 @@ class Design:
         tolerance: Tolerance | None = None,
         product: Product | None = None,
         limits: Limits | None = None,
+        accept: Accept | None = None,
         drawing: TitleBlock | None = None,
         outline: Outline | None = None,
         title: str = "",
@@ -211,6 +214,15 @@ class Design:
         return Design.of(self.spec.with_(key, plain(value)))
 
     @property
+    def text(self) -> Text | None:
+        """The text of the file that the design was read from; None for one made in Python.
+
+        >>> Design(External(6)).text is None
+        True
+        """
+        return self._text
+
+    @property
     def _located(self) -> AbstractContextManager[None]:
         """Context in which errors that name a key get the line of the spec's file."""
         return self._text.located() if self._text else nullcontext()
@@ -264,6 +276,50 @@ class Design:
         from geneva_cli.parts.machine_sizes import built
 
         return built(self.mechanism)
+
+    @answer
+    def chosen(self) -> dict[str, Chosen]:
+        """Every size that a rule or the load chose, by its key; ``geneva size`` writes them.
+
+        >>> Design(External(6)).chosen["size.pin_mm"]
+        Chosen(value=5.0, why='default r')
+        """
+        from geneva_cli.parts.chosen import chosen
+
+        return chosen(self.mechanism)
+
+    @answer
+    def sized(self) -> Design:
+        """The same machine, all of whose chosen sizes are in its spec, so that they stay.
+
+        >>> fast = Design(External(6), load=Load(torque_Nm=15.0)).sized.with_("drive.n_rpm", 90.0)
+        >>> fast.spec.size.pin_mm
+        5.0
+        """
+        values = {key.partition(".")[2]: one.value for key, one in self.chosen.items()}
+        return Design.of(self.spec.replace(size=self.spec.size.replace(**values)))
+
+    @answer
+    def chosen_by_load(self) -> ByLoad:
+        """The sizes that the load chose, and those of the file where an option changed them.
+
+        >>> Design(External(6), load=Load(torque_Nm=15.0)).chosen_by_load.words
+        'crank shaft 12, wheel shaft 15, pin 5, arm 10 thick, wheel 10 thick'
+        """
+        from geneva_cli.parts.chosen import ByLoad, by_load
+
+        return ByLoad(by_load(self.mechanism), self._chosen_as_written())
+
+    def _chosen_as_written(self) -> dict[str, Chosen]:
+        """The sizes that the load chooses for the file alone; empty if no option changes it."""
+        from geneva_cli.parts.chosen import by_load
+
+        if self._text is None or not self._text.set_keys:
+            return {}
+        try:
+            return by_load(build(self._text.alone.spec()))
+        except GenevaError:  # the file is no machine without its options
+            return {}
 
     @answer
     def timings(self) -> list[Timing]:
@@ -445,7 +501,11 @@ class Design:
         sizing, sized_by = sized(self.cycle, own)
         notes = (*self.warnings, *missing(self.cycle), *needed, *sized_by)
         impact = self.strength.reversal
-        return loads_table(self.cycle, sizing, self.life, impact, notes, for_people)
+        table = loads_table(self.cycle, sizing, self.life, impact, notes, for_people)
+        return table.replaced(
+            names=(*table.names, "chosen"),
+            columns=[*table.columns, (self.chosen_by_load.record,)],
+        )
 
     @answer
     def wheel_plate(self) -> MassProperties | None:
@@ -494,7 +554,7 @@ class Design:
         """
         from geneva_cli.verdict.headline import below_summary
 
-        return below_summary(self._loads(for_people=True), without=("title",))
+        return below_summary(self._loads(for_people=True), without=("title", "chosen"))
 
     @question
     def load_cycle(self, samples: int = 361) -> Table:
@@ -837,7 +897,7 @@ class Design:
         """
         from geneva_cli.verdict.motion_warnings import motion_warnings
 
-        return motion_warnings(self.mechanism)
+        return self.spec.accept.applied(motion_warnings(self.mechanism))
 
     @answer
     def warnings(self) -> list[Notice]:
@@ -853,7 +913,17 @@ class Design:
             notes: list[Notice] = load_extra("outline", "warnings")(self.mechanism)
             return notes
         # the other direction's would be called backwards, which this one is
-        return (warnings if self.is_backwards else all_warnings)(self.parts)
+        every = (warnings if self.is_backwards else all_warnings)(self.parts)
+        return self.spec.accept.applied(every)
+
+    @answer
+    def unused_acceptances(self) -> list[str]:
+        """Names of warnings in ``[accept]`` that do not occur.
+
+        >>> Design(External(6), accept=Accept(many_slots="agreed")).unused_acceptances
+        ['many-slots']
+        """
+        return self.spec.accept.unused(self.warnings)
 
     @answer
     def report(self) -> Report:
@@ -864,4 +934,4 @@ class Design:
         """
         from geneva_cli.verdict.report import report
 
-        return report(self.parts, self.checks, self.warnings)
+        return report(self.parts, self.checks, self.warnings, self.chosen_by_load)

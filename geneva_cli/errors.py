@@ -27,21 +27,39 @@ class GenevaError(Exception):
 class Notice(str):
     """A warning or a note about a design, with its name in ``geneva explain``.
 
+    ``accepted`` is the reason for accepting it, which its text then begins with; else empty.
+    ``plain`` is the text without that reason.
+
     >>> Notice("turns-back", "the wheel turns back").name
     'turns-back'
     """
 
     name: str
+    plain: str
+    accepted: str
 
-    def __new__(cls, name: str, text: str) -> Notice:
+    def __new__(cls, name: str, text: str, accepted: str = "") -> Notice:
         """The text, with its name."""
-        notice = super().__new__(cls, text)
-        notice.name = name
+        notice = super().__new__(cls, f"accepted ({accepted}): {text}" if accepted else text)
+        notice.name, notice.plain, notice.accepted = name, text, accepted
         return notice
 
-    def __getnewargs__(self) -> tuple[str, str]:  # type: ignore[override]
+    def __getnewargs__(self) -> tuple[str, str, str]:  # type: ignore[override]
         """The arguments for a copy in another process."""
-        return self.name, str(self)
+        return self.name, self.plain, self.accepted
+
+    def accepted_for(self, reason: str) -> Notice:
+        """The same warning, accepted."""
+        return Notice(self.name, self.plain, reason)
+
+
+def open_warnings(texts: Iterable[str]) -> list[str]:
+    """The warnings that are not accepted; notes on unknown values are none.
+
+    >>> open_warnings([Notice("many-slots", "", "agreed"), Notice("turns-back", "back")])
+    ['back']
+    """
+    return [text for text in texts if not (isinstance(text, Notice) and text.accepted)]
 
 
 def is_warning(text: str) -> bool:

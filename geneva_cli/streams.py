@@ -5,6 +5,7 @@ Write errors are handled in the streams themselves, whoever writes and whenever 
 
 from __future__ import annotations
 
+import errno
 import io
 import os
 import sys
@@ -13,24 +14,44 @@ from typing import Any, NoReturn
 from geneva_cli.errors import cut
 
 NARROWEST = 60  # characters of a line that is never broken
+LACKING = "backslashreplace"  # for letters that the encoding lacks, such as those of a title
 
 
 def open_streams() -> None:
     """Replace the interpreter's standard streams by those of this file."""
     _fill_closed()
-    sys.stdin = sys.stdin or open(0, closefd=False)
+    sys.stdin = sys.stdin or open(0, closefd=False, encoding="utf-8")
     sys.stderr = _Messages(
-        io.BufferedWriter(_ErrorOutput(2, "w", closefd=False)),
+        io.BufferedWriter(_ErrorOutput(_raw(sys.stderr, 2))),
         encoding=sys.stderr.encoding if sys.stderr else "utf-8",
-        errors="backslashreplace",
+        errors=LACKING,
+        newline="\n",
         line_buffering=True,
     )
     sys.stdout = io.TextIOWrapper(
-        io.BufferedWriter(_Output(1, "w", closefd=False)),
+        io.BufferedWriter(_Output(_raw(sys.stdout, 1))),
         encoding=sys.stdout.encoding if sys.stdout else "utf-8",
-        errors="backslashreplace",  # for a title in a script that the terminal lacks
+        errors=LACKING,
+        newline="\n",  # on Windows too, as in files
         line_buffering=os.isatty(1),
     )
+
+
+def _raw(stream: Any, number: int) -> Any:
+    """The interpreter's own stream of bytes, which a console of Windows needs."""
+    if not stream:  # it was closed
+        return io.FileIO(number, "w", closefd=False)
+    binary = stream.buffer  # an unbuffered one is raw itself
+    return binary.raw if isinstance(binary, io.BufferedWriter) else binary
+
+
+def use_utf8() -> None:
+    """Print UTF-8 from here on, whatever the console has: a program reads it, as it reads a file.
+
+    Tables for people keep the console's encoding.
+    """
+    if isinstance(sys.stdout, io.TextIOWrapper):  # not a stream of a notebook
+        sys.stdout.reconfigure(encoding="utf-8", errors=LACKING)
 
 
 def _fill_closed() -> None:
@@ -53,7 +74,23 @@ def leave(status: int) -> NoReturn:
     os._exit(status)
 
 
-class _Output(io.FileIO):
+class _Standard(io.RawIOBase):
+    """A standard stream, over that of the interpreter."""
+
+    def __init__(self, raw: Any):
+        self.raw = raw
+
+    def writable(self) -> bool:
+        return True
+
+    def fileno(self) -> int:
+        return self.raw.fileno()
+
+    def isatty(self) -> bool:
+        return self.raw.isatty()
+
+
+class _Output(_Standard):
     """Standard output, for which a write error ends the run.
 
     If the reader has left, the run ends as by SIGPIPE; otherwise with a message and status 2.
@@ -61,20 +98,20 @@ class _Output(io.FileIO):
 
     def write(self, data: Any, /) -> int:
         try:
-            return super().write(data)
-        except BrokenPipeError:
-            os._exit(128 + 13)  # 13 is SIGPIPE's number
+            return self.raw.write(data)
         except OSError as error:
+            if error.errno in (errno.EPIPE, errno.EINVAL):  # EINVAL: a closed pipe of Windows
+                os._exit(128 + 13)  # 13 is SIGPIPE's number
             print(f"<stdout>: cannot write: {error.strerror}; try -o FILE", file=sys.stderr)
             os._exit(2)
 
 
-class _ErrorOutput(io.FileIO):
+class _ErrorOutput(_Standard):
     """Standard error, which ignores write errors and leaves the exit status unchanged."""
 
     def write(self, data: Any, /) -> int:
         try:
-            return super().write(data)
+            return self.raw.write(data)
         except OSError:
             return len(data)
 

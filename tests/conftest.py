@@ -9,6 +9,8 @@ import pkgutil
 # Before NumPy is imported: there is a worker for each core, so threads of its linear algebra only
 # take turns with them, and wait for each other in loops. That is a tenth of a run's processor time.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# What a child prints, and what pytest reads, is UTF-8 on Windows too.
+os.environ.setdefault("PYTHONUTF8", "1")
 
 import pytest
 from hypothesis import settings

@@ -3,13 +3,21 @@
 import functools
 import os
 import signal
-import sys
+import sysconfig
 from pathlib import Path
+
+import pytest
 
 TESTS = Path(__file__).parent
 ROOT = TESTS.parent
 DESIGNS = ROOT / "designs"
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")  # the installed command
+# The installed command: Windows calls the folder Scripts, and adds .exe.
+GENEVA = os.path.join(sysconfig.get_path("scripts"), "geneva")
+
+
+def posix(reason: str) -> pytest.MarkDecorator:
+    """A mark of tests that Windows leaves out, with what it lacks."""
+    return pytest.mark.skipif(os.name == "nt", reason=f"Windows has no {reason}")
 
 
 @functools.cache

@@ -14,7 +14,7 @@ PATH = re.compile(r"`([\w./-]+/[\w./-]+)`")
 
 def run(folder, *words):
     python = [sys.executable, "-m", *words]
-    return subprocess.run(python, cwd=folder, capture_output=True, text=True, check=False)
+    return subprocess.run(python, cwd=folder, capture_output=True, encoding="utf-8", check=False)
 
 
 def put(path, block):
@@ -55,6 +55,6 @@ def test_an_example_does_what_the_page_says(example, command, tmp_path):
     if command == "peaks":
         run(tmp_path, "geneva_cli", "new", "reduced", "-o", "spec.toml")
     else:
-        (tmp_path / "spec.toml").write_text("[wheel]\nz = 6\n[limits]\ndwell_min_s = 0.7\n")
+        (tmp_path / "spec.toml").write_text("[wheel]\nz = 6\n[limits]\ntau_max = 0.3\n")
     shown = run(tmp_path, "geneva_cli", command, "spec.toml").stdout
     assert shown.startswith(parts[-2])

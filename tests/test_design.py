@@ -306,10 +306,11 @@ assert status == 0 and one.timing.motion_deg == 120.0
 """
 
 
+@repo.posix("fork")
 def test_a_child_that_is_forked_while_a_thread_computes():
     """Python 3.11 held a lock for all designs, which the child waited for: 180° - 360°/z."""
     command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", FORKED]
-    result = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    result = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=60)
     assert result.returncode == 0, result.stderr
 
 

@@ -54,7 +54,7 @@ def run(tmp_path: Path) -> Callable[..., Any]:
 
     def ask(command: str, spec: str, *options: str) -> Any:
         file = tmp_path / "spec.toml"
-        file.write_text(spec)
+        file.write_text(spec, encoding="utf-8")
         format = () if "--format" in options else ("--format", "json")
         shown = CliRunner().invoke(app, [command, str(file), *options, *format])
         assert shown.exit_code == 0, shown.stderr

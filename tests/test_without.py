@@ -87,7 +87,9 @@ def pytest_collection_modifyitems(items):
 def run(folder, *words, **more):
     to = {**os.environ, "PYTHONPATH": f"{folder}:{folder / 'tests'}", **more}
     python = [sys.executable, "-m", *words]
-    return subprocess.run(python, cwd=folder, env=to, capture_output=True, text=True, check=False)
+    return subprocess.run(
+        python, cwd=folder, env=to, capture_output=True, encoding="utf-8", check=False
+    )
 
 
 EVERY = [("kinds", name) for name in kinds.FOLDERS] + [("extras", name) for name in extras.FOLDERS]

@@ -42,6 +42,7 @@ GROUPS = {
         "sweep": "Thousands of designs, a row each; the best of them.",
     },
     "Draw": {
+        "size": "Every size that a rule or the load chose, into the spec.",
         "profile": "Slots, parts and machines as csv, dxf, svg, step, stl, 3mf.",
         "plot": "Curves over the cycle, or of a sweep's csv.",
         "export": "Everything a shop needs, in a folder.",

@@ -96,8 +96,11 @@ def say(path: str, warnings: Iterable[str]) -> None:
     from geneva_cli.output import shown_text
 
     for text in warnings:
-        named = f"{text} [{text.name}]" if isinstance(text, Notice) else text
-        print(clean(f"{path}: warning: {shown_text(named)}"), file=sys.stderr)
+        named, kind = text, "warning"
+        if isinstance(text, Notice):
+            named = f"{text.plain} [{text.name}]"
+            kind = f"warning, accepted ({text.accepted})" if text.accepted else kind
+        print(clean(f"{path}: {kind}: {shown_text(named)}"), file=sys.stderr)
 
 
 def require_written(design: Design, verdict: tuple[str, list[str]], force: bool) -> None:

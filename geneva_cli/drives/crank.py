@@ -10,6 +10,8 @@ from typing import Annotated, ClassVar, Self
 
 from geneva_cli.drives.transmission import Direct
 from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.rollers import alike
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.spec.rules import Z_MAX, Range
 
 
@@ -42,6 +44,10 @@ class Crank(Direct, kw_only=True):
         """False for the slots if several cranks turn both ways: their places change with it."""
         placed = self.crank_steps and self.both_ways
         return not placed or (table, key) != ("wheel", "z")
+
+    def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
+        """Plan of straight slots for a roller's place on a crank as built."""
+        return self.straight(wheel, alike(wheel, self, place), L)
 
     def backwards(self, plan: Plan) -> Self:
         """The drive that turns the other way: its last crank works first after the first one.

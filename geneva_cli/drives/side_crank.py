@@ -13,6 +13,7 @@ from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import ClosedPeaks, Displacement, Path
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
+from geneva_cli.motion.rollers import alike
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
@@ -51,6 +52,10 @@ class SideCrank(Transmission, kw_only=True):
     def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about a coulisse angle f in degrees."""
         return whitworth.about(self.A, crank_deg)
+
+    def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
+        """Plan of straight slots for a roller's place on a crank as built."""
+        return self.straight(wheel, alike(wheel, self, place), L)
 
     def exact_advance(
         self, half: tuple[float, float], exact: Callable[[float], float]

@@ -24,7 +24,7 @@ from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import PinPose, PinTravel, middle
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import parameter
+from geneva_cli.numerics.arrays import Array, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
 
 if TYPE_CHECKING:
@@ -99,6 +99,10 @@ class Transmission(Drive, kw_only=True):
         """Peaks behind this transmission that need no general search; None if there are none."""
         return None
 
+    def crank_rate(self, crank_deg: Array) -> Array | float:
+        """Rate of the crank over its input shaft's at crank angles from mid-motion."""
+        return self.about(parameter(crank_deg)).advance(0.0, 1)[0].c[1]
+
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees.
 
@@ -109,11 +113,21 @@ class Transmission(Drive, kw_only=True):
         turns = round(crank_deg / whole)
         return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
 
+    def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
+        """Centre distance L for a crank radius, mm: straight slots fix R/L, or the motion does."""
+        if motion is None:
+            return wheel.distance_mm(radius_mm)
+        motion_deg = 2.0 * self.about(wheel.half_motion_deg(wheel.step)).input_deg
+        return radius_mm / self._ratio(wheel, motion, motion_deg - motion.alpha0_deg)
+
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """Plan of straight slots, which give the motion; or of curved slots, from a law."""
         if motion is not None:
             return self._curved(wheel, motion, L)
-        rollers = places(wheel, self, L)
+        return self.straight(wheel, places(wheel, self, L), L)
+
+    def straight(self, wheel: Gearing, rollers: list[RollerPlace], L: float) -> Plan:
+        """Plan of straight slots for the places of the rollers on the crank."""
         self._refuse_reach(wheel, rollers[0].reach_deg)
         engagements = tuple(self.follows(wheel, place, L) for place in rollers)
         turn = 360.0 * self.turns
@@ -145,7 +159,16 @@ class Transmission(Drive, kw_only=True):
         rate = -wheel.SIGN * place.cone
         body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
         reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
-        return Engagement(here.input_deg, path, slot, motion, body, reactions, hub=place.hub)
+        return Engagement(
+            here.input_deg,
+            path,
+            slot,
+            motion,
+            body,
+            reactions,
+            hub=place.hub,
+            built=place.built,
+        )
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
@@ -163,6 +186,14 @@ class Transmission(Drive, kw_only=True):
         refuse_alpha0(motion.alpha0_deg, natural)
         refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
         ratio = self._ratio(wheel, motion, motion_deg)
+        refuse(
+            ratio != ratio,
+            lambda: GenevaError(
+                'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
+                "below 1; set a number, or change alpha0_deg or the law",
+                ("motion", "ratio"),
+            ),
+        )
         here = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         path = MiddlePath(here.anchor(pose, here.input_deg), here.even)
@@ -174,21 +205,12 @@ class Transmission(Drive, kw_only=True):
         return Plan((engagement,), period, ratio, rollers_max(motion_deg), L)
 
     def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
-        """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion."""
+        """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion, or NaN."""
         if motion.ratio is None:
             return wheel.step.sin_cos[0]
         if not isinstance(motion.ratio, str):
             return motion.ratio
-        matched = self.matched_ratio(wheel, motion.law, motion_deg)
-        refuse(
-            matched != matched,
-            lambda: GenevaError(
-                'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
-                "below 1; set a number, or change alpha0_deg or the law",
-                ("motion", "ratio"),
-            ),
-        )
-        return matched
+        return self.matched_ratio(wheel, motion.law, motion_deg)
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does.

@@ -1,13 +1,12 @@
 """The manual: a page of Markdown for each topic, in a folder for each kind of page.
 
-A new page is a file, and a line below.
+A new page is a file, and a line below. ``cli.pages`` prints those of reference that have no file.
 """
 
 from __future__ import annotations
 
 import os
 import re
-from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 
@@ -23,27 +22,18 @@ GROUPS: dict[str, dict[str, str]] = {
         "law-from-csv": "use a curve from a CSV",
         "size-motor": "size the motor and the flywheel",
         "shafts": "size pins, shafts and bearings",
-        "stop-swinging": "stop the load from swinging",
-        "product": "see what the product on the dial feels",
+        "stop-swinging": "stop the load from swinging; what the product feels",
         "find-tolerances": "find the tolerances that matter",
         "plots": "plot curves and show the machine moving",
         "write-report": "write a report",
-        "drawing-sheet": "make a drawing with dimensions",
-        "laser": "cut it with a laser",
-        "mill": "mill it",
-        "print": "print it",
-        "spherical-sheet": "cut a spherical wheel from sheet",
-        "step-cad": "hand over a STEP to CAD",
-        "cad-code": "go on in build123d or FreeCAD",
+        "drawing-sheet": "make a drawing with dimensions; a spherical wheel from sheet",
+        "processes": "cut it with a laser, mill it, or print it",
+        "cad": "hand over a STEP to CAD; go on in build123d or FreeCAD",
         "hand-over": "hand over to a shop",
         "inches": "work in inches and pounds",
-        "electronic-cam": "replay the motion by a servo",
-        "sweep-front": "sweep a million designs and plot the front",
-        "cluster": "run a sweep on a cluster",
+        "electronic-cam": "replay the motion by a servo; Geneva, cam indexer or servo?",
+        "sweep-front": "sweep a million designs and plot the front, also on a cluster",
         "ci": "gate a CI job",
-        "notebook": "use it from a notebook",
-        "browser": "run it in a browser, with nothing to install",
-        "published-table": "compare with a published table",
     },
     "reference": {
         "commands": "every command: usage, arguments, options, examples",
@@ -58,23 +48,17 @@ GROUPS: dict[str, dict[str, str]] = {
         "parts": "what is drawn and listed: wheel, crank, arm, links, frame",
         "choices": "what the program recommends, and how",
         "search": "what synth and sweep try, and their rules",
-        "python": "classes and functions for Python",
+        "python": "classes and functions; a notebook; a page for browsers",
     },
     "explanation": {
         "symbols": "frame, zero and sign; z, L, R, psi and the rest",
-        "curved-slots": "why curved slots cannot do everything",
-        "cam-curve": "a Geneva is a cam curve: Am, Vm, Qm",
+        "curved-slots": "why curved slots cannot do everything; Am, Vm, Qm of a cam curve",
         "cycle": "forces, torques and power over the cycle, from the load to the motor",
         "strength": "pins, horns, shafts, lock and slot: stresses and life",
         "vibration": "a load on an elastic shaft, and the law made for it",
-        "tolerances": "what the errors of dimensions do to the wheel's place, play and entry",
-        "square-root": "why a small error of R/L costs a large jump",
-        "collision-check": "how the program finds out that parts turn without jamming",
-        "accuracy": "what is promised, how it is tested, and run time against error",
-        "certificates": "peaks and the full turn: what is proved, and by what argument",
-        "numbers": "why our numbers differ from published ones",
-        "geneva-or-servo": "the same step by a cam indexer or a servo",
-        "house": "how the program is built, for people who change it",
+        "tolerances": "what errors of dimensions do to place, play and entry; R/L",
+        "accuracy": "what is promised, tested and proved, of peaks and of the full turn; run time",
+        "numbers": "compare with published tables, and why ours differ",
     },
 }
 TITLES = {
@@ -84,63 +68,6 @@ TITLES = {
     "explanation": "Explanation: why it is so",
 }
 TOPICS = {topic: about for pages in GROUPS.values() for topic, about in pages.items()}
-
-
-class Hit(NamedTuple):
-    """A section of a page in which a word stands, and the first line with it."""
-
-    topic: str  # the word for ``geneva help``
-    section: str
-    line: str
-
-
-def search(word: str) -> list[Hit]:
-    """Sections of all pages in which a word begins so, in any case; one hit for each section.
-
-    Of words that stand nowhere together, the sections in which all of them stand.
-
-    Sections with the word in their heading come first. The output of examples is not searched.
-
-    >>> {hit.topic for hit in search("Whitworth")}
-    {'kinds'}
-    >>> {hit.topic for hit in search("taplo")}
-    {'spec'}
-    """
-    whole, words = _search(word), word.split()
-    if whole or len(words) < 2:
-        return whole
-    # sections with all of the words
-    first, *others = map(_search, words)
-    sections = [{hit[:2] for hit in hits} for hits in others]
-    return [hit for hit in first if all(hit[:2] in one for one in sections)]
-
-
-def _search(word: str) -> list[Hit]:
-    wanted = re.compile(rf"(?<![^\W\d_]){re.escape(word)}", re.IGNORECASE)
-    hits: dict[tuple[str, str], Hit] = {}
-    for topic in TOPICS:
-        section, fence = "", ""
-        for line in page(topic).splitlines():
-            if line.startswith("```"):
-                fence = "" if fence else line
-            elif fence == "```console" and not line.startswith("$ "):
-                continue
-            elif not fence and line.startswith("#"):  # in code it is a comment
-                section = line.lstrip("# ")
-            if wanted.search(line):
-                hits.setdefault((topic, section), Hit(topic, section, _excerpt(line, wanted)))
-    return sorted(hits.values(), key=lambda hit: not wanted.search(hit.section))
-
-
-def _excerpt(line: str, wanted: re.Pattern[str]) -> str:
-    """The part of a line that has a word in it."""
-    plain = " ".join(line.replace("`", "").replace("*", "").lstrip("# ").split())
-    match = wanted.search(plain)
-    at, word = (match.start(), match.group()) if match else (0, "")
-    around = 24  # characters on each side of the word
-    start = max(0, plain.rfind(" ", 0, max(0, at - around)) + 1) if at > around else 0
-    end = plain.find(" ", at + len(word) + around)
-    return plain[start : end if end > 0 else len(plain)]
 
 
 def contents() -> str:
@@ -159,13 +86,13 @@ def contents() -> str:
 
 
 def path(topic: str) -> str:
-    """File of a topic's page."""
+    """File of a topic's page, where it has one."""
     group = next(group for group, pages in GROUPS.items() if topic in pages)
     return os.path.join(os.path.dirname(__file__), group, f"{topic}.md")
 
 
 def page(topic: str) -> str:
-    """A topic's page as Markdown; without its pictures.
+    """A topic's page as Markdown, from its file; without its pictures.
 
     Raises GenevaError where there is no such topic.
 
@@ -179,5 +106,4 @@ def page(topic: str) -> str:
         )
     with open(path(topic), encoding="utf-8") as file:
         text = file.read()
-    without_comments = re.sub(r"<!--.*?-->\n*", "", text, flags=re.DOTALL)
-    return re.sub(r"<img [^>]*>(<br>|\n)?", "", without_comments)
+    return re.sub(r"<img [^>]*>(<br>|\n)?", "", text)

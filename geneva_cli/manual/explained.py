@@ -2,7 +2,8 @@
 
 A ``## `` heading names what an entry explains, or several names of one thing; a name that begins
 with a dot is an ending of others, as ``.max``. The first paragraph is the meaning. Items with a
-label have the fields: ``- Formula: ...``. Links hold for later entries of the same first word too.
+label have the fields: ``- Formula: ...``. An entry without ``See`` has the links of the last one
+whose name begins with the same word.
 """
 
 import os
@@ -27,7 +28,7 @@ class Entry(NamedTuple):
     page: str
     names: tuple[str, ...]
     meaning: str
-    why: str = ""
+    why: str = ""  # those of entries that were not shortened yet
     formula: str = ""
     unit: str = ""
     source: str = ""
@@ -57,11 +58,24 @@ def entries() -> tuple[Entry, ...]:
     return tuple(entry for page in GROUPS for entry in _read(page))
 
 
+def head(page: str) -> str:
+    """The text of a page above its entries.
+
+    >>> head("laws").splitlines()[0]
+    '# Motion laws'
+    """
+    return text(page).partition("\n## ")[0] + "\n"
+
+
+def text(page: str) -> str:
+    """Text of a page without pictures; that of quantities is printed as a table."""
+    name = "quantities.txt" if page == "quantities" else os.path.join("reference", f"{page}.md")
+    with open(os.path.join(os.path.dirname(__file__), name), encoding="utf-8") as file:
+        return re.sub(r"<img [^>]*>", "", file.read())
+
+
 def _read(page: str) -> list[Entry]:
-    place = os.path.join(os.path.dirname(__file__), "reference", f"{page}.md")
-    with open(place, encoding="utf-8") as file:
-        text = re.sub(r"<!--.*?-->|<img [^>]*>", "", file.read(), flags=re.DOTALL)
-    _, *sections = re.split(r"^## ", text, flags=re.MULTILINE)
+    _, *sections = re.split(r"^## ", text(page), flags=re.MULTILINE)
     read: list[Entry] = []
     links: dict[str, str] = {}  # those of the last entry, by the first word of its name
     for entry in (_entry(page, section) for section in sections):

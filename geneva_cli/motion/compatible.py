@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial, reduce
-from operator import or_
+from operator import and_, or_
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -44,7 +44,12 @@ _KINDS = [
 def refuse_conflicts(spec: Spec) -> None:
     """Raise GenevaError if the spec combines kinds that make no machine together."""
     kinds = [load_named(kind.refuses) for kind in _KINDS if _concerns(kind, spec)]
-    rules: list[Callable[[Spec], Iterator[Conflict]]] = [_of_drive_before, *kinds, _of_gears]
+    rules: list[Callable[[Spec], Iterator[Conflict]]] = [
+        _of_drive_before,
+        *kinds,
+        _of_gears,
+        _of_limits,
+    ]
     for rule in rules:
         for when, key, text in rule(spec):
             if is_array(when):
@@ -129,4 +134,16 @@ def _of_gears(spec: Spec) -> Iterator[Conflict]:
         size.gear_module_mm is None and size.gear_teeth is not None,
         ("size", "gear_teeth"),
         "gear_teeth counts the teeth of gears: set gear_module_mm, or remove gear_teeth",
+    )
+
+
+def _of_limits(spec: Spec) -> Iterator[Conflict]:
+    """The rule on a limit of what deviations do to the wheel at rest: there must be some."""
+    sizes = [key for key in spec.tolerance.as_dict() if key != "distribution"]
+    exact = reduce(and_, (getattr(spec.tolerance, key) == 0.0 for key in sizes))
+    yield Conflict(
+        spec.limits.dwell_position_max_deg is not None and exact,
+        ("limits", "dwell_position_max_deg"),
+        "dwell_position_max_deg limits the error of a wheel within its tolerances: set one or more "
+        f"of {', '.join(sizes)} in [tolerance]",
     )

@@ -7,6 +7,7 @@ from abc import abstractmethod
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.motion.engagement import Displacement, Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
@@ -15,7 +16,7 @@ from geneva_cli.spec.schema import Example, SpecTable
 if TYPE_CHECKING:
     from geneva_cli.motion.laws.law import Law
     from geneva_cli.motion.motion import Motion
-    from geneva_cli.motion.wheels.gearing import Gearing
+    from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
     from geneva_cli.numerics.spline import Doubt
 
@@ -57,6 +58,8 @@ class Drive(SpecTable, kw_only=True):
     ONE_ARM: ClassVar[bool] = True
     # True if its crank can carry a locking disc about the line of centres
     LOCKS: ClassVar[bool] = True
+    # key that sets its size
+    LENGTH: ClassVar[str] = "center_distance_mm"
     # what turns the input shaft of another drive, in [drive.before]; empty if it cannot
     IN_FRONT: ClassVar[str] = ""
     # reason why no drive may stand before it; empty if one may
@@ -164,6 +167,10 @@ class Drive(SpecTable, kw_only=True):
         """
         return None
 
+    def crank_rate(self, crank_deg: Array) -> Array | float:
+        """Rate of the crank over its input shaft's at crank angles; NaN for a path of its own."""
+        return math.nan
+
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
         return crank_deg
@@ -201,6 +208,27 @@ class Drive(SpecTable, kw_only=True):
 
         ``half`` has sine and cosine of half that angle. ``exact`` converts a number of the spec.
         None for a drive whose proportions are solved for in doubles.
+        """
+        return None
+
+    def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
+        """Centre distance L for a crank radius R, mm, where the kind's shape fixes R/L.
+
+        Raises GenevaError for a drive whose roller does not keep its distance from the crank.
+
+        >>> round(Crank().distance_mm(External(6), None, 30.0), 9)
+        60.0
+        """
+        raise GenevaError(
+            f'kind = "{self.NAME}" has no crank of one radius: set {self.LENGTH} instead of '
+            "crank_radius_mm",
+            ("size", "crank_radius_mm"),
+        )
+
+    def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan | None:
+        """Plan of straight slots for a roller's place on a crank as built; None if it takes none.
+
+        ``L`` is the centre distance, mm. Raises GenevaError if rollers would jam.
         """
         return None
 

@@ -17,7 +17,16 @@ from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.kept import cached_property
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, Batchable, all_true, array, blocks, library
+from geneva_cli.numerics.arrays import (
+    Array,
+    Batchable,
+    Truth,
+    all_true,
+    array,
+    blocks,
+    choose,
+    library,
+)
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 K = TypeVar("K", float, "Array")
@@ -182,6 +191,22 @@ class Slot(Batchable, ABC):
         return 1.0
 
 
+class AsBuilt(NamedTuple):
+    """What a crank as built has: its R/L is not what its straight slots need.
+
+    ``crosses`` is true if the roller's centre crosses the axis of the slot at rest inside the rim,
+    before and after its motion. ``gained`` is the wheel's angle beyond its next rest, radians, at
+    which the centre leaves the rim. ``angle`` is the direction of the slot at rest before the
+    motion, radians from the line of centres. ``outer`` is true if the roller enters at the crossing
+    beyond the foot of the perpendicular from the crank's axis.
+    """
+
+    crosses: Truth
+    gained: float
+    angle: float
+    outer: Truth
+
+
 class Peak(NamedTuple, Generic[K]):
     """Greatest size of a quantity, and the signed input angle of its first occurrence, degrees.
 
@@ -198,6 +223,8 @@ class WheelMotion(Batchable, ABC):
     # False if the two halves of the path differ
     mirrored = True
     closed_peaks: ClosedPeaks | None = None
+    # True if the derivatives at many angles have a closed form, as quick as a polynomial
+    is_closed: ClassVar[bool] = False
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
     BREAKS_TO: ClassVar[float] = 0.0
 
@@ -258,21 +285,44 @@ class WheelMotion(Batchable, ABC):
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """Wheel angle and its derivatives at many ascending input angles (k,).
 
-        A symmetric motion at symmetric angles is computed once and mirrored. For n designs the
-        values are (n, k).
+        A symmetric motion at symmetric angles is computed once and mirrored. At very many angles
+        polynomials take the formulas' place, which are as exact. For n designs the values are
+        (n, k).
         """
         import numpy as np
 
+        from geneva_cli.numerics.fitted import LONG, fitted
+
         count = len(input_deg)
         mirrored = self.symmetric and bool((input_deg == -input_deg[::-1]).all())
+        own = input_deg[: (count + 1) // 2] if mirrored else input_deg
+        if len(own) >= LONG and not self.is_closed and self._is_single(input_deg):
+            seams = {0.0, *self.seams_deg}  # where the acceleration may vanish, and be small
+            values = fitted(lambda x: self._in_blocks(x, orders), own, sorted(seams))
+        else:
+            values = self._in_blocks(own, orders)
+        if not mirrored:
+            return values
+        images = (v if k % 2 else -v for v, k in zip(values, orders, strict=True))
+        rest = slice(count // 2 - 1, None, -1) if count > 1 else slice(0)
+        return [
+            np.concatenate((value, image[..., rest]), axis=-1)
+            for value, image in zip(values, images, strict=True)
+        ]
+
+    def _is_single(self, input_deg: Array) -> bool:
+        """True for one design, False for a batch."""
+        return self._requested(input_deg[:1], (1,))[0].ndim < 2
+
+    def _in_blocks(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
+        """Derivatives at angles, in blocks that stay in the cache."""
+        import numpy as np
+
         out: list[Array] = []
-        for block in blocks((count + 1) // 2 if mirrored else count, BLOCK):
+        for block in blocks(len(input_deg), BLOCK):
             values = self._requested(input_deg[block], orders)
-            out = out or [np.empty((*value.shape[:-1], count)) for value in values]
-            for whole, value, order in zip(out, values, orders, strict=True):
-                if mirrored:  # even orders change their sign
-                    image = whole[..., count - block.stop : count - block.start][..., ::-1]
-                    image[:] = value if order % 2 else -value
+            out = out or [np.empty((*value.shape[:-1], len(input_deg))) for value in values]
+            for whole, value in zip(out, values, strict=True):
                 whole[..., block] = value
         return out
 
@@ -294,7 +344,8 @@ class Engagement(Batchable):
     -1 with the wheel, 1 against it. ``groove`` is the path if a fixed groove guides the roller
     along the crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a
     sphere. ``mid_angle`` is the wheel's angle at mid-motion, radians from the first mid-motion, if
-    the loads depend on it (``Mechanism.unbalanced``).
+    the loads depend on it (``Mechanism.unbalanced``). ``built`` describes a crank as built, whose
+    R/L is not what the slots need: the wheel's velocity then jumps at entry and exit.
     """
 
     mid_deg: float
@@ -307,6 +358,7 @@ class Engagement(Batchable):
     groove: Groove | None = None
     hub: float = 1.0
     mid_angle: float | None = None
+    built: AsBuilt | None = None
 
     @property
     def entry_deg(self) -> float:
@@ -317,6 +369,27 @@ class Engagement(Batchable):
     def exit_deg(self) -> float:
         """Input angle at which the motion ends, degrees from mid-motion."""
         return self.motion.exit_deg
+
+    @property
+    def jumps(self) -> tuple[Number, Number]:
+        """Velocities to which the wheel jumps at entry, and from which it stops at exit.
+
+        They are 0 but on a crank as built, and NaN there if the roller's centre never crosses the
+        axis of the slot at rest inside the rim.
+        """
+        if self.built is None:
+            return 0.0, 0.0
+        rates = (self.motion.rate(at, 0).c[0] for at in (self.entry_deg, self.exit_deg))
+        entry, exit_ = (choose(self.built.crosses, rate, math.nan) for rate in rates)
+        return entry, exit_
+
+    @property
+    def gained(self) -> Number:
+        """Wheel angle beyond its next rest at which the roller leaves the rim, radians.
+
+        It is 0 but on a crank as built; negative where the roller leaves before that rest.
+        """
+        return 0.0 if self.built is None else self.built.gained
 
     def end_deg(self, end: float) -> float:
         """Input angle at entry, where ``end`` is -1, or at exit, where it is 1."""

@@ -48,6 +48,8 @@ class Kind(NamedTuple):
     drawings: Mapping[str, str] = _NONE  # or sheets, by the names of the parts that they show
     tables: Mapping[str, str] = _NONE  # of points, by the names of the parts
     dimensions: str = ""  # in the list of parts, of these parts
+    # function that returns the ``KeySizes`` of a mechanism, where its parts are not flat
+    sizes: str = ""
     stressed: str = ""  # dimensions of stressed parts, where no layout of flat parts has them
     wheel_body: str = ""  # function that returns mass and inertia of a mechanism's wheel
     motion_checks: Mapping[str, str] = _NONE  # by their names

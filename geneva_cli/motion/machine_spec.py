@@ -13,10 +13,10 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.records import CRANK, named, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import all_true
+from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import SpecTable, refuse_kind
 from geneva_cli.spec.tables import (
-    DISTANCE_MM,
     LISTS,
     PLAIN,
     Z_DRAWN,
@@ -103,6 +103,7 @@ class Spec(SpecTable):
     tolerance: Tolerance = field(default_factory=Tolerance)
     product: Product = field(default_factory=Product)
     limits: Limits = field(default_factory=Limits)
+    accept: Accept = field(default_factory=Accept)
     drawing: TitleBlock = field(default_factory=TitleBlock)
     outline: Outline = field(default_factory=Outline)
     title: str = ""
@@ -119,6 +120,7 @@ class Spec(SpecTable):
         for one in self.mass:
             if not isinstance(one, Mass):
                 raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
+        vars(self)["size"] = self._sized(self.size)
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
@@ -133,6 +135,14 @@ class Spec(SpecTable):
             if limits[key] is not None:
                 text = f"{key} needs a load, and without one there is nothing to limit: set "
                 refuse(self._unloaded, partial(GenevaError, text + self.load_keys, ("limits", key)))
+
+    def _sized(self, size: Size) -> Size:
+        """The sizes with the centre distance that follows from the crank radius, if it does."""
+        radius, derived = size.crank_radius_mm, size.derived_distance_mm
+        if radius is None or size.center_distance_mm is not None:
+            return size if derived is None else size.replace(derived_distance_mm=None)
+        L = self.drive.distance_mm(self.wheel, self.motion, radius)
+        return size.replace(derived_distance_mm=L)
 
     def table(self, name: str) -> dict[str, Any]:
         """Values of a table by key; those of ``motion`` include the keys of its law.
@@ -347,16 +357,20 @@ class Spec(SpecTable):
         >>> Spec(External(6)).moving[-1]
         100.0
         """
-        return self.wheel, self.drive, self.drive_before, self.motion, self.given_distance_mm
+        size, built = self.size, tuple[object, ...]()
+        if size.crank_radius_mm is not None and size.center_distance_mm is not None:
+            # a crank as built enters where its roller crosses the slot's axis inside the rim
+            built = (size.crank_radius_mm, size.wheel_radius_mm, size.roller_radius_mm)
+        own = self.wheel, self.drive, self.drive_before, self.motion
+        return (*own, *built, self.given_distance_mm)
 
     @property
     def given_distance_mm(self) -> float:
-        """Centre distance L in millimetres from the spec, or its default.
+        """Centre distance L in millimetres from the spec or its crank radius, or the default.
 
         Some drives solve for another one.
 
         >>> Spec(External(6)).given_distance_mm
         100.0
         """
-        distance = self.size.center_distance_mm
-        return DISTANCE_MM if distance is None else distance
+        return self.size.distance_mm

@@ -19,9 +19,18 @@ from geneva_cli.motion.pivots import (
     wheel_places,
 )
 from geneva_cli.motion.records import IN_FRONT
-from geneva_cli.motion.size_rules import refuse_sizes, refuse_tolerances
+from geneva_cli.motion.size_rules import SAME_RATIO, refuse_sizes, refuse_tolerances
 from geneva_cli.motion.wheels.gearing import Output
-from geneva_cli.numerics.arrays import N, Whole, choose, designs_of, larger, library
+from geneva_cli.numerics.arrays import (
+    N,
+    Whole,
+    all_true,
+    choose,
+    choose_record,
+    designs_of,
+    larger,
+    library,
+)
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.spec.load_named import load_named
@@ -231,6 +240,16 @@ class Mechanism(NamedTuple):
             each.append(own[behind].later(mid_deg, angles[k // wheels % z]))
         return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / count)
 
+    @property
+    def no_turn(self) -> str:
+        """The reason why the full turn of drawn parts has no meaning; empty if it has one."""
+        if self.engagements[0].built is None:
+            return ""
+        return (
+            "the crank is taken as built: the wheel is at rest until the roller's centre crosses "
+            "its slot's axis, while real parts touch before"
+        )
+
     def index_deg(self, i: int) -> float:
         """Wheel step of engagement i, in degrees; unequal steps repeat."""
         wheel = self.spec.wheel
@@ -256,9 +275,36 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
     if like and spec.moving == like.spec.moving:
         plan = Plan(*like[1:-1])
     else:
-        plan = spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
+        own = spec.drive.plan
+        plan = _as_built(spec) or own(spec.wheel, spec.motion, spec.given_distance_mm)
         if spec.drive_before:
             plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     return Mechanism(spec, *plan)
+
+
+def _as_built(spec: Spec) -> Plan | None:
+    """The plan of a crank as built, whose R/L is not what the slots need; None for any other.
+
+    In a batch the designs that have the R/L of their slots are machines as derived.
+    """
+    wheel, radius, L = spec.wheel, spec.size.crank_radius_mm, spec.size.center_distance_mm
+    if radius is None or L is None or spec.motion is not None:
+        return None
+    derived = wheel.place(wheel.step, L)
+    off = abs(radius / L - derived.ratio) > SAME_RATIO
+    if not all_true(off) and (isinstance(off, bool) or not off.any()):
+        return None
+    from geneva_cli.motion.wheels.as_built import as_derived
+
+    rim = spec.size.wheel_radius_mm
+    if rim is None:  # that of a machine as derived
+        away, r = L * wheel.step.sin_cos[1], spec.roller_radius_mm(L)
+        rim = library(away, r).hypot(away, r)
+    place = wheel.as_built(radius / L, rim / L, L)
+    if place is None:
+        return None
+    if not isinstance(off, bool):
+        place = choose_record(off, place, as_derived(derived))
+    return spec.drive.as_built(wheel, place, L)

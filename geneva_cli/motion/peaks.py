@@ -6,11 +6,13 @@ by ``peak_search``.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.motion.engagement import Engagement, Peak, WheelMotion
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import scalar
 from geneva_cli.numerics.roots import greatest_at
 from geneva_cli.table import Table, record_table, rows_table
 
@@ -101,26 +103,40 @@ def peaks_table(mechanism: Mechanism) -> Table:
     """The greatest peaks, and a table of each engagement's peaks if there are several."""
     kinds = mechanism.engagements
     each = [placed_peaks(mechanism, one) for one in kinds]
-    rows = [
-        _record(own, one.motion_deg, mechanism.dwell_deg(i))
-        for i, (own, one) in enumerate(zip(each, kinds, strict=True))
-    ]
+    rows = [_record(own, kinds[i : i + 1], mechanism.dwell_deg(i)) for i, own in enumerate(each)]
     values: dict[str, object] = {"spec": mechanism.spec.path, "title": mechanism.spec.title}
     stations = None
     if len(rows) > 1:
-        values |= _record(_greatest(each), kinds[0].motion_deg, mechanism.dwell_deg(0))
+        values |= _record(_greatest(each), kinds, mechanism.dwell_deg(0))
         stations = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
     else:
         values |= rows[0]
     return record_table(values | {"stations": stations})
 
 
-def _record(peaks: Peaks, motion_deg: float, dwell_deg: float) -> dict[str, float]:
-    out: dict[str, float] = {}
-    sizes = peaks.ends._asdict()
+def _record(
+    peaks: Peaks, engagements: Sequence[Engagement], dwell_deg: float
+) -> dict[str, float | None]:
+    out: dict[str, float | None] = {}
+    sizes: dict[str, float | None] = {**peaks.ends._asdict()}
+    sizes["velocity_entry"], sizes["velocity_exit"] = greatest_jumps(engagements)
     for name, one in zip(QUANTITIES, peaks[:-1], strict=True):
         out[f"{name}.max"], out[f"{name}.at_deg"] = one.max, one.at_deg
         for end in ("entry", "exit"):
             if f"{name}_{end}" in sizes:
                 out[f"{name}.{end}"] = sizes[f"{name}_{end}"]
-    return out | {"motion_deg": motion_deg, "dwell_deg": dwell_deg}
+    gained = max((scalar(one.gained) for one in engagements), key=abs)
+    out |= {"motion_deg": engagements[0].motion_deg, "dwell_deg": dwell_deg}
+    return out | {"index_gained_deg": math.degrees(gained)}
+
+
+def greatest_jumps(engagements: Sequence[Engagement]) -> list[float | None]:
+    """Greatest jumps of the wheel's velocity at entry and at exit of any engagement, signed.
+
+    None where a roller's centre never crosses the axis of the slot at rest inside the rim.
+    """
+    out: list[float | None] = []
+    for each in zip(*(one.jumps for one in engagements), strict=True):
+        jumps = [scalar(jump) for jump in each]
+        out.append(None if any(map(math.isnan, jumps)) else max(jumps, key=abs))
+    return out

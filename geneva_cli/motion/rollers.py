@@ -24,13 +24,17 @@ def places(wheel: Gearing, drive: Drive, L: float) -> list[RollerPlace]:
 
     Rollers that move the wheel alike are returned as one. Raises GenevaError if rollers would jam.
     """
-    m = drive.rollers
     angles = drive.roller_angles_deg
     if wheel.steps:  # on different arms: R_i = L sin b_i
         rollers = [wheel.place(HalfStep.of_deg(0.5 * step), L) for step in wheel.steps]
         _refuse_no_dwell(rollers, ("wheel", "steps_deg"))
         return _at_angles(angles, rollers) if angles else _equal_dwells(rollers)
-    one = wheel.place(wheel.step, L)
+    return alike(wheel, drive, wheel.place(wheel.step, L))
+
+
+def alike(wheel: Gearing, drive: Drive, one: RollerPlace) -> list[RollerPlace]:
+    """Rollers of a machine that all pass the slots as ``one`` does, as ``places`` returns them."""
+    m, angles = drive.rollers, drive.roller_angles_deg
     if angles:
         return _at_angles(angles, [one] * len(angles))
     refuse_jam(m, 2.0 * one.half_motion_deg, wheel.SIGN < 0.0)

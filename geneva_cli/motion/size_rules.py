@@ -13,6 +13,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Truth, choose, smaller
 
+SAME_RATIO = 1e-6  # values of R/L that differ by less are the same, written with few digits
 # keys below twice the centre distance, and below twice the crank's arm
 _IN_WHEEL = (
     *("wheel_bore_mm", "wheel_hub_mm", "arm_hub_mm", "arm_eye_mm", "dial_bolt_mm"),
@@ -30,6 +31,7 @@ def _refuse(when: Truth, key: tuple[str, str], text: str, **values: object) -> N
 def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     """Raise GenevaError, naming the key, for a size that makes no machine with this R/L."""
     size, r, distance = spec.size, spec.roller_radius_mm(L), f"the {spec.wheel.DISTANCE}"
+    _refuse_two_ratios(spec, L, ratio)
     farthest = "the roller's greatest distance from the wheel's axis"
     if not spec.output.turns:  # a rack has no axis: where its roller is farthest from the deepest
         farthest = f"twice {distance}"
@@ -80,6 +82,26 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
             )
             inside = (hub > 0.0) & (hub < bore)
             _refuse(inside, ("size", f"{part}_hub_mm"), text, hub=hub, bore=bore)
+
+
+def _refuse_two_ratios(spec: Spec, L: float, ratio: float) -> None:
+    """Raise GenevaError for a crank as built of a kind that needs its own R/L."""
+    radius, distance = spec.size.crank_radius_mm, spec.size.center_distance_mm
+    if radius is None or distance is None:
+        return
+    fitting_mm = spec.drive.distance_mm(spec.wheel, spec.motion, radius)
+    text = (
+        "{key} = {radius:.9g} and center_distance_mm = {L:.9g} have R/L = {given:.6g}, but "
+        "this machine needs {ratio:.6g}; straight slots of an external or internal wheel on a "
+        "crank or a side-crank are taken as built: {key} = {own:.9g}, or center_distance_mm = "
+        "{fitting_mm:.9g}, or leave one of them out"
+    )
+    if spec.motion is not None:
+        text += "; or set ratio = {given:.9g} in [motion]"
+    values = {"radius": radius, "L": L, "given": radius / L, "ratio": ratio}
+    values |= {"own": ratio * L, "fitting_mm": fitting_mm}
+    off = abs(radius / L - ratio) > SAME_RATIO
+    _refuse(off, ("size", "crank_radius_mm"), text, **values)
 
 
 def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:

@@ -28,6 +28,7 @@ from geneva_cli.output.formats import (
     sheet_as,
     table_as,
 )
+from geneva_cli.streams import use_utf8
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
@@ -115,7 +116,8 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
 
     Raises GenevaError if the format is not for tables, or if the file cannot be written.
     """
-    _put(_chunks(table, output, table_as(output, format)), output, inputs)
+    name = table_as(output, format)
+    _put(_chunks(table, output, name), output, inputs, name)
 
 
 def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
@@ -163,7 +165,7 @@ def show_answer(
         first = summary.chunks(answer.summaries, summary.style_of(output, is_seen(output)))
     page = answer.page
     rest = chain(["\n"] if name == "table" else (), _chunks(page, output, name)) if page else ()
-    _put(chain(first, rest), output, inputs)
+    _put(chain(first, rest), output, inputs, name)
 
 
 def is_watched(output: str, format: str) -> bool:
@@ -194,10 +196,8 @@ def draw(
         return
     refuse_columns()
     module = _module(DRAWN[name])
-    if name in MESHES:
-        _put(module.data(drawing, units), output, inputs, name)
-    else:
-        _put(module.chunks(drawing, units, **own), output, inputs)
+    chunks = module.data(drawing, units) if name in MESHES else module.chunks(drawing, units, **own)
+    _put(chunks, output, inputs, name)
 
 
 def draw_sheet(
@@ -233,11 +233,12 @@ def show_figure(
         figure = inches.figure_in_inches(figure)
     module = _module("plot.plot_text" if name == "table" else f"plot.plot_{name}")
     if name == "table":
-        _put(module.chunks(figure, *_terminal(output)), output, inputs)
+        chunks = module.chunks(figure, *_terminal(output))
     elif name == "png":
-        _put((module.png_bytes(figure) for _ in range(1)), output, inputs, name)
+        chunks = (module.png_bytes(figure) for _ in range(1))
     else:
-        _put(module.chunks(figure), output, inputs)
+        chunks = module.chunks(figure)
+    _put(chunks, output, inputs, name)
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
@@ -294,24 +295,29 @@ def show_markdown(text: str) -> None:
     """Print a text in Markdown, laid out on a terminal and unchanged elsewhere."""
     refuse_columns()
     if not is_seen("-"):
-        sys.stdout.write(text)
+        _put([text], "-")
         return
     from geneva_cli.output.terminal.layout import window
     from geneva_cli.output.terminal.page_reader import chunks
 
-    _put(chunks(text, window(False, choice.wide)), "-", ())
+    _put(chunks(text, window(False, choice.wide)), "-", (), "table")
 
 
 def _put(
-    chunks: Iterable[str] | Iterable[bytes], output: str, inputs: Iterable[str], binary: str = ""
+    chunks: Iterable[str] | Iterable[bytes],
+    output: str,
+    inputs: Iterable[str] = (),
+    name: str = "",
 ) -> None:
-    """Write chunks; ``binary`` is the format of chunks that are bytes."""
+    """Write chunks of the format ``name``; a table on standard output is for people."""
     if output != "-":
         from geneva_cli.output.files import write
 
         write(output, chunks, inputs)
         return
-    if binary:
-        raise GenevaError(f"--format {binary}: not for standard output; give -o FILE.{binary}")
+    if name in ("png", *MESHES):
+        raise GenevaError(f"--format {name}: not for standard output; give -o FILE.{name}")
+    if name != "table":
+        use_utf8()
     for chunk in chunks:
         sys.stdout.write(str(chunk))

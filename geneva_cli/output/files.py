@@ -6,25 +6,18 @@ import errno
 import hashlib
 import os
 import re
-import signal
 import stat
-import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
-from types import FrameType
 from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
-
-try:
-    import fcntl
-except ImportError:  # in a browser and on Windows
-    fcntl = None  # type: ignore[assignment]
+from geneva_cli.output.locks import CAREFUL, POSIX, lock, remove, rename
+from geneva_cli.output.reserved import require_possible
+from geneva_cli.output.stopping import stopping_cleanly
 
 # Left behind only by kill -9 or a power failure, until the next run that writes this file.
 TEMPORARY = ".{name}.geneva-{number}.tmp"
-# Signals that end a run; Windows has no SIGHUP.
-SIGNALS = [getattr(signal, x) for x in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, x)]
 
 
 def write(path: str, chunks: Iterable[str] | Iterable[bytes], inputs: Iterable[str] = ()) -> None:
@@ -55,6 +48,8 @@ def write_errors(path: str) -> Iterator[None]:
         yield
     except OSError as error:
         advice = "; give a file's name" if error.errno == errno.EISDIR else ""
+        if error.errno == errno.EACCES and not POSIX:
+            advice = "; close the file in other programs, or give another name"
         if error.errno == errno.ENOENT:
             folder = os.path.dirname(os.path.realpath(path))
             made = os.path.isdir(folder)  # a folder of the system may take no new files
@@ -79,9 +74,7 @@ def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | 
     if stat.S_ISDIR(old.st_mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
     if not old.st_mode & stat.S_IWUSR or not os.access(real, os.W_OK):
-        raise GenevaError(
-            f"{path}: this file is read-only; allow writing (chmod u+w), or give -o another name"
-        )
+        raise GenevaError(f"{path}: this file is read-only; allow writing, or give -o another name")
     return real, old
 
 
@@ -89,6 +82,7 @@ def real_path(path: str, what: str = "a file") -> str:
     """The path without links. Raises GenevaError if it is no name of ``what``."""
     if not path or "\0" in path:
         raise GenevaError(f'-o "{path}": not {what}\'s name')
+    require_possible(path)
     try:
         return os.path.realpath(path)
     except FileNotFoundError:
@@ -133,7 +127,7 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
                 yield file
                 file.flush()
                 os.fsync(file.fileno())
-                os.replace(temporary, path)
+                rename(file, temporary, path)
         finally:
             with suppress(FileNotFoundError):
                 os.unlink(temporary)
@@ -152,63 +146,19 @@ def _remove_stale(folder: str, name: str) -> None:
 
 
 def _remove_unlocked(path: str) -> None:
-    with (
-        suppress(OSError),
-        open(os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)) as file,
-    ):
+    with suppress(OSError), open(os.open(path, os.O_RDONLY | CAREFUL), "rb") as file:
         lock(file.fileno())
-        if stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-            os.unlink(path)
-
-
-def lock(descriptor: int, alone: bool = False) -> None:
-    """Lock a file for this process and its workers, or for this process alone.
-
-    A worker may outlive a killed run for a moment, and would block the next run. Raises OSError if
-    another process has the lock, and where there are no locks.
-    """
-    if fcntl is None:
-        raise OSError(errno.ENOLCK, "no locks here")
-    (fcntl.lockf if alone else fcntl.flock)(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-
-
-def lock_or_refuse(descriptor: int, says: str, alone: bool = False) -> None:
-    """Lock a file. Raises GenevaError with a message if another run has the lock."""
-    try:
-        lock(descriptor, alone)
-    except OSError as error:  # any other: a file system without locks
-        if error.errno in (errno.EAGAIN, errno.EACCES):
-            raise GenevaError(says) from None
-
-
-@contextmanager
-def stopping_cleanly() -> Iterator[None]:
-    """Make signals that end a run raise SystemExit, which cleans up; ignored ones stay so.
-
-    A second signal does not interrupt the cleaning up.
-    """
-    handlers = {}
-    for number in SIGNALS:
-        # Only the main thread of a program may set signals.
-        with suppress(ValueError):
-            if signal.getsignal(number) not in (signal.SIG_IGN, _stop):
-                handlers[number] = signal.signal(number, _stop)
-    try:
-        yield
-    finally:
-        for number, handler in handlers.items():
-            signal.signal(number, handler)
-
-
-def _stop(number: int, frame: FrameType | None) -> None:
-    for other in SIGNALS:
-        if signal.getsignal(other) is _stop:
-            signal.signal(other, signal.SIG_IGN)
-    sys.exit(128 + number)
+        if stat.S_ISREG(os.lstat(path).st_mode):
+            remove(file, path)
 
 
 def take_after(descriptor: int, old: os.stat_result) -> None:
-    """Copy owner and permissions of the old file; a user without that right keeps the file."""
+    """Copy owner and permissions of the old file; a user without that right keeps the file.
+
+    Windows has one permission, to write, and a file without it was refused.
+    """
+    if not POSIX:
+        return
     new = os.fstat(descriptor)
     if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
         with suppress(PermissionError):

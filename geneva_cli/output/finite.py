@@ -47,6 +47,17 @@ def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
             raise ArithmeticError(f"{name}: a value is not a number")
 
 
+def refuse_nan(names: Iterable[str], columns: Iterable[Any]) -> None:
+    """Raise ArithmeticError for columns with a NaN where an infinity means no value."""
+    for name, column in zip(names, columns, strict=True):
+        if not isinstance(column, list):
+            wrong = (column != column).any()
+        else:
+            wrong = float in map(type, column) and any(v != v for v in column)
+        if wrong:
+            raise ArithmeticError(f"{name}: a value is not a number")
+
+
 def _any_endless(column: Any) -> bool:
     if column.dtype.kind != "f":
         return False

@@ -10,23 +10,22 @@ import csv
 import io
 import os
 import shutil
-import signal
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.output.files import (
-    SIGNALS,
     digest_of,
-    lock_or_refuse,
     place,
     real_path,
-    stopping_cleanly,
     take_after,
     write,
     write_errors,
 )
+from geneva_cli.output.locks import close_folder, lock_or_refuse, open_to_lock
+from geneva_cli.output.reserved import require_shareable
+from geneva_cli.output.stopping import holding_signals, stopping_cleanly
 
 LIST = "contents.csv"
 COLUMNS = ("file", "content", "sha256")
@@ -65,10 +64,12 @@ def filling_folder(
 
     The block writes the files of ``entries``; their list is added. Files of an earlier run that
     are no entries now are removed. All other files stay. Raises GenevaError if a file to replace
-    is a person's, unless ``force`` is set, if one to replace or remove is among ``inputs``, or if
-    ``path`` cannot be written.
+    is a person's, unless ``force`` is set, if one to replace or remove is among ``inputs``, if a
+    file has a name that Windows does not take, or if ``path`` cannot be written.
     """
     real, entries, inputs = real_path(path, "a folder"), list(entries), list(inputs)
+    for entry in entries:
+        require_shareable(entry.file)
     if os.path.lexists(real) and not os.path.isdir(real):
         raise GenevaError(f"{cut(path, 300)}: this is a file; give -o the name of a folder")
     filling = Filling(os.path.join(real, TEMPORARY), [])
@@ -98,11 +99,8 @@ def filling_folder(
             os.mkdir(filling.new)
             yield filling
             require_own()  # a person may have changed a file meanwhile
-            signals = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)  # they wait
-            try:
+            with holding_signals():
                 filling.kept.extend(_replace(real, filling.new, entries))
-            finally:
-                signal.pthread_sigmask(signal.SIG_SETMASK, signals)
         finally:
             shutil.rmtree(filling.new, ignore_errors=True)
 
@@ -173,7 +171,7 @@ def _locked(path: str, real: str) -> Iterator[None]:
     is_new = not os.path.isdir(real)
     if is_new:
         os.mkdir(real)
-    descriptor = os.open(real, os.O_RDONLY)
+    descriptor = open_to_lock(real)
     try:
         lock_or_refuse(
             descriptor,
@@ -182,7 +180,7 @@ def _locked(path: str, real: str) -> Iterator[None]:
         )
         yield
     finally:
-        os.close(descriptor)
+        close_folder(descriptor, real)
         if is_new:
             with suppress(OSError):  # it has files now
                 os.rmdir(real)

@@ -20,16 +20,11 @@ from typing import Any, BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import refuse_columns, refuse_inches
-from geneva_cli.output.delimited import one_line
-from geneva_cli.output.files import (
-    digest_of,
-    lock_or_refuse,
-    place,
-    refuse_input,
-    replacing,
-    write_errors,
-)
-from geneva_cli.output.finite import refuse_nonsense
+from geneva_cli.output.delimited import one_line, text_of
+from geneva_cli.output.files import digest_of, place, refuse_input, replacing, write_errors
+from geneva_cli.output.finite import refuse_nan
+from geneva_cli.output.locks import CAREFUL, lock_or_refuse, remove
+from geneva_cli.streams import use_utf8
 
 SUFFIX = ".geneva"
 TITLE = b"geneva sweep state 1 "
@@ -126,11 +121,10 @@ class GrowingFile:
         digest.update(data)
         return digest
 
-    def append(self, text: str) -> None:
-        """Add whole lines, and hand them to the system before the next are computed."""
-        rows = text.count("\n")
+    def append(self, data: bytes, rows: int) -> None:
+        """Add a block of rows, and hand it to the system before the next is computed."""
         with write_errors(self.path):
-            self._append(rows, text.encode())
+            self._append(rows, data)
         self.done += rows
 
     def _append(self, rows: int, data: bytes) -> None:
@@ -142,18 +136,23 @@ class GrowingFile:
         self.file.flush()
         self.end = self.file.tell()
 
-    def finish(self, fill: Callable[[Iterator[bytes], BinaryIO], None] | None = None) -> None:
-        """Replace the file by the lines, or by the output of ``fill`` for them, in one step."""
+    def finish(
+        self, fill: Callable[[Callable[[], Iterator[bytes]], BinaryIO], None] | None = None
+    ) -> None:
+        """Replace the file by the blocks, or by what ``fill`` makes of them, in one step.
+
+        ``fill`` takes a function that yields the blocks, and the file.
+        """
         with write_errors(self.path):
             with replacing(self.path, self.inputs) as file:
                 if fill:
-                    fill(self._lines(), file)
+                    fill(self._lines, file)
                 else:
                     file.writelines(self._lines())
             if self.resume:
                 self._begin(self.first + f"whole {digest_of(self.real)}\n".encode())
             else:
-                os.unlink(self.state)
+                remove(self.file, self.state)
             self.close()
 
     def _lines(self) -> Iterator[bytes]:
@@ -180,7 +179,7 @@ def _open_locked(path: str, inputs: Iterable[str]) -> BinaryIO:
             raise _not_ours(path)
         refuse_input(path, status, inputs)
     # A link or a pipe that somebody puts there now is neither followed nor waited for.
-    flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK
+    flags = os.O_RDWR | os.O_CREAT | CAREFUL
     file = os.fdopen(os.open(path, flags, 0o666), "r+b")
     try:
         name = cut(os.path.basename(path.removesuffix(SUFFIX)))
@@ -232,8 +231,7 @@ class GrowingTable:
             from geneva_cli.output.parquet import refuse_without
 
             refuse_without()
-        # a shard in parquet is a file of its own
-        first = one_line(names) if header or self.parquet else ""
+        first = one_line(names) if header and not self.parquet else ""
         if output != "-":
             self.file = GrowingFile(output, first, key, resume, inputs)
             self.done = self.file.done
@@ -241,23 +239,34 @@ class GrowingTable:
         elif resume:
             raise GenevaError("--resume continues a file: give -o FILE")
         else:
+            use_utf8()
             sys.stdout.write(first)
 
-    def append(self, rows: Sequence[Sequence[Any]]) -> None:
-        """Add rows. Raises ArithmeticError for NaN."""
-        refuse_nonsense(self.names, list(zip(*rows, strict=True)))
-        text = "".join(map(one_line, rows))
+    def append(self, columns: Sequence[Any]) -> None:
+        """Add rows as columns, arrays where infinity is no value, or lists of cells.
+
+        Raises ArithmeticError for NaN.
+        """
+        refuse_nan(self.names, columns)
+        if self.file and self.parquet:
+            from geneva_cli.output.parquet import block_of
+
+            self.file.append(block_of(self.names, columns), len(columns[0]))
+            return
+        text = text_of(columns, infinity="")
         if self.file:
-            self.file.append(text)
+            self.file.append(text.encode(), len(columns[0]))
         else:
             sys.stdout.write(text)
 
     def finish(self, texts: Collection[str] = ()) -> None:
         """Give the complete file its name; ``texts`` are columns that hold no numbers."""
         if self.file and self.parquet:
-            from geneva_cli.output.parquet import convert
+            from geneva_cli.output.parquet import block_of, write_blocks
 
-            self.file.finish(partial(convert, texts=texts))
+            if not self.file.done:  # the names of the columns are in each block
+                self.file.append(block_of(self.names, [[] for _ in self.names]), 0)
+            self.file.finish(partial(write_blocks, texts=texts))
         elif self.file:
             self.file.finish()
 

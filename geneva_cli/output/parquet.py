@@ -1,15 +1,17 @@
-"""Parquet, for tables of millions of rows, converted from csv by pyarrow (an extra)."""
+"""Parquet, for tables of millions of rows, written from columns by pyarrow (an extra)."""
 
 from __future__ import annotations
 
-import csv
-import os
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from importlib.util import find_spec
-from tempfile import TemporaryFile
-from typing import BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, clean
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+ROWS = 1 << 17  # of a group of the file: some megabytes
 
 
 def refuse_without() -> None:
@@ -20,59 +22,93 @@ def refuse_without() -> None:
         )
 
 
-def convert(lines: Iterable[bytes], target: BinaryIO, texts: Collection[str] = ()) -> None:
-    """Write the lines of a csv file as parquet, block by block: numbers, truth values or texts.
+def block_of(names: Sequence[str], columns: Sequence[Any]) -> bytes:
+    """A block of rows, for ``write_blocks``.
 
+    Columns are arrays, in which infinity is no value, or lists of cells.
+    """
+    import pyarrow as pa
+
+    sink = pa.BufferOutputStream()
+    batch = pa.record_batch([*map(_array, columns)], [*names])
+    with pa.ipc.new_stream(sink, batch.schema) as out:
+        out.write_batch(batch)
+    return sink.getvalue().to_pybytes()
+
+
+def write_blocks(
+    blocks: Callable[[], Iterable[bytes]], target: BinaryIO, texts: Collection[str] = ()
+) -> None:
+    """Write blocks of rows, at least one, as parquet: numbers, truth values or texts.
+
+    They are read twice: the type of a column follows from all its rows.
     Columns named in ``texts`` are texts even if all their rows are empty, so that the files of
     several shards have one schema.
     """
     import pyarrow as pa
-    from pyarrow import csv as arrow
     from pyarrow import parquet
 
-    types = {"number": pa.float64(), "truth": pa.bool_(), "text": pa.string()}
-    # The lines are read twice, so they go to a file without a name, in the folder of the result.
-    with TemporaryFile(dir=os.path.dirname(target.name)) as source:
-        source.writelines(lines)
-        kinds = _kinds(source)
-        options = arrow.ConvertOptions(
-            column_types={
-                name: types["text" if name in texts else kind] for name, kind in kinds.items()
-            },
-            strings_can_be_null=True,
-            quoted_strings_can_be_null=False,
-        )
-        source.seek(0)
-        read = arrow.ReadOptions(block_size=1 << 22)  # bytes of csv at a time
-        with (
-            arrow.open_csv(source, read_options=read, convert_options=options) as rows,
-            parquet.ParquetWriter(target, rows.schema) as out,
-        ):
-            for batch in rows:
-                out.write_batch(batch)
+    types: dict[str, set[pa.DataType]] = {}
+    for block in blocks():
+        for field in pa.ipc.open_stream(block).schema:
+            types.setdefault(field.name, set()).add(field.type)
+    schema = pa.schema(
+        [(name, pa.string() if name in texts else _common(own)) for name, own in types.items()]
+    )
+    words = [field.name for field in schema if field.type == pa.string()]
+    with parquet.ParquetWriter(target, schema, use_dictionary=words) as out:
+        for group in _groups(pa.ipc.open_stream(block).read_all() for block in blocks()):
+            out.write_table(pa.concat_tables([_cast(table, schema) for table in group]))
 
 
-def _kinds(source: BinaryIO) -> dict[str, str]:
-    """The type of every column from all its rows: one word among numbers makes it text."""
-    source.seek(0)
-    lines = csv.reader(line.decode() for line in source)
-    names = next(lines)
-    kinds: list[set[str]] = [set() for _ in names]
-    for fields in lines:
-        for kind, text in zip(kinds, fields, strict=True):
-            if text:
-                kind.add(_kind(text))
-    return {
-        name: (kind or {"number"}).pop() if len(kind) < 2 else "text"
-        for name, kind in zip(names, kinds, strict=True)
-    }
+def _groups(tables: Iterable[pa.Table]) -> Iterator[list[pa.Table]]:
+    group: list[pa.Table] = []
+    for table in tables:
+        group.append(table)
+        if sum(map(len, group)) >= ROWS:
+            yield group
+            group = []
+    if group:
+        yield group
 
 
-def _kind(text: str) -> str:
-    if text in ("true", "false"):
-        return "truth"
-    try:
-        float(text)
-    except ValueError:
-        return "text"
-    return "number"
+def _array(column: Any) -> pa.Array:
+    """The cells as numbers, truth values or texts, whichever they are; all None is of no type."""
+    import numpy as np
+    import pyarrow as pa
+
+    if not isinstance(column, list):
+        return pa.array(column + 0, mask=np.isinf(column))  # no -0.0
+    types = {*map(type, column)} - {type(None)}
+    if types <= {int, float}:
+        return pa.array(column, pa.float64() if types else None)
+    return pa.array(column if types == {bool} else [*map(_text, column)])
+
+
+def _text(cell: object) -> str | None:
+    if isinstance(cell, bool):
+        return "true" if cell else "false"
+    return None if cell is None else clean(str(cell)) or None
+
+
+def _common(types: set[pa.DataType]) -> pa.DataType:
+    """The type for cells of all these types: one word among numbers makes all of them texts."""
+    import pyarrow as pa
+
+    known = types - {pa.null()}
+    if known <= {pa.float64(), pa.int64()}:
+        return pa.float64()
+    return known.pop() if len(known) == 1 else pa.string()
+
+
+def _cast(table: pa.Table, schema: pa.Schema) -> pa.Table:
+    """The table in another schema; a number or a truth value that becomes a text is as in csv."""
+    import pyarrow as pa
+
+    columns = []
+    for field, column in zip(schema, table.columns, strict=True):
+        is_text = field.type == pa.string()
+        if is_text and column.type not in (pa.string(), pa.null()):
+            column = pa.array([*map(_text, column.to_pylist())], pa.string())
+        columns.append(column.cast(field.type))
+    return pa.table(columns, schema=schema)

@@ -8,17 +8,21 @@ the rim. The locking disc reaches past the rim and leaves a horn next to the slo
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor, has_arcs
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.sizes import (
+    NO_SIZES,
+    KeySizes,
     Sizes,
     arm_bore,
     crank_reach_and_hub,
@@ -103,10 +107,10 @@ def loaded(of: Unloaded, loads: PartLoads, horn_MPa: float | None = None) -> Siz
     return out
 
 
-def built(mechanism: Mechanism) -> Size:
-    """Return the spec's sizes with the machine's values for the keys left out, mm and diameters.
+def key_sizes(mechanism: Mechanism) -> KeySizes:
+    """Return the sizes of a machine by keys of ``[size]``, and which of them its load chose.
 
-    Without flat parts only centre distance, roller and clearances are added.
+    Without parts there are only centre distance, roller and clearances.
     """
     size = mechanism.spec.size
     allowed = ("slot_clearance", "lock_clearance", "press_fit", "shaft_fit", "pin_gap")
@@ -115,21 +119,49 @@ def built(mechanism: Mechanism) -> Size:
         "roller_radius_mm": mechanism.roller_radius_mm,
         **{f"{name}_mm": getattr(size.allowances, f"{name}_mm") for name in allowed},
     }
-    if flat := sized(mechanism):
-        own = flat[1]
-        radii = ("wheel_bore", "wheel_hub", "crank_bore", "crank_hub", "pin")
-        thick = ("wheel_thickness", "lock_thickness", "arm_thickness")
-        known |= {
-            "wheel_radius_mm": own.rim,
-            "slot_bottom_clearance_mm": own.slot_bottom,
-            "lock_radius_mm": own.lock,
-            "relief_clearance_mm": own.relief,
-            **{f"{name}_mm": getattr(own, name) for name in ("wall_min", *thick)},
-            **{f"{name}_mm": 2.0 * getattr(own, name) for name in radii},
-        }
-        known |= {"wheel_outer_radius_mm": own.outer} if own.outer else {}
-    values = size.as_dict()
-    return size.replace(**{key: x for key, x in known.items() if values[key] is None})
+    of_kind: Callable[[Mechanism], KeySizes] | None
+    of_kind = thing(mechanism.spec.wheel.NAME, "sizes") if mechanism.spec.has_parts else None
+    own = of_kind(mechanism) if of_kind else _flat_sizes(mechanism)
+    return own._replace(values=known | own.values)
+
+
+def built(mechanism: Mechanism) -> Size:
+    """Return the spec's sizes with the machine's values for the keys left out, mm and diameters.
+
+    Without parts only centre distance, roller and clearances are added.
+    """
+    known, values = key_sizes(mechanism).values, mechanism.spec.size.as_dict()
+    return mechanism.spec.size.replace(**{k: x for k, x in known.items() if values[k] is None})
+
+
+def _flat_sizes(mechanism: Mechanism) -> KeySizes:
+    """Return the sizes of flat parts; none where they cannot be cut."""
+    flat = sized(mechanism)
+    if not flat:
+        return NO_SIZES
+    own = flat[1]
+    radii = ("wheel_bore", "wheel_hub", "crank_bore", "crank_hub", "pin")
+    thick = ("wheel_thickness", "lock_thickness", "arm_thickness", "link_thickness")
+    known = {
+        "wheel_radius_mm": own.rim,
+        "slot_bottom_clearance_mm": own.slot_bottom,
+        "lock_radius_mm": own.lock,
+        "relief_clearance_mm": own.relief,
+        **{f"{name}_mm": getattr(own, name) for name in ("wall_min", *thick)},
+        **{f"{name}_mm": 2.0 * getattr(own, name) for name in radii},
+    }
+    known |= {"wheel_outer_radius_mm": own.outer} if own.outer else {}
+    known |= {"arm_bore_mm": 2.0 * own.arm_bore} if own.arm_bore else {}
+    return KeySizes(known, keys_by_load(mechanism, bool(own.lock)))
+
+
+def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
+    """Return the keys of sizes that the load of a machine chooses; ``locked`` if it has a lock."""
+    if not mechanism.spec.is_loaded:
+        return ()
+    from geneva_cli.parts.sized_by_load import chosen_keys
+
+    return chosen_keys(mechanism, locked)
 
 
 def drawn_pin_radius(mechanism: Mechanism) -> float:

@@ -116,6 +116,32 @@ def load_sizes(
     return arm_that_holds(spec, wide, trial, lambda one: stressed(assembly, one), loads)
 
 
+def chosen_keys(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
+    """Return the keys of the sizes that the load chooses, which the spec leaves out.
+
+    ``locked`` is True for a wheel with recesses for a lock. A load without a bound chooses none.
+    """
+    spec, size = mechanism.spec, mechanism.spec.size
+    if not all(map(math.isfinite, single_loads(mechanism))):
+        return ()
+    diameters = spec.shaft.wheel_diameter_mm, spec.shaft.crank_diameter_mm
+    on_crank = size.crank_bore_mm, size.arm_bore_mm, diameters[1]
+    free = {
+        "crank_bore_mm arm_bore_mm": not any(own is not None for own in on_crank),
+        "wheel_bore_mm": size.wheel_bore_mm is None and diameters[0] is None,
+        "pin_mm": size.pin_mm is None and not _rubs_on_pin(spec),
+        "arm_thickness_mm": size.arm_thickness_mm is None,
+        "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
+        "link_thickness_mm": bool(mechanism.first_wheel) and size.link_thickness_mm is None,
+    }
+    return tuple(key for keys, chosen in free.items() if chosen for key in keys.split())
+
+
+def _rubs_on_pin(spec: Spec) -> bool:
+    """Return True with friction on the pin: the loads depend on the pin, which stays the usual."""
+    return bool(spec.load.friction) and not spec.load.rubs_in_slot
+
+
 def arm_that_holds(
     spec: Spec,
     wheel: float,
@@ -246,8 +272,7 @@ def pin_that_holds(
     usual one, on which the loads depend.
     """
     spec, size = mechanism.spec, mechanism.spec.size
-    rubs = spec.load.friction and not spec.load.rubs_in_slot
-    if size.pin_mm is not None or rubs or not usual:
+    if size.pin_mm is not None or _rubs_on_pin(spec) or not usual:
         return usual
     contact = value_or(size.face_width_mm, wide)
     # the roller keeps three tenths of its radius as a wall about the hole for its pin

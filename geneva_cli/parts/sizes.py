@@ -73,6 +73,16 @@ class Sizes(NamedTuple):
         return self._replace(**none, first=None)  # type: ignore[arg-type]
 
 
+class KeySizes(NamedTuple):
+    """The sizes of a machine's parts by keys of ``[size]``: mm, and diameters as the keys say."""
+
+    values: dict[str, float]
+    by_load: tuple[str, ...]  # keys that the spec leaves out, and the load chooses
+
+
+NO_SIZES = KeySizes({}, ())
+
+
 def drawn_thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thicknesses:
     """Return the thicknesses of ``parts``, or else of a spec."""
     if parts:

@@ -95,6 +95,7 @@ class SpecTable:
     """
 
     TABLE: ClassVar[str] = ""  # its name in the file
+    WORDS_APART: ClassVar[str] = "_"  # what stands between the words of its keys
     __signature__ = _Signature()
 
     def __init_subclass__(cls, kw_only: bool = False) -> None:
@@ -221,7 +222,7 @@ def shortly(record: object) -> str:
         value = getattr(record, one.name)
         factory = one.default_factory
         default = one.default if factory is dataclasses.MISSING else factory()
-        if value != default:
+        if one.repr and value != default:
             text = shortly(value) if dataclasses.is_dataclass(value) else repr(value)
             arguments.append(f"{one.name}={cut(text, SHOWN_MAX)}")
     return f"{type(record).__name__}({', '.join(arguments)})"
@@ -261,7 +262,8 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
             annotated, rule, meaning = get_args(annotation)
             # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
             types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
-            key = rule.key if isinstance(rule, Csv) else one.name.rstrip("_")
+            key = one.name.rstrip("_").replace("_", table.WORDS_APART)
+            key = rule.key if isinstance(rule, Csv) else key
             known[one.name] = Field(key, one.name, types, rule, one.default, meaning)
     _fields_of[table] = tuple([known[name] for name in _names(table) if name in known])
     return _fields_of[table]

@@ -5,10 +5,12 @@ other keys. The annotations are objects, since evaluating text on import would t
 """
 
 from collections.abc import Callable
+from dataclasses import field
 from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
+from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.default_sizes import Thicknesses, unrounded, value_or
 from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
@@ -40,6 +42,11 @@ class Size(SpecTable):
         "centre distance L; spherical: sphere radius; linear: crank radius; default 100; linkages "
         "solve for it",
     ] = None
+    crank_radius_mm: Annotated[
+        Positive,
+        "crank radius R, to the roller's centre; alone it sets L, with center_distance_mm and "
+        "another R/L than straight slots need the machine is taken as built",
+    ] = field(default=None, kw_only=True)
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
     process: Annotated[
         str | None, OneOf(PROCESSES), "manufacturing process; sets clearances, fits and limits"
@@ -239,6 +246,17 @@ class Size(SpecTable):
     washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
     edge_chamfer_mm: Annotated[Positive, "chamfer of all edges, at 45 degrees"] = None
     edge_fillet_mm: Annotated[Positive, "rounding radius of all edges"] = None
+    # no key: L of a machine that is given by crank_radius_mm, which its ``Spec`` computes
+    derived_distance_mm: float | None = field(default=None, kw_only=True, repr=False)
+
+    @property
+    def distance_mm(self) -> float:
+        """Centre distance L: its key, or derived from the crank radius, or the default.
+
+        >>> Size(center_distance_mm=160.0).distance_mm, Size().distance_mm
+        (160.0, 100.0)
+        """
+        return value_or(self.center_distance_mm, value_or(self.derived_distance_mm, DISTANCE_MM))
 
     @property
     def edge_mm(self) -> float:
@@ -302,7 +320,7 @@ class Size(SpecTable):
         narrow bore lets in its turned shaft. Sizes that are not set have their defaults without a
         load, before they are rounded down.
         """
-        L = value_or(self.center_distance_mm, DISTANCE_MM)
+        L = self.distance_mm
         roller, thick = self.roller_radius(L), self.thicknesses(L)
         bore = value_or(self.wheel_bore_mm, L / 6.0)
         across = L if self.lock_radius_mm is None else 2.0 * self.lock_radius_mm
@@ -696,6 +714,9 @@ class Limits(SpecTable):
     acceleration_max: Annotated[Positive, "acceleration d2psi/dtheta2"] = None
     acceleration_entry_max: Annotated[Positive, "acceleration at entry"] = None
     jerk_max: Annotated[Positive, "jerk d3psi/dtheta3"] = None
+    entry_velocity_max: Annotated[
+        Positive, "jump of velocity at entry and exit; default 0.01 of a machine as built"
+    ] = None
     pin_force_max_N: Annotated[Positive, "greatest force of roller on slot"] = None
     input_torque_max_Nm: Annotated[Positive, "greatest torque on input shaft"] = None
     pressure_angle_max_deg: Annotated[float | None, Range(0.0, 90.0, "(]"), "pressure angle"] = None
@@ -712,6 +733,14 @@ class Limits(SpecTable):
     ] = None
     product_acceleration_max_m_s2: Annotated[
         Positive, "greatest acceleration of the product, in m/s²"
+    ] = None
+    dwell_min_s: Annotated[Positive, "shortest time at rest"] = None
+    motion_max_s: Annotated[Positive, "longest time of a motion"] = None
+    cycle_max_s: Annotated[Positive, "longest time of a motion and the dwell after it"] = None
+    index_play_max_deg: Annotated[Positive, "greatest play of the wheel in its motion"] = None
+    dwell_play_max_deg: Annotated[Positive, "greatest play of the wheel in its dwell"] = None
+    dwell_position_max_deg: Annotated[
+        Positive, "greatest error of the resting wheel's angle within [tolerance]"
     ] = None
 
 
@@ -731,5 +760,6 @@ PLAIN: dict[str, type[SpecTable]] = {
     "drawing": TitleBlock,
     "outline": Outline,
     "limits": Limits,
+    "accept": Accept,
 }
 LISTS = ("mass",)

@@ -9,6 +9,12 @@ import tomli
 from geneva_cli.errors import GenevaError, cut, nearest
 
 
+def names() -> list[str]:
+    """Names of the designs, sorted."""
+    files = sorted(os.listdir(_folder()))
+    return [file.removesuffix(".toml") for file in files if file.endswith(".toml")]
+
+
 def titles() -> dict[str, str]:
     """Names of the designs, with their titles.
 
@@ -16,8 +22,7 @@ def titles() -> dict[str, str]:
     >>> titles()["side-crank-z6"]
     'Side-crank, six slots, A = 0.6'
     """
-    names = sorted(file for file in os.listdir(_folder()) if file.endswith(".toml"))
-    return {name.removesuffix(".toml"): str(tomli.loads(_text(name))["title"]) for name in names}
+    return {name: str(tomli.loads(_text(f"{name}.toml"))["title"]) for name in names()}
 
 
 def design(name: str) -> tuple[str, dict[str, str]]:

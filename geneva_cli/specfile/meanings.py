@@ -11,7 +11,7 @@ from geneva_cli.motion import registry
 from geneva_cli.names import spoken, unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 
-TEXTS = ("why", "formula", "source", "to_do", "bad", "good")  # of an entry, as it has them
+TEXTS = ("formula", "source", "to_do")  # of an entry, as it has them
 CHECKS, INPUTS = "checks.", "inputs."  # beginnings of a report's names of checks and of keys
 
 
@@ -21,13 +21,10 @@ class Meaning(NamedTuple):
     group: str
     name: str
     meaning: str
-    why: str | None = None
     unit: str | None = None
     formula: str | None = None
     source: str | None = None
     to_do: str | None = None
-    bad: str | None = None  # a command that shows it
-    good: str | None = None  # the command after the repair
     manual: str | None = None  # the commands that show its pages
 
 

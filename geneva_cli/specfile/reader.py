@@ -70,6 +70,11 @@ class Text(NamedTuple):
     text: str
     set_keys: tuple[Setting, ...] = ()
 
+    @property
+    def alone(self) -> Text:
+        """The text without the settings."""
+        return self._replace(set_keys=())
+
     @contextmanager
     def located(self) -> Iterator[None]:
         """Context in which errors that name a key get the file and line on which it is set."""
@@ -164,6 +169,16 @@ def shown_name(path: str) -> str:
     return "<stdin>" if path == "-" else path if path.strip() else repr(path)
 
 
+def _advice(path: str) -> str:
+    """The command that writes a spec in place of one that is missing."""
+    from geneva_cli.specfile.designs import names
+
+    design = os.path.basename(path).removesuffix(".toml")
+    if design in names():
+        return f"; `geneva new --from-design {design} -o {design}.toml` writes one"
+    return "; `geneva new external -o spec.toml` writes an example"
+
+
 def _read(path: str, name: str) -> str:
     bytes_max = 1 << 20  # a spec is a page; a megabyte of it is a mistake
     try:
@@ -173,10 +188,9 @@ def _read(path: str, name: str) -> str:
             with open(path, "rb") as file:
                 data = file.read(bytes_max + 1)
     except OSError as error:
-        advice = "; `geneva new external -o spec.toml` writes an example"
         what = "this is a folder, not a file" if os.path.isdir(path) else str(error.strerror)
-        missing = isinstance(error, FileNotFoundError)
-        raise GenevaError(f"{name}: cannot read: {what}{advice if missing else ''}") from None
+        advice = _advice(path) if isinstance(error, FileNotFoundError) else ""
+        raise GenevaError(f"{name}: cannot read: {what}{advice}") from None
     except ValueError as error:  # a NUL in the name
         raise GenevaError(f"{name!r}: cannot read: {error}") from None
     if len(data) > bytes_max:

@@ -13,7 +13,7 @@ from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.schema import REQUIRED, Example, Field, fields
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.json_schema import FILE
-from geneva_cli.specfile.writer import keys_of, quoted
+from geneva_cli.specfile.writer import keys_of, noted, quoted
 
 # common requests, in addition to the example of each kind of wheel and drive
 EXAMPLES = {
@@ -141,9 +141,8 @@ def _usual(
         else f"# {field.key} = {quoted(usual[field.key])}"
         for field in shown
     ]
-    width = max(map(len, settings), default=0)
     notes = [_note(field.meaning, gearing.NAME) for field in shown]
-    return [f"{s.ljust(width)}  # {note}" for s, note in zip(settings, notes, strict=True)]
+    return noted([*zip(settings, notes, strict=True)])
 
 
 def _note(meaning: str, gearing: str) -> str:

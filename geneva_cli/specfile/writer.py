@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from geneva_cli.motion import registry
@@ -93,8 +94,11 @@ def keys_in(spec: Spec) -> dict[str, list[Field]]:
     return keys_of(type(spec.wheel), type(spec.drive), law_keys, before)
 
 
-def spec_lines(spec: Spec) -> list[str]:
-    """Lines of a spec's tables: keys that differ from their defaults, or are changed first."""
+def spec_lines(spec: Spec, notes: Mapping[str, str] = MappingProxyType({})) -> list[str]:
+    """Lines of a spec's tables: keys that differ from their defaults, or are changed first.
+
+    Behind each key stands its meaning, or else the note of ``table.key`` in ``notes``.
+    """
     first = {("wheel", "gearing"), (BEFORE, "kind")}
     first |= {("drive", key) for key in ("kind", "n_rpm", "rollers")}
     lines: list[str] = []
@@ -102,14 +106,26 @@ def spec_lines(spec: Spec) -> list[str]:
         head = f"[[{name}]]" if name in LISTS else f"[{name}]"
         for values in values_of(spec, name):
             block = [
-                (f"{key.key} = {quoted(values[key.key])}", key.meaning)
+                (
+                    f"{key.key} = {quoted(values[key.key])}",
+                    notes.get(f"{name}.{key.key}", key.meaning),
+                )
                 for key in keys
                 if values[key.key] != key.default or (name, key.key) in first
             ]
             if block:
-                width = max(len(setting) for setting, _ in block)
-                lines += ["", head, *[f"{s.ljust(width)}  # {note}" for s, note in block]]
+                lines += ["", head, *noted(block)]
     return lines
+
+
+def noted(block: Sequence[tuple[str, str]]) -> list[str]:
+    """Lines of settings, each with its note as a comment; all comments begin in one column.
+
+    >>> noted([("z = 6", "slots"), ("gearing = 2", "type")])
+    ['z = 6        # slots', 'gearing = 2  # type']
+    """
+    width = max((len(setting) for setting, _ in block), default=0)
+    return [f"{setting.ljust(width)}  # {note}" for setting, note in block]
 
 
 def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -15,18 +14,15 @@ from geneva_cli.motion.machine_spec import BEFORE, Spec
 from geneva_cli.motion.machine_spec import attribute as attribute_of
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array, Number
+from geneva_cli.numerics.arrays import Array, Number, Whole
 from geneva_cli.spec.schema import SpecTable, fields
-from geneva_cli.study.fields import Cell
+from geneva_cli.study.rows import Cell, Column, Rows, cells_of
 from geneva_cli.verdict.quantities.batch_designs import Designs
 from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch
 
-if TYPE_CHECKING:
-    from geneva_cli.study.sweep.values import Value
-
 OF_LOADS = ("loads", "sizing", "strength", "life")  # tables of quantities that follow from loads
 
-Batch: TypeAlias = tuple[list[int], Mechanism]  # the numbers of some designs, and their machine
+Batch: TypeAlias = tuple[Whole, Mechanism]  # the numbers of some designs, and their machine
 
 
 def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | None]:
@@ -34,25 +30,26 @@ def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | N
 
     None for a spec that cannot be built, or whose engagements have no common number.
     """
-    rows = number_rows(batch_machines(specs), names)
-    return [rows.get(i) for i in range(len(specs))]
+    rows: list[list[float] | None] = [None] * len(specs)
+    for members, machine in batch_machines(specs):
+        values = columns(machine, names, len(members))
+        if values is not None:
+            for i, row in zip(members.tolist(), np.column_stack(values).tolist(), strict=True):
+                rows[i] = row
+    return rows
 
 
-def number_rows(batches: Iterable[Batch], names: Sequence[str]) -> dict[int, list[float]]:
-    """The quantities ``names`` of the designs of batches, by the designs' numbers."""
-    out: dict[int, list[float]] = {}
+def number_columns(batches: Iterable[Batch], names: Sequence[str], count: int) -> Array:
+    """The quantities ``names`` (q, n) of n = ``count`` designs of batches, as ``columns`` does.
+
+    NaN for a design of no batch, or whose engagements have no common number.
+    """
+    out = np.full((len(names), count), np.nan)
     for members, machine in batches:
         values = columns(machine, names, len(members))
         if values is not None:
-            out |= zip(members, np.column_stack(values).tolist(), strict=True)
+            out[:, members] = values
     return out
-
-
-def cells_of(row: Sequence[float]) -> list[Cell]:
-    """The cells of a row, None for undefined values; no cells if one must be computed alone."""
-    if any(map(math.isnan, row)):
-        return []
-    return [None if math.isinf(value) else value for value in row]
 
 
 def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
@@ -62,15 +59,19 @@ def batch_machines(specs: Sequence[Spec]) -> Iterator[Batch]:
     """
     keys: dict[Any, list[BatchKey]] = {}
     each = [split(spec, keys) for spec in specs]
-    for members in _alike(range(len(specs)), lambda i: each[i][0]):
+    shapes: dict[object, list[int]] = {}
+    for i, (shape, _) in enumerate(each):
+        shapes.setdefault(shape, []).append(i)
+    for members in shapes.values():
         wide = [each[i][1] for i in members]
         varied = {k: np.array([own[k] for own in wide]) for k in wide[0]}
         differing = {k: v for k, v in varied.items() if (v != v[0]).any()}
-        yield from _built(specs[members[0]], differing or dict([*varied.items()][:1]), members)
+        own_varied = differing or dict([*varied.items()][:1])
+        yield from _built(specs[members[0]], own_varied, np.array(members))
 
 
 def batch_rows(
-    rows: Sequence[Sequence[Value]], keys: Sequence[str], read: Callable[[Sequence[Value]], Spec]
+    rows: Rows, keys: Sequence[str], read: Callable[[Sequence[Cell]], Spec]
 ) -> Iterator[Batch]:
     """Batch machines of rows of values of some keys, each with the numbers of its rows.
 
@@ -78,40 +79,50 @@ def batch_rows(
     called for the first rows of a batch only. Rows that share their words are machines of one kind,
     which tells which of their numbers may be arrays; the rows of a batch share the others too.
     """
-    numbers = [k for k in range(len(keys)) if not any(isinstance(row[k], str) for row in rows)]
+    each = rows.columns
+    numbers = [k for k, column in enumerate(each) if not _has_words(column)]
 
-    def without(wide: Sequence[int]) -> Callable[[int], object]:
-        return lambda i: tuple(v for k, v in enumerate(rows[i]) if k not in wide)
-
-    def first_spec(members: Sequence[int]) -> Spec | None:
-        for i in members[:20]:
+    def first_spec(members: Whole) -> Spec | None:
+        for i in members[:20].tolist():
             with suppress(GenevaError):
-                return read(rows[i])
+                return read(rows.row(i))
         return None
 
-    for kind in _alike(range(len(rows)), without(numbers)):
+    def groups(members: Whole, wide: Sequence[int]) -> Iterator[Whole]:
+        return _equal(members, [column for k, column in enumerate(each) if k not in wide])
+
+    for kind in groups(np.arange(len(rows)), numbers):
         wide = []
         if spec := first_spec(kind):
             for k in numbers:
                 with suppress(GenevaError):  # the key belongs to another kind of machine
                     wide += [k] if may_vary(spec, keys[k]) else []
-        for members in _alike(kind, without(wide)) if wide else ():
+        for members in groups(kind, wide) if wide else ():
             if spec := first_spec(members):
-                varied = {keys[k]: np.array([rows[i][k] for i in members]) for k in wide}
+                own = rows.taken(members).columns
+                varied = {keys[k]: np.asarray(own[k]) for k in wide}
                 yield from _built(spec, varied, members)
 
 
-def _alike(members: Iterable[int], shape: Callable[[int], object]) -> Iterator[list[int]]:
-    groups: dict[object, list[int]] = {}
-    for i in members:
-        groups.setdefault(shape(i), []).append(i)
-    yield from groups.values()
+def _has_words(column: Column) -> bool:
+    return isinstance(column, list) and any(isinstance(cell, str) for cell in column)
 
 
-def _built(spec: Spec, varied: Mapping[str, Array], members: Sequence[int]) -> Iterator[Batch]:
+def _equal(members: Whole, columns: Sequence[Column]) -> Iterator[Whole]:
+    """The members in groups that are equal in all columns."""
+    codes = np.zeros(len(members), dtype=np.intp)
+    for column in Rows(columns).taken(members).columns if columns else ():
+        known: dict[object, int] = {}
+        own = [known.setdefault(cell, len(known)) for cell in cells_of(column)]
+        codes = np.unique(codes * len(known) + own, return_inverse=True)[1]
+    order = np.argsort(codes, kind="stable")
+    yield from np.split(members[order], np.flatnonzero(np.diff(codes[order])) + 1)
+
+
+def _built(spec: Spec, varied: Mapping[str, Array], members: Whole) -> Iterator[Batch]:
     batch = many(spec, varied)
     if batch.machine is not None:
-        yield [members[i] for i in batch.which.tolist()], batch.machine
+        yield members[batch.which], batch.machine
 
 
 class BatchKey(NamedTuple):

@@ -9,7 +9,8 @@ from geneva_cli.numerics.tolerances import same
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import PLAIN
 from geneva_cli.specfile.writer import keys_in, values_of
-from geneva_cli.study.fields import Cell, pick, values
+from geneva_cli.study.fields import pick, values
+from geneva_cli.study.rows import Cell
 from geneva_cli.study.spec_texts import designs_of, spec_texts
 from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.table import Reading, Table, rows_table

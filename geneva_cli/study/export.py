@@ -18,7 +18,7 @@ from geneva_cli.output.folder import LIST
 from geneva_cli.output.formats import curve_tolerance, usual_curves
 from geneva_cli.parts.projection import Missing
 from geneva_cli.spec.schema import Points, SpecTable, fields
-from geneva_cli.specfile.writer import quoted, spec_lines
+from geneva_cli.study.chosen_sizes import written
 from geneva_cli.verdict.warnings import gears_without_teeth
 
 T = TypeVar("T", bound=SpecTable)
@@ -105,7 +105,8 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
 def shop_warnings(design: Design) -> list[str]:
     """The warnings about a design whose files go to a shop, with or without a process."""
     # with a process the design's own warnings have it already
-    return list(dict.fromkeys((*design.warnings, *gears_without_teeth(design.spec))))
+    toothless = design.spec.accept.applied(gears_without_teeth(design.spec))
+    return list(dict.fromkeys((*design.warnings, *toothless)))
 
 
 def _write(design: Design, name: str, path: str) -> None:
@@ -126,8 +127,8 @@ def _write(design: Design, name: str, path: str) -> None:
 
 
 def _spec_files(design: Design, taken: set[str]) -> Iterator[ExportFile]:
-    """Yield the spec with all settings, and the points that it names, in the same folder."""
-    spec, taken = design.spec, {*taken, "spec.toml", LIST}
+    """Yield the spec with all settings and sizes, and the points that it names, in one folder."""
+    spec, taken = design.sized.spec, {*taken, "spec.toml", LIST}
     points: dict[str, Points] = {}
     spec = spec.replace(drive=_named_here(spec.drive, points, taken))
     if spec.drive_before:
@@ -138,9 +139,8 @@ def _spec_files(design: Design, taken: set[str]) -> Iterator[ExportFile]:
     for name, own in points.items():
         text = "".join(f"{x!r},{y!r}\n" for x, y in own.pairs)
         yield ExportFile(name, "points that the spec names", partial(show_text, text))
-    title = [f"title = {quoted(spec.title)}"] if spec.title else []
-    whole = "\n".join([*title, *spec_lines(spec)]).lstrip("\n") + "\n"
-    yield ExportFile("spec.toml", "the design, with all settings", partial(show_text, whole))
+    text = "the design, with all its settings and sizes"
+    yield ExportFile("spec.toml", text, partial(show_text, written(spec, design.chosen)))
 
 
 def _named_here(table: T, points: dict[str, Points], taken: set[str]) -> T:
@@ -150,7 +150,9 @@ def _named_here(table: T, points: dict[str, Points], taken: set[str]) -> T:
         if not isinstance(value, Points):
             continue
         name = os.path.basename(value.file) or "points.csv"
-        while name in taken or name in points:
+        # Windows and macOS take A.csv and a.csv for one file.
+        others = {other.lower() for other in (*taken, *points)}
+        while name.lower() in others:
             name = f"points-{name}"
         points[name] = Points(value.pairs, name)
         table = table.replace(**{field.attribute: points[name]})

@@ -7,16 +7,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.parts import Parts, parts_of
+from geneva_cli.study.rows import Cell
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import MACHINE, REPORT, QuantityGroup
 from geneva_cli.verdict.quantities.groups import values as values_of
 from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch, whole_name
-
-Cell: TypeAlias = float | int | str | bool | None
 
 
 def values(parts: Parts, groups: Iterable[QuantityGroup] | None = None) -> dict[str, Cell]:

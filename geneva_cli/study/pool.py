@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import signal
+import sys
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
@@ -38,7 +39,7 @@ def mapped(
     # A fork does not start the program again; systems without it do.
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("fork" if "fork" in methods else None)
-    with ProcessPoolExecutor(workers, context, _attend) as pool:
+    with ProcessPoolExecutor(possible(workers), context, _attend) as pool:
         waiting: deque[Future[R]] = deque()
         try:
             for item in items:
@@ -52,6 +53,11 @@ def mapped(
                 f"a process that computed some of the {what} was stopped from outside, or ran out "
                 f"of memory; try fewer {what} at a time"
             ) from None
+
+
+def possible(workers: int, platform: str = sys.platform) -> int:
+    """The number of processes that a pool can have: on Windows it waits for 61 at most."""
+    return min(workers, 61) if platform == "win32" else workers
 
 
 def cores() -> int:

@@ -79,7 +79,8 @@ class Target(NamedTuple):
         if "index_mm" not in self.spans:
             return own
         low, high = self.spans["index_mm"]
-        return 0.5 * (low if low > 0.0 else min(2.0 * (own or DISTANCE_MM), high))
+        usual = self.frame.given_distance_mm if self.frame else DISTANCE_MM
+        return 0.5 * (low if low > 0.0 else min(2.0 * usual, high))
 
     def wheel(self, gearing: str, z: int) -> Gearing:
         """A wheel of a gearing and a number of slots, with a stop if the frame's has one."""

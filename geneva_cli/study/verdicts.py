@@ -9,17 +9,20 @@ from typing import NamedTuple
 from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice
+from geneva_cli.parts.chosen import ByLoad
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 from geneva_cli.verdict.headline import (
     both_ways_lines,
+    chosen_lines,
     failure_lines,
     headline,
     input_lines,
     proof_lines,
     tightest,
+    unused_lines,
     warning_lines,
 )
 
@@ -31,9 +34,11 @@ class Verdict(NamedTuple):
     files: tuple[str, ...] = ()  # all files that the design was read from
     checks: tuple[Check, ...] = ()
     warnings: tuple[Notice, ...] = ()
+    unused: tuple[str, ...] = ()  # names of accepted warnings that do not occur
     with_units: tuple[str, ...] = ()  # inputs that have a unit in the file
     error: str = ""
     both_ways: bool = False  # True if the machine must turn both ways
+    chosen: ByLoad = ByLoad({}, {})
 
     @property
     def passes(self) -> bool:
@@ -54,8 +59,10 @@ def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = No
             files=design.spec.files,
             checks=tuple(checks),
             warnings=tuple(design.warnings),
+            unused=tuple(design.unused_acceptances),
             with_units=tuple(design.with_units),
             both_ways=design.spec.drive.both_ways,
+            chosen=design.chosen_by_load,
         )
     except GenevaError as error:
         return Verdict(path, error=str(error))
@@ -85,29 +92,29 @@ def checks_table(verdicts: Sequence[Verdict], directed: bool = False) -> Table:
     directed = directed or any(v.both_ways for v in verdicts)
     columns = "spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why"
     names = (*columns, *(["direction"] if directed else []))
-    rows = [
-        (v.path, *(getattr(c, name) for name in ("name", *names[2:])))
-        for v in verdicts
-        for c in v.checks
-    ]
+    own = "name", *columns[2:-1], "remark", *names[len(columns) :]
+    rows = [(v.path, *(getattr(c, name) for name in own)) for v in verdicts for c in v.checks]
     # a narrow window shows the limit rather than the angle, which is not known for most checks
     first = ("spec", "check", "value", "must_be", "limit", "passes", "nearest", "at_deg", "why")
     return rows_table(names, rows).replaced(reading=Reading(first))
 
 
 def checks_record(verdicts: Sequence[Verdict]) -> Table:
-    """The checks, the overall result and the warnings, as json contains them.
+    """The checks, the overall result, the warnings and the sizes by load, as json contains them.
 
-    A spec that could not be read is a row of its own kind.
+    A spec that could not be read is a row of its own kind. Of several specs, the sizes stand below
+    the path of each.
     """
-    warnings = [(v.path, w.name, str(w)) for v in verdicts for w in v.warnings]
+    warnings = [(v.path, w.name, w.plain, w.accepted or None) for v in verdicts for w in v.warnings]
     errors = [(v.path, v.error) for v in verdicts if v.error]
+    paths, chosen = [v.path for v in verdicts], [v.chosen.record for v in verdicts]
     rows = checks_table(verdicts, directed=True)  # keys are those of every machine
     return record_table(
         {
             "rows": (rows, rows_table(("spec", "error"), errors)) if errors else rows,
             "passes": all(v.passes for v in verdicts),
-            "warnings": rows_table(("spec", "name", "text"), warnings),
+            "warnings": rows_table(("spec", "name", "text", "accepted"), warnings),
+            "chosen": chosen[0] if len(chosen) == 1 else dict(zip(paths, chosen, strict=True)),
         }
     )
 
@@ -125,6 +132,7 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
         (verdict,) = verdicts
         both = both_ways_lines(verdict.checks) if verdict.both_ways else ()
         lines = (*_lines(verdict), *proof_lines(verdict.checks), *both, *tightest(verdict.checks))
+        lines += (*chosen_lines(verdict.chosen, verdict.path),)
         summaries = [_head(verdict)._replace(lines=lines)]
     else:
         details = [Summary(v.path, lines) for v in judged if (lines := _lines(v))]
@@ -140,8 +148,8 @@ def _head(verdict: Verdict) -> Summary:
 
 def _lines(verdict: Verdict) -> tuple[SummaryLine, ...]:
     checks = verdict.checks
-    inputs = input_lines(verdict.with_units)
-    return (*failure_lines(checks), *inputs, *warning_lines(checks, verdict.warnings))
+    inputs, warnings = input_lines(verdict.with_units), warning_lines(checks, verdict.warnings)
+    return (*failure_lines(checks), *inputs, *warnings, *unused_lines(verdict.unused))
 
 
 def _count(judged: Sequence[Verdict], unread: int) -> Summary:

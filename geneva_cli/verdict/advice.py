@@ -75,7 +75,8 @@ def _advised(mechanism: Mechanism, failing: tuple[Check, ...], parts: bool) -> l
     adviser, count = Adviser(mechanism, failing, parts), len(failing)
     one, why = adviser.advice(failing, TRIALS if count == 1 else TRIALS // 2)
     if one:
-        return [_with_change(c, line(*one)) for c in failing]
+        anew = adviser.chosen_anew([one])
+        return [_with_change(c, line(*one), anew) for c in failing]
     own = [""] * count
     if count > 1:
         # one trial is for all changes together
@@ -87,7 +88,8 @@ def _advised(mechanism: Mechanism, failing: tuple[Check, ...], parts: bool) -> l
         if all(each) and adviser.suffice([*by_key.values()]):
             lines = [line(*one) for one in by_key.values()]
             lines.sort(key=lambda text: text.startswith("leaving out"))
-            return [_with_change(c, " and ".join(lines)) for c in failing]
+            anew = adviser.chosen_anew([*by_key.values()])
+            return [_with_change(c, " and ".join(lines), anew) for c in failing]
         own = [f"{line(*one)} passes this one" if one else "" for one in each]
     return [
         c._replace(why="; ".join(text for text in (c.why, why, more) if text))
@@ -95,11 +97,11 @@ def _advised(mechanism: Mechanism, failing: tuple[Check, ...], parts: bool) -> l
     ]
 
 
-def _with_change(check: Check, change: str) -> Check:
+def _with_change(check: Check, change: str, anew: str) -> Check:
     # where the same key passes, the other sizes may have changed with it
     value, but, _ = check.why.partition(", but ")
     same_key = but and value.startswith(f"{change.partition(' ')[0]} is ")
-    return check._replace(nearest=change, why=value if same_key else check.why)
+    return check._replace(nearest=change, why=value if same_key else check.why, anew=anew)
 
 
 class Trial:
@@ -135,7 +137,7 @@ class Trial:
                 yield from untold(among, way.mechanism)
             if parts and spec.is_turned and spec.has_parts:
                 yield from untold(standing(way.mechanism), way.built)
-            if parts and spec.is_turned and turn:
+            if parts and spec.is_turned and turn and not way.mechanism.no_turn:
                 yield from untold(TURNING, way, way.turned.turn)
 
 
@@ -174,14 +176,26 @@ class Adviser:
 
     def suffice(self, each: list[Advice]) -> bool:
         """True if all failing checks pass with several changes at once, and no other fails."""
+        self._aim(self.failing, 0)
+        try:
+            return self._margin(self._with(each), True, True) >= 0.0
+        except OutOfTrials:
+            return False
+
+    def chosen_anew(self, each: list[Advice]) -> str:
+        """The sizes that the load chooses anew with these changes, in words; empty if none."""
+        from geneva_cli.parts.chosen import ByLoad, by_load
+
+        if not self.mechanism.spec.is_loaded or (spec := self._with(each)) is None:
+            return ""
+        return ByLoad(by_load(build(spec, self.mechanism)), by_load(self.mechanism)).changes
+
+    def _with(self, each: list[Advice]) -> Spec | None:
+        """The spec with several changes."""
         spec: Spec | None = self.mechanism.spec
         for (table, key, *_), value in each:
             spec = spec and _changed(spec, table, key, value)
-        self._aim(self.failing, 0)
-        try:
-            return self._margin(spec, True, True) >= 0.0
-        except OutOfTrials:
-            return False
+        return spec
 
     def _aim(self, wanted: tuple[Check, ...], stop: int) -> None:
         """Search for these checks, the quick ones first, until so many trials are left."""

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, SummaryLine
-from geneva_cli.errors import Notice, is_warning
+from geneva_cli.errors import Notice, is_warning, open_warnings
 from geneva_cli.names import spoken
 from geneva_cli.output import shown, shown_text
 from geneva_cli.output.document.blocks import value_text
@@ -14,6 +14,7 @@ from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.all_checks import JAMS
 
 if TYPE_CHECKING:
+    from geneva_cli.parts.chosen import ByLoad
     from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.checks.check import Check
 
@@ -49,9 +50,12 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
     for check in checks:
         if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
             text += f", {meaning(check)}"
-    if warnings:
-        text += f", {len(warnings)} warning{'s' * (len(warnings) != 1)}"
-    state = FAILS if failed else WARNS if not_proved or warnings else PASSES
+    left = open_warnings(warnings)
+    if left:
+        text += f", {len(left)} warning{'s' * (len(left) != 1)}"
+    if accepted := len(warnings) - len(left):
+        text += f", {accepted} warning{'s' * (accepted != 1)} accepted"
+    state = FAILS if failed else WARNS if not_proved or left else PASSES
     return state, text
 
 
@@ -64,6 +68,17 @@ def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
     notes = tuple(text for text in values.pop("warnings") if not is_warning(text))
     left = {name: value for name, value in values.items() if name not in without}
     return record_table(left | ({"not_known": notes} if notes else {}), prose=record.prose)
+
+
+def chosen_lines(by_load: ByLoad, path: str) -> Iterator[SummaryLine]:
+    """The lines of the sizes that the load chose, and of those that an option changed."""
+    if by_load.words:
+        name = {"": "SPEC", "<stdin>": "-"}.get(path, path)
+        yield SummaryLine(
+            "sizes", f"chosen by load: {by_load.words} (geneva size {name} writes them)"
+        )
+    if by_load.changes:
+        yield SummaryLine("note", f"sizes chosen anew: {by_load.changes}")
 
 
 def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
@@ -81,9 +96,17 @@ def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[Summ
 
 
 def warning(text: str) -> SummaryLine:
-    """The line of a warning, and the command that explains it."""
+    """The line of a warning, and the command that explains it; of an accepted one its reason."""
     explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
+    if isinstance(text, Notice) and text.accepted:
+        return SummaryLine("accepted", f"{text.name}: {text.accepted}", explained)
     return SummaryLine("warning", shown_text(text), explained, WARNS)
+
+
+def unused_lines(names: Iterable[str]) -> list[SummaryLine]:
+    """A note on each accepted warning that does not occur."""
+    text = "no such warning occurs: it can be removed from [accept]"
+    return [SummaryLine("note", f"{name}: {text}") for name in names]
 
 
 def input_lines(with_units: Iterable[str]) -> list[SummaryLine]:
@@ -99,6 +122,7 @@ def _failure(check: Check) -> SummaryLine:
         return SummaryLine(label, check.why, explained, FAILS)
     how = "with" if "=" in check.nearest else "by"  # a value, or leaving out a key
     advice = f"passes {how} {check.nearest}" if check.nearest else ""
+    advice += f" (sizes chosen anew: {check.anew})" if check.anew else ""
     refused = check.nearest and check.name in ("parts", "full_turn")  # the reason is the text
     change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
     note = f"{change} ({explained})" if change else explained

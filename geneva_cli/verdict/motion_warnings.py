@@ -10,7 +10,7 @@ from geneva_cli.errors import Notice
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peaks import peak
+from geneva_cli.motion.peaks import greatest_jumps, peak
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.shafts.fits import closest_mm, loosest_mm
@@ -25,6 +25,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     return [
         *_of_wheel(mechanism),
         *_of_distance(mechanism),
+        *_as_built(mechanism),
         *_fits(mechanism),
         *_rounded_points(mechanism),
         *_overtaken(mechanism),
@@ -51,15 +52,51 @@ def _of_wheel(mechanism: Mechanism) -> Iterator[Notice]:
 def _of_distance(mechanism: Mechanism) -> Iterator[Notice]:
     """A warning for a rim that is given without the centre distance on which it depends."""
     size = mechanism.spec.size
-    if size.wheel_radius_mm is None or size.center_distance_mm is not None:
+    given = size.center_distance_mm is not None or size.crank_radius_mm is not None
+    if size.wheel_radius_mm is None or given:
         return
     L = mechanism.center_distance_mm
     if mechanism.spec.given_distance_mm == L:  # some drives solve for it
         yield Notice(
             "no-centre-distance",
             f"wheel_radius_mm = {size.wheel_radius_mm:g} is given without a centre distance, so "
-            f"L = {L:g} mm is taken: set center_distance_mm in [size]",
+            f"L = {L:g} mm is taken: set center_distance_mm in [size]{_of_mouth(mechanism)}",
         )
+
+
+def _of_mouth(mechanism: Mechanism) -> str:
+    """The centre distance at which the roller's centre enters at the spec's rim, in words.
+
+    Empty for wheels whose mouth is not proportional to L, and for spheres and racks.
+    """
+    spec, engagement = mechanism.spec, mechanism.engagements[0]
+    if spec.wheel.skewed or not (spec.wheel.FLAT and spec.output.turns):
+        return ""
+    x, y = engagement.path(engagement.entry_deg, 0)
+    L = (spec.size.wheel_radius_mm or 0.0) / math.hypot(x.c[0], y.c[0])
+    return f"; with {L:.6g} the roller would enter at this radius"
+
+
+def _as_built(mechanism: Mechanism) -> Iterator[Notice]:
+    """A warning for a crank as built, whose impact the loads leave out."""
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    if mechanism.engagements[0].built is None:
+        return
+    own = spec.wheel.place(spec.wheel.step, L).ratio
+    jumps = greatest_jumps(mechanism.engagements)
+    sizes = [abs(jump) for jump in jumps if jump is not None]
+    impact = (
+        f"the wheel's velocity jumps by up to {max(sizes):.4g} of the input's, an impact that the "
+        "loads leave out"
+        if sizes
+        else "the roller's centre never crosses the axis of the slot at rest inside the rim"
+    )
+    yield Notice(
+        "taken-as-built",
+        f"crank_radius_mm = {spec.size.crank_radius_mm:.9g} and center_distance_mm = {L:.9g} have "
+        f"R/L = {mechanism.ratio:.6g}, but the slots need {own:.6g}: taken as built. There "
+        f"{impact}. Leave out one of the two keys for a machine without it",
+    )
 
 
 def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:

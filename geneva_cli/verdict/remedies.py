@@ -31,7 +31,7 @@ Value: TypeAlias = float | int | str | None  # None: the key is left out
 
 # Words in capitals stand for those of their own lines. The centre distance is changed for its own
 # limits only, where the spec gives it. The speed is a requirement: it is changed where a limit
-# forbids it, not for a part's size.
+# forbids it, and for a part's strength only where no size of it helps.
 _TABLE = """
 LARGER: center_distance_mm*20
 SLOWER: drive.n_rpm*0.001
@@ -47,10 +47,17 @@ BLUNTER: lock_edge_mm*10 WIDER LARGER
 CRANK: crank_bore_mm*0.2 crank_bore_mm=0
 THICK: wheel_thickness_mm? face_width_mm? lock_thickness_mm? arm_thickness_mm?
 velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
+entry_velocity_max: crank_radius_mm= wheel_radius_mm~
 pin_force_max_N: SLOWER LARGER MILDER
 input_torque_max_Nm product_acceleration_max_m_s2 product_slip: SLOWER MILDER
 contact_stress_max_MPa: SLOWER WIDER LARGER MILDER
-stopping_torque_Nm: drive.n_rpm*30
+stopping_torque_Nm cycle_max_s: drive.n_rpm*30
+motion_max_s: drive.n_rpm*30 MILDER
+dwell_min_s: SLOWER MILDER
+index_play_max_deg: TIGHTER
+dwell_play_max_deg: lock_clearance_mm>0
+dwell_position_max_deg: lock_clearance_mm>0 tolerance.lock_radius_mm>0
+  tolerance.recess_radius_mm>0 tolerance.center_distance_mm>0 tolerance.slot_angle_deg>0
 entry_shock_N: tolerance.crank_radius_mm>0 tolerance.center_distance_mm>0 SLOWER
 reversal_shock_N: TIGHTER SLOWER
 reversal_stress_MPa: TIGHTER SLOWER WIDER LARGER
@@ -58,14 +65,15 @@ pv_max_W_m2: SLOWER WIDER LARGER
 roller_life_min_h: material.roller.dynamic_capacity_N*10 SLOWER LARGER
 slot_wear_max_mm_per_million: WIDER SLOWER LARGER
 pin_stress_MPa: pin_mm*1.9 roller_radius_mm*3 pin_held=fixed pin_mm= TIGHTER LARGER
-horn_stress_MPa lock_horn_stress_MPa: WIDER lock_radius_mm*0.5 LARGER
+  SLOWER
+horn_stress_MPa lock_horn_stress_MPa: WIDER lock_radius_mm*0.5 LARGER SLOWER
 lock_stress_max_MPa: BLUNTER
 lock_deflection_max_deg: lock_clearance_mm*0.1 WIDER LARGER
 wheel_shaft_stress_MPa: shaft.wheel_diameter_mm*5 shaft.wheel_overhang_mm*0.1 wheel_bore_mm*5
-  wheel_bore_mm= LARGER
+  wheel_bore_mm= LARGER SLOWER
 crank_shaft_stress_MPa: shaft.crank_diameter_mm*5 shaft.crank_overhang_mm*0.1 arm_bore_mm*5
-  arm_bore_mm= crank_bore_mm= LARGER
-arm_stress_MPa: arm_thickness_mm*10 arm_eye_mm*3 arm_hub_mm*3 arm_thickness_mm= LARGER
+  arm_bore_mm= crank_bore_mm= LARGER SLOWER
+arm_stress_MPa: arm_thickness_mm*10 arm_eye_mm*3 arm_hub_mm*3 arm_thickness_mm= LARGER SLOWER
 first_pin_stress_MPa: roller_radius_mm*3 pin_mm*1.9 LARGER
 first_horn_stress_MPa first_arm_stress_MPa: link_thickness_mm*10 LARGER
 first_crank_shaft_stress_MPa: link_bore_mm*5 LARGER
@@ -128,7 +136,7 @@ def _table() -> dict[str, str]:
 
 
 # Requirements on the machine's size, process and walls, which no advice reduces.
-REQUIRED = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
+REQUIRED = ("center_distance_mm", "crank_radius_mm", "face_width_mm", "process", "wall_min_mm")
 _WORD = re.compile(r"(?:([\w.]+)\.)?(\w+)([*><+~=?])(.*)")
 
 
@@ -197,9 +205,12 @@ def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     words = [words for key, words in own.items() if key in check.why]
     words += [_table().get(name, _table()["OTHERS"]), *own.values()]
     limited = spec.limits.as_dict().get(name) is not None
+    L, R = spec.size.center_distance_mm, spec.size.crank_radius_mm
     for word in " ".join(words).split():
-        if word == _table()["LARGER"] and not limited and spec.size.center_distance_mm:
-            continue
+        if word == _table()["LARGER"] and (L or R):
+            if not limited or (L and R):
+                continue
+            word = word if L else word.replace("center_distance_mm", "crank_radius_mm")
         yield from _remedies(word, mechanism)
 
 
@@ -272,8 +283,7 @@ def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
     value: Value = spec.table(table)[key]
     if value is not None or table != "size":
         return value
-    from geneva_cli.parts.machine_sizes import built, sized
+    from geneva_cli.parts.machine_sizes import built
 
-    flat = sized(mechanism) if key == "arm_bore_mm" else None
-    of_machine: Value = 2.0 * flat[1].arm_bore if flat else built(mechanism).as_dict()[key]
+    of_machine: Value = built(mechanism).as_dict()[key]
     return of_machine

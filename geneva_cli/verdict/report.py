@@ -11,6 +11,7 @@ from typing import NamedTuple
 from geneva_cli.errors import Notice
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.timing import timings
+from geneva_cli.parts.chosen import ByLoad
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.check import Check, all_pass
@@ -26,11 +27,14 @@ class Report(NamedTuple):
     passes: bool
 
 
-def report(parts: Parts, rows: Sequence[Check], warnings: Sequence[Notice]) -> Report:
+def report(
+    parts: Parts, rows: Sequence[Check], warnings: Sequence[Notice], by_load: ByLoad
+) -> Report:
     """Everything about one design, as a tree of named values under a paragraph of words.
 
     The names are equal for every machine; a value is None if it does not apply. ``rows`` and
-    ``warnings`` are the checks and the warnings of the machine of ``parts``.
+    ``warnings`` are the checks and the warnings of the machine of ``parts``, and ``by_load`` its
+    sizes that the load chose.
     """
     mechanism = parts.mechanism
     passes = all_pass(rows)
@@ -42,7 +46,7 @@ def report(parts: Parts, rows: Sequence[Check], warnings: Sequence[Notice]) -> R
         "checks_failed": tuple(_in_one_line(c) for c in rows if c.passes is False),
         "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
-    values |= values_of(REPORT, parts) | {"warnings": tuple(warnings)}
+    values |= values_of(REPORT, parts) | {"chosen": by_load.record, "warnings": tuple(warnings)}
     return Report(record_table(values, title, words(mechanism)), passes)
 
 
@@ -54,7 +58,7 @@ def _in_one_line(check: Check) -> str:
     where += f" {check.direction}" if check.direction else ""
     value, limit = in_digits(check.value, 6), in_digits(check.limit, 6)
     change = f"; nearest change: {check.nearest}" if check.nearest else ""
-    why = f"; {check.why}" if check.why else ""
+    why = f"; {check.remark}" if check.remark else ""
     return f"{check.name} = {value}{where}, must be {check.must_be} {limit}{change}{why}"
 
 

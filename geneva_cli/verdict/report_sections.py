@@ -10,7 +10,7 @@ from geneva_cli.loads import highest_speed
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.load_tables import reversals_deg
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peaks import placed_peaks
+from geneva_cli.motion.peaks import greatest_jumps, placed_peaks
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import scalar
@@ -86,7 +86,11 @@ def stations(parts: Parts) -> Values:
         values["k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
         row = {f"timing.{name}": value for name, value in values.items()}
         peaks = placed_peaks(mechanism, engagement)
-        ends = {"acceleration": peaks.ends[:2], "jerk": peaks.ends[2:]}
+        ends = {
+            "velocity": greatest_jumps([engagement]),
+            "acceleration": peaks.ends[:2],
+            "jerk": peaks.ends[2:],
+        }
         for name in ("velocity", "acceleration", "jerk", "power"):
             row |= peak_values(name, output, w, getattr(peaks, name), ends.get(name, ()))
         each.append(row)
@@ -299,6 +303,8 @@ def turned(parts: Parts) -> Values:
     """Results of the parts' whole turn, or the reason in ``none`` why there is no turn."""
     if not parts.mechanism.spec.is_turned:
         return {}
+    if parts.mechanism.no_turn:
+        return {"none": parts.mechanism.no_turn}
     try:
         turn, output = parts.turned.turn, parts.mechanism.output
     except GenevaError as error:

@@ -64,7 +64,7 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
         yield Notice(
             "bent-parts",
             f"a {spec.size.process} cuts flat plates, but these parts are shells of a sphere: cut "
-            "them laid flat (geneva help spherical-sheet) and roll them to their cones, or set "
+            "them laid flat (geneva help drawing-sheet) and roll them to their cones, or set "
             'process = "mill" or "print"',
         )
     yield from _small_holes(named, shop.hole)
@@ -164,7 +164,7 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
 
 def turn_warnings(parts: Parts) -> Iterator[Notice]:
     """Warnings about the parts' whole turn; none without such a turn."""
-    if not parts.mechanism.spec.is_turned:
+    if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return
     try:
         turn = parts.turned.turn

@@ -16,7 +16,7 @@ class Method(NamedTuple):
     run: Callable[[], Any]
     ours: bool = False
     times: float = 1.0  # the run is that part of the task: a loop over a sample of the designs
-    memory: Callable[[], float] | None = None  # peak of a run, MB
+    memory: Callable[[], float | None] | None = None  # peak of a run, MB
 
 
 class Task(NamedTuple):

@@ -75,7 +75,7 @@ def test_scripts_of_the_start_print_the_row():
     """The competitors do what they are there for."""
     for code in bench_start.SCRIPTS.values():
         run = subprocess.run(
-            [sys.executable, "-c", code, "table", "--z", "6"], capture_output=True, text=True
+            [sys.executable, "-c", code, "table", "--z", "6"], capture_output=True, encoding="utf-8"
         )
         assert run.returncode == 0, run.stderr
         numbers = [float(v) for v in run.stdout.split()]

@@ -26,10 +26,13 @@ class Timed(NamedTuple):
 def processor_s() -> float:
     """Processor time of this process and of the processes that it waited for, in seconds.
 
-    Other work of the computer does not add to it. The time of all cores counts.
+    Other work of the computer does not add to it. The time of all cores counts. Windows does not
+    tell the time of other processes: there it is that of the wall clock.
     """
-    import resource
-
+    try:
+        import resource
+    except ImportError:
+        return wall_s()
     children = resource.getrusage(resource.RUSAGE_CHILDREN)
     return process_time() + children.ru_utime + children.ru_stime
 

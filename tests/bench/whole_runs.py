@@ -31,8 +31,10 @@ class WholeRun(NamedTuple):
         """Run it. Raises CalledProcessError if it fails."""
         self._output(())
 
-    def memory_MB(self) -> float:
-        """Greatest memory of a run, MB."""
+    def memory_MB(self) -> float | None:
+        """Greatest memory of a run, MB; None on Windows, which does not tell it."""
+        if os.name == "nt":
+            return None
         largest = float(self._output((sys.executable, "-c", LARGEST)))
         return largest / (1e6 if sys.platform == "darwin" else 1e3)  # bytes or kilobytes
 
@@ -41,7 +43,7 @@ class WholeRun(NamedTuple):
         # an installed program is compiled once
         environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
         done = subprocess.run(
-            command, capture_output=True, input=self.text, text=True, env=environment
+            command, capture_output=True, input=self.text, encoding="utf-8", env=environment
         )
         # 1: a check fails, which is a result where it is printed
         if done.returncode > 1 or (done.returncode and not done.stdout):

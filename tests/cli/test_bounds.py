@@ -2,12 +2,11 @@
 
 import json
 import os
-import resource
 import subprocess
 import sys
 
 import pytest
-from repo import GENEVA, put
+from repo import GENEVA, posix, put
 
 WHEEL = "[wheel]\nz = 6\n"
 CURVED = WHEEL + '[motion]\nlaw = "cycloidal"\n'
@@ -21,11 +20,13 @@ LONGEST = 20  # CPU seconds after which a run is ended
 CHILD = """
 import json, resource, subprocess, sys
 out = open(sys.argv[1], "w")
-run = subprocess.run(sys.argv[2:], stdout=out, stderr=subprocess.PIPE, text=True)
+run = subprocess.run(sys.argv[2:], stdout=out, stderr=subprocess.PIPE, encoding="utf-8")
 used = resource.getrusage(resource.RUSAGE_CHILDREN)
 seconds = used.ru_utime + used.ru_stime
 print(json.dumps([run.returncode, run.stderr, used.ru_maxrss / 1024, seconds]))
 """
+
+pytestmark = posix("limits of a process, and no measure of its memory (resource)")
 
 
 @pytest.fixture(autouse=True)
@@ -36,6 +37,8 @@ def folder(tmp_path, monkeypatch):
 
 
 def limited():
+    import resource
+
     resource.setrlimit(resource.RLIMIT_AS, (4096 * MEGABYTE, 4096 * MEGABYTE))
     resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST))  # nothing runs on after a test
 
@@ -45,7 +48,7 @@ def run(*arguments, timeout=AT_ONCE):
     found = subprocess.run(
         [sys.executable, "-c", CHILD, "out.txt", GENEVA, *arguments],
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         timeout=timeout,
         preexec_fn=limited,
     )

@@ -1,6 +1,7 @@
 """`geneva check`: a headline that counts warnings, what to change, and one list of warnings."""
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ def fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     """A spec that fails, in the folder with the designs."""
     monkeypatch.chdir(tmp_path)
     for name in (TURRET, PLAIN, CURVED):
-        (tmp_path / name).symlink_to(repo.DESIGNS / name)
+        shutil.copy(repo.DESIGNS / name, name)
     (tmp_path / "fast.toml").write_text(FAST, encoding="utf-8")
     return "fast.toml"
 
@@ -56,10 +57,13 @@ def test_a_headline_counts_warnings() -> None:
 def test_json_has_the_warnings_and_strict_obeys_them() -> None:
     found = run(PLAIN, TURRET, "--format", "json")
     tree = json.loads(found.stdout)
-    assert list(tree) == ["rows", "passes", "warnings"]
+    assert list(tree) == ["rows", "passes", "warnings", "chosen"]
     assert tree["passes"] is True
+    assert list(tree["chosen"]) == [PLAIN, TURRET] and tree["chosen"][PLAIN] == {}
+    pin = tree["chosen"][TURRET]["size.pin_mm"]
+    assert pin == {"value": 12.0, "was": None, "why": "by load: 202.5 N on the pin"}
     (warning,) = tree["warnings"]
-    assert list(warning) == ["spec", "name", "text"]
+    assert list(warning) == ["spec", "name", "text", "accepted"]
     assert (warning["spec"], warning["name"]) == (TURRET, "wheel-left-out")
     assert warning["text"].startswith("the wheel's own inertia, as drawn, is 0.3024 kg m²")
     assert {row["spec"] for row in tree["rows"]} == {PLAIN, TURRET}

@@ -47,7 +47,7 @@ def test_a_run_calls_few_functions_and_not_deep(command):
     run = subprocess.run(
         [sys.executable, "-c", PROBE, command, str(repo.DESIGNS / "turret.toml")],
         capture_output=True,
-        text=True,
+        encoding="utf-8",
     )
     counts = tuple(map(int, run.stderr.split()))
     assert all(one <= most for one, most in zip(counts, BOUNDS[command], strict=True)), counts

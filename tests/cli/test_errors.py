@@ -233,6 +233,8 @@ def test_unusual_but_right(text):
 def test_no_file():
     refused(run("peaks", "gone.toml"), "No such file", "geneva new", place="gone.toml: ")
     refused(run("peaks", ""), "No such file", place="'': ")
+    copy = "geneva new --from-design turret -o turret.toml"
+    refused(run("peaks", "elsewhere/turret.toml"), copy, place="elsewhere/turret.toml: ")
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="no /dev/zero here")
@@ -424,7 +426,7 @@ def test_an_option_of_one_value_is_given_once(arguments, option):
 def test_the_installed_command(arguments, place):
     """The same through a real process, whose streams and exit code a script would see."""
     write("spec.toml", "[wheel]\nz = 2\n")
-    found = subprocess.run([GENEVA, *arguments], capture_output=True, text=True)
+    found = subprocess.run([GENEVA, *arguments], capture_output=True, encoding="utf-8")
     assert (found.returncode, found.stdout) == (2, "")
     assert found.stderr.startswith(place)
     assert "Traceback" not in found.stderr

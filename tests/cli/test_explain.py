@@ -171,6 +171,7 @@ def test_no_entry_names_no_quantity(quantities: set[str]):
 
 # The examples of these are points of a file, a value that is null without a word, and a body on a
 # carousel, which no design has off its axis.
+EXAMPLES_OF = tomllib.loads((repo.ROOT / "tests/cli/examples.toml").read_text(encoding="utf-8"))
 WITHOUT_RUN = {"rounded-points", "not-known", "unbalance-windup"}
 WARNINGS = [e for e in entries() if e.group == "warning" and e.names[0] not in WITHOUT_RUN]
 
@@ -185,8 +186,7 @@ def test_an_entry_is_whole():
             assert re.fullmatch(r"\.?[\w.-]+", name), name
             (found,) = [m for m in meanings(name) if m.group == entry.group and m.name == name]
             needed = {"meaning", "source", "manual"}
-            needed |= {"to_do", "why"} if entry.group in ("check", "warning") else set()
-            needed |= {"bad", "good"} if entry in (*WARNINGS, *CHECKED) else set()
+            needed |= {"to_do"} if entry.group in ("check", "warning") else set()
             needed |= {"formula", "unit"} if entry.group in ("check", "quantity", "law") else set()
             if name.startswith("."):
                 needed -= {"unit", "source"}  # those of what it ends
@@ -215,19 +215,20 @@ def test_a_warning_shows_in_its_bad_example_and_not_in_the_good_one(
     monkeypatch.chdir(tmp_path)
     shutil.copytree(repo.DESIGNS, tmp_path, dirs_exist_ok=True)
     (name,) = entry.names
-    assert [name in warned(example) for example in (entry.bad, entry.good)] == [True, False]
+    assert [name in warned(example) for example in examples_of(entry)] == [True, False]
 
 
 @pytest.mark.sampled(96)
 @pytest.mark.parametrize("entry", CHECKED, ids=lambda e: e.names[0])
 def test_a_check_fails_in_its_bad_example_and_passes_in_the_good_one(entry: Entry):
-    good = passes(entry.good)
+    bad_example, good_example = examples_of(entry)
+    good = passes(good_example)
     if entry.names[0] == "dwell_deg":  # a spec without a dwell is refused when it is read
         with pytest.raises(GenevaError, match="leave no dwell"):
-            passes(entry.bad)
+            passes(bad_example)
         assert good["dwell_deg"]
         return
-    bad = passes(entry.bad)
+    bad = passes(bad_example)
     if entry.names[0] in ONLY_FAILING:
         assert False in (bad[name] for name in entry.names)
         assert all(good.values()) and not good.keys() & ONLY_FAILING
@@ -235,6 +236,11 @@ def test_a_check_fails_in_its_bad_example_and_passes_in_the_good_one(entry: Entr
     made = bad.keys() & good.keys() & set(entry.names)
     assert made and all(good[name] for name in made)
     assert any(bad[name] is False for name in made)
+
+
+def examples_of(entry: Entry) -> list[str]:
+    """A command that shows the warning or the failing check, and the one after the repair."""
+    return EXAMPLES_OF[entry.group].get(entry.names[0]) or [entry.bad, entry.good]
 
 
 def passes(command: str) -> dict[str, bool | None]:
@@ -270,7 +276,7 @@ def warned(example: str) -> set[str]:
         ("max", ["quantity"]),
         ("side-crank", ["kind"]),
         ("cycloidal", ["law"]),
-        ("turns-back", ["warning"]),
+        ("turns-back", ["warning", "key"]),
         ("first-wheel", ["part"]),
         ("crank", ["kind", "part"]),
         ("inputs.drive.n_rpm", ["key"]),

@@ -62,7 +62,7 @@ def offered(line):
         "COMP_CWORD": str(len(words) - 1),
     }
     run = subprocess.run(
-        [GENEVA], env={**os.environ, **asked}, capture_output=True, text=True, timeout=60
+        [GENEVA], env={**os.environ, **asked}, capture_output=True, encoding="utf-8", timeout=60
     )
     assert run.stderr == ""
     return run.stdout.split()

@@ -93,6 +93,7 @@ ROWS = [
     Row("profile press-straight.toml --part sheet --format pdf", "tomli numpy"),
     Row("profile press-straight.toml --part sheet --format dxf", "tomli numpy ezdxf json"),
     Row("export --help", "numpy"),
+    Row("size turret.toml", "tomli numpy"),
     Row("report press-straight.toml", "tomli numpy"),
     Row("report spherical-z6.toml", "tomli numpy"),  # its loads
     Row("report press-curved.toml", "tomli numpy"),
@@ -157,7 +158,7 @@ def loaded(words, **settings):
     found = subprocess.run(
         [sys.executable, "-c", PROBE, *words],
         stderr=subprocess.PIPE,
-        text=True,
+        encoding="utf-8",
         timeout=60,
         **settings,
     )
@@ -204,6 +205,7 @@ def test_every_command_has_a_row():
     assert {row.line.split()[0] for row in ROWS} >= set(COMMANDS)
 
 
+@repo.posix("fork, without which each run takes a second; the imports are the same everywhere")
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.line)
 def test_heavy_modules(forks, row):

@@ -6,7 +6,6 @@ import io
 import json
 import math
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -15,7 +14,7 @@ import time
 import numpy as np
 import pytest
 import repo
-from repo import GENEVA, put
+from repo import GENEVA, posix, put
 from words import load
 
 from geneva_cli import progress
@@ -59,10 +58,13 @@ def test_a_long_table_is_the_same_as_a_held_one(text, monkeypatch):
     ],
     ids=["straight", "curved", "slot", "spectrum"],
 )
+@posix("limits of a process (resource)")
 @pytest.mark.long
 def test_memory_does_not_grow(command, text):
     """Half a million rows are 24 to 40 MB as numbers, and several times that in the making."""
     put("spec.toml", text)
+
+    import resource
 
     def small():
         most = 150 << 20 if command.startswith("vibration") else 120 << 20
@@ -70,9 +72,11 @@ def test_memory_does_not_grow(command, text):
 
     name, *options = command.split()
     arguments = [name, "spec.toml", *options, "--samples", str(SAMPLES_MAX // 2), "-o", "out.csv"]
-    found = subprocess.run([GENEVA, *arguments], capture_output=True, text=True, preexec_fn=small)
+    found = subprocess.run(
+        [GENEVA, *arguments], capture_output=True, encoding="utf-8", preexec_fn=small
+    )
     assert (found.returncode, found.stderr) == (0, "")
-    with open("out.csv") as file:
+    with open("out.csv", encoding="utf-8") as file:
         assert sum(1 for _ in file) == SAMPLES_MAX // 2 + 1
 
 
@@ -125,7 +129,7 @@ def test_infinity_where_it_is_an_answer(capsys):
     assert json.loads(capsys.readouterr().out)["rows"][1]["curvature_radius_mm"] is None
 
 
-@pytest.mark.skipif(os.name != "posix", reason="signals")
+@posix("signals that one process sends another")
 def test_no_worker_outlives_the_check_that_started_it() -> None:
     """Standard output stays open for as long as one of them lives."""
     designs = sorted(str(p) for p in (repo.DESIGNS).glob("*.toml"))

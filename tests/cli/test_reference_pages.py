@@ -1,79 +1,52 @@
-"""Reference pages that are made from the code: each equals what is made today.
+"""Reference pages that the code prints have every command, key and quantity."""
 
-``GENEVA_UPDATE=1 pytest tests/cli/test_reference_pages.py`` writes them.
-"""
-
-import os
-from collections.abc import Iterator
-from pathlib import Path
+import re
 
 import pytest
 from typer.testing import CliRunner
 
-from geneva_cli.cli.app import COMMANDS, GROUPS, app
-from geneva_cli.manual import path
-from geneva_cli.specfile.keys import Key, all_keys
-
-WIDTH = 80  # columns of a terminal's help
-
-
-def commands_page() -> str:
-    """The help of every command, under the headings of ``geneva --help``."""
-    parts = [
-        "# Commands\n\nThe help of each command, as `geneva COMMAND -h` prints it. "
-        "[Formats](formats.md) describes\nwhat they write.\n"
-    ]
-    for group, names in GROUPS.items():
-        rows = "\n".join(f"| [{n}](#{n}) | {line} |" for n, line in names.items())
-        parts.append(f"| {group.lower()} | |\n| --- | --- |\n{rows}\n")
-    for name in COMMANDS:
-        parts.append(f"## {name}\n\n```text\n{_help(name)}\n```\n")
-    return "\n".join(parts)
+from geneva_cli.cli.app import COMMANDS, app
+from geneva_cli.cli.pages import PRINTED, page
+from geneva_cli.manual import TOPICS
+from geneva_cli.manual.explained import entries
+from geneva_cli.specfile.keys import all_keys
 
 
-def _help(name: str) -> str:
-    result = CliRunner().invoke(app, [name, "-h"], prog_name="geneva")
+def help_of(command: str) -> str:
+    """What ``geneva COMMAND -h`` prints on 80 columns."""
+    result = CliRunner().invoke(app, [command, "-h"], prog_name="geneva", terminal_width=80)
     return "\n".join(line.rstrip() for line in result.stdout.strip().splitlines())
 
 
-def keys_page() -> str:
-    """Every key of a spec, a table of keys for each table of the file."""
-    parts = [
-        "# Keys\n\nEvery key of a spec, as `geneva keys` lists them. A key with kinds in brackets "
-        "goes with\nthese kinds only. A default of `-` means that the value follows from other "
-        "keys, or is not\nneeded.\n"
-    ]
-    tables: dict[str, list[Key]] = {}
-    for key in all_keys():
-        tables.setdefault(key.table, []).append(key)
-    for table, keys in tables.items():
-        head = "| key | unit | value | default | meaning |\n| --- | --- | --- | --- | --- |"
-        title = f"[{table}]" if table else "Above the tables"
-        parts.append("\n".join([f"## {title}\n", head, *map(_row, keys), ""]))
-    return "\n".join(parts)
+def rows(text: str) -> list[list[str]]:
+    """Cells of the rows of all tables, without their headings."""
+    lines = [line for line in text.splitlines() if line.startswith("| `")]
+    return [re.split(r" (?<!\\)\| ", line.strip("| ")) for line in lines]
 
 
-def _row(key: Key) -> str:
-    kinds = f" ({key.goes_with})" if key.goes_with else ""
-    default = "required" if key.required else f"`{key.default}`" if key.default else "-"
-    value = key.range or key.type
-    cells = (f"`{key.key}`", key.unit or "", value, default, key.meaning + kinds)
-    return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
+def test_every_page_that_is_printed_is_a_topic() -> None:
+    assert PRINTED.keys() <= TOPICS.keys()
+    assert all(page(topic).startswith("# ") for topic in PRINTED)
 
 
-MADE = {"commands": commands_page, "keys": keys_page}
+@pytest.mark.sampled(5)
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_page_of_commands_has_their_help(command: str) -> None:
+    assert f"## {command}\n\n```text\n{help_of(command)}\n```\n" in page("commands")
 
 
-@pytest.fixture(autouse=True)
-def eighty_columns(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Help as a terminal of 80 columns shows it."""
-    monkeypatch.setenv("COLUMNS", str(WIDTH))
-    yield
+def test_the_page_of_keys_has_each_of_them() -> None:
+    shown = rows(page("keys"))
+    assert [row[0].strip("`") for row in shown] == [key.key for key in all_keys()]
+    (speed,) = (row for row in shown if row[0] == "`n_rpm`")
+    assert speed[1] == "1/min" and speed[3] == "`60.0`"
+    assert {row[3] for row in shown if row[0] == "`z`"} == {"required"}
 
 
-@pytest.mark.parametrize("topic", MADE)
-def test_a_page_is_what_the_code_makes(topic: str) -> None:
-    file, today = Path(path(topic)), MADE[topic]()
-    if os.environ.get("GENEVA_UPDATE"):
-        file.write_text(today, encoding="utf-8")
-    assert file.read_text(encoding="utf-8") == today
+def test_the_page_of_quantities_is_one_table() -> None:
+    shown = rows(page("quantities"))
+    named = [name for row in shown for name in re.findall(r"`([^`]+)`", row[0])]
+    assert named == [n for e in entries() if e.group == "quantity" for n in e.names]
+    assert all(len(row) == 3 and row[2] for row in shown)
+    (force,) = (row for row in shown if row[0] == "`loads.pin_force_N`")
+    assert force[1] == "N"

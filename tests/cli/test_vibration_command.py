@@ -115,7 +115,7 @@ def test_csv_is_the_spectrum(tmp_path):
     file = tmp_path / "spectrum.csv"
     words = ("--period-ratio", "6", "--damping", "0.02", "--samples", "5")
     assert run(PRESS, *words, "-o", str(file)).exit_code == 0
-    text = file.read_text()
+    text = file.read_text(encoding="utf-8")
     assert run(PRESS, *words, "--format", "csv").stdout == text
     rows = list(csv.DictReader(io.StringIO(text)))
     assert list(rows[0]) == [

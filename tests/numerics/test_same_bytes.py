@@ -72,7 +72,7 @@ def test_the_same_bytes_for_every_kernel_of_the_library(tmp_path):
             env=os.environ | {"OPENBLAS_CORETYPE": core, "OPENBLAS_NUM_THREADS": "1"},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            text=True,
+            encoding="utf-8",
         )
         for core in CORES
     }

@@ -102,7 +102,7 @@ def test_the_user_is_told(tmp_path, digits, warned):
     rows = [f"{k},{1 - 0.3 * math.cos(math.radians(k % 360)):.{digits}f}" for k in range(0, 361, 5)]
     (tmp_path / "ratio.csv").write_text("\n".join(rows))
     for text in (WHEEL, GEARS):
-        (tmp_path / "spec.toml").write_text(text)
+        (tmp_path / "spec.toml").write_text(text, encoding="utf-8")
         said = [c for c in motion_warnings(load(str(tmp_path / "spec.toml"))) if "decimals" in c]
         assert bool(said) == warned
         if warned:

@@ -1,16 +1,16 @@
 """What a file that is written to keeps, what is never replaced, and what killed runs leave."""
 
-import fcntl
 import os
 import stat
 import subprocess
 
 import pytest
-from repo import GENEVA, get, put
+from repo import GENEVA, get, posix, put
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.files import write
 
+ROOT_ALONE = os.name != "nt" and os.geteuid() != 0
 GONE = 2**22 + 1  # above the greatest number that Linux gives to a process
 
 
@@ -21,7 +21,7 @@ def folder(tmp_path, monkeypatch):
 
 def geneva(*arguments, **settings):
     return subprocess.run(
-        [GENEVA, *arguments], capture_output=True, text=True, timeout=60, **settings
+        [GENEVA, *arguments], capture_output=True, encoding="utf-8", timeout=60, **settings
     )
 
 
@@ -36,8 +36,11 @@ def test_stale_ones_go(name):
     assert os.listdir() == [name]
 
 
+@posix("fcntl, by which another process holds the file")
 def test_others_stay():
     """another file's, one that is held open elsewhere, and no file at all."""
+    import fcntl
+
     names = [temporary("b.csv", GONE), temporary("a.csv", "x")]
     for name in names:
         put(name)
@@ -45,7 +48,7 @@ def test_others_stay():
     put("target")
     os.symlink("target", temporary("a.csv", GONE + 1))
     held = temporary("a.csv", GONE + 2)
-    with open(held, "w") as file:
+    with open(held, "w", encoding="utf-8") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         before = set(os.listdir())
         write("a.csv", ["whole"])
@@ -74,7 +77,8 @@ def test_read_only_is_refused():
     assert get("a.csv") == "kept"
 
 
-@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give files away")
+@posix("owners of files")
+@pytest.mark.skipif(ROOT_ALONE, reason="only root can give files away")
 def test_owner_is_kept():
     put("a.csv")
     os.chown("a.csv", 1234, 2345)
@@ -84,13 +88,14 @@ def test_owner_is_kept():
     assert (now.st_uid, now.st_gid, stat.S_IMODE(now.st_mode)) == (1234, 2345, 0o640)
 
 
+@posix("/dev/stdin")
 @pytest.mark.long
 @pytest.mark.parametrize("spec", ["-", "/dev/stdin"])
 def test_standard_input_is_not_replaced(spec):
     text = "[wheel]\nz = 6\n"
     put("spec.toml", text)
     arguments = ["motion", spec, "-o", "spec.toml", "--format", "csv"]
-    with open("spec.toml") as file:
+    with open("spec.toml", encoding="utf-8") as file:
         found = geneva(*arguments, stdin=file)
     assert found.returncode == 2
     assert "is an input" in found.stderr

@@ -4,7 +4,6 @@ import csv
 import json
 import os
 import re
-import resource
 import signal
 import stat
 import subprocess
@@ -12,7 +11,7 @@ import time
 
 import pytest
 import repo
-from repo import GENEVA, get, put
+from repo import GENEVA, get, posix, put
 from typer.testing import CliRunner
 from words import load
 
@@ -34,7 +33,7 @@ def folder(tmp_path, monkeypatch):
 
 def geneva(*arguments, **settings):
     settings = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | settings
-    return subprocess.run([GENEVA, *arguments], text=True, timeout=60, **settings)
+    return subprocess.run([GENEVA, *arguments], encoding="utf-8", timeout=60, **settings)
 
 
 def clean_failure(found, *wants):
@@ -52,6 +51,7 @@ def leftovers():
 # Where the file goes
 
 
+@posix("umask")
 def test_new_file_honours_the_umask():
     found = geneva(*SHORT, "-o", "peaks.json", umask=0o027)
     assert (found.returncode, found.stdout) == (0, "")
@@ -59,6 +59,7 @@ def test_new_file_honours_the_umask():
     assert leftovers() == []
 
 
+@posix("links without the rights of an administrator")
 def test_symlink_stays_a_link():
     os.mkdir("store")
     put("store/real.csv", OLD)
@@ -69,12 +70,14 @@ def test_symlink_stays_a_link():
     assert os.listdir("store") == ["real.csv"]
 
 
+@posix("/proc")
 @pytest.mark.long
 def test_folder_missing():
     clean_failure(geneva(*SHORT, "-o", "gone/peaks.csv"), "gone", "No such file", "make the folder")
     clean_failure(geneva(*SHORT, "-o", "/proc/peaks.csv"), "the folder /proc takes no files")
 
 
+@posix("links without the rights of an administrator")
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["spec.toml", "./sub/../spec.toml", "link.toml", "hard.toml"])
 def test_output_over_the_spec(name):
@@ -90,9 +93,12 @@ def test_output_over_the_spec(name):
 
 
 def small_files():
+    import resource
+
     resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 
 
+@posix("limits of a process (resource)")
 def test_failure_half_way_keeps_the_old_file():
     put("motion.csv", OLD)
     arguments = ["motion", "spec.toml", "--samples", "20000", "-o", "motion.csv"]
@@ -108,7 +114,7 @@ def stopped(number):
         [GENEVA, *LONG, "-o", "motion.csv"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        text=True,
+        encoding="utf-8",
         preexec_fn=repo.heed_signals,
     )
     deadline = time.monotonic() + 30
@@ -123,15 +129,15 @@ def stopped(number):
     return process.returncode
 
 
+@posix("signals that one process sends another; test_as_windows.py has Ctrl-Break")
 @pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    ("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
-)
-def test_stopped_by_a_signal(number, status):
-    assert stopped(number) == status
+@pytest.mark.parametrize(("name", "status"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 129)])
+def test_stopped_by_a_signal(name, status):
+    assert stopped(getattr(signal, name)) == status
     assert leftovers() == []
 
 
+@posix("signals that one process sends another")
 @pytest.mark.long
 def test_killed():
     assert stopped(signal.SIGKILL) == -signal.SIGKILL
@@ -156,7 +162,7 @@ def test_killed():
 def test_closed_pipe(arguments):
     """``geneva table | head -1``: the reader has what it wanted, and nobody is bothered."""
     process = subprocess.Popen(
-        [GENEVA, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [GENEVA, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8"
     )
     process.stdout.readline()
     process.stdout.close()
@@ -172,7 +178,7 @@ def test_a_pipe_of_ascii():
     ascii_only = os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     for line in ("peaks spec.toml", "check spec.toml"):
         run = subprocess.run(
-            [GENEVA, *line.split()], env=ascii_only, capture_output=True, text=True
+            [GENEVA, *line.split()], env=ascii_only, capture_output=True, encoding="utf-8"
         )
         assert run.returncode in (0, 1), run.stderr
         assert "Traceback" not in run.stderr

@@ -7,6 +7,7 @@ import sys
 from contextlib import nullcontext
 
 import pytest
+from repo import posix
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.folder import LIST, TEMPORARY, Entry, filling_folder
@@ -45,9 +46,14 @@ def run(text, stop=""):
 
 
 def texts(folder):
-    return {p.name: p.read_text() for p in folder.iterdir() if p.is_file() and p.name != LIST}
+    return {
+        p.name: p.read_text(encoding="utf-8")
+        for p in folder.iterdir()
+        if p.is_file() and p.name != LIST
+    }
 
 
+@posix("signals that a process sends to itself")
 @pytest.mark.long
 @pytest.mark.parametrize("n", range(8))
 def test_a_killed_run_is_made_good_by_the_next(folder, n):
@@ -64,6 +70,7 @@ def test_a_killed_run_is_made_good_by_the_next(folder, n):
     assert sorted(os.listdir(folder)) == ["a", "b", LIST]
 
 
+@posix("signals that a process sends to itself")
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(("n", "whole"), [(1, "old"), (2, "new"), (4, "new")])
 def test_an_interrupt_leaves_all_old_or_all_new_files(folder, n, whole):
@@ -91,6 +98,7 @@ def test_an_error_removes_only_a_folder_that_is_new(folder):
         assert folder.exists() == kept
 
 
+@posix("links without the rights of an administrator")
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["../kept", "/etc/kept", "link"])
 def test_a_list_leads_to_no_other_place(folder, tmp_path, name):
@@ -99,7 +107,7 @@ def test_a_list_leads_to_no_other_place(folder, tmp_path, name):
     kept = tmp_path / "kept"
     (folder / "a").rename(kept)
     (folder / "link").symlink_to(kept)
-    listed = (folder / LIST).read_text()
+    listed = (folder / LIST).read_text(encoding="utf-8")
     (folder / LIST).write_text(listed.replace("a,", f"{name},"))
     (folder / "b").unlink()
     before = sorted(os.listdir(folder))
@@ -107,5 +115,5 @@ def test_a_list_leads_to_no_other_place(folder, tmp_path, name):
         with filling_folder("out", []) as filling:
             pass
         assert filling.kept == ["link"]
-    assert kept.read_text() == "old"
+    assert kept.read_text(encoding="utf-8") == "old"
     assert sorted(os.listdir(folder)) == before

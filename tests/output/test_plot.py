@@ -1,20 +1,26 @@
 """Figures as they are written: what stands in the SVG, on a terminal, and in a picture."""
 
+import io
 import itertools
 import math
 import re
 import xml.etree.ElementTree as ET
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
+import numpy as np
 import pytest
 import repo
+from matplotlib.colors import to_rgb
+from matplotlib.image import imread
 
 from geneva_cli import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
 from geneva_cli.output import letters, show_figure
-from geneva_cli.output.plot import plot_svg, plot_text
-from geneva_cli.output.plot.plot_layout import labels, ticks
+from geneva_cli.output.inks import LIGHT, colour
+from geneva_cli.output.plot import plot_png, plot_svg, plot_text
+from geneva_cli.output.plot.plot_layout import INCH, labels, ticks
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 SVG = "{http://www.w3.org/2000/svg}"
@@ -224,6 +230,37 @@ def test_a_chart_shows_the_curve(pressed):
 
 
 # Files
+
+
+class Dots(NamedTuple):
+    """A block of a page with a dot alone, as of a mark or of a point."""
+
+    draws: Callable[[Any], None]
+    high: float = 100.0
+
+    def draw(self, pen, top):
+        self.draws(pen)
+
+
+@pytest.mark.parametrize(
+    ("draws", "across"),
+    [
+        (lambda pen: pen.dot(1, (200.0, 40.0)), 5.6),
+        (lambda pen: pen.draw("points", [[(200.0, 40.0)]], 1), 4.0),
+    ],
+    ids=["mark", "point"],
+)
+def test_a_dot_of_a_png(draws, across, monkeypatch):
+    """The pixels of its colour: their middle, and the area of a disc."""
+    monkeypatch.setattr(plot_png, "blocks", lambda figure: [Dots(draws)])
+    pixels = imread(io.BytesIO(plot_png.png_bytes(None)))[..., :3]
+    ink = np.array(to_rgb(colour(1, LIGHT)))
+    share = (1.0 - pixels).sum(axis=2) / (1.0 - ink).sum()  # of a pixel that the dot covers
+    scale = 150.0 / INCH  # pixels of a px
+    y, x = (np.average(i, weights=share) + 0.5 for i in np.indices(share.shape))
+    # Matplotlib moves a dot to whole pixels
+    assert (x / scale, y / scale) == pytest.approx((200.0, 40.0), abs=1.0 / scale)
+    assert share.sum() == pytest.approx(math.pi / 4.0 * (across * scale) ** 2, rel=0.05)
 
 
 @pytest.mark.long

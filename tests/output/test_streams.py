@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from repo import GENEVA, put
+from repo import GENEVA, posix, put
 
 SOME = [["--help"], ["peaks", "spec.toml"], ["motion", "spec.toml", "--samples", "20000"]]
 
@@ -33,7 +33,11 @@ def environment(request):
 def run(arguments, environment=None, **settings):
     settings = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | settings
     return subprocess.run(
-        [GENEVA, *arguments], text=True, timeout=60, env=environment or os.environ, **settings
+        [GENEVA, *arguments],
+        encoding="utf-8",
+        timeout=60,
+        env=environment or os.environ,
+        **settings,
     )
 
 
@@ -41,7 +45,7 @@ def run(arguments, environment=None, **settings):
 @full
 @some
 def test_full_disk(arguments, environment):
-    with open("/dev/full", "w") as out:
+    with open("/dev/full", "w", encoding="utf-8") as out:
         found = run(arguments, environment, stdout=out)
     assert found.returncode == 2
     assert found.stderr.startswith("<stdout>: cannot write: No space left")
@@ -62,12 +66,12 @@ def test_messages_that_cannot_be_written(arguments, kind, environment):
     key = arguments, environment["PYTHONUNBUFFERED"]
     plain = SAID[key] = SAID.get(key) or run(arguments.split(), environment)
     if kind == "full":
-        with open("/dev/full", "w") as err:
+        with open("/dev/full", "w", encoding="utf-8") as err:
             found = run(arguments.split(), environment, stderr=err)
     else:
         read, write = os.pipe()
         os.close(read)
-        with open(write, "w") as err:
+        with open(write, "w", encoding="utf-8") as err:
             found = run(arguments.split(), environment, stderr=err)
     assert found.returncode == plain.returncode == STATUS[arguments]
     assert found.stdout == plain.stdout
@@ -80,10 +84,11 @@ def closed(arguments, streams):
     """A run that a shell starts without some of its streams."""
     script = f'exec "$0" "$@" {streams}'
     return subprocess.run(
-        ["sh", "-c", script, GENEVA, *arguments], capture_output=True, text=True, timeout=60
+        ["sh", "-c", script, GENEVA, *arguments], capture_output=True, encoding="utf-8", timeout=60
     )
 
 
+@posix("shell that closes streams")
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize("streams", CLOSED)
 @pytest.mark.parametrize("spec", ["spec.toml", "warns.toml"])
@@ -111,6 +116,7 @@ with open("rows.csv", "w") as file:
 """
 
 
+@posix("shell that closes streams")
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("streams", CLOSED)
 def test_nothing_else_gets_into_a_file(streams):
@@ -118,7 +124,7 @@ def test_nothing_else_gets_into_a_file(streams):
     script = f'exec "$0" -c "$1" {streams}'
     command = ["sh", "-c", script, sys.executable, FILE]
     subprocess.run(command, stdin=subprocess.DEVNULL, check=True, timeout=60)
-    with open("rows.csv") as file:
+    with open("rows.csv", encoding="utf-8") as file:
         assert file.read() == "data\n"
 
 
@@ -140,7 +146,9 @@ def test_a_fault_of_the_program(debug):
     """One line that names the command, and a status that no design has; a traceback on request."""
     command = [sys.executable, "-c", FAULTY, "peaks", "spec.toml"]
     environment = os.environ | {"GENEVA_DEBUG": debug}
-    found = subprocess.run(command, capture_output=True, text=True, timeout=60, env=environment)
+    found = subprocess.run(
+        command, capture_output=True, encoding="utf-8", timeout=60, env=environment
+    )
     assert (found.returncode, found.stdout) == (70, "")
     *traceback, line = found.stderr.splitlines()
     assert line.startswith("geneva peaks spec.toml: a fault of geneva ")
@@ -164,6 +172,7 @@ main()
 """
 
 
+@posix("signals that a process sends to itself")
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "module",
@@ -172,5 +181,56 @@ main()
 def test_ctrl_c_while_importing(module):
     """At once, and without the traceback of whatever was being imported."""
     command = [sys.executable, "-c", INTERRUPTED, module]
-    found = subprocess.run([*command, "on"], capture_output=True, text=True, timeout=60)
+    found = subprocess.run([*command, "on"], capture_output=True, encoding="utf-8", timeout=60)
     assert (found.returncode, found.stdout, found.stderr) == (130, "", "")
+
+
+LINES = {
+    "plot spec.toml --format svg": True,
+    "report spec.toml --format html": True,
+    "peaks spec.toml --format md": True,
+    "peaks spec.toml --format csv": True,
+    "help symbols": True,
+    "schema": True,
+    "new external": True,
+    "peaks spec.toml": False,
+}
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("line", LINES)
+@pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
+def test_files_on_standard_output_are_utf8(line, encoding):
+    """An .svg in the console's encoding was not valid XML. Tables for people follow the console."""
+    put("spec.toml", 'title = "Größe 六"\n[wheel]\nz = 6\n')
+    command = [GENEVA, *line.split()]
+    environment = os.environ | {"PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"}
+    found = subprocess.run(command, capture_output=True, timeout=60, env=environment)
+    utf8 = subprocess.run(
+        command, capture_output=True, timeout=60, env=environment | {"PYTHONIOENCODING": "utf-8"}
+    )
+    assert found.returncode == 0 and b"\r" not in found.stdout
+    assert LINES[line] == (found.stdout == utf8.stdout)
+    if not LINES[line]:
+        text = utf8.stdout.decode()
+        assert found.stdout.decode(encoding) == text.encode(encoding, "backslashreplace").decode(
+            encoding
+        )
+
+
+CLOSED_PIPE = """
+import errno, sys
+from geneva_cli import streams
+class Closed:
+    def write(self, data):
+        raise OSError(errno.EINVAL, "Invalid argument")
+streams.open_streams()
+sys.stdout.buffer.raw.raw = Closed()
+print("a row", flush=True)
+"""
+
+
+def test_a_closed_pipe_of_windows():
+    """It is an invalid argument there: the reader has what it wanted, and nobody is bothered."""
+    found = subprocess.run([sys.executable, "-c", CLOSED_PIPE], capture_output=True, timeout=60)
+    assert (found.returncode, found.stderr) == (141, b"")

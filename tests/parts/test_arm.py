@@ -14,7 +14,7 @@ from geneva_cli.design import Design
 from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.measure import segment_length
 from geneva_cli.geometry.shapes import Arc, Circle
-from geneva_cli.parts.arm import crank_arm, walls
+from geneva_cli.parts.arm import bolts, crank_arm, walls
 from geneva_cli.spec.tables import Size
 
 
@@ -91,3 +91,17 @@ def test_an_arm_that_meets_the_hub_is_told():
     name, value = check.nearest.split(" = ")
     fixed = design.with_(f"size.{name}", float(value))
     assert name == "arm_eye_mm" and all(c.passes for c in fixed.checks)
+
+
+@pytest.mark.parametrize(("more_mm", "count"), [(-1e-6, 0), (1e-6, 2)])
+def test_bolts_leave_a_wall_to_the_shaft(more_mm, count):
+    """Their circle is as large as the shaft's hole, a bolt's and the least wall; or there are none.
+
+    The disc has a wall about them in any case.
+    """
+    shaft, bolt, wall = 17.5, 3.0, 0.5
+    across = 2.0 * (shaft + wall + bolt + more_mm)
+    parts = of(Wheel(3, "external"), lock_bolt_mm=2.0 * bolt, lock_bolt_circle_mm=across)
+    outlines = parts.parts.outlines
+    assert (outlines.sizes.arm_bore, outlines.sizes.wall_min) == (shaft, wall)
+    assert len(bolts(outlines)) == count

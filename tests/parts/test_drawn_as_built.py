@@ -23,7 +23,9 @@ TOLERANCE = 0.02  # mm, of curved walls: few pieces
 SAME = 1e-7  # of a length: rounding of areas and centroids
 WEIGHED = 5e-3  # relative: chords 0.002 mm off arcs, in pins from 4 mm on
 FLAT = sorted(
-    file.stem for file in repo.DESIGNS.glob("*.toml") if "spherical" not in file.read_text()
+    file.stem
+    for file in repo.DESIGNS.glob("*.toml")
+    if "spherical" not in file.read_text(encoding="utf-8")
 )
 HOLED = ("size.wheel_hub_mm=24", "size.crank_hub_mm=24", "size.lock_bolts=2", "size.dial_bolts=3")
 

@@ -12,6 +12,7 @@ from geneva_cli import load
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.assembly import links_at
+from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.links.links import drawn_links
 
 # rounding of a few sines of lengths of some hundred mm
@@ -83,3 +84,14 @@ def test_blocks_stay_in_their_slots(made):
                 assert room.contains(affinity.translate(own, at.real, at.imag))
             # and the slot is no longer than it must be, by a hole's width
             assert abs(ends[0][0] - ends[1][0]) < np.ptp(way) + 4.0 * half
+
+
+def test_the_eye_of_the_roller_passes_the_hub():
+    """Its radius is the roller's least distance from the wheel's axis, less the hub's."""
+    hub_mm = 48.0
+    design = load(str(repo.DESIGNS / "epicyclic-z4.toml"), [f"size.wheel_hub_mm={hub_mm}"])
+    links = links_at(design.mechanism, np.linspace(-180.0, 180.0, 7201))
+    eye = link_sizes(design.mechanism, links, design.parts.outlines).roller_eye
+    slot = design.slot(samples=2001)
+    # both are least at mid-motion, a sample of each
+    assert eye == pytest.approx(np.hypot(slot["x_mm"], slot["y_mm"]).min() - 0.5 * hub_mm)

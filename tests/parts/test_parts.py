@@ -304,9 +304,9 @@ OLD = "the old file, whole\n"
 @pytest.mark.long
 def test_a_machine_that_jams():
     name = spec(JAMS)
-    Path("old.dxf").write_text(OLD)
+    Path("old.dxf").write_text(OLD, encoding="utf-8")
     said = refused(profile(name, "wheel", "old.dxf"), 1, "spec.toml: not written: ", "--force")
-    assert Path("old.dxf").read_text() == OLD
+    assert Path("old.dxf").read_text(encoding="utf-8") == OLD
     refused(profile(name, "crank", "new.svg"), 1, "not written")
     assert sorted(os.listdir()) == ["old.dxf", "spec.toml"]
 
@@ -326,4 +326,4 @@ def test_a_machine_that_jams():
     (warning,) = forced.stderr.splitlines()
     assert warning.startswith("spec.toml: warning: ")
     assert "overlap" in warning
-    assert chains(dxf_shapes(Path("old.dxf").read_text()), "WHEEL")
+    assert chains(dxf_shapes(Path("old.dxf").read_text(encoding="utf-8")), "WHEEL")

@@ -94,6 +94,8 @@ def test_a_weight_to_one_side_of_a_horizontal_axis():
     (said,) = told(spec, None)
     assert said.startswith("drum stands 100 mm off a horizontal axis. Its weight puts up to 1.961")
     assert not told(spec.with_("support.axis", "vertical"), None)
+    disc = Mass("disc", mass_kg=2.0, diameter_mm=100.0)  # on the axis
+    assert not told(Spec(External(6), mass=(disc,), support=spec.support), None)
     four = Mass("point", mass_kg=2.0, radius_mm=100.0, count=4)
     assert not told(Spec(External(6), mass=(four,), support=spec.support), None)
 

@@ -46,9 +46,9 @@ def test_a_file_that_exists_is_replaced_by_force_alone(tmp_path):
         refused = new(*words, "-o", file)
         assert refused.exit_code == 2
         assert "this file exists; give another name, or --force" in refused.output
-        assert file.read_text() == "mine"
+        assert file.read_text(encoding="utf-8") == "mine"
         assert new(*words, "--force", "-o", file).exit_code == 0
-        assert "[wheel]" in file.read_text()
+        assert "[wheel]" in file.read_text(encoding="utf-8")
     file.unlink()
     (tmp_path / "table-law.csv").write_text("mine")
     law = ["--from-design", "table-law", "-o", file]

@@ -53,7 +53,7 @@ def test_it_agrees_with_the_reader_on_mutated_specs(tmp_path, monkeypatch):
     """`make editors` compares 2,000, with the checkers of editors too."""
     monkeypatch.chdir(tmp_path)
     for name, content in schema_agrees.FILES.items():
-        (tmp_path / name).write_text(content)
+        (tmp_path / name).write_text(content, encoding="utf-8")
     rng = random.Random(7)
     texts = [schema_agrees.spec(rng) for _ in range(60)]
     sound = sum(not faults(text) for text in texts)

@@ -69,6 +69,6 @@ def test_a_default_is_what_the_reader_takes_for_a_missing_key(key, tmp_path):
     specs = []
     for name, text in (("with", wheel + line), ("without", "[wheel]\nz = 6\n" + body)):
         path = tmp_path / f"{name}.toml"
-        path.write_text(text)
+        path.write_text(text, encoding="utf-8")
         specs.append(load(str(path)).spec.replace(path="", files=()))
     assert specs[0] == specs[1]

@@ -1,4 +1,4 @@
-"""Run the code of the manual's page cad-code: `tests/stress/cad_code.py`; `make cad` installs
+"""Run the code of the manual's page cad: `tests/stress/cad_code.py`; `make cad` installs
 build123d for it.
 
 Solids of build123d must have the volumes of their closed forms, and the lengths of their arcs and
@@ -32,7 +32,7 @@ DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 
 def code():
     """The page's blocks of Python: the functions, the code that uses them, and the macro."""
-    return re.findall(r"^```python\n(.*?)^```$", page("cad-code"), re.S | re.M)
+    return re.findall(r"^```python\n(.*?)^```$", page("cad"), re.S | re.M)
 
 
 def lengths(plate):

@@ -131,7 +131,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         for name, content in FILES.items():
-            Path(folder, name).write_text(content)
+            Path(folder, name).write_text(content, encoding="utf-8")
         results = [(text, disagreement(text)) for text in texts]
     for text, what in results:
         if what:

@@ -154,7 +154,7 @@ def answer(browser, value, action=PUT):
 
 def spoken(folder, text):
     """The headline of `geneva check` on the same text."""
-    (folder / "spec.toml").write_text(text)
+    (folder / "spec.toml").write_text(text, encoding="utf-8")
     done = subprocess.run(
         [GENEVA, "check", "spec.toml"], cwd=folder, capture_output=True, text=True
     )

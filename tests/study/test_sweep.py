@@ -4,11 +4,11 @@ import csv
 import io
 import json
 import os
-import pty
 import subprocess
 import sys
 from contextlib import closing
 
+import numpy as np
 import pytest
 import repo
 from typer.testing import CliRunner
@@ -17,6 +17,7 @@ from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
 from geneva_cli.output.growing import GrowingFile
 from geneva_cli.specfile.reader import read
+from geneva_cli.study.pool import possible
 from geneva_cli.study.sweep.plan import Shard, plan
 from geneva_cli.study.sweep.request import request
 from geneva_cli.study.sweep.run import blocks, sweep
@@ -38,6 +39,12 @@ def rows(found, **options):
 
 def grid(*texts):
     return plan([axis(t) for t in texts], None, 0)
+
+
+@pytest.mark.parametrize(("platform", "count"), [("win32", 61), ("linux", 128), ("darwin", 128)])
+def test_a_pool_of_windows_has_61_processes_at_most(platform, count):
+    """A wait for processes takes 63 handles there, of which the pool needs two itself."""
+    assert possible(128, platform) == count and possible(4, platform) == 4
 
 
 def test_each_row_is_the_designs_own():
@@ -75,22 +82,22 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     arguments = ["sweep", SPEC, "--vary", GRID[0], "--vary", GRID[1]]
     file = tmp_path / "rows.csv"
     assert geneva(*arguments, "-o", str(file)).exit_code == 0
-    whole = file.read_text()
+    whole = file.read_text(encoding="utf-8")
     assert os.listdir(tmp_path) == ["rows.csv"]
     state = tmp_path / "rows.csv.geneva"
     header, *rows = whole.splitlines(keepends=True)
     with closing(GrowingFile(str(file), header, request(SPEC, GRID).key, False)) as left:
-        left.append("".join(rows[:2]))
-        left.append(rows[2])
+        left.append("".join(rows[:2]).encode(), 2)
+        left.append(rows[2].encode(), 1)
     half = state.read_bytes()[:-20]
     state.write_bytes(half)
     resumed = geneva(*arguments, "-o", str(file), "--resume")
     assert resumed.exit_code == 0 and "incomplete or damaged after row 2" in resumed.stderr
-    assert file.read_text() == whole
+    assert file.read_text(encoding="utf-8") == whole
     state.write_bytes(half)
     other = geneva(*arguments, "--set", "drive.n_rpm=90", "-o", str(file), "--resume")
     assert other.exit_code == 2 and "has the rows of another run" in other.stderr
-    assert file.read_text() == whole
+    assert file.read_text(encoding="utf-8") == whole
 
 
 LAW = "".join(f"{i / 20},{(i / 20) ** 2 * (3 - i / 10)}\n" for i in range(21))
@@ -113,19 +120,29 @@ def test_no_input_is_written_over(tmp_path, monkeypatch, arguments):
         text += '[motion]\nlaw = "table"\nfile = "a.csv"\n'
     files = {"spec.toml": text, "a.csv": LAW, "b.csv": LAW}
     for name, content in files.items():
-        (tmp_path / name).write_text(content)
+        (tmp_path / name).write_text(content, encoding="utf-8")
     found = geneva(*arguments)
     assert found.exit_code == 2 and "this file is an input" in found.stderr
-    assert {name: (tmp_path / name).read_text() for name in os.listdir()} == files
+    assert {name: (tmp_path / name).read_text(encoding="utf-8") for name in os.listdir()} == files
+
+
+def parquet(path):
+    """The schema of a file, and its rows."""
+    from pyarrow import parquet
+
+    table = parquet.read_table(path)
+    return dict(zip(table.schema.names, map(str, table.schema.types), strict=True)), (
+        table.to_pylist()
+    )
 
 
 def test_parquet_holds_the_same(tmp_path):
-    from pyarrow import parquet
-
     file = tmp_path / "rows.parquet"
     arguments = ["sweep", SPEC, "--vary", GRID[0], "--vary", "motion.law=cycloidal,3-4-5"]
     assert geneva(*arguments, "-o", str(file)).exit_code == 0
-    found = parquet.read_table(file).to_pylist()
+    types, found = parquet(file)
+    assert {name for name, own in types.items() if own == "string"} == {"motion.law", "error"}
+    assert set(types.values()) == {"string", "double"}
     printed = list(csv.DictReader(io.StringIO(geneva(*arguments).stdout)))
     assert len(found) == len(printed) == 8
     for row, text in zip(found, printed, strict=True):
@@ -133,6 +150,34 @@ def test_parquet_holds_the_same(tmp_path):
         assert (row["velocity.max"] is None) == (text["velocity.max"] == "")
         assert row["velocity.max"] is None or row["velocity.max"] == float(text["velocity.max"])
     assert os.listdir(tmp_path) == ["rows.parquet"]
+
+
+def test_parquet_of_no_rows_has_its_columns(tmp_path):
+    file = tmp_path / "none.parquet"
+    none = ["--vary", "drive.A=0,0.5", "--subject-to", "dwell_s >= 5", "-o", str(file)]
+    assert geneva("sweep", SPEC, *none).exit_code == 0
+    types, found = parquet(file)
+    assert found == [] and types["timing.dwell_s"] == "double" and types["error"] == "string"
+
+
+def test_types_of_a_column_follow_from_all_blocks(tmp_path):
+    """Numbers that one block has and words of another are words; whole numbers are numbers."""
+    from geneva_cli.output.growing import GrowingTable
+
+    path = str(tmp_path / "rows.parquet")
+    with closing(GrowingTable(["a", "b", "c", "d"], "key", True, path)) as rows:
+        rows.append([np.array([4, 6]), [True, None], [None, None], np.array([1, 2])])
+        rows.append([["x", None], [None, None], [1.0, None], np.array([0.5, np.inf])])
+        rows.finish()
+    assert parquet(path) == (
+        {"a": "string", "b": "bool", "c": "double", "d": "double"},
+        [
+            {"a": "4", "b": True, "c": None, "d": 1.0},
+            {"a": "6", "b": None, "c": None, "d": 2.0},
+            {"a": "x", "b": None, "c": 1.0, "d": 0.5},
+            {"a": None, "b": None, "c": None, "d": None},
+        ],
+    )
 
 
 @pytest.mark.sampled(6)
@@ -176,6 +221,8 @@ def test_where_no_row_is_left_it_says_why():
 
 def seen_on_a_terminal(*words):
     """What a person sees of a run that draws no bar, since it takes less than a second."""
+    import pty
+
     master, slave = pty.openpty()
     program = [sys.executable, "-m", "geneva_cli", "sweep", *words]
     with subprocess.Popen(program, stdout=slave, stderr=subprocess.PIPE) as run:
@@ -185,6 +232,7 @@ def seen_on_a_terminal(*words):
     return seen
 
 
+@repo.posix("pseudo-terminals")
 def test_a_person_sees_the_first_rows_and_the_best():
     vary = ("--vary", "drive.A=0..0.9:0.01", "--pick", "dwell_s,jerk.max", "--jobs", "1")
     seen = seen_on_a_terminal(SPEC, *vary, "--pareto", "max:dwell_s,min:acceleration.max")

@@ -37,5 +37,5 @@ def test_designs_with_equal_parts_have_one_turn(name, varied):
     """It is computed once for all designs whose parts are equal, and for no others."""
     text = read(os.path.join(DESIGNS, name))
     checked = sweep(text, plan([axis(varied)], None, 0), picks=["checks.gap_mm", *CHECKED])
-    together = checked.rows(0, len(checked.plan))
+    together = [*checked.rows(0, len(checked.plan))]
     assert together == [checked.row(row[:1]) for row in together]

@@ -23,7 +23,7 @@ DESIGNS = repo.DESIGNS
 
 def written(name):
     """The text of a design, empty without it."""
-    return "".join(path.read_text() for path in DESIGNS.glob(f"{name}.toml"))
+    return "".join(path.read_text(encoding="utf-8") for path in DESIGNS.glob(f"{name}.toml"))
 
 
 CURVED = "[wheel]\nz = 6\n[motion]\nlaw = 'cycloidal'\nratio = 'matched'\n"
@@ -71,7 +71,7 @@ PARTS = {
     "arc": "[wheel]\nz = 24\n[size]\nrelief = 'arc'\nroller_radius_mm = 2\n",
     "four-bar": FOUR_BAR,
     "bore-by-load": (DESIGNS / "press-straight.toml")
-    .read_text()
+    .read_text(encoding="utf-8")
     .replace("face_width_mm = 30", "face_width_mm = 30\narm_bore_mm = 7"),
 }
 ALL = MOTIONS | PARTS
@@ -100,7 +100,7 @@ def take(text: str, said: str, mechanism: Mechanism) -> str:
 
 def read(folder: Path, text: str) -> Mechanism:
     file = folder / "spec.toml"
-    file.write_text(text)
+    file.write_text(text, encoding="utf-8")
     return load(str(file))
 
 
@@ -207,7 +207,7 @@ def test_a_linkage_gets_more_slots(tmp_path: Path) -> None:
 @pytest.mark.long
 def test_the_drive_before_is_changed_where_it_is_milder(tmp_path: Path) -> None:
     """A planet without a jump has one motion; the ellipses before it turn it more slowly."""
-    text = (DESIGNS / "behind-gears.toml").read_text()
+    text = (DESIGNS / "behind-gears.toml").read_text(encoding="utf-8")
     mechanism = read(tmp_path, text + "[limits]\nvelocity_max = 2.1\n")
     (peak,) = [c for c in judged(mechanism, parts=False) if c.passes is False]
     key, value = peak.nearest.split(" = ")

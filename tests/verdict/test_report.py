@@ -24,7 +24,7 @@ def run(*arguments: str) -> Any:
 
 def written(folder: Path, text: str) -> str:
     file = folder / "spec.toml"
-    file.write_text(text)
+    file.write_text(text, encoding="utf-8")
     return str(file)
 
 
@@ -83,7 +83,7 @@ def test_tolerances_say_what_is_not_known(tmp_path: Path) -> None:
     assert said.startswith("dwell_position is not known: no drawn locking disc")
     page = tmp_path / "page.md"
     run("report", spec, "-o", str(page))
-    assert said in page.read_text()
+    assert said in page.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("format", ["table", "json"])

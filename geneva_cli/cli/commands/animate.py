@@ -1,6 +1,7 @@
 """``geneva animate``."""
 
 import os
+from contextlib import suppress
 from typing import Annotated
 
 from geneva_cli.cli.options import Reverse, Settings, SpecPath, flag, output_option, warn
@@ -44,9 +45,11 @@ def run(
 def _open(place: str) -> None:
     """Open a page in the desktop's browser, and print its path."""
     import webbrowser
+    from pathlib import Path
 
     has_display = "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ or os.name != "posix"
-    opened = (has_display or os.uname().sysname == "Darwin") and webbrowser.open(f"file://{place}")
+    has_display = has_display or os.uname().sysname == "Darwin"
+    opened = has_display and webbrowser.open(Path(place).as_uri())
     print(place if opened else f"{place}\nno browser was opened: open this page in one")
 
 
@@ -54,12 +57,15 @@ def _folder() -> str:
     """The user's own folder for the page, which the next run replaces so that no pages pile up."""
     import stat
     import tempfile
-    from contextlib import suppress
 
-    folder = os.path.join(tempfile.gettempdir(), f"geneva-{os.getuid()}")
+    try:
+        user = os.getuid()
+    except AttributeError:
+        user = 0  # Windows has no number of a user, and a temporary folder for each user
+    folder = os.path.join(tempfile.gettempdir(), f"geneva-{user}")
     with suppress(FileExistsError):
         os.mkdir(folder, 0o700)
     status = os.lstat(folder)
-    if stat.S_ISDIR(status.st_mode) and status.st_uid == os.getuid():
+    if stat.S_ISDIR(status.st_mode) and status.st_uid == user:
         return folder
     return tempfile.mkdtemp(prefix="geneva-")  # another user has taken the name in a shared folder

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.cli.options import Format, Output, Settings, flag, option, outline_settings, say
-from geneva_cli.errors import clean
+from geneva_cli.errors import clean, open_warnings
 
 EXAMPLES = ("geneva check spec.toml", "geneva check spec.toml --set size.slot_clearance_mm=0.05")
 DRAWN = "A drawing from elsewhere"
@@ -57,5 +57,6 @@ def run(
             say(v.path, v.warnings)
     if len(judged) < len(results):
         raise typer.Exit(2)
-    if not all(v.passes for v in results) or (strict and any(v.warnings for v in results)):
+    warned = strict and any(open_warnings(v.warnings) for v in results)
+    if warned or not all(v.passes for v in results):
         raise typer.Exit(1)

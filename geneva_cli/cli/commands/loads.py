@@ -46,7 +46,7 @@ def run(
     pressure times the sliding speed, for a roller fixed to its pin.
 
     With --certify, the torques and the pin force are each proved to lie between two bounds, or
-    called not proved. It needs geneva-cli[certify]. More: `geneva help certificates`.
+    called not proved. It needs geneva-cli[certify]. More: `geneva help accuracy`.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer

@@ -25,7 +25,7 @@ def run(
     greatest of all.
 
     With --certify each peak is proved to lie between two bounds, or is called not proved. It needs
-    the extra geneva-cli[certify]. More: `geneva help certificates`.
+    the extra geneva-cli[certify]. More: `geneva help accuracy`.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show

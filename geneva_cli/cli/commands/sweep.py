@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Iterator
 from contextlib import closing
-from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated
 
 from geneva_cli.cli.completion import fields, keys, listed
 from geneva_cli.cli.options import Format, Settings, SpecPath, flag, option, output_option
@@ -11,9 +11,8 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
+    from geneva_cli.study.rows import Rows
     from geneva_cli.study.sweep.request import Outcome, SweepRequest
-
-Rows: TypeAlias = list[list[Any]]
 
 EXAMPLES = (
     "geneva sweep spec.toml --vary wheel.z=4..12 --pick dwell_s,acceleration.max",
@@ -70,8 +69,9 @@ def run(
     """
     from geneva_cli.output import show, show_text
     from geneva_cli.output.formats import FORMATS
+    from geneva_cli.study.rows import joined, without_infinity
     from geneva_cli.study.sweep.request import Outcome, request
-    from geneva_cli.table import rows_table
+    from geneva_cli.table import Table
 
     if format and format not in FORMATS:
         raise GenevaError(f"--format {cut(format)}: it must be one of {', '.join(FORMATS)}")
@@ -102,8 +102,11 @@ def run(
     elif format in ("", "csv"):
         _write_rows(plan, outcome, output, resume, bool(format))
     else:
-        rows = [row for block in outcome.rows(_tracked(plan, 0)) for row in block]
-        show(rows_table(plan.sweep.names, rows), output, format, plan.inputs)
+        names = plan.sweep.names
+        blocks = [*outcome.rows(_tracked(plan, 0))]
+        columns = joined(blocks).columns if blocks else [[] for _ in names]
+        table = Table(names, [without_infinity(column) for column in columns])
+        show(table, output, format, plan.inputs)
     for note in outcome.refused() if best else outcome.notes():
         print(clean(f"{spec}: {note}"), file=sys.stderr)
 
@@ -147,7 +150,7 @@ def _write_rows(
                 digest = Digest(plan, output)
             blocks = plan.blocks(rows.done) if shows_all else _tracked(plan, rows.done)
             for block in outcome.rows(blocks):
-                rows.append(block)
+                rows.append(block.columns)
                 if digest:
                     digest.add(block)
             rows.finish(TEXTS)
@@ -155,7 +158,7 @@ def _write_rows(
         show(table)
 
 
-def _tracked(plan: "SweepRequest", done: int) -> Iterator[Rows]:
+def _tracked(plan: "SweepRequest", done: int) -> "Iterator[Rows]":
     """The rows, with a progress bar."""
     start, stop = plan.sweep.span
     return tracked(plan.blocks(done), "designs", stop - start - done, len)

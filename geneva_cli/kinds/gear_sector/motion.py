@@ -66,6 +66,11 @@ class GearSector(PinPath, kw_only=True):
         """Both toothed sectors."""
         return "crank gear", "wheel gear"
 
+    def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
+        """Centre distance L for a crank radius, mm: R = L sin b, with the slot's half angle b."""
+        b = self._solved(math.pi / wheel.z).half_angle
+        return radius_mm / library(b).sin(b)
+
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""
         b, u, handover, _ = self._solved(math.pi / wheel.z)

@@ -22,6 +22,7 @@ KINDS = (
         },
         tables={"slot": "parts.slots.slot_profile:profile_table"},
         dimensions="kinds.linear.drawings:dimensions",
+        sizes="kinds.linear.rack:key_sizes",
         stressed="kinds.linear.frame:rack_stressed",
         refuses="kinds.linear.refuses:refuses",
         no_parts="kinds.linear.motion:no_parts",

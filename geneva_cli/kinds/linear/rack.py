@@ -32,6 +32,8 @@ from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
 from geneva_cli.parts.sizes import (
+    NO_SIZES,
+    KeySizes,
     arm_bore,
     drawn_thicknesses,
     hub_and_eye,
@@ -41,6 +43,7 @@ from geneva_cli.parts.sizes import (
 )
 from geneva_cli.spec.default_sizes import half_or, value_or
 from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.tables import Size
 
 
 class RackSizes(NamedTuple):
@@ -99,7 +102,7 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             "half the distance of the slots",
             ("size", "roller_radius_mm"),
         )
-    relief = value_or(size.relief_clearance_mm, arm / 200.0)
+    relief = _relief(size, arm)
     lock = _lock(mechanism, arm, arm - w - allowed.lock_clearance_mm, relief)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
     floor = arm - recess + relief if lock else 0.0
@@ -111,6 +114,36 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             ("size", "wheel_radius_mm"),
         )
     return RackSizes(arm, r, w, edge, guide.bottom, lock, floor, recess, guide)
+
+
+def key_sizes(mechanism: Mechanism) -> KeySizes:
+    """Return the sizes of a rack and its crank by the keys of the spec, of which no load chooses.
+
+    There are none where they leave no rack.
+    """
+    size, r = mechanism.spec.size, mechanism.roller_radius_mm
+    try:
+        sizes, bore = rack_sizes(mechanism), rack_bore(mechanism)
+    except GenevaError:  # reported by the check of the parts
+        return NO_SIZES
+    thick = drawn_thicknesses(size, sizes.arm)
+    known = {
+        "wheel_radius_mm": sizes.edge,
+        "slot_bottom_clearance_mm": sizes.slot_bottom,
+        "lock_radius_mm": sizes.lock,
+        "relief_clearance_mm": _relief(size, sizes.arm),
+        "pin_mm": 2.0 * pin_radius(size, r),
+        "wheel_thickness_mm": thick.wheel,
+        "lock_thickness_mm": thick.lock,
+        "arm_thickness_mm": thick.arm,
+        **({"arm_bore_mm": 2.0 * bore} if bore else {}),
+    }
+    return KeySizes(known, ())
+
+
+def _relief(size: Size, arm: float) -> float:
+    """Return the clearance of the recess inside the locking sector."""
+    return value_or(size.relief_clearance_mm, arm / 200.0)
 
 
 def _lock(mechanism: Mechanism, arm: float, limit: float, relief: float) -> float:

@@ -41,6 +41,12 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
     not_its = "is for a wheel on a shaft, and not available for a rack: remove it"
     yield Conflict(is_set(spec.tolerance), ("tolerance",), f"[tolerance] {not_its}")
     yield Conflict(is_set(spec.product), ("product",), f"[product] {not_its}")
+    for key in ("index_play_max_deg", "dwell_play_max_deg"):
+        yield Conflict(
+            getattr(spec.limits, key) is not None,
+            ("limits", key),
+            f"{key} is an angle of a wheel, and a rack has none: remove it",
+        )
     for key in (
         *("stiffness_Nm_rad", "damping_ratio"),
         *("wheel_diameter_mm", "wheel_overhang_mm", "wheel_span_mm"),

@@ -78,7 +78,6 @@ def _draw_rack(view: View, parts: RackParts) -> None:
     end = -(sizes.slot_bottom + sizes.half_width)
     for y in places:
         view.centre_line((end, y), (sizes.edge, y))
-    _draw_arcs(view, parts, rack)
     first, second, *_ = places
     up, corner, count = 0.5 * math.pi, (box.x0, box.y0), len(places)
     edge, recess = (sizes.edge, first), (sizes.arm, first - sizes.arm)
@@ -98,6 +97,7 @@ def _draw_rack(view: View, parts: RackParts) -> None:
     for bolt in holes_of([rack]).bolts[-1:]:
         x, _ = bolt.centre
         view.linear((box.x0, box.y1), bolt.centre, 0.0, sized.plain(x - box.x0))
+    _draw_arcs(view, parts, rack)  # last: their texts find a place between the lines
 
 
 def _draw_arcs(view: View, parts: RackParts, rack: Plate) -> None:

@@ -32,6 +32,7 @@ class Linkage(PinPath, kw_only=True):
     """
 
     LOCKS: ClassVar[bool] = False
+    LENGTH: ClassVar[str] = "crank_mm in [drive]"
     CARRIER: ClassVar[str]  # link that carries the roller
     entry_deg: Annotated[
         float | None, Range(-360.0, 360.0), "crank angle near entry, to choose among several wheels"

@@ -35,6 +35,7 @@ class Ball(NamedTuple):
     rim: float  # polar angle of the wheel's edge
     inner: float  # polar angle where the slotted ring ends towards its axis
     lock: float  # polar angle of the locking sectors' edge, 0 for none
+    lock_mm: float  # distance of that edge from the crank's axis
     recess: float  # polar angle of the recess in the wheel, 0 for none
     span_mm: tuple[float, float]  # radii of the inner and outer face of wheel and rollers
     lock_span_mm: tuple[float, float]  # of the locking sectors

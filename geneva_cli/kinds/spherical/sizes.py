@@ -21,8 +21,15 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.rollers import places
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.parts.machine_sizes import lock_between, refuse_edges, require_lock_between
+from geneva_cli.parts.machine_sizes import (
+    keys_by_load,
+    lock_between,
+    refuse_edges,
+    require_lock_between,
+)
 from geneva_cli.parts.sizes import (
+    NO_SIZES,
+    KeySizes,
     arm_bore,
     drawn_thicknesses,
     hole_radius,
@@ -30,7 +37,7 @@ from geneva_cli.parts.sizes import (
     refuse_stepped_shaft,
     refuse_wide_pin,
 )
-from geneva_cli.spec.default_sizes import Thicknesses
+from geneva_cli.spec.default_sizes import Thicknesses, value_or
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 if TYPE_CHECKING:
@@ -98,6 +105,29 @@ def stressed(mechanism: Mechanism) -> Stressed | None:
     return sphere_stressed(mechanism.spec, sizes) if sizes else None
 
 
+def key_sizes(mechanism: Mechanism) -> KeySizes:
+    """Return the sizes of a spherical machine by the keys of the spec; none without parts."""
+    sizes = sized_ball(mechanism)
+    if sizes is None:
+        return NO_SIZES
+    size = mechanism.spec.size
+    spans = {"wheel": sizes.span_mm, "lock": sizes.lock_span_mm, "arm": sizes.arm_span_mm}
+    # the digits beyond the twelfth are rounding of the faces' radii
+    thick = {f"{part}_thickness_mm": _less(*span) for part, span in spans.items()}
+    known = {
+        "slot_bottom_clearance_mm": _bottom_mm(size, mechanism.roller_radius_mm),
+        "lock_radius_mm": sizes.lock_mm,
+        "wheel_bore_mm": 2.0 * sizes.bore_mm,
+        "pin_mm": 2.0 * sizes.pin_mm,
+        **({"arm_bore_mm": 2.0 * sizes.arm_bore_mm} if sizes.arm_bore_mm else {}),
+    }
+    return KeySizes(known | thick, keys_by_load(mechanism, bool(sizes.recess)))
+
+
+def _less(inside: float, outside: float) -> float:
+    return float(f"{outside - inside:.12g}")
+
+
 def horn_sizes(mechanism: Mechanism) -> tuple[float, float, float] | None:
     """Return the angles of half a slot, the recess and the shafts; None without parts."""
     sizes = sized_ball(mechanism)
@@ -117,9 +147,7 @@ def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     axes = deepest + arm
     roller = radius_mm / L
     w = roller + allowed.slot_clearance_mm / L
-    gap = size.slot_bottom_clearance_mm
-    usual = max(allowed.slot_clearance_mm, radius_mm / 20.0)
-    bottom = deepest - (usual if gap is None else gap) / L
+    bottom = deepest - _bottom_mm(size, radius_mm) / L
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
     if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
@@ -135,7 +163,8 @@ def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + allowed.pin_gap_mm  # the arm's inner face, on which the sectors stand
     bore, hub = wheel_axle(spec, L, inside, bottom - w)
-    lock = _lock(mechanism, arm - w, abs(axes - rim), roller)
+    lock_mm = _lock_mm(mechanism, arm - w, abs(axes - rim), roller)
+    lock = math.asin(lock_mm / L)
     turns = [p.crank_deg for p in (first, *others)]
     if len(turns) == 1:
         turns = [360.0 * i / spec.drive.rollers for i in range(spec.drive.rollers)]
@@ -153,6 +182,7 @@ def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
         rim=rim,
         inner=inner_edge(bottom - w, roller, math.asin(max(bore, hub) / inside)),
         lock=lock,
+        lock_mm=lock_mm,
         recess=lock + allowed.lock_clearance_mm / L if lock else 0.0,
         span_mm=(inside, outside),
         lock_span_mm=(under - thick.lock, under),
@@ -178,6 +208,12 @@ def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     return ball
 
 
+def _bottom_mm(size: Size, roller_mm: float) -> float:
+    """Return the clearance of the deepest roller from the end of its slot."""
+    usual = max(size.allowances.slot_clearance_mm, roller_mm / 20.0)
+    return value_or(size.slot_bottom_clearance_mm, usual)
+
+
 def _arm_bore(spec: Spec, pin: float, L: float, arm: float) -> float:
     """Return the radius of the bore in the arm's hub; 0 without a crank, or without pins."""
     if not (spec.drive.crank and pin):
@@ -187,8 +223,8 @@ def _arm_bore(spec: Spec, pin: float, L: float, arm: float) -> float:
     return arm_bore(spec, disc, L, space)
 
 
-def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:
-    """Return the angle of the locking sectors' edge; its sine is ``lock_radius_mm`` over L."""
+def _lock_mm(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:
+    """Return the radius of the locking sectors' edge about the crank's axis, 0 for none."""
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     if not mechanism.spec.has_lock:
         return 0.0
@@ -201,9 +237,9 @@ def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> fl
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:
-        return lock_between(least, limit, roller)
+        return L * math.sin(lock_between(least, limit, roller))
     require_lock_between(size.lock_radius_mm, low, high)
-    return math.asin(size.lock_radius_mm / L)
+    return size.lock_radius_mm
 
 
 def _refuse_thick(thick: Thicknesses, size: Size, L: float, roller: float, pin_mm: float) -> None:

@@ -53,10 +53,13 @@ class RestingAxis(NamedTuple):
 
     @staticmethod
     def of(engagement: Engagement) -> RestingAxis | None:
-        """The axis of an engagement's straight slot; None for a slot that is solved for."""
+        """The axis of an engagement's straight slot.
+
+        None for a slot that is solved for, and for a crank as built.
+        """
         engagement = engagement.through
-        if engagement.motion.entry is None:
-            return None
+        if engagement.motion.entry is None or engagement.built is not None:
+            return None  # a crank as built crosses the axis at once
         x, y = engagement.slot(0.5 * engagement.entry_deg, 1)  # any place in a straight slot
         (px, u), (py, v) = x.c, y.c
         m = library(px)

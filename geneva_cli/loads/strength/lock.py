@@ -201,7 +201,7 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
 
 
 def _rises(of: Array) -> Array:
-    """Fraction of each strip before a quantity becomes positive: 1 if it does not."""
+    """Fraction of each strip before a quantity is 0 or more: 1 if it stays below."""
     low, high = of[:, :-1], of[:, 1:]
     with np.errstate(all="ignore"):
         fraction = np.where(high > 0.0, -low / (high - low), 1.0)

@@ -19,6 +19,7 @@ import numpy as np
 
 from geneva_cli.loads.impacts.impacts import arm_mm
 from geneva_cli.loads.impacts.shock import first_contacts
+from geneva_cli.loads.tolerance.built_jump import built_jumps
 from geneva_cli.loads.tolerance.dimensions import (
     Deviations,
     corners,
@@ -215,6 +216,10 @@ def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array |
     that are solved for.
     """
     worst: Array | None = None
+    if built := built_jumps(mechanism):
+        sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]
+        jumps = [one(corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
+        return np.asarray(np.concatenate(jumps).max(axis=0))
     for engagement in mechanism.engagements:
         crank = use["crank_radius_mm"] / arm_mm(mechanism, engagement)
         center = use["center_distance_mm"] / mechanism.center_distance_mm

@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.loads.impacts.impacts import arm_mm
 from geneva_cli.loads.impacts.shock import RestingAxis
+from geneva_cli.loads.tolerance.built_jump import BuiltJump, built_jumps
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
 from geneva_cli.loads.tolerance.locking import CutLock
 from geneva_cli.loads.tolerance.motion_error import MotionError
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.arrays import Mask, array
 from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.sobol import Sobol
 from geneva_cli.progress import tracked
@@ -69,7 +70,7 @@ def random_machines(
     samples: int,
     lock: CutLock | None,
     error: tuple[MotionError, float, float] | None,
-    entry: EntryJumpFunction | None,
+    entry: EntryJump | None,
 ) -> RandomMachines:
     """Errors of ``samples`` machines: the play of a lock, the error of a motion, the jump at entry.
 
@@ -197,7 +198,7 @@ class EntryJumpFunction(NamedTuple):
     arm: float
     branches: tuple[Branch, ...]
 
-    def __call__(self, by: Deviations) -> tuple[Array, Array]:
+    def __call__(self, by: Deviations) -> tuple[Array, Mask]:
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis.
 
         A machine that misses it has a jump of 0: its roller meets the mouth instead.
@@ -216,10 +217,13 @@ class EntryJumpFunction(NamedTuple):
         return jump, missed
 
 
-def entry_jumps(mechanism: Mechanism) -> list[EntryJumpFunction]:
-    """Entry jump of each engagement whose roller should enter along its slot's axis."""
+EntryJump: TypeAlias = EntryJumpFunction | BuiltJump
+
+
+def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
+    """Entry jump of each engagement whose roller enters along its slot's axis, or as built."""
     L = mechanism.center_distance_mm
-    out = []
+    out: list[EntryJump] = [*built_jumps(mechanism)]
     for engagement in mechanism.engagements:
         axis = RestingAxis.of(engagement)
         if axis is not None:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.vibration.oscillator import Oscillator
-from geneva_cli.loads.vibration.panels import NODES, SERIES, Panels, X
+from geneva_cli.loads.vibration.panels import NODES, SERIES, TERMS, Panels, X
 from geneva_cli.numerics.arrays import Array, Whole, joined, matrix_product
 
 legendre, chebyshev = np.polynomial.legendre, np.polynomial.chebyshev
@@ -37,7 +37,10 @@ def greatest_accelerations(panels: Panels, motion: Whole, swing: Oscillator[Arra
     last = np.cumsum(count)
     begin = last[first] - count[first]
     total = np.append(begin[1:], last[-1]) - begin
-    active, start, z = np.arange(len(motion)), 0, np.zeros(len(motion), dtype=complex)
+    # the load lags by a jump of the wheel's velocity at entry, where there is one
+    begins_at = (panels.series[0, panel[first]] * (-1.0) ** np.arange(TERMS)).sum(axis=1)
+    z = np.where(panels.smooth[motion] == 0, -begins_at, 0.0).astype(complex)
+    active, start = np.arange(len(motion)), 0
     while len(active):
         wide = max(1, 4096 // len(active))  # 4096 pieces at a time fit in the cache
         at = start + np.arange(min(wide, int(total[active].max()) - start))

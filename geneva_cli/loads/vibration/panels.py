@@ -154,11 +154,11 @@ def panels_of(derivatives: Derivatives, breaks: Array) -> Panels:
         np.maximum.at(greatest[k], motion, np.abs(values[k]).max(axis=1))
         np.maximum.at(jumps[k], motion, np.maximum(jump[k], stop[k]))
         np.add.at(variation[k], motion, rises[k])
-    # The wheel starts and stops without a jump of velocity. A jump of 1e-12 of a derivative's
-    # greatest value is rounding.
-    number = np.arange(1, HIGHEST)[:, None]
-    goes_on = (number < top - 1) & (jumps[1:] <= 1e-12 * greatest[1:])
-    smooth = 1 + np.cumprod(goes_on, axis=0).sum(axis=0)
+    # A jump of 1e-12 of a derivative's greatest value is rounding. Only a crank as built starts and
+    # stops the wheel with a jump of velocity.
+    number = np.arange(HIGHEST)[:, None]
+    goes_on = (number < top - 1) & (jumps <= 1e-12 * greatest)
+    smooth = np.cumprod(goes_on, axis=0).sum(axis=0)
     return Panels(motion, left, right, series[..., :TERMS], smooth, greatest, variation)
 
 

@@ -58,6 +58,7 @@ def values(mechanism: Mechanism, load: Oscillator[float] | None) -> dict[str, An
     avoid = speeds_to_avoid(mechanism, load)
     numbers = {name: float(x[0]) for name, x in vibrations(own)._asdict().items()}
     factor = own.swung_deg / own.windup_deg
+    warnings = _warnings(mechanism, load, float(own.ratio.min()))
     rows = (own.ratio, own.share, own.residual_deg, factor, own.windup_deg, own.steady_share)
     each = [tuple(map(_known, row)) for row in np.array(rows)[:, :, 0].T.tolist()]
     return {
@@ -65,7 +66,7 @@ def values(mechanism: Mechanism, load: Oscillator[float] | None) -> dict[str, An
         "speeds_to_avoid_rpm": tuple(a.rpm for a in avoid),
         "avoid": rows_table(SpeedToAvoid._fields, avoid),
         "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,
-        "warnings": tuple(_warnings(mechanism, load, float(own.ratio.min()))),
+        "warnings": tuple(mechanism.spec.accept.applied(warnings)),
     }
 
 

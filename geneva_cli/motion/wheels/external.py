@@ -10,6 +10,7 @@ from geneva_cli.motion.path_and_slot import AnchoredPath
 from geneva_cli.motion.pivots import Dimension, Layout
 from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep
+from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.spec.rules import LENGTH, Range
 from geneva_cli.spec.schema import Example
 
@@ -121,6 +122,26 @@ class External(Gearing):
         return RollerPlace(
             step, self.half_motion_deg(step), slot.poses, slot.poses[2].slope[0], slot
         )
+
+    def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace | None:
+        """Place of a roller on a crank of another R/L; None for unequal steps and with a stop."""
+        if self.steps or self.stop:
+            return None
+        from geneva_cli.motion.wheels.as_built import place
+
+        return place(self.SIGN, self.step, ratio, self.offset_mm / L, rim)
+
+    def distance_mm(self, crank_radius_mm: float) -> float:
+        """Centre distance L for a crank radius R, mm: R = L sin b cos d, e = L cos b sin d."""
+        if self.steps:
+            raise GenevaError(
+                "each of steps_deg has a crank radius of its own: set center_distance_mm instead "
+                "of crank_radius_mm",
+                ("size", "crank_radius_mm"),
+            )
+        sin_b, cos_b = self.step.sin_cos
+        along, across = crank_radius_mm / sin_b, self.offset_mm / cos_b
+        return choose(across == 0.0, along, library(along, across).hypot(along, across))
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement

@@ -17,7 +17,7 @@ from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
+    from geneva_cli.motion.engagement import AsBuilt, Displacement, Slot, WheelMotion
     from geneva_cli.motion.plane_motion import PlaneMotion
 
 
@@ -63,7 +63,8 @@ class RollerPlace(NamedTuple):
     On a sphere ``height`` is the pin's position along the wheel's axis: (top, fall) for top - fall
     (1 - cos a). ``cone`` is the cosine of the pin's cone. ``hub`` is the distance over L from the
     wheel's axis to the point about which the crank's arm turns. ``closed`` has sign, l and 1 - l
-    for the closed forms of a plain crank; None if there are none.
+    for the closed forms of a plain crank; None if there are none. ``built`` describes a crank as
+    built, whose R/L is not what the slots need.
     """
 
     step: HalfStep
@@ -76,6 +77,7 @@ class RollerPlace(NamedTuple):
     cone: float = 1.0
     hub: float = 1.0
     closed: tuple[float, float, float] | None = None
+    built: AsBuilt | None = None
 
     @property
     def reach_deg(self) -> float:
@@ -203,6 +205,24 @@ class Gearing(SpecTable):
         three, l = radial(self.SIGN, step), step.sin_cos[0]
         closed = self.SIGN, l, classic.gap(1.0, *step)
         return RollerPlace(step, three[2].crank_deg, three, l, closed=closed)
+
+    def distance_mm(self, crank_radius_mm: float) -> float:
+        """Centre distance L for a crank radius R, mm, with straight slots.
+
+        Raises GenevaError for a wheel whose rollers have different crank radii.
+
+        >>> round(Spherical(6).distance_mm(30.0), 9)
+        60.0
+        """
+        return crank_radius_mm / self.place(self.step, 1.0).ratio
+
+    def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace | None:
+        """Place of a roller on a crank of another R/L than the slots need.
+
+        ``ratio`` and the ``rim`` are over the centre distance ``L``, mm. None for a wheel that
+        takes no other R/L. Raises GenevaError if the roller cannot pass the line of centres.
+        """
+        return None
 
     def rest(self, ratio: float) -> float:
         """Least distance of a pin on any circle from the wheel's axis: 1 - l, inside 1 + l."""

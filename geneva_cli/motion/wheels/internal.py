@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from geneva_cli.motion.wheels.gearing import Gearing
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.spec.schema import Example
 
 
@@ -22,3 +22,9 @@ class Internal(Gearing):
         "an internal wheel: more motion than dwell", {"wheel": {"z": 6}}
     )
     SIGN: ClassVar[float] = -1.0
+
+    def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace:
+        """Place of a roller on a crank of another R/L than the slots need."""
+        from geneva_cli.motion.wheels.as_built import place
+
+        return place(self.SIGN, self.step, ratio, 0.0, rim)

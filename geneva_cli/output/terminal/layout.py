@@ -17,6 +17,7 @@ from geneva_cli.output.text import WIDTH, cell
 from geneva_cli.table import in_digits
 
 GAP = "  "  # between two columns
+PROSE = 28  # letters to which a column of prose is narrowed before another column is omitted
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 
 
@@ -29,12 +30,11 @@ class ShownColumn(NamedTuple):
     cells: Sequence[str]
     is_text: bool
 
-    def least(self) -> int:
-        """Least width in letters to which it can be narrowed."""
+    def least(self, prose: int = PROSE) -> int:
+        """Least width in letters to which it can be narrowed; of prose at least ``prose``."""
         if not self.is_prose():
             return self.natural()
-        # A column of prose is narrowed to 28 letters before another column is omitted.
-        return max([min(self.natural(), 28), *map(width_of, self._words())])
+        return max([min(self.natural(), prose), *map(width_of, self._words())])
 
     def natural(self) -> int:
         """Width in letters of its longest cell, and of its heading broken between words."""
@@ -90,13 +90,13 @@ def _parts(word: str, width: int) -> list[str]:
     return re.split(r"(?<=[/,=])|(?<=::)", word)  # behind a sign
 
 
-def widths(columns: Sequence[ShownColumn], width: int) -> list[int] | None:
+def widths(columns: Sequence[ShownColumn], width: int, prose: int = PROSE) -> list[int] | None:
     """The columns' widths, the widest prose narrowed first; None if they exceed ``width``."""
     sizes = [column.natural() for column in columns]
     spare = width - len(GAP) * (len(columns) - 1) - sum(sizes)
     if spare >= 0:
         return sizes
-    least = [column.least() for column in columns]
+    least = [column.least(prose) for column in columns]
     if sum(least) - sum(sizes) > spare:
         return None
     while spare < 0:

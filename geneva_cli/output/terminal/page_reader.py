@@ -23,6 +23,7 @@ from geneva_cli.output.text import WIDTH
 
 FENCE = "```"
 INDENT = "  "  # before code
+PROSE = 20  # letters to which a column of prose is narrowed before a table becomes a list
 LINK = re.compile(r"\[([^]]+)\]\([^)]*\)")
 CODE = re.compile(r"`([^`]+)`|\*\*([^*]+)\*\*")
 
@@ -81,7 +82,7 @@ def _shown(block: list[str], window: Window) -> Iterator[str]:
 
 def _broken(line: str, width: int) -> list[str]:
     """A line of code, broken between words in a narrow window; a rule is shortened."""
-    if set(line) <= set("- "):
+    if not any(map(str.isalnum, line)):
         return [line[:width].rstrip()]
     first, *more = wrapped(line, width)
     rest = " ".join(more)
@@ -95,7 +96,7 @@ def _table(block: list[str], window: Window) -> Iterator[str]:
     columns = [
         ShownColumn(name, name, "", cells, True) for name, *cells in zip(names, *rows, strict=True)
     ]
-    sizes = widths(columns, window.columns)
+    sizes = widths(columns, window.columns, PROSE)
     if sizes is not None:
         yield from heads(columns, sizes, window.styled)
         for texts in rows:

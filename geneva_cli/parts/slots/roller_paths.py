@@ -34,6 +34,8 @@ def roller_paths(assembly: Assembly) -> RollerPaths:
         ends.append(float(reach.min() if assembly.sign > 0.0 else reach.max()))
         # adjacent slots while the wheel rests
         near += [np.hypot(*(points - rest(assembly, kind, end)).T).min() for end in (-1.0, 1.0)]
+        if kind.built is not None:  # their mouths may be nearer
+            near += [math.dist(_mouth(assembly, kind, e), rest(assembly, kind, e)) for e in (-1, 1)]
     turn = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False)
     leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
     for i in leaders.values():  # others follow their leaders
@@ -49,6 +51,8 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
     """
     if not engagement.slot.offset:
         nearest = min if assembly.sign > 0.0 else max
+        if engagement.built is not None:
+            return math.hypot(*_mouth(assembly, engagement, 1.0), r)
         reaches = (scalar(reach) for reach in (engagement.entry_reach, engagement.exit_reach))
         return math.hypot(assembly.L * nearest(reaches), r)
     return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
@@ -56,11 +60,27 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
 
 def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
     """Return the mouth's corner on the crank axis' side at entry (-1) or exit (1), mm."""
-    x, y = engagement.slot(engagement.end_deg(end), 0)
-    px, py = assembly.L * scalar(x.c[0]), assembly.L * scalar(y.c[0])
+    px, py = _mouth(assembly, engagement, end)
     cx, cy = rest(assembly, engagement, end)
     ratio = r / math.dist((px, py), (cx, cy))
     return px + ratio * (cx - px), py + ratio * (cy - py)
+
+
+def _mouth(assembly: Assembly, engagement: Engagement, end: float) -> Point:
+    """Return the roller's centre at entry (-1) or exit (1), in the wheel's frame, mm.
+
+    For a crank as built it is where a crank of the right R/L would have it: at the foot of the
+    perpendicular from the crank's axis to the slot's.
+    """
+    x, y = engagement.slot(engagement.end_deg(end), 0)
+    px, py = assembly.L * scalar(x.c[0]), assembly.L * scalar(y.c[0])
+    if engagement.built is None:
+        return px, py
+    x, y = engagement.slot(0.0, 0)
+    ux, uy = px - assembly.L * scalar(x.c[0]), py - assembly.L * scalar(y.c[0])
+    cx, cy = rest(assembly, engagement, end)
+    further = ((cx - px) * ux + (cy - py) * uy) / (ux * ux + uy * uy)
+    return px + further * ux, py + further * uy
 
 
 def least_mouth(L: float, recess: float, rim: float) -> float:

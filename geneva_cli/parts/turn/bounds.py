@@ -2,7 +2,7 @@
 
 A gap is at least that in the middle of an interval, less how far the parts move from there: a point
 at most its lever times its part's turn, a roller as its path's formulas on intervals say. Pairs
-that touch by design have more exact bounds. ``geneva help certificates`` derives them.
+that touch by design have more exact bounds. ``geneva help accuracy`` derives them.
 """
 
 from __future__ import annotations

@@ -22,7 +22,8 @@ def document(design: Design) -> Document:
     """
     table = design.report.table
     left = RemainingValues(dict(zip(table.names, next(table.rows()), strict=True)))
-    for name in ("spec", "title", "passes"):  # the document's title and its verdict show them
+    # the document's title, its verdict and its key figures show them
+    for name in ("spec", "title", "passes", "chosen"):
         left.one(name)
     left.take("inputs")  # all of them, and more, are in the spec
     state, text = headline(design.checks, design.warnings)

@@ -8,13 +8,14 @@ from typing import Any
 
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
+from geneva_cli.errors import open_warnings
 from geneva_cli.loads.indexer_formula import recommended_motor
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import no_load
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.table import Table
-from geneva_cli.verdict.headline import bare, below_summary, measured, warning
+from geneva_cli.verdict.headline import bare, below_summary, chosen_lines, measured, warning
 
 NO_BOUND = "no bound: see the warnings"
 
@@ -46,6 +47,7 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
         text = f"{measured(whole, 'kg m²')} on the input for a speed variation of {variation}"
         text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
         yield SummaryLine("flywheel", text)
+    yield from chosen_lines(design.chosen_by_load, design.spec.path)
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
@@ -164,13 +166,14 @@ def record_answer(
 ) -> Answer:
     """An answer of some lines and warnings, with the other values of a record below them."""
     summary = summary_of(design, lines, warnings)
-    return Answer((summary,), below_summary(record, without=("title",)), record)
+    return Answer((summary,), below_summary(record, without=("title", "chosen")), record)
 
 
 def summary_of(design: Design, lines: Iterable[SummaryLine], warnings: Sequence[str]) -> Summary:
     """Some lines and warnings about a design, whose headline counts the warnings."""
     head = f"{title_of(design)}{counted(warnings)}"
-    return Summary(head, (*lines, *map(warning, warnings)), WARNS if warnings else "")
+    state = WARNS if open_warnings(warnings) else ""
+    return Summary(head, (*lines, *map(warning, warnings)), state)
 
 
 def title_of(design: Design) -> str:
@@ -188,5 +191,5 @@ def counted(warnings: Sequence[str]) -> str:
     >>> counted(["a", "b"]), counted([])
     (': 2 warnings', '')
     """
-    many = len(warnings)
+    many = len(open_warnings(warnings))
     return f": {many} warning{'s' * (many != 1)}" if many else ""

@@ -15,11 +15,13 @@ from geneva_cli.verdict.headline import (
     bare,
     below_summary,
     both_ways_lines,
+    chosen_lines,
     failure_lines,
     headline,
     input_lines,
     measured,
     tightest,
+    unused_lines,
     warning_lines,
 )
 
@@ -32,8 +34,9 @@ def of_report(design: Design) -> Answer:
     first = (*failure_lines(checks), *input_lines(design.with_units))
     both = both_ways_lines(checks) if design.spec.drive.both_ways else ()
     lines = (*first, *key_figures(design), *both, *warning_lines(checks, warnings))
+    lines = (*lines, *unused_lines(design.unused_acceptances))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
-    shown = ("title", "passes", "checks_failed", "not_proved")
+    shown = ("title", "passes", "checks_failed", "not_proved", "chosen")
     return Answer((summary,), below_summary(record, without=shown), record)
 
 
@@ -57,6 +60,7 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
         yield from cycle_lines(design)
         yield from tightest(design.checks)
         yield motor_line(design)
+        yield from chosen_lines(design.chosen_by_load, design.spec.path)
     else:
         unit = design.mechanism.output.rate_unit
         for name, digit, power in (

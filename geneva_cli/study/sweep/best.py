@@ -14,9 +14,9 @@ from geneva_cli.numerics.jet import Array
 from geneva_cli.progress import Meter, tracked
 from geneva_cli.spec.schema import TEXT_MAX
 from geneva_cli.specfile.writer import quoted, spec_lines
-from geneva_cli.study.fields import Cell
+from geneva_cli.study.rows import Cell, Rows, rows_of
 from geneva_cli.study.sweep.constraints import Nearness, is_number
-from geneva_cli.study.sweep.request import Outcome, Rows, SweepRequest
+from geneva_cli.study.sweep.request import Outcome, SweepRequest
 from geneva_cli.study.sweep.values import Value
 
 Row: TypeAlias = Sequence[Cell]
@@ -41,14 +41,14 @@ def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
     sweep, search = request.sweep, _SweepSearch(request)
     # a random sample comes near the spec's own design, but does not contain it
     own = sweep.own_values if search.free else None
-    own_design = [] if own is None else [[sweep.row(own)]]
+    own_design = [] if own is None else [rows_of([sweep.row(own)])]
     places, nearness = _BestPlaces(search), Nearness(search.bounds)
     tried = feasible = 0
     for rows in outcome.counted(chain(row_blocks, own_design)):
         tried += len(rows)
         feasible += sum(map(search.keeps, rows))
         places.add(rows)
-        nearness.add(rows)
+        nearness.add(rows.numbers)
     found = search.closer(places.best()) if search.free else places.best()
     starts = [row for row in found if search.keeps(row)]
     if not starts:
@@ -73,6 +73,8 @@ def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
 
 
 def _notes(request: SweepRequest, values: Mapping[str, float], machine: Mechanism) -> Iterable[str]:
+    if anew := request.chosen_anew(machine):
+        yield f"# sizes chosen anew: {anew}"
     for c in request.constraints:
         yield f"# {c}: {values[c.name]:.9g}{c.standing(values[c.name])}"
     for name, value in zip(request.of_best.names, request.of_best.of(machine), strict=True):
@@ -162,7 +164,7 @@ class _SweepSearch:
                 for row, row_steps in zip(best, steps, strict=True)
                 for step in row_steps
             ]
-            drawn = self.sweep.rows_of(about)
+            drawn = [*self.sweep.rows_of(rows_of(about).columns)]
             clouds = [drawn[i * count : (i + 1) * count] for i in range(len(best))]
             best = [min((row, *c), key=self.merit) for row, c in zip(best, clouds, strict=True)]
             width *= 0.6
@@ -236,7 +238,7 @@ class _BestPlaces:
         self.search = search
         self.rows: dict[_Place, Row] = {}
 
-    def add(self, rows: Sequence[Row]) -> None:
+    def add(self, rows: Iterable[Row]) -> None:
         """Add rows; the first of equal rows stays."""
         for row in rows:
             place = self._place(row)

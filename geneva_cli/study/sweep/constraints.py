@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple, TypeGuard
 
+import numpy as np
+
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.numerics.arrays import N
+from geneva_cli.numerics.arrays import Array, Mask, N, parameter
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.verdict.quantities.quantity_names import WORDS, whole_name
 
@@ -30,8 +32,15 @@ class Constraint(NamedTuple):
 
     def kept(self, value: object) -> bool:
         """Return True for a number that keeps the bound, apart from rounding."""
-        must_be = "at least" if self.sign == ">=" else "at most"
-        return is_number(value) and keeps(float(value), must_be, self.bound)
+        return is_number(value) and keeps(float(value), self._must_be, self.bound)
+
+    def kept_by(self, values: Array) -> Mask:
+        """True for the values (n,) that keep the bound, False for NaN."""
+        return np.asarray(keeps(parameter(values), self._must_be, self.bound))
+
+    @property
+    def _must_be(self) -> str:
+        return "at least" if self.sign == ">=" else "at most"
 
     def margin(self, value: N) -> N:
         """The margin of values to the bound, relative to its size; negative outside."""
@@ -86,15 +95,18 @@ class Nearness:
         self.kept = [0] * len(bounds)
         self.nearest: list[float | None] = [None] * len(bounds)
 
-    def add(self, rows: Sequence[Sequence[object]]) -> None:
-        """Count the rows that keep each bound, and keep the nearest values."""
+    def add(self, numbers: Callable[[int], Array]) -> None:
+        """Count the rows that keep each bound, and keep the nearest values.
+
+        ``numbers`` returns the numbers (n,) of a column, NaN for cells without one.
+        """
         for k, (i, c) in enumerate(self.bounds):
-            values = [float(v) for row in rows if is_number(v := row[i])]
-            self.kept[k] += sum(c.kept(v) for v in values)
+            values = numbers(i)
+            self.kept[k] += int(c.kept_by(values).sum())
             before = self.nearest[k]
-            values += [] if before is None else [before]
-            if values:
-                self.nearest[k] = max(values) if c.sign == ">=" else min(values)
+            known = values[~np.isnan(values)].tolist() + ([] if before is None else [before])
+            if known:
+                self.nearest[k] = max(known) if c.sign == ">=" else min(known)
 
     def phrases(self) -> list[str]:
         """A phrase for each bound: how many designs keep it, or the nearest value.

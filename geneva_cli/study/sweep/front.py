@@ -2,34 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Mask
-from geneva_cli.study.sweep.constraints import is_number
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 BLOCK = 256  # rows that are compared at once with all that are kept before them
 
 
-def front(
-    rows: Sequence[Sequence[Any]], columns: Sequence[int], signs: Sequence[float]
-) -> list[int]:
-    """The numbers of the rows on the Pareto front.
+def front(costs: Array) -> Whole:
+    """The numbers of the rows of costs (n, d) on the Pareto front, ascending.
 
-    A row is on it if no other is as good in all objectives and better in one. Rows without one of
-    the numbers are left out. Equal rows stay together.
+    A row is on it if no other is as good in all objectives and better in one. Rows with a NaN are
+    left out. Equal rows stay together.
     """
-    known = [i for i, row in enumerate(rows) if all(is_number(row[c]) for c in columns)]
-    if not known:
-        return []
-    signed = list(zip(columns, signs, strict=True))
-    costs = np.array([[sign * rows[i][c] for c, sign in signed] for i in known])
-    return [known[i] for i in best(costs)]
+    known = np.flatnonzero(~np.isnan(costs).any(axis=1))
+    return known[best(costs[known])] if len(known) else known
 
 
-def best(costs: Array) -> list[int]:
+def best(costs: Array) -> Whole:
     """The numbers of the rows of costs (n, d) that no other row dominates, ascending."""
     kept: Mask
     rows, same = np.unique(costs, axis=0, return_inverse=True)
@@ -45,7 +35,7 @@ def best(costs: Array) -> list[int]:
             left = block[stays]
             stays[stays] = _pairs(left, left).sum(axis=1) <= 1
             kept[start : start + BLOCK] = stays
-    return np.flatnonzero(kept[same.ravel()]).tolist()
+    return np.flatnonzero(kept[same.ravel()])
 
 
 def _pairs(rows: Array, by: Array) -> Mask:

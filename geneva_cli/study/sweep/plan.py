@@ -6,11 +6,14 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.jet import Array
+from geneva_cli.study.rows import Column, Rows
 from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
 
-BLOCK = 4096  # designs of a batch; a power of two, which keeps a Sobol sequence balanced
+BLOCK = 16384  # designs of a batch; a power of two, which keeps a Sobol sequence balanced
 
 
 class SweepPlan(NamedTuple):
@@ -28,7 +31,7 @@ class SweepPlan(NamedTuple):
 
     def middle(self) -> tuple[Value, ...]:
         """The design with the middle value of each key."""
-        return tuple(_at(a, 0.5) for a in self.axes)
+        return _values([a.between(np.array([0.5])) for a in self.axes])[0]
 
     def sample(self, most: int) -> Iterator[tuple[Value, ...]]:
         """At most ``most`` designs spread over the sweep, the first one included."""
@@ -42,31 +45,26 @@ class SweepPlan(NamedTuple):
 
     def rows(self, start: int, stop: int) -> list[tuple[Value, ...]]:
         """The values of the keys of the designs ``start`` to ``stop - 1``."""
+        return _values(self.columns(start, stop))
+
+    def columns(self, start: int, stop: int) -> list[Column]:
+        """The values of each key in the designs ``start`` to ``stop - 1``."""
         if self.random:
-            points = _sobol(len(self.axes), self.seed, start, stop).tolist()
-            return [tuple(map(_at, self.axes, point)) for point in points]
-        out: list[tuple[Value, ...]] = []
-        sizes = [len(a.values) for a in self.axes]
-        for i in range(start, stop):
-            row: list[Value] = []
-            for a, size in zip(reversed(self.axes), reversed(sizes), strict=True):
-                i, at = divmod(i, size)
-                row.append(a.values[at])
-            out.append(tuple(reversed(row)))
-        return out
+            points = _sobol(len(self.axes), self.seed, start, stop).T
+            return [a.between(x) for a, x in zip(self.axes, points, strict=True)]
+        columns, numbers = list[Column](), np.arange(start, stop)
+        for a in reversed(self.axes):
+            numbers, at = np.divmod(numbers, len(a.values))
+            columns.append(a.column(at))
+        return columns[::-1]
 
 
-def _at(axis: VariedKey, x: float) -> Value:
-    if axis.span:
-        low, high = (float(v) for v in axis.values)
-        return low + (high - low) * x
-    return axis.values[min(int(x * len(axis.values)), len(axis.values) - 1)]
+def _values(columns: Sequence[Column]) -> list[tuple[Value, ...]]:
+    return [tuple(value for value in row if value is not None) for row in Rows(columns)]
 
 
 def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
     """Points of a scrambled Sobol sequence, which fill the cube more evenly than random ones."""
-    import numpy as np
-
     from geneva_cli.numerics.sobol import Sobol
 
     # Whole blocks are drawn: a shard must get the same points as the whole run.

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-import heapq
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple, TypeAlias
+from contextlib import suppress
+from typing import NamedTuple
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.parts.chosen import ByLoad, by_load
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import read
-from geneva_cli.study.fields import Cell, Pick
+from geneva_cli.study.fields import Pick
 from geneva_cli.study.fields import pick as pick_of
+from geneva_cli.study.rows import Cell, Rows, cells_of, joined
 from geneva_cli.study.sweep.constraints import (
     Constraint,
     Nearness,
@@ -28,8 +33,6 @@ from geneva_cli.study.sweep.plan import shard as share
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Table, rows_table
-
-Rows: TypeAlias = list[list[Cell]]
 
 
 class SweepRequest(NamedTuple):
@@ -59,7 +62,7 @@ class SweepRequest(NamedTuple):
         A word that names no file is listed too, which is harmless.
         """
         folder = os.path.dirname(self.files[0])
-        words = [v for a in self.sweep.plan.axes for v in a.values if isinstance(v, str)]
+        words = [word for a in self.sweep.plan.axes for word in a.words]
         return (*self.files, *(os.path.join(folder, word) for word in words))
 
     def blocks(self, done: int = 0) -> Iterator[Rows]:
@@ -70,23 +73,40 @@ class SweepRequest(NamedTuple):
         """The rows that keep all bounds and, of these, the Pareto front."""
         names = self.sweep.names
         bounds = [(names.index(c.name), c) for c in self.constraints]
-        kept = ([r for r in block if all(c.kept(r[i]) for i, c in bounds)] for block in row_blocks)
+        kept = (_keeping(rows, bounds) for rows in row_blocks) if bounds else row_blocks
         if not self.objectives:
-            yield from (block for block in kept if block)
+            yield from (rows for rows in kept if len(rows))
             return
         from geneva_cli.study.sweep.front import front
 
-        at = [names.index(o.name) for o in self.objectives]
-        signs = [o.sign for o in self.objectives]
-        rows, size = Rows(), 0  # the front so far, its size, and the rows after it
-        for block in kept:  # a row that the front dominates never returns
-            rows += block
-            if len(rows) >= 2 * size:  # not for a few rows more, if the front is long
-                rows = [rows[i] for i in front(rows, at, signs)]
-                size = len(rows)
-        rows = [rows[i] for i in front(rows, at, signs)]
-        if rows:
+        signed = [(names.index(o.name), o.sign) for o in self.objectives]
+
+        def foremost(blocks: Sequence[Rows]) -> Rows:
+            rows = joined(blocks)
+            costs = np.column_stack([sign * rows.numbers(at) for at, sign in signed])
+            return rows.taken(front(costs))
+
+        best, size, count = list[Rows](), 0, 0  # the front so far, its size; all rows since then
+        for rows in kept:  # a row that the front dominates never returns
+            best.append(rows)
+            count += len(rows)
+            if count >= 2 * size:  # not for a few rows more, if the front is long
+                best = [foremost(best)]
+                size = count = len(best[0])
+        rows = foremost(best)
+        if len(rows):
             yield rows
+
+    def chosen_anew(self, machine: Mechanism) -> str:
+        """The sizes that the load of a design chooses other than that of the spec, in words."""
+        with suppress(GenevaError):  # the spec may lack a varied key
+            return ByLoad(by_load(machine), by_load(build(self.sweep.text.spec()))).changes
+        return ""
+
+
+def _keeping(rows: Rows, bounds: Iterable[tuple[int, Constraint]]) -> Rows:
+    each = [c.kept_by(rows.numbers(i)) for i, c in bounds]
+    return rows.taken(np.logical_and.reduce(each))
 
 
 def request(
@@ -171,16 +191,16 @@ class Outcome:
 
     def counted(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """All rows, counted."""
-        for block in row_blocks:
-            failed = [str(row[-1]) for row in block if row[-1] is not None]
-            self.all += len(block)
-            self.failed += len(failed)
-            self._first = self._first or (failed[0] if failed else "")
-            self._nearness.add(block)
+        for rows in row_blocks:
+            errors = cells_of(rows.columns[-1])
+            self.all += len(rows)
+            self.failed += len(errors) - errors.count(None)
+            self._first = self._first or next((str(e) for e in errors if e is not None), "")
+            self._nearness.add(rows.numbers)
             for i in list(self._unknown):
-                if any(is_number(row[i]) for row in block):
+                if np.isfinite(rows.numbers(i)).any():
                     del self._unknown[i]
-            yield block
+            yield rows
 
     def refused(self) -> list[str]:
         """The number of designs that cannot be built, with the first reason or where to find it."""
@@ -196,9 +216,24 @@ class Outcome:
             unknown = [f"no design has a value of {name}" for name in self._unknown.values()]
             why = dict.fromkeys([*unknown, *self._nearness.phrases()])
             notes.append(f"none of {self.all:,} rows is left: {'; '.join(why)}")
-        return notes
+        return [*notes, *self._chosen()]
+
+    def _chosen(self) -> Iterator[str]:
+        """The note on sizes that the load of each row chooses, where quantities depend on them."""
+        sweep = self.request.sweep
+        if not any(group.table.startswith(OF_SIZES) for group in sweep.pick.groups):
+            return
+        with suppress(GenevaError):  # the spec may lack a varied key
+            if words := ByLoad(by_load(build(sweep.text.spec())), {}).words:
+                name = {"<stdin>": "-"}.get(sweep.text.name, sweep.text.name)
+                yield (
+                    f"note: each row has the sizes that its own load needs, the spec {words}; "
+                    f"`geneva size {name}` writes those, so that they stay"
+                )
 
 
+# Tables of quantities that depend on the sizes of the parts.
+OF_SIZES = ("parts", "strength", "life", "checks", "tolerance")
 ROWS = 5  # the first rows, and as many of the best; up to twice as many are all shown
 
 Numbered = tuple[Cell, ...]  # a row behind its number, counted from 1
@@ -220,24 +255,24 @@ class Digest:
         self.first: list[Numbered] = []
         self.best: list[tuple[float, Numbered]] = []  # the best first
 
-    def add(self, rows: Sequence[Sequence[Cell]]) -> None:
+    def add(self, rows: Rows) -> None:
         """Add rows, which are numbered in their order."""
-        numbered = [(self.count + i, *row) for i, row in enumerate(rows, 1)]
-        self.count += len(rows)
-        self.first += numbered[: 2 * ROWS - len(self.first)]
+        first = range(min(len(rows), 2 * ROWS - len(self.first)))
+        self.first += [(self.count + i + 1, *rows.row(i)) for i in first]
         self.goal = self.goal or self._goal(rows)
         if self.goal:
-            sign, at = self.goal.sign, 1 + self.names.index(self.goal.name)
-            costs = ((sign * x, row) for row in numbered if is_number(x := row[at]))
-            self.best = heapq.nsmallest(
-                ROWS, [*self.best, *costs], key=lambda costed: (costed[0], costed[1][0])
-            )
+            costs = self.goal.sign * rows.numbers(self.names.index(self.goal.name))
+            best = np.argsort(costs, kind="stable")[:ROWS].tolist()  # NaN comes last
+            new = ((costs[i], (self.count + i + 1, *rows.row(i))) for i in best)
+            costed = [*self.best, *((cost, row) for cost, row in new if not np.isnan(cost))]
+            self.best = sorted(costed, key=lambda one: one[0])[:ROWS]
+        self.count += len(rows)
 
-    def _goal(self, rows: Sequence[Sequence[Cell]]) -> Objective | None:
+    def _goal(self, rows: Rows) -> Objective | None:
         """The first quantity that is a number in some row, to be minimised."""
         for name in self.quantities:
-            at = self.names.index(name)
-            if any(is_number(row[at]) and not isinstance(row[at], bool) for row in rows):
+            cells = cells_of(rows.columns[self.names.index(name)])
+            if any(is_number(cell) and not isinstance(cell, bool) for cell in cells):
                 return Objective(1.0, name)
         return None
 

@@ -9,17 +9,21 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import NamedTuple
 
+import numpy as np
+
 from geneva_cli import __version__
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.kept import KEPT
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
-from geneva_cli.study.batches import Batch, batch_rows, cells_of, number_rows
-from geneva_cli.study.fields import Cell, Pick, pick
+from geneva_cli.study.batches import Batch, batch_rows, number_columns
+from geneva_cli.study.fields import Pick, pick
 from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.rows import Cell, Column, Rows, rows_of
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
 from geneva_cli.study.sweep.values import Value, VariedKey
@@ -55,38 +59,45 @@ class Sweep(NamedTuple):
         inputs = repr((__version__, self.text, self.plan, self.pick.names, self.shard))
         return hashlib.sha256(inputs.encode()).hexdigest()
 
-    def rows(self, start: int, stop: int) -> list[list[Cell]]:
+    def rows(self, start: int, stop: int) -> Rows:
         """The rows of the designs ``start`` to ``stop - 1``."""
-        return self.rows_of(self.plan.rows(start, stop))
+        return self.rows_of(self.plan.columns(start, stop))
 
-    def block(self, start: int) -> list[list[Cell]]:
+    def block(self, start: int) -> Rows:
         """The rows of one task of this shard, from a design on."""
         return self.rows(start, min(start + self.task_size, self.span[1]))
 
-    def rows_of(self, designs: Sequence[Sequence[Value]]) -> list[list[Cell]]:
-        """The rows of designs by the values of their keys."""
-        known = self.known(designs)
-        if self.is_batched:
-            return [
-                [*values, *known[i], None] if i in known else self.row(values)
-                for i, values in enumerate(designs)
-            ]
+    def rows_of(self, keys: Sequence[Column]) -> Rows:
+        """The rows of designs from the columns of their keys."""
+        designs, values = Rows(keys), self.known(keys)
+        if not self.is_batched:
+            return rows_of(self._rows_alone(designs, values))
+        rows = Rows([*keys, *values, [None] * len(designs)])
+        left = np.flatnonzero(np.isnan(values).any(axis=0))
+        alone = [self.row(designs.row(i)) for i in left.tolist()]
+        return rows.replaced(left, alone) if alone else rows
+
+    def _rows_alone(self, designs: Rows, values: Array) -> list[list[Cell]]:
+        """The rows of designs with quantities that are computed for each; ``values`` are known."""
+        keys = [*designs]
+        whole = np.flatnonzero(~np.isnan(values).any(axis=0)).tolist() if len(values) else []
+        cells = Rows([*values[:, whole]]) if whole else ()
+        known = dict(zip(whole, cells, strict=True))
         out: dict[int, list[Cell]] = {}
-        for i, cells in known.items():
-            if not self._keeps(by_name := dict(zip(self.pick.batched, cells, strict=True))):
-                out[i] = [*designs[i], *map(by_name.get, self.pick.names), None]
-        left = [i for i in range(len(designs)) if i not in out]
+        for i, own in known.items():
+            if not self._keeps(by_name := dict(zip(self.pick.batched, own, strict=True))):
+                out[i] = [*keys[i], *map(by_name.get, self.pick.names), None]
+        left = [i for i in range(len(keys)) if i not in out]
         for start in range(0, len(left), KEPT):
             part = left[start : start + KEPT]
             last: Parts | None = None
-            machines = self._machines([designs[i] for i in part])
-            for i, machine in zip(part, machines, strict=True):
+            for i, machine in zip(part, self._machines(designs.taken(np.array(part))), strict=True):
                 if isinstance(machine, GenevaError):
-                    out[i] = self._row(designs[i], machine)
+                    out[i] = self._row(keys[i], machine)
                     continue
                 last = last.following(machine) if last else parts_of(machine)
-                out[i] = self._row(designs[i], last, known.get(i))
-        return [out[i] for i in range(len(designs))]
+                out[i] = self._row(keys[i], last, known.get(i))
+        return [out[i] for i in range(len(keys))]
 
     def _keeps(self, cells: Mapping[str, Cell]) -> bool:
         return all(bound.kept(cells[bound.name]) for bound in self.bounds if bound.name in cells)
@@ -95,10 +106,10 @@ class Sweep(NamedTuple):
     def _makes_parts(self) -> bool:
         return any(group.makes_parts for group in self.pick.groups)
 
-    def _batches(self, designs: Sequence[Sequence[Value]]) -> Iterator[Batch]:
+    def _batches(self, designs: Rows) -> Iterator[Batch]:
         return batch_rows(designs, [a.key for a in self.plan.axes], self._spec)
 
-    def _machines(self, designs: Sequence[Sequence[Value]]) -> list[Mechanism | GenevaError]:
+    def _machines(self, designs: Rows) -> list[Mechanism | GenevaError]:
         """The machine of each row, or why it cannot be built."""
         machines: list[Mechanism | GenevaError] = []
         for values in designs:
@@ -108,16 +119,16 @@ class Sweep(NamedTuple):
                 machines.append(error)
         if self._makes_parts:  # the loads of their checks are those of batches
             for members, machine in self._batches(designs):
-                own = [one for i in members if isinstance(one := machines[i], Mechanism)]
+                each = [machines[i] for i in members.tolist()]
+                own = [one for one in each if isinstance(one, Mechanism)]
                 if len(own) == len(members) > 1:
                     share(machine, own)
         return machines
 
-    def known(self, designs: Sequence[Sequence[Value]]) -> Mapping[int, list[Cell]]:
-        """The quantities that a batch can compute, of the designs of batches by their numbers."""
-        names = self.pick.batched
-        rows = number_rows(self._batches(designs), names) if names else {}
-        return {i: cells for i, row in rows.items() if (cells := cells_of(row))}
+    def known(self, keys: Sequence[Column]) -> Array:
+        """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
+        names, designs = self.pick.batched, Rows(keys)
+        return number_columns(self._batches(designs) if names else (), names, len(designs))
 
     @property
     def task_size(self) -> int:
@@ -136,7 +147,7 @@ class Sweep(NamedTuple):
         """Return True if all quantities can be computed for a batch of designs."""
         return bool(self.pick.names) and not self.pick.rest.names
 
-    def _spec(self, values: Sequence[Value]) -> Spec:
+    def _spec(self, values: Sequence[Cell]) -> Spec:
         return with_values(self.text, self.plan.axes, values).spec()
 
     @property
@@ -151,7 +162,7 @@ class Sweep(NamedTuple):
                 return own
         return None
 
-    def row(self, values: Sequence[Value]) -> list[Cell]:
+    def row(self, values: Sequence[Cell]) -> list[Cell]:
         """The row of the design with these values of the keys, computed alone."""
         try:
             return self._row(values, parts_of(self.machine(values)))
@@ -160,7 +171,7 @@ class Sweep(NamedTuple):
 
     def _row(
         self,
-        values: Sequence[Value],
+        values: Sequence[Cell],
         parts: Parts | GenevaError,
         known: Sequence[Cell] | None = None,
     ) -> list[Cell]:
@@ -172,7 +183,7 @@ class Sweep(NamedTuple):
         except GenevaError as error:
             return [*values, *[None] * len(self.pick.names), str(error)]
 
-    def machine(self, values: Sequence[Value]) -> Mechanism:
+    def machine(self, values: Sequence[Cell]) -> Mechanism:
         """The machine with these values. Raises GenevaError if it cannot be built."""
         text = with_values(self.text, self.plan.axes, values)
         spec = text.spec()
@@ -206,7 +217,7 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     raise GenevaError(f"{count} can be built: {reasons[0]}")
 
 
-def with_values(text: Text, axes: Sequence[VariedKey], values: Sequence[Value]) -> Text:
+def with_values(text: Text, axes: Sequence[VariedKey], values: Sequence[Cell]) -> Text:
     """The spec with the values of the varied keys set over its own."""
     changes = []
     for (key, *_), value in zip(axes, values, strict=True):
@@ -216,7 +227,7 @@ def with_values(text: Text, axes: Sequence[VariedKey], values: Sequence[Value]) 
     return text._replace(set_keys=(*text.set_keys, *changes))
 
 
-def blocks(run: Sweep, done: int = 0, workers: int | None = None) -> Iterator[list[list[Cell]]]:
+def blocks(run: Sweep, done: int = 0, workers: int | None = None) -> Iterator[Rows]:
     """The rows of a sweep's shard, in blocks and in order; the first ``done`` rows are skipped."""
     start, stop = run.span
     starts = range(start + done, stop, run.task_size)

@@ -9,11 +9,15 @@ from contextlib import suppress
 from decimal import Decimal, InvalidOperation
 from typing import NamedTuple, TypeAlias
 
+import numpy as np
+
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.spec.rules import RangeText, range_text
 from geneva_cli.spec.units import in_unit_of, unit_key
 from geneva_cli.specfile.keys import is_whole
 from geneva_cli.specfile.settings import Setting, read_value, whole_key
+from geneva_cli.study.rows import Column, column_of
 
 Value: TypeAlias = float | int | str
 POINTS_MAX = 100_000_000  # rows of a sweep: some hours and some gigabytes
@@ -32,6 +36,26 @@ class VariedKey(NamedTuple):
             return value in self.values
         low, high = map(float, self.values)
         return isinstance(value, float | int) and low <= value <= high
+
+    @property
+    def words(self) -> list[str]:
+        """The values that are words."""
+        values = self.values if isinstance(self.values, tuple) else ()  # others are ranges
+        return [value for value in values if isinstance(value, str)]
+
+    def column(self, numbers: Whole) -> Column:
+        """The values with these numbers, (n,)."""
+        if isinstance(self.values, Steps):
+            return self.values.column(numbers)
+        return column_of([self.values[i] for i in numbers.tolist()])
+
+    def between(self, fractions: Array) -> Column:
+        """The values at fractions (n,) of the span, or of the list, from 0 to below 1."""
+        if self.span:
+            low, high = map(float, self.values)
+            return low + (high - low) * fractions
+        last = len(self.values) - 1
+        return self.column(np.minimum((fractions * len(self.values)).astype(np.intp), last))
 
 
 def axis(text: str, random: bool = False) -> VariedKey:
@@ -177,6 +201,17 @@ class Steps(Sequence[float]):
         if not 0 <= at < self.length:
             raise IndexError(at)
         return float(self.low + self.step * at)
+
+    def column(self, numbers: Whole) -> Array:
+        """The values with these numbers, (n,)."""
+        places = -min(0, *(int(x.as_tuple().exponent) for x in (self.low, self.step)))
+        if places <= 22:  # a power of ten that a float holds exactly
+            low, step = (int(x.scaleb(places)) for x in (self.low, self.step))
+            if max(abs(low), abs(low + step * (self.length - 1))) < 2**53:
+                # of exact numbers, so that the quotient is rounded once, as the decimal is
+                exact: Array = (low + step * numbers) / 10.0**places
+                return exact
+        return np.array([self[i] for i in numbers.tolist()])
 
     def __repr__(self) -> str:
         return f"Steps({self.low}, {self.step}, {self.length})"

@@ -6,6 +6,7 @@ If one motion angle is required, a family's free number has a closed form. If a 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import pairwise
@@ -17,8 +18,9 @@ from geneva_cli.motion.records import families_of_kinds
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Mask
 from geneva_cli.progress import tracked
-from geneva_cli.study.batches import cells_of, numbers
+from geneva_cli.study.batches import numbers
 from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.rows import Cell
 from geneva_cli.study.synth.families.curved_slots import with_laws
 from geneva_cli.study.synth.families.family import Family, pieces
 from geneva_cli.study.synth.families.straight_slots import straight
@@ -117,10 +119,7 @@ def with_batch_values(names: Sequence[str], rows: Sequence[MachineRow]) -> list[
     if not (names and in_batch(names)):
         return list(rows)
     values = numbers([row.spec for row in rows], names)
-    return [
-        row._replace(extra=tuple(cells_of(one or ())))
-        for row, one in zip(rows, values, strict=True)
-    ]
+    return [row._replace(extra=_cells(one or ())) for row, one in zip(rows, values, strict=True)]
 
 
 def replacement_rows(
@@ -182,3 +181,10 @@ def buildable_rows(
             better = samples.take(samples.cost < np.repeat(refined.cost, len(step)))
             good = accepted(better, accept).joined(good).best(1)
     return [best_rows.get(i) for i in range(len(families))]
+
+
+def _cells(values: Sequence[float]) -> tuple[Cell, ...]:
+    """The cells of a row, None for undefined values; no cells if one must be computed alone."""
+    if any(map(math.isnan, values)):
+        return ()
+    return tuple(None if math.isinf(value) else value for value in values)

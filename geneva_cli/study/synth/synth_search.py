@@ -14,8 +14,9 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.progress import tracked
 from geneva_cli.spec.load_limits import LIMITED
-from geneva_cli.study.fields import Cell, Pick
+from geneva_cli.study.fields import Pick
 from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.rows import Cell, rows_of
 from geneva_cli.study.sweep.constraints import Constraint, Nearness, is_number
 from geneva_cli.study.synth.families.family import natural_deg
 from geneva_cli.study.synth.families.straight_slots import MOST
@@ -222,7 +223,8 @@ def _bounded(target: Target, rows: Sequence[MachineRow]) -> list[MachineRow]:
     values = [row.extra or next(rest) for row in rows]
     known = [(row, cells) for row, cells in zip(rows, values, strict=True) if cells is not None]
     nearness = Nearness([(names.index(b.name), b) for b in target.bounds])
-    nearness.add([cells for _, cells in known])
+    if known:
+        nearness.add(rows_of([cells for _, cells in known]).numbers)
     kept = [
         row._replace(extra=cells)
         for row, cells in known

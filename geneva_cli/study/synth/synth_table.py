@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.progress import tracked
+from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.built import Built, built, passes
 from geneva_cli.study.synth.fast_parts import MAYBE, YES
 from geneva_cli.study.synth.group_search import buildable_rows
@@ -17,6 +21,12 @@ from geneva_cli.study.synth.synth_search import TURNED, Ranking, search
 from geneva_cli.study.target import Target
 from geneva_cli.table import Table, rows_table
 
+# keys of [limits] and what they bound
+_LIMITED = {
+    **LIMITED,
+    "pressure_angle_max_deg": "sizes.pressure_angle_max_deg",
+    "product_acceleration_max_m_s2": "product.acceleration_m_s2.max",
+}
 NAMES = ("no", *Candidate._fields)
 
 
@@ -140,7 +150,27 @@ def chosen(
         row = _with_result(row, built(row.spec, _fixed(ranking.target)))
     if row.is_impossible and (buildable or (row.is_replacement and number <= count)):
         row = _other(ranking, row) or row
+    row = row._replace(spec=with_limits(ranking.requested, row.spec))
     return row, commented(ranking.target, number, row)
+
+
+def with_limits(target: Target, spec: Spec) -> Spec:
+    """The spec with each requirement that a key of ``[limits]`` can hold, so that checks hold it.
+
+    Of a requirement and a limit of the frame the stricter one stays.
+    """
+    bounds = list(target.limits)
+    for name, span in target.spans.items():
+        timing = f"timing.{'cycle_s' if name == 'cycle' else name}"
+        bounds += [Constraint(timing, ">=", span.low), Constraint(timing, "<=", span.high)]
+    own, limits = spec.limits.as_dict(), dict[str, float]()
+    for key, name in _LIMITED.items():
+        sign, stricter = (">=", max) if "_min" in key else ("<=", min)
+        asked = [bound.bound for bound in bounds if (bound.name, bound.sign) == (name, sign)]
+        asked = [bound for bound in (*asked, own[key]) if bound and 0.0 < bound < math.inf]
+        if asked:
+            limits[key] = stricter(asked)
+    return spec.replace(limits=spec.limits.replace(**limits))
 
 
 def commented(target: Target, number: int, machine: MachineRow) -> str:

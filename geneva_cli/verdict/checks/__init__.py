@@ -14,6 +14,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.verdict.checks.all_checks import (
     LIMITS,
     MOTION,
+    PLAYS,
     PROOFS,
     TURNING,
     applicable,
@@ -51,7 +52,7 @@ def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
 
     ``to_mm`` is the tolerance of the proof, by default ``certificate.tolerance_mm``.
     """
-    if not parts.mechanism.spec.is_turned:
+    if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return []
     try:
         return list(applicable(PROOFS, parts, to_mm))
@@ -84,6 +85,7 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
         none = [Check("parts", None, "proved", None, None, spec.no_parts)]
     if not spec.is_turned:
         yield from none
+        yield from _unknown_plays(mechanism)
         return
     from geneva_cli.parts.parts import parts_of
 
@@ -95,6 +97,9 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
         yield refused("parts", error)
         return
     yield from rows
+    if mechanism.no_turn:
+        yield Check("full_turn", None, "proved", None, None, mechanism.no_turn)
+        return
     if not turned:
         return
     from geneva_cli.parts.turn.pairs import WorkLimit
@@ -105,3 +110,12 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
         yield refused("full_turn", error)
         return
     yield from applicable(TURNING, machine, turn)
+
+
+def _unknown_plays(mechanism: Mechanism) -> Iterator[Check]:
+    """The limited plays of a machine whose parts are not turned, without values."""
+    limits = mechanism.spec.limits.as_dict()
+    for name in PLAYS:
+        if limits[name] is not None:
+            why = "not computed, because the parts of this machine are not turned"
+            yield Check(name, None, "at most", limits[name], None, why)

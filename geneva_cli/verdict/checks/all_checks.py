@@ -56,6 +56,8 @@ LIMITS: Checks = {
     **_of(
         "motion_checks",
         limited_peak="velocity_max acceleration_max acceleration_entry_max jerk_max",
+        entry_velocity="entry_velocity_max",
+        limited_time="dwell_min_s motion_max_s cycle_max_s",
     ),
     **_of("load_checks", limited_load="pin_force_max_N input_torque_max_Nm"),
     **_of("motion_checks", limited_pressure="pressure_angle_deg"),
@@ -141,10 +143,17 @@ JAMS = _of(
     hand_over_pressure="hand_over_pressure_deg",
     hand_over_offset="hand_over_offset_mm",
 )
+# Plays that the spec limits; a machine whose parts cannot be turned has no value of them.
+PLAYS = _of(
+    "play_checks",
+    limited_play="index_play_max_deg dwell_play_max_deg",
+    dwell_position="dwell_position_max_deg",
+)
 TURNING: Checks = {
     **_DWELL,
     **JAMS,
     **_of("play_checks", motion="motion_play_deg motion_play_mm"),
+    **PLAYS,
     **TOLERANCES,
 }
 # Of flat parts at every angle of the turn, made for a design's own answer.

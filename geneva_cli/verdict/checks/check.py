@@ -21,8 +21,9 @@ class Check(NamedTuple):
     missing advice on a failing check; of a check that passes it says what is proved. ``at_deg`` is
     the input angle of the value, None if it is not a value at one angle. ``nearest`` is one change
     of the spec with which all checks pass, or one for each failing check: "a = 1 and b = 2".
-    ``direction`` is that of the worse value, "forwards" or "backwards", of a machine that turns
-    both ways; empty if both are equal.
+    ``anew`` are the sizes that the load chooses anew with that change. ``direction`` is that of the
+    worse value, "forwards" or "backwards", of a machine that turns both ways; empty if both are
+    equal.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Check(NamedTuple):
     at_deg: float | None = None
     nearest: str = ""
     direction: str = ""
+    anew: str = ""
     # makes ``why`` of a failing check, which an adviser's trials do not need
     reason: Callable[[], str] | None = None
 
@@ -41,6 +43,12 @@ class Check(NamedTuple):
     def told(self) -> Check:
         """This check, with its reason in words."""
         return self._replace(why=self.reason(), reason=None) if self.reason else self
+
+    @property
+    def remark(self) -> str:
+        """The reason, and the sizes that ``nearest`` changes."""
+        anew = f"sizes chosen anew with {self.nearest}: {self.anew}" if self.anew else ""
+        return "; ".join(text for text in (self.why, anew) if text)
 
     @property
     def where(self) -> str:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.peaks import worst, worst_of
+from geneva_cli.motion.peaks import greatest_jumps, worst, worst_of
+from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.verdict.checks.check import Check, compared
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT, turns_back
 
@@ -35,6 +37,45 @@ def limited_peak(name: str, mechanism: Mechanism) -> Check | None:
     else:
         value = worst_of(mechanism, name.removesuffix("_max")).max
     return compared(name, value, "at most", limit)
+
+
+# Of the input's speed: real parts of a machine as derived do not enter more gently.
+ENTRY_VELOCITY = 0.01
+
+
+def entry_velocity(name: str, mechanism: Mechanism) -> Check | None:
+    """The greatest jump of the wheel's velocity at entry and exit, over the input's speed.
+
+    A crank as built has a limit without one in the spec. It fails where the roller never crosses
+    the axis of the slot at rest.
+    """
+    limit, own = mechanism.spec.limits.entry_velocity_max, mechanism.engagements
+    if limit is None and not own[0].built:
+        return None
+    limit = value_or(limit, ENTRY_VELOCITY)
+    jumps = greatest_jumps(own)
+    sizes = [abs(jump) for jump in jumps if jump is not None]
+    if len(sizes) < len(jumps):
+        why = (
+            "the roller's centre does not cross the axis of the slot at rest inside the rim: it "
+            "meets the wheel beside its slot, or misses it"
+        )
+        return Check(name, None, "at most", limit, False, why)
+    end = own[0].entry_deg if sizes[0] >= sizes[1] else own[0].exit_deg
+    at_deg = mechanism.shown_deg(own[0].mid_deg + end) if own[0].built else None
+    return compared(name, max(sizes), "at most", limit, at_deg)
+
+
+def limited_time(name: str, mechanism: Mechanism) -> Check | None:
+    """The shortest dwell, or the longest motion or cycle, seconds, that ``[limits]`` bounds."""
+    limit = mechanism.spec.limits.as_dict()[name]
+    if limit is None:
+        return None
+    times = timings(mechanism)
+    if name == "dwell_min_s":
+        return compared(name, min(one.dwell_s for one in times), "at least", limit)
+    longest = max(one.motion_s if name == "motion_max_s" else one.cycle_s for one in times)
+    return compared(name, longest, "at most", limit)
 
 
 def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.bounds import UNKNOWN
 from geneva_cli.parts.turn.full_turn import FullTurn, Most
@@ -83,6 +84,36 @@ def hand_over_offset(name: str, parts: Parts, turn: FullTurn) -> Check:
 def motion(name: str, parts: Parts, turn: FullTurn) -> Check | None:
     """The play of the roller in its slot."""
     return _play(name, turn.motion, motion_play_max(parts), parts)
+
+
+def limited_play(name: str, parts: Parts, turn: FullTurn) -> Check | None:
+    """The play in the motion or in the dwell that a key of ``[limits]`` bounds."""
+    limit = parts.assembly.full.spec.limits.as_dict()[name]
+    if limit is None:
+        return None
+    if name == "index_play_max_deg":
+        return _at_most(name, turn.motion, limit)
+    return _at_most(name, turn.dwell, limit) if parts.locked else _not_locked(name, limit)
+
+
+def dwell_position(name: str, parts: Parts, turn: FullTurn) -> Check | None:
+    """The greatest error of the resting wheel within the tolerances, where it is bounded."""
+    machine = parts.assembly.full
+    limit = machine.spec.limits.dwell_position_max_deg
+    if limit is None:
+        return None
+    from geneva_cli.verdict.tolerance.study import worst_dwell_deg
+
+    try:
+        worst = worst_dwell_deg(machine, parts)
+    except GenevaError as error:
+        return Check(name, None, "at most", limit, None, str(error))
+    return _not_locked(name, limit) if worst is None else compared(name, worst, "at most", limit)
+
+
+def _not_locked(name: str, limit: float) -> Check:
+    why = "not computed, because no drawn locking disc holds the wheel at rest"
+    return Check(name, None, "at most", limit, None, why)
 
 
 def motion_play_max(parts: Parts) -> float:

@@ -186,9 +186,10 @@ _REPORT = (
     ),
     _alone("timing", "shortest_motion_s", "shortest_motion"),
     _batch("timing", "k_r", "motion_quantities:timing"),
+    _batch("timing", "index_gained_deg", "motion_quantities:index_gained"),
     _batch(
         "",
-        "velocity.{max at_deg max_rad_s max_m_s} "
+        "velocity.{max at_deg max_rad_s max_m_s entry exit} "
         "acceleration.{max at_deg max_rad_s2 max_m_s2 entry exit entry_rad_s2 entry_m_s2} "
         "jerk.{max at_deg max_rad_s3 max_m_s3 entry exit} "
         "power.{max at_deg max_rad2_s3 max_m2_s3}",

@@ -44,7 +44,10 @@ def _shared(values: Sequence[Number | None]) -> Array | None:
 
 
 def peaks(of: Designs) -> Columns:
-    """The greatest velocity, acceleration, jerk and power, and their sizes at the ends."""
+    """The greatest velocity, acceleration, jerk and power, their sizes at the ends, and the jumps.
+
+    The jumps are those of the velocity, infinite for a roller that misses its slot's axis.
+    """
     requested = [name for name in QUANTITIES if of.requested(name)]
     w, output = np.ravel(omega(of.spec.drive.n_rpm)), of.machine.output
     flat = np.ravel(output.rate_per_radian)  # one for each design
@@ -53,6 +56,8 @@ def peaks(of: Designs) -> Columns:
     derivatives = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
     for name, peak in worst_peaks(of.machine, requested).items():
         ends = _ends(of.machine, derivatives[name]) if name in derivatives else ()
+        if name == "velocity":
+            ends = _jumps(of.machine)
         out |= peak_values(name, output, w, tuple(peak), ends)
     return out
 
@@ -93,6 +98,24 @@ def _ends(machine: Mechanism, order: int) -> list[Array]:
         sizes = [np.ravel(abs(m(getattr(m, name), order).arrays()[order])) for m in motions]
         ends.append(np.max(np.broadcast_arrays(*sizes), axis=0))
     return ends
+
+
+def _jumps(machine: Mechanism) -> list[Array]:
+    """The greatest jumps of the velocity at an entry, and at an exit, with their signs."""
+    out = []
+    for each in zip(*(engagement.jumps for engagement in machine.engagements), strict=True):
+        rows = np.broadcast_arrays(*map(np.ravel, each))
+        jumps = np.stack([np.where(np.isnan(row), np.inf, row) for row in rows])
+        out.append(np.take_along_axis(jumps, abs(jumps).argmax(axis=0)[None], axis=0)[0])
+    return out
+
+
+def index_gained(of: Designs) -> Columns:
+    """The greatest wheel angle beyond its rest at which a roller leaves the rim, degrees."""
+    each = np.broadcast_arrays(*(np.ravel(one.gained) for one in of.machine.engagements))
+    gained = np.stack(each)
+    greatest = np.take_along_axis(gained, abs(gained).argmax(axis=0)[None], axis=0)[0]
+    return {"index_gained_deg": np.degrees(greatest)}
 
 
 def product_motion_of(of: Designs) -> ProductMotion | None:

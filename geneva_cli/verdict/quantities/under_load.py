@@ -99,10 +99,11 @@ class UnderLoad:
     def _unloaded(self) -> list[Unloaded | None]:
         """The parts of the designs without their loads; None for one without flat parts."""
         of, count = self.machine.spec, self.machine.designs
+        drive = of.drive.replace(n_rpm=1.0)
         bare = Spec(
-            of.wheel, of.drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
+            of.wheel, drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
         )
-        if designs_in(bare) == 1:  # designs that differ in loads only have the same
+        if designs_in(bare) == 1:  # designs that differ in speed and loads only have the same
             return [_unloaded(build(taken(bare, 0)))] * count
         return [_unloaded(one) for one in self.designs.each]
 

@@ -27,7 +27,7 @@ from geneva_cli.motion.records import thing
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.spec.tables import Tolerance
+from geneva_cli.spec.tables import Limits, Tolerance
 from geneva_cli.verdict.checks.all_checks import turn_checks
 
 SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
@@ -158,9 +158,10 @@ def required_clearances(
 
     ``sizes`` are the tolerances that apply, in millimetres and radians.
     """
-    spec, why = mechanism.spec, "there are no drawn parts to turn"
+    spec, why = mechanism.spec, mechanism.no_turn or "there are no drawn parts to turn"
+    drawn = spec.is_turned and not mechanism.no_turn
     try:
-        least = least_clearances(mechanism, parts.turned, sizes) if spec.is_turned else None
+        least = least_clearances(mechanism, parts.turned, sizes) if drawn else None
     except GenevaError as error:
         least, why = None, str(error)
     if least is None:
@@ -214,7 +215,7 @@ def _slot_offset_mm(
 def _failing_check(spec: Spec) -> tuple[bool | None, str] | None:
     """The check of a whole turn that fails; None if all pass."""
     try:
-        parts = parts_of(build(spec.replace(tolerance=Tolerance())))
+        parts = parts_of(build(spec.replace(tolerance=Tolerance(), limits=Limits())))
         rows = list(turn_checks(parts, parts.turned.turn))
     except GenevaError as error:
         return None, str(error)

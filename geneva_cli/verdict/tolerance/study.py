@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -71,13 +70,11 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
     _refuse_large(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
-    every_lock: Sequence[CutLock] = []
-    if mechanism.spec.is_turned:
-        try:
-            every_lock = cut_parts(parts.turned).locks()
-        except GenevaError as error:
-            warnings.append(Notice("not-known", f"no parts: {error}"))
-    lock = max(every_lock, key=lambda one: _greatest(one(ends).angle.arrays()[0]), default=None)
+    lock = None
+    try:
+        lock = _loosest_lock(mechanism, parts, ends)
+    except GenevaError as error:
+        warnings.append(Notice("not-known", f"no parts: {error}"))
     motions = motion_errors(mechanism)
     errors = [(one, *_single_design(one.greatest(ends))) for one in motions]
     farthest = max(errors, key=lambda error: error[1], default=None)
@@ -89,7 +86,7 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
     drawn = random_machines(machines, samples, lock, likely, jumps)
     dwell = motion = at_deg = None
     if lock:
-        worst = _greatest(lock(ends).angle.arrays()[0]) + use["slot_angle_deg"]
+        worst = _worst(lock, ends, use)
         dwell = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
     else:
         warnings.append(
@@ -129,6 +126,30 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
         what = "not every machine turns" if clearances.turns is False else "no turn was computed"
         warnings.append(Notice("not-every-machine-turns", f"{what}: {clearances.why}"))
     return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(warnings))
+
+
+def worst_dwell_deg(mechanism: Mechanism, parts: Parts) -> float | None:
+    """The greatest error of the resting wheel's angle within the tolerances, degrees.
+
+    None without a drawn locking disc. Raises GenevaError for tolerances that are too wide, and for
+    parts that cannot be built.
+    """
+    use = used(mechanism)
+    _refuse_large(mechanism, use)
+    ends = corners(list(use.values()))
+    lock = _loosest_lock(mechanism, parts, ends)
+    return lock and math.degrees(_worst(lock, ends, use))
+
+
+def _loosest_lock(mechanism: Mechanism, parts: Parts, ends: Deviations) -> CutLock | None:
+    """The lock that lets the wheel turn farthest; None if no drawn lock holds it."""
+    locks = cut_parts(parts.turned).locks() if mechanism.spec.is_turned else []
+    return max(locks, key=lambda one: _greatest(one(ends).angle.arrays()[0]), default=None)
+
+
+def _worst(lock: CutLock, ends: Deviations, use: dict[str, float]) -> float:
+    """The greatest error of the resting wheel's angle, radians."""
+    return _greatest(lock(ends).angle.arrays()[0]) + use["slot_angle_deg"]
 
 
 def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
@@ -204,7 +225,7 @@ def tolerance_table(
         "clearances.lock_needed_mm": results.clearances.lock_mm,
         "clearances.turns": results.clearances.turns,
         "clearances.jam_share": results.jams,
-        "warnings": (*results.warnings, *_unscaled(results, radius_mm)),
+        "warnings": (*spec.accept.applied(results.warnings), *_unscaled(results, radius_mm)),
     }
     return record_table(values, spec.title)
 

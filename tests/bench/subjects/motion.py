@@ -22,7 +22,8 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Array
 
 Z = 3  # the wheel that is hardest for a formula
-ORDERS = (1, 2)  # velocity and acceleration, the derivatives of every machine
+NAMES = ("position", "velocity", "acceleration", "jerk")
+ORDERS = (1, 2)  # the derivatives of every machine
 
 
 def stable(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
@@ -63,11 +64,10 @@ def blocks(l: float, x: Array, orders: Sequence[int], size: int = 8192) -> list[
 
 def subject(quick: bool) -> Subject:
     """Every formula for velocity and acceleration, and for position to jerk."""
-    wanted = {"velocity and acceleration": (1, 2), "position to jerk": (0, 1, 2, 3)}
     tasks = [
-        _task(count, what, orders)
+        _task(count, orders)
         for count in ((1_000,) if quick else (1_000, 1_000_000))
-        for what, orders in wanted.items()
+        for orders in (ORDERS, (0, 1, 2, 3))
     ]
     return Subject(
         f"Motion of a wheel of {Z} slots, and of every machine, at N angles",
@@ -76,7 +76,7 @@ def subject(quick: bool) -> Subject:
     )
 
 
-def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
+def _task(count: int, orders: tuple[int, ...]) -> Task:
     mechanism = build(Spec(External(Z)))
     engagement, l = mechanism.engagements[0], mechanism.ratio
     half = np.linspace(engagement.entry_deg, 0.0, count // 2 + 1)[: count // 2]
@@ -103,7 +103,13 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
             "ours, mirrored", count, lambda: engagement.motion.derivatives(mirrored, orders), True
         ),
     ]
-    return angle_task(what, skew, lambda results: _error(results, mirrored, orders), methods)
+    return angle_task(
+        _named(orders), skew, lambda results: _error(results, mirrored, orders), methods
+    )
+
+
+def _named(orders: Sequence[int]) -> str:
+    return ", ".join(NAMES[k] for k in orders)
 
 
 def _error(results: Any, input_deg: Array, orders: Sequence[int]) -> float:
@@ -149,7 +155,7 @@ def _kind_task(kind: VariedMachine, count: int) -> Task:
         Method("jets, whole arrays", count, lambda: _jet_rates(motion, angles)),
         Method("ours", count, lambda: motion.derivatives(angles, ORDERS), True),
     ]
-    what = f"{kind.name}: velocity and acceleration"
+    what = f"{kind.name}: {_named(ORDERS)}"
     return angle_task(what, angles, lambda results: _kind_error(motion, angles, results), methods)
 
 

@@ -124,15 +124,15 @@ def machine(
     ``drive`` makes the drive for the input speed of m motions of ``motion_deg`` in a turn.
     """
     own, made = target.frame or BARE, drive(target.n_rpm(m, motion_deg))
-    size = own.size.replace(center_distance_mm=center_distance_mm(target))
+    size = own.size
+    L = target.center_distance_mm(size.center_distance_mm)
+    if L is None and not made.ONE_ARM:  # it has no crank of one radius: the frame's distance
+        L = size.derived_distance_mm
+    if size.center_distance_mm != L:
+        size = size.replace(center_distance_mm=L, crank_radius_mm=None)
     return own.replace(
         wheel=wheel, drive=made, motion=motion, size=size, title="", path="", files=()
     )
-
-
-def center_distance_mm(target: Target) -> float | None:
-    """The centre distance of the requirement or its frame; None for the default."""
-    return target.center_distance_mm((target.frame or BARE).size.center_distance_mm)
 
 
 def is_compatible(spec: Spec) -> bool:

@@ -36,7 +36,6 @@ from geneva_cli.study.synth.families.family import (
     Family,
     allowed_motions,
     allows,
-    center_distance_mm,
     closed_span,
     is_compatible,
     line,
@@ -119,10 +118,12 @@ class _InFront(NamedTuple):
     distance: str = ""  # the key of its own centre distance: as far apart as wheel and crank
 
     def spec(self, target: Target, wheel: Gearing) -> Spec:
-        drive, distance = self.drive, center_distance_mm(target)
-        if self.distance and distance:
-            drive = drive.replace(**{self.distance: distance})
-        return machine(target, wheel, lambda n: drive.replace(n_rpm=n), 1, natural_deg(wheel))
+        def drive(n_rpm: float) -> Drive:
+            return self.drive.replace(n_rpm=n_rpm)
+
+        spec = machine(target, wheel, drive, 1, natural_deg(wheel))
+        apart = spec.given_distance_mm
+        return spec.with_(f"drive.{self.distance}", apart) if self.distance else spec
 
     def size(self, parameter: Array) -> Array:
         """The value of the key: the size of an eccentricity, whose sign is the phase."""
@@ -176,7 +177,7 @@ def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
     tenth = 0.1
     for m in _natural_rollers(target, natural_deg(wheel)):
         spec = plain(target, wheel, m)
-        keys = partial(_offset, spec.given_distance_mm)
+        keys = partial(_offset, spec)
         yield line(spec, keys, AllowedSpan(tenth, tenth))
         if target.limits or target.sort:
             widest = MOST * wheel.step.sin_cos[1] ** 2
@@ -184,8 +185,12 @@ def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
             yield line(spec, keys, span, known=(0.0,), plain=(tenth,))
 
 
-def _offset(distance_mm: float, at: Array) -> dict[str, Array]:
-    return {"wheel.offset_mm": distance_mm * at[:, 0]}
+def _offset(spec: Spec, at: Array) -> dict[str, Array]:
+    """The key of offsets over L; with a given crank radius, L = R / (sin b cos d) grows with it."""
+    L, e = spec.given_distance_mm, at[:, 0]
+    if spec.size.derived_distance_mm is None:
+        return {"wheel.offset_mm": L * e}
+    return {"wheel.offset_mm": L * e / np.sqrt(1.0 - (e / spec.wheel.step.sin_cos[1]) ** 2)}
 
 
 def planets(target: Target, wheel: Gearing) -> Iterator[Family]:

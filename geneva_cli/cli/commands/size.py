@@ -1,0 +1,51 @@
+"""``geneva size``."""
+
+import os
+import sys
+from typing import Annotated
+
+from geneva_cli.cli.options import Format, Settings, SpecPath, output_option
+from geneva_cli.errors import clean
+
+EXAMPLES = (
+    "geneva size spec.toml",
+    "geneva size spec.toml -o sized.toml",
+    "geneva size spec.toml --set drive.n_rpm=90 -o fast.toml",
+)
+
+
+def run(
+    spec: SpecPath,
+    settings: Settings = None,
+    output: Annotated[str, output_option("FILE", "Write the spec with all its sizes.")] = "",
+    format: Format = "",
+) -> None:
+    """The sizes that a rule or the load chose; with -o the spec that has them, so that they stay.
+
+    What is written in a spec stays. A size that it leaves out is chosen anew in every run: by a
+    rule, as a pin as thick as the roller's radius, or as large as the load of that run needs. So
+    ask of a machine that is built "does it also run at 90?" with the spec that has its sizes.
+
+    The written spec gives the same values as its origin, to the last digit, and has its comments.
+    FILE as csv, json or md has the table instead.
+    """
+    from geneva_cli.design import load
+    from geneva_cli.output import show_answer, show_text
+    from geneva_cli.output.formats import FORMATS, table_as
+    from geneva_cli.study.chosen_sizes import of_sizes, sized_text
+
+    design = load(spec, settings or ())
+    extension = os.path.splitext(output)[1].lower().removeprefix(".")
+    if not output or format or extension in FORMATS:
+        output = output or "-"
+        answer = of_sizes(design, table_as(output, format) == "json")
+        show_answer(answer, output, format, design.spec.files)
+        return
+    text, lost = sized_text(design)
+    show_text(text, output, design.spec.files)
+    notes = [f"note: {lost}"] if lost else []
+    beside = [os.path.basename(name) for name in design.spec.files[1:]]
+    if beside and os.path.dirname(output) != os.path.dirname(design.spec.path):
+        notes.append(f"warning: it needs {', '.join(beside)} in its folder")
+    for note in notes:
+        print(clean(f"{output}: {note}"), file=sys.stderr)

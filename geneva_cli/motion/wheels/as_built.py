@@ -1,0 +1,165 @@
+"""Straight slots on a crank as it was built, whose R/L is not what the slots need.
+
+The roller's centre runs on a circle of l = R/L about the crank's axis. The slot at rest has its
+axis at an angle from the line of centres. Where the centre crosses that axis inside the rim, the
+wheel's velocity jumps from 0 to that of the slot. With a larger l there are two such crossings, w
+to either side of the perpendicular from the crank's axis:
+
+    w² = l² - (sin b)²,    rho = cos b -+ w,    jump = +- w / rho
+
+The roller comes from outside an external wheel. It crosses the outer one first, which strikes the
+wheel backwards; most rims end before it. With an l below sin b the centre never reaches the axis.
+The roller then turns a slot from -asin l to asin l only, and something else must turn the wheel the
+rest of its step.
+
+An offset slot is made so that it is tangent to the crank's circle at one end. This is the end at
+which it stands farther from the line of centres: sin(angle) = l + e. The other end is one step away
+and has the whole jump. Radial slots rest at b on both sides.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.engagement import AsBuilt
+from geneva_cli.motion.wheels.gearing import RollerPlace
+from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, middle
+from geneva_cli.numerics.arrays import Truth, choose, choose_record, larger, library, smaller
+
+AT_RIM = 1e-6  # of L: a crossing that is not farther outside is at the rim
+
+
+class RestingSlot(NamedTuple):
+    """The axis of a slot at rest, for crank radii l; lengths over the centre distance.
+
+    ``angle`` is its direction from the line of centres, radians. ``across`` is the position of the
+    roller's centre from the crank's axis across the slot, which is that of the axis. ``outer`` is
+    true for the crossing beyond the perpendicular from the crank's axis.
+    """
+
+    sign: float  # 1 for an external wheel, -1 for an internal one
+    l: float
+    angle: float
+    across: float
+    outer: Truth = False
+
+    @property
+    def beyond(self) -> float:
+        """Position of the crossing from the foot of the perpendicular, outwards."""
+        size = abs(self.across)
+        square = larger((self.l - size) * (self.l + size), 0.0 * size)
+        half = library(square).sqrt(square)
+        return choose(self.outer, half, -half) * self.sign
+
+    @property
+    def along(self) -> float:
+        """Position of the crossing along the slot's axis, from the wheel's centre."""
+        return library(self.angle).cos(self.angle) + self.beyond
+
+    @property
+    def velocity(self) -> float:
+        """Velocity that the crank gives the wheel at the crossing, by the crank's angle."""
+        return -self.sign * self.beyond / self.along
+
+    def is_inside(self, e: float, rim: float) -> Truth:
+        """True if the crossing of a slot of offset e is not beyond the rim."""
+        m = library(e, rim, self.along)
+        inside: Truth = self.sign * (m.hypot(self.along, e) - rim) <= AT_RIM
+        return inside
+
+    @property
+    def crank_deg(self) -> float:
+        """Crank angle of the crossing from the line of centres."""
+        x, y = self.beyond, self.across
+        m = library(self.angle, x, y)
+        s, c = m.sin(self.angle), m.cos(self.angle)
+        return m.degrees(m.atan2(x * s + y * c, (y * s - x * c) * self.sign))
+
+
+def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> RollerPlace:
+    """Place of a roller on a crank radius l in slots of offset e, on a wheel with a ``rim``.
+
+    Lengths are over the centre distance. Raises GenevaError where the roller cannot pass the line
+    of centres in its slot.
+    """
+    radial = isinstance(e, float) and e == 0.0
+    refuse(l + abs(e) >= 1.0, _too_long)
+    first, last, reaches = ends = _radial(sign, step, l)
+    if not radial:
+        first, last, reaches = choose_record(e == 0.0, ends, _offset(sign, step, l, e))
+    # the outer crossing comes first, if it is inside the rim
+    first, last = (
+        end._replace(outer=reaches & end._replace(outer=True).is_inside(e, rim))
+        for end in (first, last)
+    )
+    inside = reaches & first.is_inside(e, rim) & last.is_inside(e, rim)
+    half, tilt = 0.5 * (last.angle - first.angle), 0.5 * (last.angle + first.angle)
+    half = choose(reaches, step.b, half)
+    entry, exit_ = _pose(first, -half), _pose(last, half)
+    mid, skew, m = middle(sign, l, 1.0 - sign * l), None, library(l, e, rim)
+    if not radial:
+        deepest = m.sqrt((1.0 - l - e) * (1.0 - l + e))
+        mid = mid._replace(wheel=m.atan2(e, deepest) - tilt)
+        skew = Skew(e, tilt, deepest, (entry, mid, exit_))
+    # the pin's direction from the wheel's axis where it leaves the rim
+    cosine = (1.0 + rim * rim - l * l) / (2.0 * rim)
+    leaves = m.acos(smaller(larger(cosine, 0.0 * l - 1.0), 0.0 * l + 1.0)) + m.asin(e / rim)
+    return RollerPlace(
+        step,
+        0.5 * (exit_.crank_deg - entry.crank_deg),
+        (entry, mid, exit_),
+        l,
+        skew,
+        built=AsBuilt(inside, leaves - tilt - step.b, first.angle, first.outer),
+    )
+
+
+def as_derived(place: RollerPlace) -> RollerPlace:
+    """A place of a crank whose R/L is what its slots need, as one of a crank as built."""
+    skew, b = place.skew, place.step.b
+    built = AsBuilt(True, 0.0 * b, (skew.tilt if skew else 0.0) - b, False)
+    return place._replace(closed=None, built=built)
+
+
+def _too_long() -> GenevaError:
+    return GenevaError(
+        "crank_radius_mm and the slots' offset together must be below center_distance_mm: the "
+        "roller would pass beyond the wheel's axis",
+        ("size", "crank_radius_mm"),
+    )
+
+
+def _radial(sign: float, step: HalfStep, l: float) -> tuple[RestingSlot, RestingSlot, Truth]:
+    """The slot at rest before and after a motion, and if the roller's centre reaches its axis."""
+    sin_b = step.sin_cos[0]
+    reaches: Truth = l >= sin_b
+    across = choose(reaches, sin_b + 0.0 * l, l)
+    angle = choose(reaches, step.b + 0.0 * l, library(across).asin(across))
+    return (
+        RestingSlot(sign, l, -angle, -across),
+        RestingSlot(sign, l, angle, across),
+        reaches,
+    )
+
+
+def _offset(
+    sign: float, step: HalfStep, l: float, e: float
+) -> tuple[RestingSlot, RestingSlot, Truth]:
+    """The same for slots of offset e, tangent to the crank's circle at one end."""
+    m, size = library(l, e, step.b), abs(e)
+    far, least = m.asin(l + size), m.asin(l - size)
+    reaches: Truth = 2.0 * step.b - far <= least
+    near = choose(reaches, 2.0 * step.b - far, least)
+    across = choose(reaches, m.sin(near) + size, l)
+    tangent_exit = e > 0.0
+    first = -choose(tangent_exit, near, far), -choose(tangent_exit, across, l)
+    last = choose(tangent_exit, far, near), choose(tangent_exit, l, across)
+    return RestingSlot(sign, l, *first), RestingSlot(sign, l, *last), reaches
+
+
+def _pose(slot: RestingSlot, wheel: float) -> PinPose:
+    """Pose of the pin at the crossing, where the wheel's angle is ``wheel``, radians."""
+    x, y = slot.beyond, slot.across
+    slope = slot.sign * y, -slot.sign * x
+    return PinPose(slot.crank_deg, wheel, slot.along, slope, (-x, -y))

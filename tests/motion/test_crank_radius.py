@@ -1,0 +1,147 @@
+"""A machine that is given by its crank radius is the one with the centre distance that follows."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from geneva_cli import (
+    Cam,
+    Cycloidal,
+    Design,
+    External,
+    Internal,
+    Motion,
+    SideCrank,
+    Size,
+    Spherical,
+)
+from geneva_cli.errors import GenevaError
+from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.many import many
+from geneva_cli.motion.registry import drive, gearing
+from geneva_cli.motion.wheels.gearing import Gearing
+
+R = 30.0
+OFFSET = 8.0
+# R/L by hand: the crank and its slot are perpendicular at entry, at half the step b
+MACHINES: list[tuple[Gearing, Drive | None, Motion | None, float]] = [
+    (External(6), None, None, 0.5),
+    (Internal(5), None, None, math.sqrt(0.625 - math.sqrt(5.0) / 8.0)),  # sin 36 degrees
+    (Spherical(6, axes_deg=60.0), None, None, math.sqrt(3.0) / 4.0),  # sin S sin b
+    (gearing("linear")(6), None, None, 1.0),
+    (External(4), SideCrank(A=0.5), None, math.sqrt(0.5)),
+    (External(4), drive("carousel")(wheels=3), None, math.sqrt(0.5)),
+    (External(6), None, Motion(Cycloidal(), ratio=0.4), 0.4),
+    # the cycloid turns twice the mean, 60/120 degrees: v = 1, and R/L = v/(1 + v)
+    (External(6), None, Motion(Cycloidal(), ratio="matched"), 0.5),
+]
+
+
+@pytest.mark.parametrize(("wheel", "own", "motion", "ratio"), MACHINES)
+def test_the_centre_distance_follows_from_the_crank_radius(
+    wheel: Gearing, own: Drive | None, motion: Motion | None, ratio: float
+) -> None:
+    design = Design(wheel, own, motion, size=Size(crank_radius_mm=R))
+    L = design.mechanism.center_distance_mm
+    assert pytest.approx(R / ratio, rel=1e-14) == L
+    same = Design(wheel, own, motion, size=Size(center_distance_mm=L))
+    assert design.peaks == same.peaks
+    assert design.size.roller_radius_mm == same.size.roller_radius_mm
+
+
+def test_an_offset_slot_is_tangent_to_the_crank_circle() -> None:
+    """A tangent of the crank's circle at the angle a misses the wheel's axis by L cos a - R.
+
+    That is e at one end of the motion and -e at the other, and the motion takes 180° - 2 b.
+    """
+    offset = Design(External(6, offset_mm=OFFSET), size=Size(crank_radius_mm=R))
+    L = offset.mechanism.center_distance_mm
+    ends = [math.degrees(math.acos((R + e) / L)) for e in (OFFSET, -OFFSET)]
+    assert sum(ends) == pytest.approx(120.0, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("kind", "keys", "z"),
+    [("gear-sector", {"sector_deg": 60.0}, 3), ("geneva-pair", {"first_z": 3}, 6)],
+)
+def test_drives_that_solve_for_their_ratio_keep_the_radius(
+    kind: str, keys: dict[str, float], z: int
+) -> None:
+    mechanism = Design(External(z), drive(kind)(**keys), size=Size(crank_radius_mm=R)).mechanism
+    assert mechanism.center_distance_mm * mechanism.ratio == pytest.approx(R, rel=1e-13)
+
+
+def test_clearances_of_a_cut_follow_the_derived_distance() -> None:
+    """A laser's clearances depend on the plates' thickness, which is a tenth of L."""
+    by_radius, by_distance, default = (
+        Design(External(6), size=Size(process="laser", **keys)).size.as_dict()
+        for keys in ({"crank_radius_mm": 150.0}, {"center_distance_mm": 300.0}, {})
+    )
+    assert by_radius | {"crank_radius_mm": None} == by_distance
+    assert by_radius["slot_clearance_mm"] > default["slot_clearance_mm"]
+
+
+def test_other_keys_change_the_derived_distance() -> None:
+    design = Design(External(6), size=Size(crank_radius_mm=R))
+    assert design.with_("wheel.z", 4).mechanism.center_distance_mm == pytest.approx(R * 2.0**0.5)
+    assert design.with_("size.crank_radius_mm", None).mechanism.center_distance_mm == 100.0
+    assert "derived" not in repr(design)
+
+
+def test_a_batch_has_the_distances_of_its_designs() -> None:
+    spec = Design(External(6), size=Size(crank_radius_mm=R)).spec
+    varied = {"wheel.offset_mm": np.array([0.0, 4.0, -8.0]), "wheel.z": np.array([6, 5, 4])}
+    batch = many(spec, varied)
+    assert batch.machine
+    alone = [
+        Design(
+            External(int(z), offset_mm=float(e)), size=Size(crank_radius_mm=R)
+        ).mechanism.center_distance_mm
+        for e, z in zip(varied["wheel.offset_mm"], varied["wheel.z"], strict=True)
+    ]
+    assert batch.spread(batch.machine.center_distance_mm).tolist() == pytest.approx(
+        alone, rel=1e-15
+    )
+
+
+@pytest.mark.parametrize(
+    ("wheel", "own", "motion", "key"),
+    [
+        (External(6), Cam(), Motion(Cycloidal()), "center_distance_mm"),
+        (External(6), drive("epicyclic")(planet_ratio="shockless"), None, "center_distance_mm"),
+        (External(6, steps_deg=(72.0, 48.0)), None, None, "center_distance_mm"),
+        (
+            External(8),
+            drive("slider-crank")(crank_mm=20.0, rod_mm=60.0, point_mm=60.0, point_deg=0.0),
+            None,
+            "crank_mm in [drive]",
+        ),
+    ],
+)
+def test_a_machine_without_one_crank_radius_names_its_own_key(
+    wheel: Gearing, own: Drive | None, motion: Motion | None, key: str
+) -> None:
+    with pytest.raises(GenevaError, match="crank_radius_mm") as caught:
+        Design(wheel, own, motion, size=Size(crank_radius_mm=R))
+    assert f"set {key}" in str(caught.value)
+
+
+def test_keys_that_agree_pass_and_others_name_both() -> None:
+    for L in (60.0, 60.0001):  # R/L is off by less than a millionth
+        both = Design(External(6), size=Size(crank_radius_mm=R, center_distance_mm=L))
+        assert both.mechanism.center_distance_mm == L
+    design = Design(Spherical(6), size=Size(crank_radius_mm=R, center_distance_mm=70.0))
+    with pytest.raises(GenevaError, match=r"needs 0.5; .* = 35, or center_distance_mm = 60,"):
+        _ = design.mechanism
+
+
+def test_a_rim_without_a_distance_names_the_distance_whose_mouth_it_is() -> None:
+    """The roller enters at L cos 30° of six slots: 61/0.8660254 = 70.4367."""
+    (text,) = Design(External(6), size=Size(wheel_radius_mm=61.0)).motion_warnings
+    assert text.name == "no-centre-distance"
+    assert "with 70.4367 the roller" in text
+    by_radius = Design(External(6), size=Size(wheel_radius_mm=61.0, crank_radius_mm=35.0))
+    assert not by_radius.motion_warnings

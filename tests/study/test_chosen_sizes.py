@@ -1,0 +1,223 @@
+"""`geneva size`: what a rule or a load chose is written, and then the machine is the same."""
+
+import json
+import math
+import shutil
+
+import pytest
+import repo
+import tomli
+from sampling import some
+from typer.testing import CliRunner
+
+from geneva_cli import Design, External, Load, load
+from geneva_cli.cli.app import app
+from geneva_cli.specfile.inserted import inserted
+from geneva_cli.study.chosen_sizes import KEPT, sized_text
+
+DESIGNS = sorted(path.stem for path in repo.DESIGNS.glob("*.toml"))
+# Checks of parts whose keys the spec has: default arms and links always pass.
+OF_KEYS = {"arm_wall_mm", "arm_to_hub_mm", "link_wall_mm"}
+TURRET = """# the table of a press
+title = "Turret"
+[wheel]
+z = 8
+[size] # in steel
+center_distance_mm = 250
+roller_radius_mm = 12
+face_width_mm = 18 # of the roller
+
+# what it turns
+[load]
+inertia_kgm2 = 1.5
+torque_Nm = 20
+friction = 0.05
+efficiency = 0.95
+"""
+
+
+@pytest.fixture
+def turret(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    repo.put("turret.toml", f"{TURRET}[drive]\nn_rpm = 40\n")
+    return load("turret.toml")
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [*map(str, arguments)])
+
+
+def values(design):
+    return {c.name: (c.value, c.limit, c.passes, c.at_deg) for c in design._judged}
+
+
+@pytest.fixture(params=DESIGNS)
+def pair(request, tmp_path):
+    """A design, and the one that its sized text makes in another folder."""
+    origin = load(str(repo.DESIGNS / f"{request.param}.toml"))
+    for name in origin.spec.files[1:]:
+        shutil.copy(name, tmp_path)
+    text, note = sized_text(origin)
+    assert note == ""
+    path = tmp_path / "sized.toml"
+    path.write_text(text, encoding="utf-8")
+    return origin, load(str(path)), text
+
+
+@pytest.mark.sampled(6)
+def test_a_sized_spec_chooses_nothing_and_keeps_its_text(pair):
+    origin, sized, text = pair
+    assert origin.chosen
+    assert sized.chosen == {} and sized.chosen_by_load.sizes == {}
+    again, note = sized_text(sized)
+    assert (again, note) == (text, "")
+    rest = iter(text.splitlines())
+    assert all(line in rest for line in origin.text.text.splitlines())  # in their order
+    for key, (value, _) in origin.chosen.items():
+        assert sized.spec.table("size")[key.removeprefix("size.")] == value
+
+
+@pytest.mark.sampled(10)
+def test_a_sized_spec_has_the_same_values_in_check(pair):
+    origin, sized, _ = pair
+    before, after = values(origin), values(sized)
+    assert {name: after[name] for name in before} == before
+    assert after.keys() - before.keys() <= OF_KEYS
+    assert all(after[name][2] for name in after.keys() - before.keys())
+
+
+@pytest.mark.long
+def test_a_machine_that_is_built_bears_what_it_bears(turret):
+    """At 90 rpm the shaft of 12 mm fails; the advice is the speed at which it just holds."""
+    fast = turret.sized.with_("drive.n_rpm", 90.0)
+    (failing,) = [c for c in fast._judged if c.passes is False]
+    assert (failing.name, failing.anew) == ("crank_shaft_stress_MPa", "")
+    n_rpm = float(failing.nearest.removeprefix("n_rpm = "))
+
+    def stress(n):
+        one = turret.sized.with_("drive.n_rpm", n)
+        return next(c.value for c in one._judged if c.name == failing.name)
+
+    assert stress(n_rpm) <= 82.5 < stress(1.01 * n_rpm)
+    # a shaft of d holds 16 M / (pi d^3): the size by load is the first whose cube is enough
+    chosen = Design.of(turret.spec.with_("drive.n_rpm", 90.0)).chosen_by_load.sizes
+    needed = 12.0 * (failing.value / 82.5) ** (1.0 / 3.0)
+    assert 15.0 < needed < chosen["size.crank_bore_mm"].value == 17.0
+    assert math.isclose(stress(90.0), failing.value)
+
+
+def test_every_run_says_what_its_load_chose(turret):
+    said = "chosen by load: crank shaft 12, wheel shaft 40, pin 12, arm 18 thick"
+    anew = "sizes chosen anew: crank shaft 12 → 17 mm"
+    for command in some(("check", "loads", "report"), ("loads",)):
+        plain = " ".join(run(command, "turret.toml").stdout.split())
+        assert f"{said} (geneva size turret.toml writes them)" in plain
+        assert "chosen anew" not in plain
+    for command in ("check", "loads", "report"):
+        fast = command, "turret.toml", "--set", "drive.n_rpm=90"
+        text = " ".join(run(*fast).stdout.split())
+        assert anew in text and "chosen by load: crank shaft 17, wheel shaft 40" in text
+        tree = json.loads(run(*fast, "--format", "json").stdout)
+        assert tree["chosen"]["size.crank_bore_mm"]["was"] == 12.0
+        assert tree["chosen"]["size.crank_bore_mm"]["value"] == 17.0
+        assert tree["chosen"]["size.pin_mm"]["was"] is None
+        assert tree["chosen"]["size.pin_mm"]["why"].startswith("by load: ")
+    assert run("size", "turret.toml", "-o", "sized.toml").exit_code == 0
+    assert "chosen" not in run("check", "sized.toml").stdout
+
+
+def test_a_size_that_an_option_sets_is_not_chosen(turret):
+    tree = json.loads(
+        run("check", "turret.toml", "--set", "size.pin_mm=10", "--format", "json").stdout
+    )
+    assert "size.pin_mm" not in tree["chosen"] and "size.wheel_bore_mm" in tree["chosen"]
+
+
+def test_without_a_load_nothing_is_chosen_by_load():
+    bare = Design(External(6))
+    assert bare.chosen_by_load == ({}, {}) and bare.chosen_by_load.words == ""
+    assert bare.chosen["size.pin_mm"] == (5.0, "default r")
+    assert "size.slot_clearance_mm" not in bare.chosen
+    laser = bare.with_("size.process", "laser")
+    assert laser.chosen["size.slot_clearance_mm"].why == "by process laser"
+    torn = Design(External(6), load=Load(torque_Nm=15.0, friction=0.1, friction_at="pin"))
+    assert "size.pin_mm" not in torn.chosen_by_load.sizes  # which the load leaves as it is
+
+
+def test_advice_says_which_sizes_it_changes(turret):
+    repo.put("limited.toml", f"{TURRET}[drive]\nn_rpm = 90\n[limits]\npin_force_max_N = 500\n")
+    (failing,) = [c for c in load("limited.toml").checks if c.passes is False]
+    assert failing.anew == "crank shaft 17 → 15 mm"
+    said = " ".join(run("check", "limited.toml").stdout.split())
+    assert f"passes with {failing.nearest} (sizes chosen anew: {failing.anew})" in said
+    (row,) = [
+        row
+        for row in json.loads(run("check", "limited.toml", "--format", "json").stdout)["rows"]
+        if not row["passes"]
+    ]
+    assert row["nearest"] == failing.nearest  # a change that a script can make
+    assert row["why"] == f"sizes chosen anew with {failing.nearest}: {failing.anew}"
+
+
+def test_a_sweep_says_that_each_row_has_its_own_sizes(turret):
+    vary = "--vary", "drive.n_rpm=40,90"
+    strong = run("sweep", "turret.toml", *vary, "--pick", "strength.crank_shaft.diameter_mm")
+    assert "sizes that its own load needs, the spec crank shaft 12" in strong.stderr
+    assert run("sweep", "turret.toml", *vary, "--pick", "velocity.max").stderr == ""
+    best = run("sweep", "turret.toml", "--vary", "drive.n_rpm=60..90", "--best", "max:omega_max")
+    assert best.exit_code == 2  # no such quantity
+    best = run(
+        *("sweep", "turret.toml", "--vary", "drive.n_rpm=60..90", "--best", "min:timing.motion_s")
+    )
+    assert "# sizes chosen anew: crank shaft 12 → 17 mm" in best.stdout
+
+
+def test_the_table_and_the_file(turret):
+    table = run("size", "turret.toml")
+    assert table.stdout.startswith("Turret: 11 sizes chosen, 5 of them by the load\n")
+    tree = json.loads(run("size", "turret.toml", "--format", "json").stdout)
+    assert list(tree) == ["spec", "title", "rows"]
+    assert all(list(row) == ["key", "value", "why"] for row in tree["rows"])
+    assert run("size", "turret.toml", "-o", "sizes.csv").exit_code == 0
+    assert repo.get("sizes.csv").startswith("key,value,why\n")
+    printed = run("size", "turret.toml", "-o", "-")
+    assert printed.stdout == sized_text(turret)[0] and printed.stderr == ""
+    refused = run("size", "turret.toml", "-o", "turret.toml")
+    assert refused.exit_code == 2 and repo.get("turret.toml").startswith(TURRET)
+    fast = run("size", "turret.toml", "--set", "drive.n_rpm=90", "-o", "fast.toml")
+    assert fast.stderr == f"fast.toml: note: {KEPT}\n"
+    assert (
+        values(load("fast.toml"))["crank_shaft_stress_MPa"]
+        == (values(load("turret.toml", ["drive.n_rpm=90"]))["crank_shaft_stress_MPa"])
+    )
+    assert run("size", "fast.toml").stdout == "Turret: no size to choose\n"
+
+
+@pytest.mark.long
+def test_exported_specs_have_the_sizes_of_the_parts_beside_them(turret):
+    assert run("export", "turret.toml", "--for", "laser", "-o", "shop").exit_code == 0
+    exported = load("shop/spec.toml")
+    assert exported.chosen == {}
+    after = values(exported)
+    assert {name: after[name] for name in values(turret)} == values(turret)
+
+
+@pytest.mark.parametrize(
+    ("text", "out"),
+    [
+        ("[wheel]\nz = 6", "[wheel]\nz = 6\n\n[size]\npin_mm = 6.0  # why\n"),
+        ("[size]\n# none\n\n[wheel]\n", "[size]\npin_mm = 6.0  # why\n# none\n\n[wheel]\n"),
+        (
+            "[ size ] # mine\nshafts = 'turned' # two\n\n[wheel]\nz = 6\n",
+            "[ size ] # mine\nshafts = 'turned' # two\npin_mm = 6.0  # why\n\n[wheel]\nz = 6\n",
+        ),
+        ("size = {shafts = 'turned'}\n", None),
+        ("size.shafts = 'turned'\n[wheel]\nz = 6\n", None),
+        ('title = """\n[size]\n"""\n', None),
+    ],
+)
+def test_keys_are_inserted_or_refused(text, out):
+    found = inserted(text, "size", {"pin_mm": (6.0, "why")})
+    assert found == out
+    if found:
+        assert tomli.loads(found)["size"]["pin_mm"] == 6.0

@@ -1,0 +1,110 @@
+"""Accepted warnings: shown with their reason, and no obstacle to ``--strict``."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+from typer.testing import CliRunner
+
+from geneva_cli import Accept, Design, External, Size
+from geneva_cli.cli.app import app
+from geneva_cli.errors import GenevaError, Notice
+from geneva_cli.manual.explained import entries
+from geneva_cli.spec.schema import fields
+
+SPEC = """\
+[wheel]
+z = 30
+[size]
+roller_radius_mm = 1.5
+slot_clearance_mm = 0.5
+[accept]
+many-slots = "a dial of 30 stations"
+turns-back = "an older law"
+"""
+REASON = "a dial of 30 stations"
+
+
+@pytest.fixture
+def spec(tmp_path: Path) -> str:
+    file = tmp_path / "dial.toml"
+    file.write_text(SPEC)
+    return str(file)
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(app, [*words])
+
+
+def test_every_warning_can_be_accepted() -> None:
+    """Each name of the reference is a key; a note on an unknown value is no warning."""
+    named = {name for one in entries() if one.page == "warnings" for name in one.names}
+    assert {field.key for field in fields(Accept)} == named - {"not-known"}
+    assert named > {*Accept.ELSEWHERE}
+
+
+def test_check_shows_the_reason_and_what_does_not_occur(spec: str) -> None:
+    shown = run("check", spec).stdout
+    assert "1 warning, 1 warning accepted" in shown
+    assert f"accepted  many-slots: {REASON}" in shown
+    assert "note      turns-back: no such warning occurs" in shown
+    report = run("report", spec).stdout
+    assert f"accepted      many-slots: {REASON}" in report
+    assert "note          turns-back: no such warning occurs" in report
+
+
+def test_strict_passes_once_all_are_accepted(spec: str) -> None:
+    assert run("check", spec, "--strict").exit_code == 1
+    more = ("--set", "accept.loose-fit=painted slots")
+    passes = run("check", spec, "--strict", "--format", "json", *more)
+    assert passes.exit_code == 0
+    warnings = {row["name"]: row for row in json.loads(passes.stdout)["warnings"]}
+    assert warnings["many-slots"]["accepted"] == REASON
+    assert warnings["many-slots"]["text"].startswith("z = 30: more than 24 slots")
+    assert run("check", spec, *more).stdout.startswith(f"✓ {spec}: all")
+
+
+def test_lists_of_texts_have_the_reason(spec: str) -> None:
+    for command in ("loads", "report"):
+        tree = json.loads(run(command, spec, "--format", "json").stdout)
+        assert any(text.startswith(f"accepted ({REASON}): z = 30") for text in tree["warnings"])
+    written = run("peaks", spec, "--format", "csv", "-o", f"{spec}.csv").stderr
+    assert f"warning, accepted ({REASON}): z = 30" in written
+
+
+def test_warnings_of_other_commands_are_accepted_there() -> None:
+    """``vibration`` and ``tolerance`` alone have them: check says nothing of them."""
+    accept = Accept(off_tune="a prototype", tolerance_left_out="agreed")
+    assert Design(External(6), accept=accept).unused_acceptances == []
+    assert Design(External(30), accept=Accept(loose_fit="x")).unused_acceptances == ["loose-fit"]
+
+
+def test_an_accepted_warning_is_copied_with_its_reason() -> None:
+    design = Design(External(30), size=Size(roller_radius_mm=1.5), accept=Accept(many_slots="ok"))
+    (text,) = pickle.loads(pickle.dumps(design.warnings))
+    assert (text.name, text.accepted, text.plain) == ("many-slots", "ok", text.plain)
+    assert Notice("many-slots", text.plain, "ok") == text
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ('many-slot = "agreed"', 'dial.toml:7: unknown key many-slot in [accept] (did you mean "m'),
+        ('many-slots = " "', "dial.toml:7: many-slots needs the reason for accepting it"),
+        ("many-slots = 3", "dial.toml:7: many-slots must be text, not 3"),
+    ],
+)
+def test_bad_names_and_reasons_have_their_line(spec: str, line: str, message: str) -> None:
+    Path(spec).write_text(SPEC.replace('many-slots = "a dial of 30 stations"', line))
+    shown = run("check", spec)
+    assert shown.exit_code == 2
+    assert message in shown.stderr
+
+
+def test_python_refuses_an_empty_reason() -> None:
+    with pytest.raises(GenevaError, match="needs the reason"):
+        Accept(many_slots="")
