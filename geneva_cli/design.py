@@ -674,6 +674,8 @@ class Design:
         from geneva_cli.drawings.catalogue import part_drawing, parts_having
 
         picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
+        if self.is_drawn:
+            picture = load_extra("outline", "over")(self.mechanism, part, picture)
         if dog_bones_mm is not None:
             from geneva_cli.drawings.milling import with_dog_bones
 

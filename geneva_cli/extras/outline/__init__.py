@@ -6,7 +6,9 @@ EXTRA = Extra(
     answers={
         "checks": "extras.outline.checks:checks",
         "motion": "extras.outline.real_motion:motion",
+        "over": "extras.outline.pictures:over",
         "peaks": "extras.outline.real_motion:peaks",
+        "scene": "extras.outline.pictures:drawn_scene",
         "warnings": "extras.outline.checks:warnings",
     }
 )
