@@ -172,7 +172,7 @@ def test_svg_transforms_apply_from_the_right(tmp_path):
 
 @pytest.mark.parametrize(("large", "sweep"), [(0, 0), (0, 1), (1, 0), (1, 1)])
 def test_svg_arcs_go_the_way_of_their_flags(large, sweep, tmp_path):
-    """Of the four arcs of radius 2 over a chord of 2, flags choose size and sense; y points down."""
+    """Of four arcs of radius 2 over a chord of 2, flags choose size and sense; y points down."""
     drawn = svg(tmp_path, f'<path d="M0 0 A2 2 0 {large} {sweep} 2 0"/>')
     total = sum(piece.sweep for piece in drawn.pieces if isinstance(piece, Arc))
     angle = math.radians(300.0 if large else 60.0)

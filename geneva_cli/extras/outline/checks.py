@@ -23,9 +23,9 @@ from geneva_cli.extras.outline.turning import (
 from geneva_cli.geometry.loops import shown
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.free_ranges import levels
 from geneva_cli.verdict.checks.check import Check, compared
 
+ROUNDING_DEG = 1e-3  # a smaller play comes from the slack
 ENTRY_VELOCITY = 0.01  # default of ``entry_velocity_max``
 
 
@@ -110,16 +110,19 @@ def _summary(result: Turned, mechanism: Mechanism) -> str:
         f"turns both ways through every slot: index {index:.7g}°, moved from {begin:.5g} to "
         f"{end:.5g}° of the input, "
     )
-    held = f"play in the dwell {rest:.4g}°" if result.is_held else "nothing holds it in the dwell"
-    motion = float(free[moving].max(initial=0.0))
-    text += f"{held}, in motion {motion:.4g}°"
+    held = f"{_play(rest)} in the dwell" if result.is_held else "nothing holds it in the dwell"
+    text += f"{held}, {_play(float(free[moving].max(initial=0.0)))} in motion"
     widest = float(free[~moving].max(initial=0.0))
-    if widest > rest * (1.0 + 1e-6) + 1e-6:
+    if widest > rest + ROUNDING_DEG:
         text += f", at most {widest:.4g}° while it rests"
     lag = lag_deg(result)
-    if lag > 1e-5:
+    if lag > ROUNDING_DEG:
         text += f"; it lags up to {lag:.3g}° behind the ideal motion"
     return text
+
+
+def _play(value_deg: float) -> str:
+    return f"{value_deg:.4g}° of play" if value_deg > ROUNDING_DEG else "no play"
 
 
 def lag_deg(result: Turned) -> float:
@@ -169,7 +172,7 @@ def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     if not every:
         return
     worst = max(every, key=lambda one: abs(one.velocity))
-    limit = vars(mechanism.spec.limits).get("entry_velocity_max") or ENTRY_VELOCITY
+    limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
     at = _shown_deg(result.machine, worst.crank)
     row = compared("entry_velocity_max", abs(worst.velocity), "at most", limit, at)
     yield row if row.passes else row._replace(why=_ideal_text(result, mechanism, worst))
@@ -184,9 +187,9 @@ def _ideal_text(result: Turned, mechanism: Mechanism, worst: Impact) -> str:
         text += f"; R is {R:.5g} mm, and {ideal:.5g} would enter without an impact"
     with suppress(GenevaError):
         own = parts_of(mechanism).flat.outlines.sizes.rim
-        low, high = levels(result.machine.free.whole)
-        sign = result.machine.assembly.sign
-        rim = float(high.max() if sign > 0.0 else low.min())
+        sign, wheel = result.machine.assembly.sign, result.machine.free.whole
+        corners = np.hypot(wheel.x0, wheel.y0)
+        rim = float(corners.max() if sign > 0.0 else corners.min())
         if sign * (own - rim) > 1e-3:
             text += f"; the rim is at {rim:.5g} mm, and must reach {own:.4g}"
     return text
@@ -194,8 +197,9 @@ def _ideal_text(result: Turned, mechanism: Mechanism, worst: Impact) -> str:
 
 def _drift(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check that a wheel which keeps its place rests at the same place after each index."""
-    if mechanism.spec.wheel.held_by in HELD_MIDDLE or not result.turns:
+    play = result.rest.high - result.rest.low
+    if mechanism.spec.wheel.held_by in HELD_MIDDLE or play < LOOSE or not result.turns:
         return
     drift = max(abs(sense.drift) for sense in result.senses)
-    play = result.rest.high - result.rest.low
-    yield compared("drift_deg", math.degrees(drift), "at most", math.degrees(play))
+    drift_deg, limit = math.degrees(drift), math.degrees(play)
+    yield Check("drift_deg", drift_deg, "at most", limit, drift <= play)

@@ -155,16 +155,18 @@ def _with_rollers(
     pins = [place.pin(i, np.zeros(1))[0] - axis for i in range(len(place.rollers))]
     ahead = np.pi if place.sign > 0.0 else 0.0
     turned = [complex(*pin) * complex(math.cos(-ahead), math.sin(-ahead)) for pin in pins]
-    R = abs(turned[0])
+    R = ideal = abs(turned[0])
+    if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
+        ideal = place.L * math.sin(math.pi / mechanism.spec.wheel.z)
     crank = drawn.contours if drawn else own
     for loop in drawn.loops if drawn else ():
         circle = _as_circle(loop)
         if circle and not loop.is_hole and abs(complex(*circle.centre)) > circle.radius:
-            return crank, Roller(abs(complex(*circle.centre)), circle.radius, True, R)
+            return crank, Roller(abs(complex(*circle.centre)), circle.radius, True, ideal)
     if drawn and Polyarc(crank).signed(np.array([(turned[0].real, turned[0].imag)]))[0] < 0.0:
-        return crank, Roller(R, radius, True, R)
+        return crank, Roller(R, radius, True, ideal)
     rollers = [oriented(Circle("ROLLER", (pin.real, pin.imag), radius), ())[0] for pin in turned]
-    return (*crank, *rollers), Roller(R, radius, False, R)
+    return (*crank, *rollers), Roller(R, radius, False, ideal)
 
 
 def _as_circle(loop: Loop) -> Circle | None:
