@@ -365,7 +365,7 @@ class Design:
         from geneva_cli.motion.peaks import peaks_table
 
         if self.is_drawn:
-            own: Table = load_extra("outline", "peaks")(self.mechanism)
+            own: Table = self._of_drawing("peaks")
             return own
         return peaks_table(self.mechanism)
 
@@ -430,7 +430,7 @@ class Design:
         if self.is_drawn:
             if turns is not None:
                 raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
-            own: Table = load_extra("outline", "motion")(self.mechanism, samples)
+            own: Table = self._of_drawing("motion", samples)
             return own
         if turns is None:
             return motion_table(self.mechanism, samples)
@@ -674,8 +674,6 @@ class Design:
         from geneva_cli.drawings.catalogue import part_drawing, parts_having
 
         picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
-        if self.is_drawn:
-            picture = load_extra("outline", "over")(self.mechanism, part, picture)
         if dog_bones_mm is not None:
             from geneva_cli.drawings.milling import with_dog_bones
 
@@ -805,6 +803,29 @@ class Design:
         """
         return self.spec.outline.is_given
 
+    def _of_drawing(self, answer: str, *values: object) -> Any:
+        """An answer about the drawings that replace the outlines."""
+        if self.is_backwards:
+            raise GenevaError(
+                "--reverse: drawings are turned in both senses by `geneva check`; leave it out"
+            )
+        return load_extra("outline", answer)(self.mechanism, *values)
+
+    @question
+    def drawing_over(self, drawing: Drawing, part: str) -> Drawing:
+        """Return a drawing of a part, with that of ``[outline]`` over it on layer OUTLINE.
+
+        Without ``[outline]``, and for other parts than wheel, crank and assembly, it is the same.
+
+        >>> plain = Design(External(6))
+        >>> plain.drawing_over(plain.drawing("wheel"), "wheel").layers
+        ('WHEEL', 'BORE')
+        """
+        if not self.is_drawn:
+            return drawing
+        both: Drawing = self._of_drawing("over", part, drawing)
+        return both
+
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
         """Every check, with the gap proved to a tolerance in mm.
@@ -819,7 +840,7 @@ class Design:
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
         require_mm("--proof", to_mm, allowed, "the roller's radius")
-        return [*self._judged, *proofs(self.parts, to_mm)]
+        return self._judged if self.is_drawn else [*self._judged, *proofs(self.parts, to_mm)]
 
     @answer
     def _judged(self) -> list[Check]:
@@ -827,7 +848,7 @@ class Design:
         from geneva_cli.verdict.advice import judged
 
         if self.is_drawn:
-            rows: list[Check] = load_extra("outline", "checks")(self.mechanism)
+            rows: list[Check] = self._of_drawing("checks")
             return rows
         # a machine without parts is judged without NumPy
         return judged(self.mechanism, self.parts if self.spec.is_turned else None)
@@ -912,8 +933,7 @@ class Design:
         from geneva_cli.verdict.warnings import warnings
 
         if self.is_drawn:
-            notes: list[Notice] = load_extra("outline", "warnings")(self.mechanism)
-            return notes
+            return self.spec.accept.applied(self._of_drawing("warnings"))
         # the other direction's would be called backwards, which this one is
         every = (warnings if self.is_backwards else all_warnings)(self.parts)
         return self.spec.accept.applied(every)

@@ -250,6 +250,8 @@ def meaning(c: Check, parts: str = "") -> str:
         return f"an idle roller overlaps the wheel by {-value:.4g} mm{where}"
     if c.name in NO_WALL and value < 0.0:
         return f"{NO_WALL[c.name]} by {-value:.4g} mm"
+    if c.name == "turns":
+        return f"{value:.0f} of {limit:.0f} slots pass{where}"
     if c.name == "dwell_hold":
         return "nothing holds the wheel in its dwell"
     moves, unit = ("rack can move", " mm") if c.name.endswith("_mm") else ("wheel can turn", "°")

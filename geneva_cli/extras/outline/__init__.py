@@ -4,6 +4,7 @@ from geneva_cli.motion.kind import Extra
 
 EXTRA = Extra(
     answers={
+        "as_built": "extras.outline.checks:as_built",
         "checks": "extras.outline.checks:checks",
         "motion": "extras.outline.real_motion:motion",
         "over": "extras.outline.pictures:over",

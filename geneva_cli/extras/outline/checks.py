@@ -39,6 +39,22 @@ def checks(mechanism: Mechanism) -> list[Check]:
     return [*rows, *_entry(result, mechanism), *_drift(result, mechanism)]
 
 
+def as_built(mechanism: Mechanism) -> Check:
+    """Return the check that our own parts on a crank as built turn, with their impact in words.
+
+    Raises GenevaError for parts that are not flat, or whose rollers go round no crank.
+    """
+    result = turned(mechanism)
+    check = _turns(result, mechanism)
+    every = impacts(result)
+    if not (check.passes and every):
+        return check
+    worst = max(every, key=lambda one: abs(one.velocity))
+    at = _shown_deg(result.machine, worst.crank)
+    text = f"roller, clearance and disc strike the wheel with {abs(worst.velocity):.4g} of the "
+    return check._replace(why=f"{text}input's speed at {at:.5g}°; {check.why}")
+
+
 def warnings(mechanism: Mechanism) -> list[Notice]:
     """Return the warnings about drawings: how they were read."""
     return list(turned(mechanism).machine.notes)
@@ -83,7 +99,7 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
         return text
     own, theirs = touching.named(0)
     where = shown((float(touching.point[0, 0]), float(touching.point[0, 1])))
-    return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} of its drawing"
+    return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} in its own frame"
 
 
 def _from_rest(machine: DrawnMachine, wheel: float) -> float:

@@ -134,13 +134,16 @@ def request(
     many = random is not None or bool(best)
     axes = [axis(words, many) for words in vary]
     try:  # report an error in the file before errors in the options
-        files = text.spec().files
+        spec = text.spec()
     except GenevaError as error:
         middle = [a.values[len(a.values) // 2] for a in axes]
         try:  # a spec that is invalid on its own
-            files = with_values(text, axes, middle).spec().files
+            spec = with_values(text, axes, middle).spec()
         except GenevaError:
             raise error from None
+    files = spec.files
+    if spec.outline.is_given:
+        raise GenevaError(f"{text.name}: [outline]: a sweep varies formulas, and turns no drawings")
     refuse_twice(axes, text.set_keys)
     if best and random is None and any(a.span for a in axes):
         random = 4096  # designs that --best scans
