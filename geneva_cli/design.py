@@ -812,18 +812,18 @@ class Design:
         return load_extra("outline", answer)(self.mechanism, *values)
 
     @question
-    def drawing_over(self, drawing: Drawing, part: str) -> Drawing:
-        """Return a drawing of a part, with that of ``[outline]`` over it on layer OUTLINE.
+    def drawing_over(self, drawing: Drawing) -> Drawing:
+        """Return a drawing of a part with that of ``[outline]`` over it on layer OUTLINE.
 
         Without ``[outline]``, and for other parts than wheel, crank and assembly, it is the same.
 
         >>> plain = Design(External(6))
-        >>> plain.drawing_over(plain.drawing("wheel"), "wheel").layers
+        >>> plain.drawing_over(plain.drawing("wheel")).layers
         ('WHEEL', 'BORE')
         """
         if not self.is_drawn:
             return drawing
-        both: Drawing = self._of_drawing("over", part, drawing)
+        both: Drawing = self._of_drawing("over", drawing)
         return both
 
     @question

@@ -126,19 +126,20 @@ def _figure(figure: Figure, mechanism: Mechanism) -> Figure:
     return figure._replace(panels=(panel._replace(curves=(curve,)),), shaded=())
 
 
-def over(mechanism: Mechanism, part: str, drawing: Drawing) -> Drawing:
+def over(mechanism: Mechanism, drawing: Drawing) -> Drawing:
     """Return a drawing of our own part with that of somebody else over it, on layer OUTLINE.
 
-    Other parts than wheel, crank and assembly are returned as they are.
+    Drawings of other parts than wheel, crank and assembly are returned as they are.
     """
     machine = drawn_machine(mechanism)
     outline, place = mechanism.spec.outline, machine.assembly
     shapes: list[Contour] = []
-    if outline.wheel is not None and part in ("wheel", "assembly"):
+    has_wheel, has_crank = (layer in drawing.layers for layer in ("WHEEL", "CRANK"))
+    if outline.wheel is not None and has_wheel:
         shapes += machine.wheel
-    if outline.crank is not None and part in ("crank", "assembly"):
+    if outline.crank is not None and has_crank:
         turn = float(machine.free.crank_direction(np.zeros(1))[0])
-        at, turn = ((place.L, 0.0), turn) if part == "assembly" else ((0.0, 0.0), 0.0)
+        at, turn = ((place.L, 0.0), turn) if has_wheel else ((0.0, 0.0), 0.0)
         shapes += [placed(shape, at, turn) for shape in machine.crank]
     added = tuple(shape._replace(layer=DRAWN) for shape in shapes)
     return drawing._replace(shapes=(*drawing.shapes, *added), solid=None, look=None)

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.chosen import ByLoad, by_load
 from geneva_cli.specfile.columns import digest
@@ -109,6 +110,13 @@ def _keeping(rows: Rows, bounds: Iterable[tuple[int, Constraint]]) -> Rows:
     return rows.taken(np.logical_and.reduce(each))
 
 
+def _formulas_alone(spec: Spec) -> Spec:
+    """The spec. Raises GenevaError if it has drawings."""
+    if spec.outline.is_given:
+        raise GenevaError(f"{spec.path}: [outline]: a sweep varies formulas, and turns no drawings")
+    return spec
+
+
 def request(
     path: str,
     vary: Sequence[str],
@@ -141,9 +149,7 @@ def request(
             spec = with_values(text, axes, middle).spec()
         except GenevaError:
             raise error from None
-    files = spec.files
-    if spec.outline.is_given:
-        raise GenevaError(f"{text.name}: [outline]: a sweep varies formulas, and turns no drawings")
+    files = _formulas_alone(spec).files
     refuse_twice(axes, text.set_keys)
     if best and random is None and any(a.span for a in axes):
         random = 4096  # designs that --best scans
