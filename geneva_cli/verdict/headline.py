@@ -26,6 +26,10 @@ NO_WALL = {  # the meaning of a negative wall
     "rollers_apart_mm": "the rollers overlap each other",
     "outer_wall_mm": "the slots break through the wheel's outside",
 }
+SAID = {
+    "dwell_hold": "nothing holds the wheel in its dwell",
+    "turns": "{value:.0f} of {limit:.0f} slots pass{where}",
+}
 
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
@@ -259,8 +263,8 @@ def meaning(c: Check, parts: str = "") -> str:
         return f"an idle roller overlaps the wheel by {-value:.4g} mm{where}"
     if c.name in NO_WALL and value < 0.0:
         return f"{NO_WALL[c.name]} by {-value:.4g} mm"
-    if c.name == "dwell_hold":
-        return "nothing holds the wheel in its dwell"
+    if c.name in SAID:
+        return SAID[c.name].format(value=value, limit=limit, where=where)
     moves, unit = ("rack can move", " mm") if c.name.endswith("_mm") else ("wheel can turn", "°")
     if c.name in ("hand_over_play_deg", "hand_over_play_mm"):
         return (
