@@ -241,7 +241,7 @@ def test_a_check_fails_in_its_bad_example_and_passes_in_the_good_one(entry: Entr
 
 def examples_of(entry: Entry) -> list[str]:
     """A command that shows the warning or the failing check, and the one after the repair."""
-    return EXAMPLES_OF[entry.group].get(entry.names[0]) or [entry.bad, entry.good]
+    return EXAMPLES_OF[entry.group][entry.names[0]]
 
 
 def passes(command: str) -> dict[str, bool | None]:
