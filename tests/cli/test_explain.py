@@ -169,9 +169,11 @@ def test_no_entry_names_no_quantity(quantities: set[str]):
     assert not [name for name in explained("quantity") if not is_named(name)]
 
 
-# The examples of these are points of a file, a value that is null without a word, and a body on a
-# carousel, which no design has off its axis.
+# A command, or lines of a spec, that shows the warning or the failing check, and one that does not.
 EXAMPLES_OF = tomllib.loads((repo.ROOT / "tests/cli/examples.toml").read_text(encoding="utf-8"))
+
+# Shown by points of a file, a value that is null without a word, a body on a carousel, which no
+# design has off its axis, and drawings.
 WITHOUT_RUN = {"rounded-points", "not-known", "unbalance-windup", "outline-units"}
 WARNINGS = [e for e in entries() if e.group == "warning" and e.names[0] not in WITHOUT_RUN]
 
@@ -206,6 +208,12 @@ def test_an_entry_is_whole():
 def test_no_proof_is_of_nothing():
     named = {(e.group, e.names[0]) for e in entries()}
     assert {(group, name) for group, some in PROOFS.items() for name in some} == named
+
+
+@pytest.mark.parametrize(("group", "entries"), [("check", CHECKED), ("warning", WARNINGS)])
+def test_every_check_and_warning_has_examples(group: str, entries: list[Entry]):
+    assert EXAMPLES_OF[group].keys() == {entry.names[0] for entry in entries}
+    assert all(len(pair) == 2 for pair in EXAMPLES_OF[group].values())
 
 
 @pytest.mark.long
