@@ -269,7 +269,7 @@ def warned(example: str) -> set[str]:
         Path("more.toml").write_text("\n".join(lines), encoding="utf-8")
         example = "geneva peaks more.toml" if whole else "geneva loads more.toml"
     result = CliRunner().invoke(app, shlex.split(example)[1:])
-    assert result.exit_code == 0, result.output
+    assert result.exit_code <= example.startswith("geneva check"), result.output  # it may fail
     return set(re.findall(r"(?:explain |\[)([a-z-]+)", result.output))
 
 
