@@ -31,7 +31,10 @@ def temporary(name, number):
     return f".{name}.geneva-{number}.tmp"
 
 
-@pytest.mark.parametrize("name", ["a.csv", "a b+(1)@.csv", "größe.csv", "x" * 250 + ".csv"])
+LONG = pytest.param("x" * 250 + ".csv", marks=posix("paths of 300 letters"))
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a b+(1)@.csv", "größe.csv", LONG])
 def test_stale_ones_go(name):
     put(temporary(name.encode()[:200].decode(), GONE), "half a fi")
     write(name, ["whole"])
