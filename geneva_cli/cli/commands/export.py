@@ -49,12 +49,11 @@ def run(
     is written, and the exit status is 1.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import refuse_columns, show
+    from geneva_cli.output import show
     from geneva_cli.output.folder import Entry, filling_folder
     from geneva_cli.study.export import export_files, shop_warnings, trade_of
     from geneva_cli.table import rows_table
 
-    refuse_columns()
     needed = trade_of(trade)
     design = load(spec, settings or ())
     if not output:

@@ -37,7 +37,8 @@ def run(
 ) -> None:
     """Write a short commented spec to start from; --all for every key.
 
-    An existing file is kept, unless --force is given. For editors: `geneva help spec`.
+    `geneva check` judges it, and `geneva size` writes the sizes that it leaves out, so that they
+    stay. An existing file is kept, unless --force is given. For editors: `geneva help spec`.
     """
     from geneva_cli.output import show
     from geneva_cli.specfile.designs import design, titles
