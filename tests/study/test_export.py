@@ -40,7 +40,7 @@ def test_the_files_of_a_laser(spec, tmp_path):
     names = {f"{name}-1x-3mm.dxf" for name in cut}
     written = bytes_of(tmp_path / "out")
     assert set(written) == {*names, "sheet.pdf", "parts.csv", "spec.toml", "contents.csv"}
-    with (tmp_path / "out" / "contents.csv").open(newline="") as file:
+    with (tmp_path / "out" / "contents.csv").open(encoding="utf-8", newline="") as file:
         listed = {row["file"] for row in csv.DictReader(file)}
     assert listed == set(written) - {"contents.csv"}
     assert all(name in result.stdout for name in listed)
@@ -72,7 +72,7 @@ def test_what_is_printed_is_as_large_as_the_list_says(spec, tmp_path):
     settings = "--set", "size.process=print", "--set", "size.center_distance_mm=100"
     result = run(spec, "--for", "print", *settings, "-o", folder)
     assert (result.exit_code, result.stderr) == (0, "")
-    with (folder / "parts.csv").open(newline="") as file:
+    with (folder / "parts.csv").open(encoding="utf-8", newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["row"] == "part"]
     meshes = [path for path in folder.iterdir() if path.suffix == ".stl"]
     assert len(meshes) == len(rows)
