@@ -19,6 +19,7 @@ and has the whole jump. Radial slots rest at b on both sides.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -118,7 +119,7 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
 def as_derived(place: RollerPlace) -> RollerPlace:
     """A place of a crank whose R/L is what its slots need, as one of a crank as built."""
     skew, b = place.skew, place.step.b
-    built = AsBuilt(True, 0.0 * b, (skew.tilt if skew else 0.0) - b, False)
+    built = AsBuilt(True, math.nan, (skew.tilt if skew else 0.0) - b, False)
     return place._replace(closed=None, built=built)
 
 
