@@ -125,8 +125,8 @@ def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float]) -> 
     spec, value = mechanism.spec, values[key]
     if key in LEFT_OUT or (key in ALLOWED and spec.size.process is None):
         return False
-    if key == "center_distance_mm":  # some drives solve for it
-        return value == spec.given_distance_mm
+    if key == "center_distance_mm":  # it follows from the crank radius, or a drive solves for it
+        return spec.size.crank_radius_mm is None and value == spec.given_distance_mm
     if key == "crank_bore_mm":  # 0: the shaft ends in the arm
         return value > 0.0 or "arm_bore_mm" in values
     if key == "relief_clearance_mm":
