@@ -285,8 +285,9 @@ class Design:
         Chosen(value=5.0, why='default r')
         """
         from geneva_cli.parts.chosen import chosen
+        from geneva_cli.parts.detail_sizes import detail_sizes
 
-        return chosen(self.mechanism)
+        return chosen(self.mechanism, detail_sizes(self.mechanism))
 
     @answer
     def sized(self) -> Design:

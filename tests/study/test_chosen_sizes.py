@@ -174,7 +174,7 @@ def test_a_sweep_says_that_each_row_has_its_own_sizes(turret):
 
 def test_the_table_and_the_file(turret):
     table = run("size", "turret.toml")
-    assert table.stdout.startswith("Turret: 11 sizes chosen, 5 of them by the load\n")
+    assert table.stdout.startswith("Turret: 16 sizes chosen, 5 of them by the load\n")
     tree = json.loads(run("size", "turret.toml", "--format", "json").stdout)
     assert list(tree) == ["spec", "title", "rows"]
     assert all(list(row) == ["key", "value", "why"] for row in tree["rows"])
