@@ -366,7 +366,7 @@ class Design:
         from geneva_cli.motion.peaks import peaks_table
 
         if self.is_drawn:
-            own: Table = load_extra("outline", "peaks")(self.mechanism)
+            own: Table = self._of_drawing("peaks")
             return own
         return peaks_table(self.mechanism)
 
@@ -417,22 +417,40 @@ class Design:
         return record_table(own | {"certificate": certificates})
 
     @question
-    def motion(self, samples: int = 361, turns: int | None = None) -> Table:
+    def motion(
+        self,
+        samples: int = 361,
+        turns: int | None = None,
+        at_deg: Sequence[float] | None = None,
+    ) -> Table:
         """``samples`` rows over a period from the first entry, evenly spaced in the input angle.
 
         With ``turns`` of the input there are rows over all of them, and also one at each entry,
-        exit and jump. Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
+        exit and jump. With ``at_deg`` they are at those input angles from mid-motion instead.
+        Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk, and at the spec's
+        speed omega_rad_s and alpha_rad_s2.
 
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
+        >>> Design(External(6)).motion(at_deg=[0.0]).to_dict()["velocity"].tolist()
+        [1.0]
         """
-        from geneva_cli.motion.motion_table import knots_deg, motion_table, periods, turns_table
+        from geneva_cli.motion.motion_table import (
+            angles_table,
+            knots_deg,
+            motion_table,
+            periods,
+            turns_table,
+        )
 
         if self.is_drawn:
-            if turns is not None:
-                raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
-            own: Table = load_extra("outline", "motion")(self.mechanism, samples)
+            if turns is not None or at_deg is not None:
+                option = "--at" if turns is None else "--turns"
+                raise GenevaError(f"{option}: a drawing's motion is that of one turn; leave it out")
+            own: Table = self._of_drawing("motion", samples)
             return own
+        if at_deg is not None:
+            return angles_table(self.mechanism, at_deg)
         if turns is None:
             return motion_table(self.mechanism, samples)
         count = periods(self.mechanism, turns)
@@ -804,6 +822,29 @@ class Design:
         """
         return self.spec.outline.is_given
 
+    def _of_drawing(self, answer: str, *values: object) -> Any:
+        """An answer about the drawings that replace the outlines."""
+        if self.is_backwards:
+            raise GenevaError(
+                "--reverse: drawings are turned in both senses by `geneva check`; leave it out"
+            )
+        return load_extra("outline", answer)(self.mechanism, *values)
+
+    @question
+    def drawing_over(self, drawing: Drawing) -> Drawing:
+        """Return a drawing of a part with that of ``[outline]`` over it on layer OUTLINE.
+
+        Without ``[outline]``, and for other parts than wheel, crank and assembly, it is the same.
+
+        >>> plain = Design(External(6))
+        >>> plain.drawing_over(plain.drawing("wheel")).layers
+        ('WHEEL', 'BORE')
+        """
+        if not self.is_drawn:
+            return drawing
+        both: Drawing = self._of_drawing("over", drawing)
+        return both
+
     @question
     def proved_to(self, to_mm: float) -> list[Check]:
         """Every check, with the gap proved to a tolerance in mm.
@@ -817,8 +858,8 @@ class Design:
         from geneva_cli.verdict.checks import proofs
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
-        require_mm("--proof", to_mm, allowed, "the roller's radius")
-        return [*self._judged, *proofs(self.parts, to_mm)]
+        require_mm("--certify", to_mm, allowed, "the roller's radius")
+        return self._judged if self.is_drawn else [*self._judged, *proofs(self.parts, to_mm)]
 
     @answer
     def _judged(self) -> list[Check]:
@@ -826,7 +867,7 @@ class Design:
         from geneva_cli.verdict.advice import judged
 
         if self.is_drawn:
-            rows: list[Check] = load_extra("outline", "checks")(self.mechanism)
+            rows: list[Check] = self._of_drawing("checks")
             return rows
         # a machine without parts is judged without NumPy
         return judged(self.mechanism, self.parts if self.spec.is_turned else None)
@@ -911,8 +952,7 @@ class Design:
         from geneva_cli.verdict.warnings import warnings
 
         if self.is_drawn:
-            notes: list[Notice] = load_extra("outline", "warnings")(self.mechanism)
-            return notes
+            return self.spec.accept.applied(self._of_drawing("warnings"))
         # the other direction's would be called backwards, which this one is
         every = (warnings if self.is_backwards else all_warnings)(self.parts)
         return self.spec.accept.applied(every)

@@ -28,6 +28,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "write-report": "write a report",
         "drawing-sheet": "make a drawing with dimensions; a spherical wheel from sheet",
         "processes": "cut it with a laser, mill it, or print it",
+        "drawn-elsewhere": "check a wheel from elsewhere: will a drawing turn?",
         "cad": "hand over a STEP to CAD; go on in build123d or FreeCAD",
         "hand-over": "hand over to a shop",
         "inches": "work in inches and pounds",

@@ -47,14 +47,14 @@ class Verdict(NamedTuple):
         return not self.error and all_pass(self.checks)
 
 
-def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = None) -> Verdict:
+def verdict(path: str, settings: Sequence[str] = (), to_mm: float | None = None) -> Verdict:
     """Return the verdict on one spec; ``settings``, texts ``KEY=VALUE``, replace its own keys.
 
-    ``proof_mm`` is the tolerance of the proof that no parts collide.
+    ``to_mm`` is the tolerance of the proof that no parts collide.
     """
     try:
         design = load(path, settings)
-        checks = design.checks if proof_mm is None else design.proved_to(proof_mm)
+        checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
             files=design.spec.files,
@@ -70,7 +70,7 @@ def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = No
 
 
 def verdicts(
-    paths: list[str], settings: Sequence[str] = (), proof_mm: float | None = None
+    paths: list[str], settings: Sequence[str] = (), to_mm: float | None = None
 ) -> Iterator[Verdict]:
     """The verdicts on specs, in their order, each as ``verdict`` returns it.
 
@@ -78,7 +78,7 @@ def verdicts(
     """
     if list(paths).count("-") > 1:
         raise GenevaError("<stdin>: given twice, but it can be read only once; name it once")
-    judge = partial(verdict, settings=settings, proof_mm=proof_mm)
+    judge = partial(verdict, settings=settings, to_mm=to_mm)
     files = [path for path in paths if path != "-"]
     others = mapped(judge, files, min(len(files), cores()), "specs")
     for path in tracked(paths, "specs", len(paths)):

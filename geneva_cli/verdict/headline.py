@@ -26,6 +26,10 @@ NO_WALL = {  # the meaning of a negative wall
     "rollers_apart_mm": "the rollers overlap each other",
     "outer_wall_mm": "the slots break through the wheel's outside",
 }
+SAID = {
+    "dwell_hold": "nothing holds the wheel in its dwell",
+    "turns": "{value:.0f} of {limit:.0f} slots pass{where}",
+}
 
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
@@ -62,11 +66,16 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
 def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
     """A record as it stands below its summary, without the warnings and the names shown there.
 
-    Notes on unknown values remain, as ``not_known``.
+    Notes on unknown values remain, as ``not_known``. Of an angle in two units, degrees remain. An
+    allowed stress without a stress is left out.
     """
     values = dict(zip(record.names, next(record.rows()), strict=True))
     notes = tuple(text for text in values.pop("warnings") if not is_warning(text))
     left = {name: value for name, value in values.items() if name not in without}
+    left = {name: value for name, value in left.items() if not name.endswith("_arcsec")}
+    for name in [n for n in left if n.endswith(".allowed_MPa")]:
+        if left.get(name.replace("allowed_MPa", "margin")) is None:  # there is no stress
+            del left[name]
     return record_table(left | ({"not_known": notes} if notes else {}), prose=record.prose)
 
 
@@ -254,8 +263,8 @@ def meaning(c: Check, parts: str = "") -> str:
         return f"an idle roller overlaps the wheel by {-value:.4g} mm{where}"
     if c.name in NO_WALL and value < 0.0:
         return f"{NO_WALL[c.name]} by {-value:.4g} mm"
-    if c.name == "dwell_hold":
-        return "nothing holds the wheel in its dwell"
+    if c.name in SAID:
+        return SAID[c.name].format(value=value, limit=limit, where=where)
     moves, unit = ("rack can move", " mm") if c.name.endswith("_mm") else ("wheel can turn", "°")
     if c.name in ("hand_over_play_deg", "hand_over_play_mm"):
         return (

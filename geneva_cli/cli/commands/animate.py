@@ -30,13 +30,15 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import animate
+    from geneva_cli.spec.load_named import load_extra
     from geneva_cli.study.animation.turning_scene import scene
 
     if open_ and output != "-" and not output.endswith(".html"):
         raise GenevaError(f'-o "{output}": --open opens a page: it must end in .html')
     design = load(spec, settings or (), reverse)
     place = os.path.join(_folder(), "machine.html") if open_ and output == "-" else output
-    animate(scene(design), place, design.spec.files)
+    shown = load_extra("outline", "scene")(design) if design.is_drawn else scene(design)
+    animate(shown, place, design.spec.files)
     warn(design)
     if open_:
         _open(os.path.abspath(place))

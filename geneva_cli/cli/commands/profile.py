@@ -127,7 +127,8 @@ def run(
             require_written(design, design.cutter(part, cutter, dog_bones), force)
         bones = cutter if dog_bones else None
         drawing = design.drawing(part, tolerance, curves, kerf, bones, center_marks)
-        draw(drawing, output, format, units, files, **own)
+        shown = drawing if kerf is not None else design.drawing_over(drawing)
+        draw(shown, output, format, units, files, **own)
     warn(design)
 
 

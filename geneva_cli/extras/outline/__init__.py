@@ -4,9 +4,12 @@ from geneva_cli.motion.kind import Extra
 
 EXTRA = Extra(
     answers={
+        "as_built": "extras.outline.checks:as_built",
         "checks": "extras.outline.checks:checks",
         "motion": "extras.outline.real_motion:motion",
+        "over": "extras.outline.pictures:over",
         "peaks": "extras.outline.real_motion:peaks",
+        "scene": "extras.outline.pictures:drawn_scene",
         "warnings": "extras.outline.checks:warnings",
     }
 )

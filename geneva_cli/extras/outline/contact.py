@@ -19,9 +19,7 @@ from geneva_cli.parts.turn.stops import Branches, Meetings
 
 ORDER = 3  # the jerk
 NEAR = 1e-6  # radians: what is farther away does not touch
-# A contact whose normal goes through the wheel's axis touches, but does not push: the least sine
-# of the angle between both.
-LEAST_LEVER = 1e-5
+LEAST = 1e-5  # sine of the angle of a contact's normal from the direction of the wheel's axis
 CORNER = 1e-9  # of the level: nearer to the end of a branch its corner touches
 
 FIXED = 1e-9  # of L: a point so near to the crank's axis, as a disc's centre, moves no wheel
@@ -31,18 +29,19 @@ class Side(NamedTuple):
     """What touches on one side, in the fixed frame, (n,) each: a point, or an edge's foot.
 
     ``far`` and ``ahead`` are polar coordinates about the wheel's axis; the foot is the edge's
-    nearest point to it.
+    nearest point to it. ``radius`` is that of the circle about the point, 0 of a corner.
     """
 
     far: Array
     ahead: Array
+    radius: Array
     is_edge: Mask
 
 
 class Contact(NamedTuple):
     """What touches at n positions; angles are radians.
 
-    ``point`` is where they touch, in the fixed frame.
+    ``point`` is where they touch, in the wheel's own frame.
     """
 
     sense: float
@@ -76,10 +75,9 @@ class Contact(NamedTuple):
         """Return what touches of the wheel and of the crank, in words."""
         out = []
         for side in (self.wheel, self.crank):
-            x, y = side.far[i] * np.cos(side.ahead[i]), side.far[i] * np.sin(side.ahead[i])
-            radius = float(np.hypot(x - self.point[i, 0], y - self.point[i, 1]))
-            corner = "the corner" if radius < 1e-6 * self.L else f"the arc of {radius:.4g} mm"
-            out.append("a straight edge" if side.is_edge[i] else corner)
+            radius = side.radius[i]
+            arc = f"the arc of {radius:.4g} mm" if radius else "the corner"
+            out.append("a straight edge" if side.is_edge[i] else arc)
         return out[0], out[1]
 
     def _crank_point(self, theta: Jet) -> tuple[Jet, Jet]:
@@ -145,14 +143,18 @@ def _from(psi: Jet, turn: Array) -> tuple[Array, ...]:
     return (turn, *psi.arrays()[1:])
 
 
-def contacts(free: FreeRanges, crank_angle: Array, wheel: Array) -> Contact:
+def contacts(
+    free: FreeRanges, crank_angle: Array, wheel: Array, near: float = NEAR, lever: float = LEAST
+) -> Contact:
     """Return what touches at positions (n,), of which the wheel is at an end of a free range.
 
-    Of several contacts it is the one whose interval ends nearest to the wheel's angle.
+    Of several contacts it is the one whose interval ends nearest to the wheel's angle, at most
+    ``near`` radians from it. The sine of the angle between its normal and the direction from the
+    wheel's axis is above ``lever``: a smaller one touches, but does not push.
     """
     n = len(crank_angle)
-    best = np.full(n, NEAR)
-    sides, point = np.zeros((2, 3, n)), np.zeros((n, 2))
+    best = np.full(n, near)
+    sides, point = np.zeros((2, 4, n)), np.zeros((n, 2))
     for met in _near(free, crank_angle, wheel):
         for place, level in ((met.start, met.start_level), (met.end, met.end_level)):
             off = place - wheel[met.row]
@@ -164,20 +166,22 @@ def contacts(free: FreeRanges, crank_angle: Array, wheel: Array) -> Contact:
             touched = np.column_stack((level[k] * np.cos(at), level[k] * np.sin(at)))
             ours, theirs = _side(one, level[k]), _side(met.wheel.at(k), level[k])
             theirs[1] += wheel[rows] + shift[k]
-            able = np.flatnonzero(_lever(ours, theirs, touched) > LEAST_LEVER)
+            own = free.stops.place(met.wheel.at(k), level[k]) + shift[k]
+            able = np.flatnonzero(_lever(ours, theirs, touched) > lever)
             able = able[np.argsort(-off[k][able], kind="stable")]  # the nearest one comes last
             for i in able:
-                best[rows[i]], point[rows[i]] = off[k[i]], touched[i]
+                best[rows[i]] = off[k[i]]
+                point[rows[i]] = level[k[i]] * np.cos(own[i]), level[k[i]] * np.sin(own[i])
                 sides[:, :, rows[i]] = ours[:, i], theirs[:, i]
-    crank, own = (Side(far, ahead, edge > 0.5) for far, ahead, edge in sides)
-    return Contact(free.sense, free.L, crank, own, wheel, best < NEAR, point)
+    crank, theirs = (Side(*side[:3], side[3] > 0.5) for side in sides)
+    return Contact(free.sense, free.L, crank, theirs, wheel, best < near, point)
 
 
 def _lever(ours: Array, theirs: Array, touched: Array) -> Array:
     """Return the sine of the angle between contact normals and directions from the wheel's axis."""
     p, w = (side[0] * np.exp(1j * side[1]) for side in (ours, theirs))
-    normal = np.where(theirs[2] > 0.5, np.exp(1j * theirs[1]), p - w)
-    normal = np.where(ours[2] > 0.5, np.exp(1j * ours[1]), normal)
+    normal = np.where(theirs[3] > 0.5, np.exp(1j * theirs[1]), p - w)
+    normal = np.where(ours[3] > 0.5, np.exp(1j * ours[1]), normal)
     at = touched[:, 0] + 1j * touched[:, 1]
     size = np.abs(normal) * np.abs(at)
     sine = np.abs((normal.conjugate() * at).imag) / np.maximum(size, 1e-300)
@@ -205,4 +209,6 @@ def _side(branch: Branches, level: Array) -> Array:
     is_edge = ~is_corner & (branch.size == 0.0)
     far = np.where(is_corner, level, np.where(branch.size == 0.0, branch.excess, centre))
     ahead = branch.ahead + np.where(is_corner, branch.sign * corner_at, 0.0)
-    return np.array((far, ahead, is_edge))
+    with np.errstate(divide="ignore"):
+        radius = np.where(is_corner | is_edge, 0.0, 1.0 / branch.size)
+    return np.array((far, ahead, radius, is_edge))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, Notice, cut
+from geneva_cli.errors import GenevaError, Notice, below, cut
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import Loop, loops
 from geneva_cli.geometry.measure import turned_pieces
@@ -19,7 +19,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.output.foreign import read_drawing
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.free_ranges import FreeRanges
+from geneva_cli.parts.turn.free_ranges import FreeRanges, levels
 
 EXACT_MM, FACETED_MM = 1e-6, 1e-3  # overlaps that count as touching: of arcs, of short lines
 
@@ -123,7 +123,7 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> _Drawn | None:
     file = outline[part]
     if file is None:
         return None
-    path = os.path.join(os.path.dirname(spec.path), file)
+    path = below(os.path.dirname(spec.path), file)
     drawn = read_drawing(path)
     notes += [Notice("outline-units", f"{cut(file, 100)}: {text}") for text in drawn.notes]
     pieces = list(drawn.pieces)
@@ -155,16 +155,18 @@ def _with_rollers(
     pins = [place.pin(i, np.zeros(1))[0] - axis for i in range(len(place.rollers))]
     ahead = np.pi if place.sign > 0.0 else 0.0
     turned = [complex(*pin) * complex(math.cos(-ahead), math.sin(-ahead)) for pin in pins]
-    R = abs(turned[0])
+    R = ideal = abs(turned[0])
+    if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
+        ideal = place.L * math.sin(math.pi / mechanism.spec.wheel.z)
     crank = drawn.contours if drawn else own
     for loop in drawn.loops if drawn else ():
         circle = _as_circle(loop)
         if circle and not loop.is_hole and abs(complex(*circle.centre)) > circle.radius:
-            return crank, Roller(abs(complex(*circle.centre)), circle.radius, True, R)
+            return crank, Roller(abs(complex(*circle.centre)), circle.radius, True, ideal)
     if drawn and Polyarc(crank).signed(np.array([(turned[0].real, turned[0].imag)]))[0] < 0.0:
-        return crank, Roller(R, radius, True, R)
+        return crank, Roller(R, radius, True, ideal)
     rollers = [oriented(Circle("ROLLER", (pin.real, pin.imag), radius), ())[0] for pin in turned]
-    return (*crank, *rollers), Roller(R, radius, False, R)
+    return (*crank, *rollers), Roller(R, radius, False, ideal)
 
 
 def _as_circle(loop: Loop) -> Circle | None:
@@ -186,9 +188,8 @@ def _as_circle(loop: Loop) -> Circle | None:
 
 def _require_reach(wheel: Polyarc, crank: Polyarc, L: float) -> None:
     """Raise GenevaError if no part reaches the other."""
-    far = float((np.hypot(crank.ox, crank.oy) + crank.size).max())
-    rim = float((np.hypot(wheel.ox, wheel.oy) + wheel.size).max())
-    inner = float(np.hypot(wheel.x0, wheel.y0).min())
+    far = float(levels(crank)[1].max())
+    inner, rim = (float(v) for v in (levels(wheel)[0].min(), levels(wheel)[1].max()))
     if L - far > rim or L + far < inner:
         raise GenevaError(
             f"no part reaches the other: the crank reaches {far:.6g} mm from its axis, the wheel "

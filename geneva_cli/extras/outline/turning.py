@@ -15,8 +15,8 @@ from geneva_cli.parts.turn.free_ranges import Range
 from geneva_cli.parts.turn.lazy_turn import Jam, LazyTurn, Push, Turner
 
 SETTLED = 1e-9  # radians: the wheel rests where it rested a turn before
-TRIALS = 12  # places of rest that are tried over the free range
-HALVINGS = 12  # of the space between two of them
+TRIALS = 8  # places of rest that are tried over the free range
+HALVINGS = 10  # of the space between two of them
 LATE = 1e-3  # radians: a push that moves the wheel less is not counted as an impact
 LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
 HELD_MIDDLE = ("detent", "pin")  # they put the wheel back to the middle of its dwell
@@ -82,21 +82,21 @@ def turned(mechanism: Mechanism) -> Turned:
     half = 0.5 * math.tau / mechanism.spec.wheel.z
     low, high = max(rest.low, machine.rest - half), min(rest.high, machine.rest + half)
     is_held = rest.is_free and high - low < 2.0 * half * (1.0 - 1e-9)
-    middle = machine.rest
-    senses = tuple(_sense(turner, machine, mechanism, way, middle) for way in SENSES)
+    is_put_back = mechanism.spec.wheel.held_by in HELD_MIDDLE or high - low < LOOSE
+    senses = tuple(_sense(turner, machine, way, is_put_back) for way in SENSES)
     turning = _turning(turner, machine, (low, high)) if rest.is_free else None
     limited = Range(rest.is_free, low, high)
     return Turned(machine, turner, (senses[0], senses[1]), limited, is_held, turning)
 
 
-def _sense(
-    turner: Turner, machine: DrawnMachine, mechanism: Mechanism, way: int, rest: float
-) -> SenseResult:
-    """Turn the crank until the wheel has made a turn, jams, or rests as a turn before."""
-    wheel = mechanism.spec.wheel
-    is_put_back = wheel.held_by in HELD_MIDDLE
+def _sense(turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool) -> SenseResult:
+    """Turn the crank until the wheel has made a turn, jams, or rests as a turn before.
+
+    Something may put it back to the middle of its dwell after each turn of the crank.
+    """
+    z, rest = machine.assembly.mechanism.spec.wheel.z, machine.rest
     is_alike = machine.free.period < 6.0  # one sector stands for all
-    every = max(1, round(wheel.z / machine.slots_a_turn))
+    every = max(1, round(z / machine.slots_a_turn))
     out: list[LazyTurn] = []
     at, drift = rest, 0.0
     for k in range(every):
@@ -110,7 +110,7 @@ def _sense(
             at = rest + (k + 1) * way * machine.step
         if is_alike and (is_put_back or abs(drift) < SETTLED):
             break
-    return SenseResult(way, tuple(out), wheel.z, drift)
+    return SenseResult(way, tuple(out), z, drift)
 
 
 def _turning(

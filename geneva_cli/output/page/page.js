@@ -142,7 +142,7 @@
       ? `rack ${afterTurns(travel, t, 0).toFixed(2)} mm`
       : `wheel ${(afterTurns(angle, t, 0) * degrees).toFixed(2)} degrees`;
     const shown = shownDeg(scene, t).toFixed(2);
-    const more = moves && force ? `, with ${Number(force.toPrecision(3))} N` : "";
+    const more = moves && force > 1e-9 ? `, with ${Number(force.toPrecision(3))} N` : "";
     const text = words[0].toUpperCase() + words.slice(1) + more + ".";
     if (text !== said) by("state").textContent = said = text;
     by("angle").textContent = `${shown}\u00b0`;

@@ -169,8 +169,10 @@ def levels(outline: Polyarc) -> tuple[Array, Array]:
     low, high = np.maximum(middle - outline.size, 0.0), middle + outline.size
     # of a whole circle
     least, most = np.abs(far - outline.radius), far + outline.radius
+    ends = np.hypot(outline.x0, outline.y0), np.hypot(outline.x1, outline.y1)
     arc = outline.arc
-    return np.where(arc, np.maximum(low, least), low), np.where(arc, np.minimum(high, most), high)
+    most = np.where(arc, np.minimum(high, most), np.maximum(*ends))
+    return np.where(arc, np.maximum(low, least), low), most
 
 
 def one_sector(outline: Polyarc, pitch: float, near: float) -> Whole | None:
@@ -179,7 +181,7 @@ def one_sector(outline: Polyarc, pitch: float, near: float) -> Whole | None:
     Pieces that differ by at most ``near`` mm are the same.
     """
     count = round(math.tau / pitch)
-    if len(outline) % count:
+    if len(outline) % count or not len(outline):
         return None
     sides = np.column_stack((outline.x0 + 1j * outline.y0, outline.x1 + 1j * outline.y1))
     bend = outline.sense * outline.sin_half

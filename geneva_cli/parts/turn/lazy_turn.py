@@ -57,7 +57,7 @@ class LazyTurn(NamedTuple):
     @property
     def index(self) -> float:
         """How far the wheel has turned, radians."""
-        return float(self.wheel[-1] - self.wheel[0])
+        return float(self.wheel[-1] - self.wheel[0]) if len(self.wheel) else 0.0
 
     @property
     def is_moving(self) -> Array:

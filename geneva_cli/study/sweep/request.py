@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, below, cut
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.chosen import ByLoad, by_load
 from geneva_cli.specfile.columns import digest
@@ -63,7 +64,7 @@ class SweepRequest(NamedTuple):
         """
         folder = os.path.dirname(self.files[0])
         words = [word for a in self.sweep.plan.axes for word in a.words]
-        return (*self.files, *(os.path.join(folder, word) for word in words))
+        return (*self.files, *(below(folder, word) for word in words))
 
     def blocks(self, done: int = 0) -> Iterator[Rows]:
         """All rows, in blocks; the first ``done`` rows are skipped."""
@@ -109,6 +110,13 @@ def _keeping(rows: Rows, bounds: Iterable[tuple[int, Constraint]]) -> Rows:
     return rows.taken(np.logical_and.reduce(each))
 
 
+def _formulas_alone(spec: Spec) -> Spec:
+    """The spec. Raises GenevaError if it has drawings."""
+    if spec.outline.is_given:
+        raise GenevaError(f"{spec.path}: [outline]: a sweep varies formulas, and turns no drawings")
+    return spec
+
+
 def request(
     path: str,
     vary: Sequence[str],
@@ -134,13 +142,14 @@ def request(
     many = random is not None or bool(best)
     axes = [axis(words, many) for words in vary]
     try:  # report an error in the file before errors in the options
-        files = text.spec().files
+        spec = text.spec()
     except GenevaError as error:
         middle = [a.values[len(a.values) // 2] for a in axes]
         try:  # a spec that is invalid on its own
-            files = with_values(text, axes, middle).spec().files
+            spec = with_values(text, axes, middle).spec()
         except GenevaError:
             raise error from None
+    files = _formulas_alone(spec).files
     refuse_twice(axes, text.set_keys)
     if best and random is None and any(a.span for a in axes):
         random = 4096  # designs that --best scans

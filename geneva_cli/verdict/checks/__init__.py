@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.spec.load_named import load_extra
 from geneva_cli.verdict.checks.all_checks import (
     LIMITS,
     MOTION,
@@ -97,10 +98,10 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
         yield refused("parts", error)
         return
     yield from rows
-    if mechanism.no_turn:
-        yield Check("full_turn", None, "proved", None, None, mechanism.no_turn)
-        return
     if not turned:
+        return
+    if mechanism.no_turn:
+        yield _pushed_round(mechanism)
         return
     from geneva_cli.parts.turn.pairs import WorkLimit
 
@@ -110,6 +111,15 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
         yield refused("full_turn", error)
         return
     yield from applicable(TURNING, machine, turn)
+
+
+def _pushed_round(mechanism: Mechanism) -> Check:
+    """Whether parts turn that do not follow the formulas: by what touches, if that is installed."""
+    try:
+        check: Check = load_extra("outline", "as_built")(mechanism)
+    except GenevaError:
+        return Check("full_turn", None, "proved", None, None, mechanism.no_turn)
+    return check
 
 
 def _unknown_plays(mechanism: Mechanism) -> Iterator[Check]:
