@@ -78,7 +78,7 @@ class ByLoad(NamedTuple):
             for key, one in self.sizes.items()
         }
 
-    def _was(self, key: str) -> float | None:
+    def _was(self, key: str) -> float | str | None:
         was = self.before[key].value if key in self.before else None
         return None if was == self.sizes[key].value else was
 
