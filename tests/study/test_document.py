@@ -232,7 +232,7 @@ def test_inputs_say_what_is_a_default() -> None:
     (grid,) = (b for b in found.blocks if isinstance(b, Grid) and b.heads[0] == "Key")
     rows = {row[0]: row[1:3] for row in grid.rows}
     assert rows["load.inertia_kgm2"] == ("1.2", "kg m²")
-    assert rows["drive.n_rpm"] == (design.spec.drive.n_rpm, "rpm")
+    assert rows["drive.n_rpm"] == ("40", "rpm")
     appendix = found.blocks[-1]
     assert isinstance(appendix, Facts)
     assert Fact("load.friction_at", "slot") in appendix.facts
