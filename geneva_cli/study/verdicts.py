@@ -15,6 +15,7 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 from geneva_cli.verdict.headline import (
+    anew_lines,
     both_ways_lines,
     chosen_lines,
     failure_lines,
@@ -135,9 +136,10 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
         lines += (*chosen_lines(verdict.chosen, verdict.path),)
         summaries = [_head(verdict)._replace(lines=lines)]
     else:
-        details = [Summary(v.path, lines) for v in judged if (lines := _lines(v))]
+        each = ((v.path, (*_lines(v), *anew_lines(v.chosen))) for v in judged)
+        details = [Summary(path, lines) for path, lines in each if lines]
         unread = len(verdicts) - len(judged)
-        summaries = [*map(_head, judged), _count(judged, unread), *details]
+        summaries = [*map(_head, judged), _count(judged, unread), *_sized(judged), *details]
     return Answer(tuple(summaries), table if page else None, data)
 
 
@@ -167,3 +169,10 @@ def _count(judged: Sequence[Verdict], unread: int) -> Summary:
     text += f", {unread} cannot be read" if unread else ""
     text += f", {warned} with warnings" if warned else ""
     return Summary(text, state=FAILS if failed or unread else WARNS if warned else PASSES)
+
+
+def _sized(judged: Sequence[Verdict]) -> list[Summary]:
+    """How many specs have sizes that their loads chose; nothing without any."""
+    sized = sum(bool(v.chosen.sizes) for v in judged)
+    said = f"chosen by load in {sized} of {len(judged)} specs (geneva size SPEC writes them)"
+    return [Summary(f"sizes {said}")] if sized else []

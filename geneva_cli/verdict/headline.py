@@ -79,9 +79,13 @@ def chosen_lines(by_load: ByLoad, path: str) -> Iterator[SummaryLine]:
     """The lines of the sizes that the load chose, and of those that an option changed."""
     if by_load.words:
         name = {"": "SPEC", "<stdin>": "-"}.get(path, path)
-        yield SummaryLine(
-            "sizes", f"chosen by load: {by_load.words} (geneva size {name} writes them)"
-        )
+        text = f"chosen by load: {by_load.words} (geneva size {name} writes them)"
+        yield SummaryLine("sizes", text)
+    yield from anew_lines(by_load)
+
+
+def anew_lines(by_load: ByLoad) -> Iterator[SummaryLine]:
+    """The line of the sizes that an option changed."""
     if by_load.changes:
         yield SummaryLine("note", f"sizes chosen anew: {by_load.changes}")
 

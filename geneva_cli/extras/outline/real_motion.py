@@ -15,7 +15,13 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.turning import LATE, LOOSE, Turned, turned
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.motion_table import check_samples, inputs, times_s
+from geneva_cli.motion.motion_table import (
+    check_samples,
+    inputs,
+    motion_columns,
+    rates_at_speed,
+    times_s,
+)
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.jet import Jet, atan2, composed
 from geneva_cli.parts.turn.lazy_turn import LazyTurn, Push
@@ -69,9 +75,10 @@ def motion(mechanism: Mechanism, samples: int) -> Table:
     # the crank's angle is within half a turn of mid-motion; whole turns add whole steps
     turns = np.cumsum(np.concatenate(([0.0], np.diff(crank) < -math.pi)))
     shown = np.degrees(wheel + turns * turn.index)
-    names = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
     columns = [times_s(mechanism, input_deg), input_deg, shown, velocity, acceleration, jerk]
-    return Table(names, columns)
+    of_velocity, of_acceleration = rates_at_speed(mechanism).values()
+    columns += [velocity * of_velocity, acceleration * of_acceleration]
+    return Table(motion_columns(mechanism), columns)
 
 
 def crank_jet(mechanism: Mechanism, input_deg: Array) -> Jet:

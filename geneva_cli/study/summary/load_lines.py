@@ -38,6 +38,8 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
         return
     lines = [motor_line(design), *cycle_lines(design)]
     yield from lines
+    if design.spec.drive.stop_s:
+        yield _brake_line(design)
     if design.spec.drive.both_ways and not design.is_backwards:
         own, other = {line.text for line in lines}, design.backwards
         for there in (motor_line(other), *cycle_lines(other)):
@@ -56,6 +58,23 @@ def flywheel_line(design: Design) -> Iterator[SummaryLine]:
         text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
         yield SummaryLine("flywheel", text)
     yield from chosen_lines(design.chosen_by_load, design.spec.path)
+
+
+def _brake_line(design: Design) -> SummaryLine:
+    """What braking and starting the rotor in each dwell takes."""
+    names = ("brake_torque_Nm", "start_torque_Nm", "energy_J", "power_W", "inertia_kgm2")
+    values = design.report.table.to_dict()
+    brake, start, energy, power, inertia = (values[f"input_stop.{name}"] for name in names)
+    if inertia is None:
+        return SummaryLine("brake", "not known: set inertia_kgm2 in [motor]")
+    torques = [
+        f"{what} {measured(torque, 'N m')}"
+        for what, torque in (("stops with", brake), ("starts with", start))
+        if torque is not None
+    ]
+    abrupt = "" if len(torques) == 2 else "; set brake_s and start_s in [drive] for both torques"
+    took = f"{measured(energy, 'J')} each time, {measured(power, 'W')}"
+    return SummaryLine("brake", f"{', '.join([*torques, took])}{abrupt}")
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:

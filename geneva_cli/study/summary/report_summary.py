@@ -82,6 +82,8 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
     )
     n_rpm = measured(design.spec.drive.n_rpm, "rpm")
     text = f"{steps} in {motions}, then {dwells} of dwell; input at {n_rpm}"
+    if design.spec.drive.stop_s:
+        text += f", at rest for {measured(design.spec.drive.stands_s, 's')} of each dwell"
     yield SummaryLine("cycle", text)
     yield _size(values)
     if design.cycle.is_loaded:
