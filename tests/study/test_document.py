@@ -228,7 +228,7 @@ def test_a_users_words_stay_words(jams: str, format: str) -> None:
 
 
 def test_inputs_say_what_is_a_default() -> None:
-    design, found = of("turret")
+    _, found = of("turret")
     (grid,) = (b for b in found.blocks if isinstance(b, Grid) and b.heads[0] == "Key")
     rows = {row[0]: row[1:3] for row in grid.rows}
     assert rows["load.inertia_kgm2"] == ("1.2", "kg m²")
