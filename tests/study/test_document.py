@@ -135,7 +135,7 @@ def _parts(cell: str) -> list[str]:
     return [cell, bare, head, bare.split(" ")[0], " ".join(bare.split(" ")[:3])]
 
 
-@pytest.mark.sampled(14)
+@pytest.mark.sampled(20)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("file", sorted(repo.DESIGNS.glob("*.toml")), ids=lambda f: f.stem)
 def test_a_report_for_a_first_reader_has_two_pages(file: Any) -> None:
