@@ -279,7 +279,7 @@ def warned(example: str) -> set[str]:
         ("cycloidal", ["law"]),
         ("turns-back", ["warning", "key"]),
         ("first-wheel", ["part"]),
-        ("crank", ["kind", "part"]),
+        ("crank", ["kind", "part", "key"]),  # the key of [outline]
         ("inputs.drive.n_rpm", ["key"]),
         ("wheel.steps_deg", ["key"]),
         ("A", ["key"] * 4),  # of two kinds, in [drive] and in [drive.before]
