@@ -173,8 +173,8 @@ def contacts(
                 best[rows[i]] = off[k[i]]
                 point[rows[i]] = level[k[i]] * np.cos(own[i]), level[k[i]] * np.sin(own[i])
                 sides[:, :, rows[i]] = ours[:, i], theirs[:, i]
-    crank, theirs = (Side(*side[:3], side[3] > 0.5) for side in sides)
-    return Contact(free.sense, free.L, crank, theirs, wheel, best < near, point)
+    crank, own_side = (Side(s[0], s[1], s[2], s[3] > 0.5) for s in sides)
+    return Contact(free.sense, free.L, crank, own_side, wheel, best < near, point)
 
 
 def _lever(ours: Array, theirs: Array, touched: Array) -> Array:

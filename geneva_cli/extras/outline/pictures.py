@@ -69,7 +69,7 @@ class _Time:
         turn = self.turn
         after = turn.crank >= self.entry - 1e-9
         order = np.concatenate((np.flatnonzero(after), np.flatnonzero(~after)))
-        value = (turn.wheel + np.where(after, 0.0, turn.index))[order]
+        value = (turn.wheel + np.where(after, 0.0, turn.gained))[order]
         at = np.array([self.at(float(x)) for x in turn.crank[order]])
         keep = np.append(np.diff(at) > 1e-6, True)
         at, value = at[keep], value[keep]
@@ -78,7 +78,8 @@ class _Time:
         pairs = rate[:-1] * rate[1:]
         mean = 2.0 * pairs / np.where(pairs > 0.0, rate[:-1] + rate[1:], 1.0)
         slope = np.concatenate((rate[:1], np.where(pairs > 0.0, mean, 0.0), rate[-1:]))
-        return Track(*(tuple(each.tolist()) for each in (at, value, slope)), turn.index)
+        knots, values, slopes = (tuple(each.tolist()) for each in (at, value, slope))
+        return Track(knots, values, slopes, turn.gained)
 
 
 def _layered(contours: tuple[Contour, ...], layer: Layer) -> tuple[Shape, ...]:
@@ -121,7 +122,8 @@ def _figure(figure: Figure, mechanism: Mechanism) -> Figure:
     """The real velocity in place of all ideal curves."""
     panel = next(panel for panel in figure.panels if panel.y.name == "velocity")
     table = motion(mechanism, SAMPLES)
-    piece = table["input_deg"].tolist(), table["velocity"].tolist()
+    x, y = (np.asarray(table.columns[table.names.index(n)]) for n in ("input_deg", "velocity"))
+    piece = x.tolist(), y.tolist()
     curve = Curve(panel.curves[0].number, panel.curves[0].name, (piece,))
     return figure._replace(panels=(panel._replace(curves=(curve,)),), shaded=())
 

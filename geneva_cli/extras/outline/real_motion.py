@@ -68,7 +68,7 @@ def motion(mechanism: Mechanism, samples: int) -> Table:
     _, velocity, acceleration, jerk = psi.arrays()
     # the crank's angle is within half a turn of mid-motion; whole turns add whole steps
     turns = np.cumsum(np.concatenate(([0.0], np.diff(crank) < -math.pi)))
-    shown = np.degrees(wheel + turns * turn.index)
+    shown = np.degrees(wheel + turns * turn.gained)
     names = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
     columns = [times_s(mechanism, input_deg), input_deg, shown, velocity, acceleration, jerk]
     return Table(names, columns)

@@ -70,7 +70,7 @@ class Turned(NamedTuple):
     def has_indexed(self) -> bool:
         """True if the wheel has gone on by more than half of a step in each sense."""
         step = self.machine.step
-        return all(sense.way * sense.first.index > 0.5 * step for sense in self.senses)
+        return all(sense.way * sense.first.gained > 0.5 * step for sense in self.senses)
 
 
 @lru_cache(maxsize=4)
@@ -122,7 +122,7 @@ def _turning(
     def goes(rest: float) -> bool:
         for way in SENSES:
             turn = turner.turn(rest, 1, way, exact=False)
-            if turn.jam is not None or way * turn.index < 0.5 * machine.step:
+            if turn.jam is not None or way * turn.gained < 0.5 * machine.step:
                 return False
         return True
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.parts.turn.free_ranges import FreeRanges, Range, Ranges
 
 STEPS = 1440  # positions of a turn of the crank: a quarter of a degree apart
@@ -55,12 +55,12 @@ class LazyTurn(NamedTuple):
     jam: Jam | None
 
     @property
-    def index(self) -> float:
+    def gained(self) -> float:
         """How far the wheel has turned, radians."""
         return float(self.wheel[-1] - self.wheel[0]) if len(self.wheel) else 0.0
 
     @property
-    def is_moving(self) -> Array:
+    def is_moving(self) -> Mask:
         """Mask (n,) of the positions at which the wheel is pushed, or just was."""
         mask = np.zeros(len(self.crank), dtype=bool)
         for push in self.pushes:
@@ -136,8 +136,8 @@ class _Path:
         """Return the motion."""
         if self.begun is not None:
             self.pushes.append(Push(*self.begun, *self.rows[-1][:2]))
-        columns = np.array(self.rows).reshape(-1, 4).T
-        return LazyTurn(*columns, tuple(self.pushes), jam)
+        crank, wheel, low, high = np.array(self.rows).reshape(-1, 4).T
+        return LazyTurn(crank, wheel, low, high, tuple(self.pushes), jam)
 
     def to(self, crank: float, around: Callable[[float], Range]) -> None:
         """Go on to the next position of the crank."""

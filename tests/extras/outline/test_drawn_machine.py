@@ -137,13 +137,13 @@ def test_without_a_lock_or_detent_nothing_holds(tmp_path):
 def test_frames_are_turned_and_mirrored(tmp_path):
     contour = drawn_wheel(6, 30.0, 3.25, 45.0)
     flat = spec(tmp_path, written(tmp_path, contour), 'held_by = "pin"')
-    index = turned(flat.mechanism).senses[0].first.index
+    index = turned(flat.mechanism).senses[0].first.gained
     off = flat.with_("outline.wheel_turn_deg", 30.0)
     assert failing(off)[0] == "turns"
     for key, value in (("wheel_turn_deg", 60.0), ("mirror", "wheel")):
         design = flat.with_(f"outline.{key}", value)
         again = turned(design.mechanism)
-        assert again.senses[0].first.index == pytest.approx(index, abs=1e-9)
+        assert again.senses[0].first.gained == pytest.approx(index, abs=1e-9)
 
 
 def test_a_missing_part_and_a_far_one_are_refused(tmp_path):
@@ -179,7 +179,7 @@ def test_a_thousand_lines_turn_like_arcs(tmp_path):
     one, two = (turned(design.mechanism) for design in (arcs, lines))
     assert two.machine.free.slack == 1e-3
     assert two.turns
-    assert two.senses[0].first.index == pytest.approx(one.senses[0].first.index, abs=1e-4)
+    assert two.senses[0].first.gained == pytest.approx(one.senses[0].first.gained, abs=1e-4)
 
 
 def test_a_design_in_python_takes_drawings_too(tmp_path):
