@@ -11,7 +11,7 @@ PIP = $(BIN)/pip install --quiet --disable-pip-version-check --no-compile
 unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: demo test pytest lint docs web web-test stress stress-numbers \
-  certify jam cad fuzz bench bench-start dist clean
+  certify jam cad fuzz bench bench-full bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -39,10 +39,15 @@ lint: .venv/dev
 docs: .venv/dev
 	$(DOCS)
 
-# Run time against error, tables in build/bench; half an hour.
+# Run time against error: kernels against their rivals (those by Numba where it is installed), a table
+# and plots in build/bench; five minutes. bench-full measures whole runs too, an hour.
 bench: .venv/dev
 	@mkdir -p build/bench
 	PYTHONPATH=tests $(BIN)/python -m bench -o build/bench/bench.md
+
+bench-full: .venv/dev
+	@mkdir -p build/bench
+	PYTHONPATH=tests $(BIN)/python -m bench --full -o build/bench/bench.md
 
 # Numerical stress against mpmath, random machines turned, then every case of the tests, of which
 # `make test` takes a sample (tests/sampling.py): sweeps of every key of all designs are among them,

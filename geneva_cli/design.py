@@ -416,22 +416,39 @@ class Design:
         return record_table(own | {"certificate": certificates})
 
     @question
-    def motion(self, samples: int = 361, turns: int | None = None) -> Table:
+    def motion(
+        self,
+        samples: int = 361,
+        turns: int | None = None,
+        at_deg: Sequence[float] | None = None,
+    ) -> Table:
         """``samples`` rows over a period from the first entry, evenly spaced in the input angle.
 
         With ``turns`` of the input there are rows over all of them, and also one at each entry,
-        exit and jump. Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
+        exit and jump. With ``at_deg`` they are at those input angles from mid-motion instead.
+        Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk, and at the spec's
+        speed omega_rad_s and alpha_rad_s2.
 
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
+        >>> Design(External(6)).motion(at_deg=[0.0]).to_dict()["velocity"].tolist()
+        [1.0]
         """
-        from geneva_cli.motion.motion_table import knots_deg, motion_table, periods, turns_table
+        from geneva_cli.motion.motion_table import (
+            angles_table,
+            knots_deg,
+            motion_table,
+            periods,
+            turns_table,
+        )
 
         if self.is_drawn:
             if turns is not None:
                 raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
-            own: Table = self._of_drawing("motion", samples)
+            own: Table = self._of_drawing("motion", samples, at_deg)
             return own
+        if at_deg is not None:
+            return angles_table(self.mechanism, at_deg)
         if turns is None:
             return motion_table(self.mechanism, samples)
         count = periods(self.mechanism, turns)
@@ -839,7 +856,7 @@ class Design:
         from geneva_cli.verdict.checks import proofs
 
         allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
-        require_mm("--proof", to_mm, allowed, "the roller's radius")
+        require_mm("--certify", to_mm, allowed, "the roller's radius")
         return self._judged if self.is_drawn else [*self._judged, *proofs(self.parts, to_mm)]
 
     @answer

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import posixpath
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -121,6 +123,17 @@ def cut(value: str | int, most: int = 60) -> str:
         return text
     end = most // 4
     return f"{text[: most - end - 3]}...{text[len(text) - end :]}"
+
+
+def below(folder: str, name: str) -> str:
+    r"""A file of a folder, as it is opened and printed: with / on Windows, too.
+
+    So what is printed is the same on every system, except what its user typed.
+
+    >>> below("sub", "law.csv"), below("", "law.csv"), below("C:\\work", "law.csv")
+    ('sub/law.csv', 'law.csv', 'C:\\work/law.csv')
+    """
+    return name if os.path.isabs(name) else posixpath.join(folder, name)
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -18,15 +18,17 @@ NO_BOUND = "no bound"  # an infinity, for people
 class Reading(NamedTuple):
     """Hints for showing a table at a terminal if its columns do not all fit.
 
-    ``first`` are its columns in order of importance; others follow in their order. ``title`` stands
-    above it, and replaces the constant columns ``in_title``. With ``designs`` the columns are named
-    for designs, not for quantities.
+    ``first`` are its columns in order of importance; others follow in their order. Those that
+    ``decide``, such as whether a machine can be built, are never left out. ``title`` stands above
+    it, and replaces the constant columns ``in_title``. With ``designs`` the columns are named for
+    designs, not for quantities.
     """
 
     first: tuple[str, ...] = ()
     title: str = ""
     in_title: tuple[str, ...] = ()
     designs: bool = False
+    decide: tuple[str, ...] = ()
 
 
 class Table(NamedTuple):
@@ -197,6 +199,23 @@ def in_digits(value: float, digits: int) -> str:
     """
     endless = value in (math.inf, -math.inf)
     return NO_BOUND if endless else f"{value + 0.0:.{digits}g}"
+
+
+def for_people(value: float, unit: str = "", digits: int = 4) -> str:
+    """A number for people: four digits, but for a length those of a drawing.
+
+    An angle of rounding errors is 0.
+
+    >>> for_people(34.733492, "N m"), for_people(393.91305, "mm"), for_people(12345.6)
+    ('34.73', '393.913', '12350')
+    """
+    decimals = {"mm": 3, "in": 4}.get(unit)
+    if decimals and 1.0 <= abs(value) < 1e6:
+        return in_decimals(value, decimals)
+    if unit in ("deg", "°") and abs(value) < 1e-9:
+        return "0"
+    text = in_digits(value, digits)
+    return f"{float(text):.0f}" if "e+" in text and abs(value) < 1e6 else text
 
 
 def in_decimals(value: float, decimals: int) -> str:

@@ -8,15 +8,14 @@ import importlib
 import os
 import sys
 import textwrap
-from collections.abc import Mapping
 from functools import partial
-from typing import Annotated, Any, NoReturn, get_args
+from typing import Annotated, Any, NoReturn
 
 import typer
 from typer.core import TyperCommand, TyperGroup
-from typer.main import get_command
 
 from geneva_cli import __version__
+from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, table_options, unit_option
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import ProgressBar, close, show_with
 from geneva_cli.streams import leave, open_streams
@@ -59,135 +58,16 @@ GROUPS = {
 COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}
 
 
+EXAMPLES = (
+    "geneva new external -o spec.toml",
+    "geneva check spec.toml",
+    "geneva profile spec.toml --part wheel -o wheel.dxf",
+)
 FAULT = 70  # exit status; EX_SOFTWARE of sysexits.h, and no status of a design or a user's error
 REPORT = (
     "please report it in the issues of geneva-cli, with the spec; GENEVA_DEBUG=1 shows where it is"
 )
-HELP = {"help_option_names": ["-h", "--help"]}
-USAGE: Any = typer.BadParameter.__base__  # Typer's error for arguments that no command takes
-
-
-class PlainValues:
-    """A command or group that converts what is typed by itself.
-
-    From release 0.29 on Typer loads pydantic for that, which doubles the time of a short run
-    (`make bench-start`). So every release is as quick, and has the same messages.
-    """
-
-    kinds: Mapping[str, Any] = {}  # name of a parameter -> its type
-
-    def get_params(self, ctx: Any) -> list[Any]:
-        """Options and arguments, each with its own conversion."""
-        params: list[Any] = super().get_params(ctx)  # type: ignore[misc]
-        for param in params:
-            if "process_value" not in vars(param):
-                kind = self.kinds.get(param.name)
-                param.process_value = partial(_value, param, kind, param.process_value)
-        return params
-
-
-def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
-    """Value of a parameter; what is required and missing is left to Typer, to ``refuse``.
-
-    While a shell completes words, nothing is refused.
-    """
-    if param.required and not typed and not ctx.resilient_parsing:
-        return refuse(ctx, typed)
-    value = () if typed is None and (param.multiple or param.nargs == -1) else typed
-    for number, meaning in {float: "a number", int: "a whole number"}.items():
-        if isinstance(typed, str) and kind in (number, number | None):
-            try:
-                value = number(typed)
-            except ValueError:
-                message = f"{typed!r} is not {meaning}"
-                raise typer.BadParameter(message, ctx=ctx, param=param) from None
-    return param.callback(ctx, param, value) if param.callback else value
-
-
-class Command(PlainValues, TyperCommand):
-    """A command whose help ends with examples, and which refuses ineffective options."""
-
-    examples: tuple[str, ...] = ()
-
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Parse arguments, and refuse an option that would have no effect.
-
-        Such an option is empty, as with an unset variable of a script, or stands there twice.
-        """
-        typed = list(args)
-        rest = super().parse_args(ctx, args)
-        if ctx.resilient_parsing:  # by a shell that completes words
-            return rest
-        order: list[Any] = [*self.make_parser(ctx).parse_args(typed)[2]]
-        for option in dict.fromkeys(order):
-            if not _is_option(option) or option.is_flag:
-                continue
-            value = ctx.params.get(option.name)
-            if "" in value if option.multiple and value else value == "":
-                raise GenevaError(f'{option.opts[0]} "": empty; give it a value, or leave it out')
-            if order.count(option) > 1 and not option.multiple:
-                raise GenevaError(f"{option.opts[0]}: given twice; only one of both would count")
-        return rest
-
-    def invoke(self, ctx: Any) -> Any:
-        """Run the command; its tables have the columns of --columns, and the units of --units."""
-        columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
-        units = ctx.params.pop("shown_units", "mm")
-        if not (columns or wide or units != "mm"):
-            return super().invoke(ctx)
-        from geneva_cli.output import Choice, choosing
-
-        names = [name.strip() for name in (columns or "").split(",")]
-        with choosing(Choice(tuple(filter(None, names)), wide, units)):
-            return super().invoke(ctx)
-
-    def collect_usage_pieces(self, ctx: Any) -> list[str]:
-        """The words after the command's name in its help."""
-        return ["[OPTIONS]", *(_placeholder(p) for p in self.params if not _is_option(p))]
-
-    def format_options(self, ctx: Any, formatter: Any) -> None:
-        """Write arguments, then options under their headings, with shared options last."""
-        groups: dict[str, list[tuple[str, str]]] = {"Arguments": []}
-        shared: list[tuple[str, str]] = []
-        for param in self.get_params(ctx):
-            record, heading = param.get_help_record(ctx), vars(param).get("rich_help_panel")
-            if record and not _is_option(param):
-                groups["Arguments"].append((_placeholder(param), record[1]))
-            elif record:
-                (groups.setdefault(heading, []) if heading else shared).append(record)
-        for heading, records in (groups | {"Options": shared}).items():
-            if records:
-                with formatter.section(heading):
-                    formatter.write_dl(records)
-
-    def format_epilog(self, ctx: Any, formatter: Any) -> None:
-        """Write the examples as typed, each continued on the next line if needed."""
-        if self.examples:
-            with formatter.section("Examples"):
-                for line in self.examples:
-                    formatter.write(f"  {_continued(line, formatter.width)}\n")
-
-
-def _is_option(param: Any) -> bool:
-    return bool(param.param_type_name == "option")
-
-
-def _placeholder(argument: Any) -> str:
-    """The word that stands for an argument in help."""
-    return str(argument.metavar or argument.name)
-
-
-def _continued(line: str, width: int) -> str:
-    """A command in lines of at most ``width`` letters, broken before options with a backslash."""
-    first, *options = line.split(" -")
-    lines = [first]
-    for option in options:
-        if len(lines[-1]) + len(option) + len("   - \\") > width:
-            lines[-1] += " \\"
-            lines.append(f"      -{option}")
-        else:
-            lines[-1] += f" -{option}"
-    return "\n".join(lines)
+NO_PAGER = "--no-pager"
 
 
 class LazyGroup(PlainValues, TyperGroup):
@@ -200,12 +80,29 @@ class LazyGroup(PlainValues, TyperGroup):
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the options before the command; a wrong one becomes a line and an exit code."""
         shows_help = not args
+        if NO_PAGER in args:  # before or behind the command
+            from geneva_cli.output.terminal import pager
+
+            pager.is_wanted = False
+            args = [word for word in args if word != NO_PAGER]
         try:
             return super().parse_args(ctx, args)
         except USAGE as error:
             if shows_help:
                 raise
             _fail(_usage("geneva", error))
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Write examples, the commands, the manual and, last, the options."""
+        self.format_usage(ctx, formatter)
+        self.format_help_text(ctx, formatter)
+        with formatter.section("Examples"):
+            formatter.write("".join(f"  {line}\n" for line in EXAMPLES))
+        self.format_commands(ctx, formatter)
+        completes = {"install_completion", "show_completion"}
+        params = sorted(self.get_params(ctx), key=lambda param: param.name in completes)
+        with formatter.section("Options"):
+            formatter.write_dl([record for p in params if (record := p.get_help_record(ctx))])
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Every command, in the order of the registry."""
@@ -217,11 +114,14 @@ class LazyGroup(PlainValues, TyperGroup):
         for name, group in GROUPS.items():
             with formatter.section(name):
                 formatter.write_dl([(name.ljust(widest), line) for name, line in group.items()])
-        from geneva_cli.manual import TOPICS
+        from geneva_cli.manual import GROUPS as PAGES
+        from geneva_cli.manual import TITLES
 
-        with formatter.section("Manual, geneva help TOPIC or WORD"):
-            lines = textwrap.wrap(", ".join(TOPICS), formatter.width - 2, break_on_hyphens=False)
-            formatter.write("".join(f"  {line}\n" for line in lines))
+        with formatter.section("Manual, geneva help TOPIC or WORD; geneva help: all topics"):
+            for name, topics in PAGES.items():
+                text = f"  {TITLES[name].replace(': ', ', ')}: {', '.join(topics)}"
+                shorten = partial(textwrap.shorten, placeholder=" ...", break_on_hyphens=False)
+                formatter.write(f"  {shorten(text, formatter.width - 2)}\n")
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """The real command behind a stub."""
@@ -229,13 +129,14 @@ class LazyGroup(PlainValues, TyperGroup):
         if stub is None or name is None:
             return name, stub, rest
         module = importlib.import_module(f"geneva_cli.cli.commands.{name}")
-        command = _command(name, module.run)
+        command = as_command(name, module.run)
         command.examples = module.EXAMPLES
-        if name not in {"animate", "help", "new", "plot", "schema"}:  # these print no wide table
-            command.params += _command(name, _table_options).params
+        # these print no wide table
+        if name not in {"animate", "explain", "export", "help", "new", "plot", "schema"}:
+            command.params += as_command(name, table_options).params
         # lengths, forces or masses are in the tables of these; profile has units of its own
         if name in {"check", "compare", "loads", "plot", "report", "sweep", "synth", "tolerance"}:
-            command.params += _command(name, _unit_option).params
+            command.params += as_command(name, unit_option).params
         return name, command, rest
 
     def invoke(self, ctx: Any) -> Any:
@@ -265,35 +166,6 @@ def _bar(what: str, total: int) -> ProgressBar | None:
 
 def _stub() -> None:
     """The callback of a command whose module is not loaded."""
-
-
-def _table_options(
-    columns: Annotated[
-        str | None,
-        typer.Option("--columns", metavar="NAME,...", help="Only these columns, named as in csv."),
-    ] = None,
-    wide: Annotated[
-        bool, typer.Option("--wide", help="All columns on a terminal, however wide.")
-    ] = False,
-) -> None:
-    """Options of every command that prints a table."""
-
-
-def _unit_option(
-    shown_units: Annotated[
-        str, typer.Option("--units", metavar="UNIT", help="Numbers in mm, or in inch and lb.")
-    ] = "mm",
-) -> None:
-    """The option of commands whose numbers have units."""
-
-
-def _command(name: str, run: Any) -> Any:
-    """A function as a command."""
-    one = typer.Typer(add_completion=False, rich_markup_mode=None)
-    one.command(name, cls=Command, context_settings=HELP)(run)
-    command: Any = get_command(one)
-    command.kinds = {n: get_args(k)[0] for n, k in run.__annotations__.items() if get_args(k)}
-    return command
 
 
 def _usage(path: str, error: Any) -> str:
@@ -332,6 +204,9 @@ app = typer.Typer(cls=LazyGroup, rich_markup_mode=None, pretty_exceptions_enable
 def geneva(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+    no_pager: Annotated[
+        bool, typer.Option(NO_PAGER, help="Print long output on a terminal without a stop.")
     ] = False,
 ) -> None:
     """Design calculator for Geneva (Maltese-cross) mechanisms."""

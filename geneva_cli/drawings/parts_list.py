@@ -27,7 +27,7 @@ from geneva_cli.motion.rollers import places
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of
 from geneva_cli.parts.shafts.shaft import FIX
-from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.materials import material_names, roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
@@ -101,14 +101,13 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
     for kind in alike(parts):
         solid = kind[-1]
         is_rod = solid.layer in ("ROLLER", "SHAFT")
-        name, material = ("roller", roller_material) if is_rod else ("wheel", wheel_material)
-        density = material(spec).density_kgm3
+        density = (roller_material if is_rod else wheel_material)(spec).density_kgm3
         heights = {one.low for one in kind if not isinstance(one, Shell)}
         yield {
             "row": "part",
             "name": solid.name,
             "count": len(kind),
-            "material": f"material.{name}",
+            "material": material_names(spec)[is_rod],
             "density_kgm3": density,
             **_properties(solid, density, outside),
             **({} if len(heights) < 2 else {"z_low_mm": None, "z_high_mm": None}),

@@ -214,7 +214,7 @@ def _means(
         if names[i % len(names)] == "crank_bearing_N" and cranks > 1:
             own = [sum(one[i] for one in each[k::cranks]) for k in range(min(cranks, len(each)))]
             total[i] = np.max(own, axis=0) * min(1.0, len(each) / cranks)
-    total /= np.ravel(mechanism.period_deg) * DEGREE
+    total /= np.ravel(mechanism.lasting_deg) * DEGREE
     out: dict[str, tuple[Array | None, Array]] = {}
     for i, name in enumerate(names):
         square, mean = total[i], None

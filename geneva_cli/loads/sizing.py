@@ -202,10 +202,12 @@ def _exact(
     # A mean whose square is less than 1e-26 of the mean square is rounding, as for an inertia
     # alone.
     mean = np.where(torque.mean**2 > 1e-26 * square, torque.mean, 0.0 * square)
-    swing_J, back = fluctuations(mechanism, mean)
+    # while the input runs, the mean torque is that of a period without its stops
+    running = np.ravel(mechanism.lasting_deg / mechanism.period_deg)
+    swing_J, back = fluctuations(mechanism, mean * running)
     energy = np.where(bounded, swing_J, np.nan)[:, None]
     # the part of the mean square where the wheel drives the input
-    returned = (back / np.ravel(mechanism.period_deg * DEGREE))[:, None]
+    returned = (back / np.ravel(mechanism.lasting_deg * DEGREE))[:, None]
     spent = np.maximum(square[:, None] - returned, 0.0)
     out["energy_fluctuation_J"] = energy
     out["motor_torque_rms_Nm"] = np.sqrt(spent / eta**2 + returned * eta**2) / motor.ratio

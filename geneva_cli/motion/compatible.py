@@ -48,6 +48,7 @@ def refuse_conflicts(spec: Spec) -> None:
         _of_drive_before,
         *kinds,
         _of_gears,
+        _of_slot_ends,
         _of_limits,
     ]
     for rule in rules:
@@ -147,3 +148,20 @@ def _of_limits(spec: Spec) -> Iterator[Conflict]:
         "dwell_position_max_deg limits the error of a wheel within its tolerances: set one or more "
         f"of {', '.join(sizes)} in [tolerance]",
     )
+
+
+def _of_slot_ends(spec: Spec) -> Iterator[Conflict]:
+    """Rules on the keys of the slots' mouths and of the horns."""
+    for key in ("mouth_radius_mm", "horn_tip_mm"):
+        is_cut = getattr(spec.size, key) > 0.0
+        yield Conflict(
+            is_cut & (not (spec.wheel.FLAT and spec.output.turns)),
+            ("size", key),
+            f"{key} is for external and internal wheels, not gearing = "
+            '"{spec.wheel.NAME}": remove it',
+        )
+        yield Conflict(
+            is_cut & spec.wheel.stopped,
+            ("size", key),
+            f"{key} is for wheels with a recess behind every slot: remove it, or stop",
+        )

@@ -7,10 +7,11 @@ from abc import abstractmethod
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Displacement, Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
-from geneva_cli.spec.rules import SPEED, Z_MAX, Range
+from geneva_cli.numerics.arrays import larger
+from geneva_cli.spec.rules import NOT_NEGATIVE, SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
@@ -78,6 +79,44 @@ class Drive(SpecTable, kw_only=True):
     both_ways: Annotated[
         bool, None, "the input shaft turns in either direction, forwards or in reverse"
     ] = False
+    stop_s: Annotated[
+        float, NOT_NEGATIVE, "time by which a stop of the input lengthens each dwell"
+    ] = 0.0
+    start_s: Annotated[float, NOT_NEGATIVE, "time in which the input starts after a stop"] = 0.0
+    brake_s: Annotated[float, NOT_NEGATIVE, "time in which the input brakes to a stop"] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        lost_s = 0.5 * (self.start_s + self.brake_s)
+
+        def error() -> GenevaError:
+            return GenevaError(
+                f"stop_s = {self.stop_s:g}: to brake and to start takes {lost_s:g} s longer than "
+                f"to run on, so the input would not come to rest: it must be at least {lost_s:g}",
+                (self.TABLE, "stop_s"),
+            )
+
+        refuse(lost_s > self.stop_s * (1.0 + 1e-12), error)
+
+    @property
+    def stands_s(self) -> float:
+        """Time for which the input stands still in each stop, between braking and starting.
+
+        At constant acceleration it turns half as far as it would have turned meanwhile.
+
+        >>> Crank(stop_s=0.8, start_s=0.2, brake_s=0.1).stands_s
+        0.65
+        """
+        return larger(self.stop_s - 0.5 * (self.start_s + self.brake_s), 0.0)
+
+    @property
+    def brake_and_start_deg(self) -> tuple[float, float]:
+        """Angles through which the input turns while it brakes, and while it starts, degrees.
+
+        >>> Crank(n_rpm=30, stop_s=0.8, start_s=0.2, brake_s=0.1).brake_and_start_deg
+        (9.0, 18.0)
+        """
+        return 3.0 * self.n_rpm * self.brake_s, 3.0 * self.n_rpm * self.start_s
 
     @property
     def turns(self) -> int:

@@ -291,12 +291,12 @@ class WheelMotion(Batchable, ABC):
         """
         import numpy as np
 
-        from geneva_cli.numerics.fitted import LONG, fitted
+        from geneva_cli.numerics.fitted import fitted
 
         count = len(input_deg)
         mirrored = self.symmetric and bool((input_deg == -input_deg[::-1]).all())
         own = input_deg[: (count + 1) // 2] if mirrored else input_deg
-        if len(own) >= LONG and not self.is_closed and self._is_single(input_deg):
+        if self._are_very_many(own):
             seams = {0.0, *self.seams_deg}  # where the acceleration may vanish, and be small
             values = fitted(lambda x: self._in_blocks(x, orders), own, sorted(seams))
         else:
@@ -310,9 +310,14 @@ class WheelMotion(Batchable, ABC):
             for value, image in zip(values, images, strict=True)
         ]
 
-    def _is_single(self, input_deg: Array) -> bool:
-        """True for one design, False for a batch."""
-        return self._requested(input_deg[:1], (1,))[0].ndim < 2
+    def _are_very_many(self, input_deg: Array) -> bool:
+        """True for so many angles of one design that polynomials are quicker than formulas."""
+        from geneva_cli.numerics.fitted import LONG
+
+        count = len(input_deg)
+        if count < 4 * LONG or self.is_closed or self._requested(input_deg[:1], (1,))[0].ndim > 1:
+            return False
+        return count >= LONG * len(self.seams_deg)
 
     def _in_blocks(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
         """Derivatives at angles, in blocks that stay in the cache."""

@@ -167,6 +167,17 @@ class Mechanism(NamedTuple):
             return self.period_deg
         return 360.0 * self.spec.turns
 
+    @property
+    def stop_deg(self) -> float:
+        """The stop of the input in each dwell, as the angle that it would turn meanwhile."""
+        drive = self.spec.drive
+        return 6.0 * drive.n_rpm * drive.stop_s
+
+    @property
+    def lasting_deg(self) -> float:
+        """The period with its stops, as the angle that the input would turn meanwhile."""
+        return self.period_deg + len(self.engagements) * self.stop_deg
+
     def shown_deg(self, input_deg: float) -> float:
         """Input angle for display: between -180 and 180 degrees from mid-motion.
 

@@ -17,8 +17,8 @@ class Timing(NamedTuple):
 
     ``index_mm`` is a rack's step, which has no angle; None for a wheel.
 
-    k = motion / dwell (the work coefficient), tau = motion / cycle. For a batch each is a number or
-    an array (n, 1).
+    k = motion / dwell (the work coefficient) and tau = motion / cycle are of times, in which a stop
+    of the input counts. For a batch each is a number or an array (n, 1).
     """
 
     motion_deg: float
@@ -45,19 +45,21 @@ def timing(
     index_deg: float | None,
     n_rpm: float,
     index_mm: float | None = None,
+    stop_s: float = 0.0,
 ) -> Timing:
-    """The timing of one cycle at a steady input speed."""
+    """The timing of one cycle at a steady input speed, with a stop in its dwell."""
     second = 6.0 * n_rpm  # degrees of input a second
-    cycle = motion_deg + dwell_deg
-    pause = dwell_deg != 0.0
+    rest = dwell_deg + second * stop_s  # as an angle at that speed
+    cycle = motion_deg + rest
+    pause = rest != 0.0
     return Timing(
         motion_deg,
         dwell_deg,
         index_deg,
-        choose(pause, motion_deg / choose(pause, dwell_deg, math.nan), math.inf),
+        choose(pause, motion_deg / choose(pause, rest, math.nan), math.inf),
         motion_deg / cycle,
         motion_deg / second,
-        dwell_deg / second,
+        rest / second,
         cycle / second,
         index_mm,
     )
@@ -73,6 +75,7 @@ def timings(mechanism: Mechanism) -> list[Timing]:
             mechanism.index_deg(i) if output.turns else None,
             mechanism.spec.drive.n_rpm,
             None if output.turns else 2.0 * engagement.half_step * output.per_radian,
+            mechanism.spec.drive.stop_s,
         )
         for i, engagement in enumerate(mechanism.engagements)
     ]

@@ -17,7 +17,7 @@ import numpy as np
 
 from geneva_cli.numerics.arrays import Array, blocks, matrix_product
 
-LONG = 32768  # places from which polynomials pay
+LONG = 8192  # places a seam, from which polynomials pay
 FEW = 192  # places of an interval that are evaluated themselves: few more than a fit takes
 BLOCK = 8192  # places whose powers stay in the processor's cache
 DEGREE = 10
@@ -25,6 +25,9 @@ NODES = 21  # places of a fit
 # Size of the last two of 11 Chebyshev terms, as a fraction of the greatest value: what rounding of
 # the values leaves. The next term is smaller by a factor of 20 or more.
 TAIL = 3.0 * 2.0**-52
+# The values' rounding, as a fraction of the greatest value of all: where these two terms are not
+# larger than what the fit leaves, and that is below this, more intervals would not be more exact.
+ROUNDING = 8.0 * 2.0**-52
 NARROW = 2.0**-24  # narrower intervals have places that are rounded
 
 Function = Callable[[Array], Sequence[Array]]
@@ -93,7 +96,7 @@ def _fit(
     function: Function, x: Array, intervals: Sequence[_Interval], out: Sequence[Array]
 ) -> list[_Interval]:
     """Fill in the values of intervals where a polynomial serves, and return the others."""
-    nodes, terms, powers = _rule()
+    nodes, basis, terms, powers = _rule()
     low, width = (np.array([getattr(i, name) for i in intervals]) for name in ("low", "width"))
     middle, half = low + 0.5 * width, 0.5 * width
     order = np.argsort(low)
@@ -103,20 +106,24 @@ def _fit(
         whole[order] = own.reshape(places.shape)
     centre = values[..., NODES // 2]
     series = matrix_product(values - centre[..., None], terms)
-    serves = abs(series[..., -2:]).sum(axis=-1) <= TAIL * abs(values).max(axis=-1)
+    left = values - centre[..., None] - matrix_product(series, basis)
+    rest = np.sqrt((left * left).mean(axis=-1))
+    tail, size = abs(series[..., -2:]).sum(axis=-1), abs(values).max(axis=-1)
+    scale = size.max(axis=-1, keepdims=True)
+    serves = (tail <= TAIL * size) | (tail <= 2.0 * rest) & (rest <= ROUNDING * scale)
     coefficients = matrix_product(series, powers)
     coefficients[..., 0] += centre
-    left = []
+    others = []
     for k, interval in enumerate(intervals):
         if not serves[:, k].all():
-            left.append(interval)
+            others.append(interval)
             continue
         for part in blocks(interval.last - interval.first, BLOCK):
             here = slice(interval.first + part.start, interval.first + part.stop)
             t = (x[here] - middle[k]) / half[k]
             for whole, own in zip(out, coefficients[:, k].tolist(), strict=True):
                 whole[here] = _polynomial(own, t)
-    return left
+    return others
 
 
 def _polynomial(coefficients: Sequence[float], t: Array) -> Array:
@@ -129,13 +136,13 @@ def _polynomial(coefficients: Sequence[float], t: Array) -> Array:
 
 
 @cache
-def _rule() -> tuple[Array, Array, Array]:
-    """Places from -1 to 1, of 12 bits; values there to Chebyshev terms; terms to powers."""
+def _rule() -> tuple[Array, Array, Array, Array]:
+    """Places from -1 to 1; matrices from Chebyshev terms to values there, back, and to powers."""
     nodes = np.round(4096.0 * -np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)) / 4096.0
-    values = np.polynomial.chebyshev.chebvander(nodes, DEGREE)
+    values: Array = np.asarray(np.polynomial.chebyshev.chebvander(nodes, DEGREE), dtype=float)
     powers = np.zeros((DEGREE + 1, DEGREE + 1))
     for k in range(DEGREE + 1):
         powers[k, : k + 1] = np.polynomial.chebyshev.cheb2poly([0.0] * k + [1.0])
     # the normal equations are well-conditioned here, and ten times as exact as pinv
-    fit = values @ np.linalg.inv(values.T @ values)
-    return nodes, fit, powers
+    fit: Array = values @ np.linalg.inv(values.T @ values)
+    return nodes, values.T, fit, powers

@@ -319,5 +319,10 @@ def _put(
         raise GenevaError(f"--format {name}: not for standard output; give -o FILE.{name}")
     if name != "table":
         use_utf8()
-    for chunk in chunks:
-        sys.stdout.write(str(chunk))
+    text = map(str, chunks)
+    if is_seen(output):
+        from geneva_cli.output.terminal import pager
+
+        pager.write(text)
+    else:
+        sys.stdout.writelines(text)

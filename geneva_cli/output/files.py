@@ -57,7 +57,9 @@ def write_errors(path: str) -> Iterator[None]:
                 f"the folder {folder} takes no files" if made else f"make the folder {folder} first"
             )
             advice = f"; {says}"
-        raise GenevaError(f"{cut(path, 300)}: cannot write: {error.strerror}{advice}") from None
+        # Windows has texts of its own, in its language
+        why = os.strerror(error.errno) if error.errno else error.strerror
+        raise GenevaError(f"{cut(path, 300)}: cannot write: {why}{advice}") from None
 
 
 def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | None]:

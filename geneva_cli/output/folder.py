@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError, cut, few
+from geneva_cli.errors import GenevaError, below, cut, few
 from geneva_cli.output.files import (
     digest_of,
     place,
@@ -79,7 +79,7 @@ def filling_folder(
         rows, files = _rows(real), [entry.file for entry in entries]
         own = _own(real, rows or [])
         for file in {*files, LIST, *own}:
-            shown = os.path.join(path, file)
+            shown = below(path, file)
             with write_errors(shown):
                 place(shown, inputs)
         others = [file for file in files if file not in own]

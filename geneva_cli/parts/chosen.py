@@ -111,7 +111,9 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     if not mechanism.spec.is_loaded:
         return {}
     values, keys = key_sizes(mechanism)
-    held = [key for key in keys if values.get(key) or key == "crank_bore_mm" in values]
+    armed = "arm_bore_mm" in values
+    own = [key for key in keys if key in values and (armed or key != "arm_thickness_mm")]
+    held = [key for key in own if _is_written(mechanism, key, values)]
     if not held:
         return {}
     whys = _loads(mechanism)
@@ -126,7 +128,7 @@ def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float]) -> 
     if key == "center_distance_mm":  # some drives solve for it
         return value == spec.given_distance_mm
     if key == "crank_bore_mm":  # 0: the shaft ends in the arm
-        return value > 0.0 or bool(values.get("arm_bore_mm"))
+        return value > 0.0 or "arm_bore_mm" in values
     if key == "relief_clearance_mm":
         return bool(values["lock_radius_mm"])
     if key == "link_thickness_mm":

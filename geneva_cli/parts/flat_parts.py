@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NoReturn, Self, cast
 import numpy as np
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
@@ -36,6 +37,7 @@ from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.slot_ends import wall_lost
 from geneva_cli.parts.outlines.wheel_circles import dial_bolts, wheel_part, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, NamedBuilds
@@ -95,7 +97,16 @@ class FlatParts(EdgedParts):
         # the corners are on the rim, half a slot's width from the slot's middle
         level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
         far = np.hypot(*self.assembly.driving(motion, at).T)
-        return self.assembly.sign * (level - far)
+        return self.assembly.sign * (level - far) - self._wall_lost
+
+    @cached_property
+    def _wall_lost(self) -> float:
+        """By how much the walls of slots end deeper than at sharp mouths, mm."""
+        own = self.outlines
+        if not (own.sizes.mouth_radius or own.sizes.horn_tip):
+            return 0.0
+        each = [turned(own.slots[kind], at) for kind, at in own.assembly.slots]
+        return max(wall_lost(walls, own.wheel) for walls in each)
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""

@@ -17,6 +17,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.preferred import bore_radius
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor, has_arcs
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
@@ -216,6 +217,8 @@ def _usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
         recess=lock + allowed.lock_clearance_mm if lock else 0.0,
         relief=relief,
         wall_min=wall,
+        mouth_radius=size.mouth_radius_mm,
+        horn_tip=size.horn_tip_mm,
         wheel_bore=axle,
         wheel_reach=wheel_reach,
         wheel_hub=wheel_hub,
@@ -264,7 +267,9 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
         )
     if size.lock_radius_mm is None:
         return lock_between(least, limit, r)
-    require_lock_between(size.lock_radius_mm, least, limit)
+    # a horn that is cut back may have no thickness where its tip would be
+    spare = limit * SAME_LENGTH if size.horn_tip_mm else 0.0
+    require_lock_between(size.lock_radius_mm, least, limit + spare)
     return size.lock_radius_mm
 
 
@@ -317,7 +322,25 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
         )
     refuse_edges(size, min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness))
     refuse_wide_pin(size, sizes.pin, sizes.roller)
+    _refuse_slot_ends(assembly, sizes)
     _refuse_axles(assembly, sizes)
+
+
+def _refuse_slot_ends(assembly: Assembly, sizes: Sizes) -> None:
+    """Raise GenevaError, naming the key, for slots whose mouths or horns are not cut."""
+    key = "mouth_radius_mm" if sizes.mouth_radius else "horn_tip_mm"
+    cut = bool(sizes.mouth_radius or sizes.horn_tip)
+    if cut and any(kind.slot.curved or kind.apart for kind in assembly.kinds):
+        raise GenevaError(
+            f"{key} is for straight slots, each of which a roller enters and leaves: remove it",
+            ("size", key),
+        )
+    if sizes.horn_tip and not sizes.lock:
+        raise GenevaError(
+            "horn_tip_mm blunts the horns between slots and recesses, and without a locking disc "
+            "there are none: remove it",
+            ("size", "horn_tip_mm"),
+        )
 
 
 def _refuse_axles(assembly: Assembly, sizes: Sizes) -> None:

@@ -41,6 +41,8 @@ class Sizes(NamedTuple):
     recess: float  # in the wheel: lock and clearance
     relief: float  # clearance between wheel and relief
     wall_min: float
+    mouth_radius: float = 0.0  # of the rounded corners of straight slots' mouths
+    horn_tip: float = 0.0  # width of the flats to which thinner horns are cut back
     # a load may change those below
     wheel_bore: float = 0.0
     wheel_reach: float = 0.0  # of the bore with its keyway, from the axis
@@ -58,8 +60,9 @@ class Sizes(NamedTuple):
 
     @property
     def horn(self) -> float:
-        """Thickness of the horn between slot and recess, thinnest at the mouth."""
-        return self.arm - self.half_width - self.recess
+        """Thickness of the horn between slot and recess, thinnest at the mouth or at its tip."""
+        own = self.arm - self.half_width - self.recess
+        return max(own, self.horn_tip) if self.horn_tip else own
 
     def passing_eye(self, away: float) -> float:
         """Return the radius of the largest eye, ``away`` from the axis, that passes the hub."""

@@ -22,6 +22,7 @@ class Accept(SpecTable):
     many_slots: Reason = None
     no_centre_distance: Reason = None
     nothing_holds: Reason = None
+    stop_in_motion: Reason = None
     loose_fit: Reason = None
     rounded_points: Reason = None
     turns_back: Reason = None
@@ -58,6 +59,8 @@ class Accept(SpecTable):
     small_hole: Reason = None
     no_bearing: Reason = None
     gears_without_teeth: Reason = None
+    taken_as_built: Reason = None
+    outline_units: Reason = None
     bent_parts: Reason = None
     narrow_for_process: Reason = None
 

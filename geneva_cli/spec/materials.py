@@ -33,6 +33,25 @@ def roller_material(spec: Spec) -> Stock:
     return _material(spec.material_roller, Stock())
 
 
+def material_names(spec: Spec) -> tuple[str, str]:
+    """Names of the material of plates and of rods: the grade, or the density of an unusual one.
+
+    >>> from geneva_cli.motion.machine_spec import Spec
+    >>> material_names(Spec(External(6), size=Size(process="print")))
+    ('PLA', 'steel')
+    """
+    return (
+        _named(spec.material_wheel, wheel_material(spec), workshop(spec.size.process).stock),
+        _named(spec.material_roller, roller_material(spec), Stock()),
+    )
+
+
+def _named(own: Material, of: Stock, usual: Stock) -> str:
+    if own.grade or of == usual._replace(allowed_MPa=of.allowed_MPa):
+        return of.grade
+    return f"{of.density_kgm3:g} kg/m³"
+
+
 def _material(own: Material, usual: Stock) -> Stock:
     """Return the values of the spec, and else those of the usual material.
 

@@ -48,6 +48,12 @@ class Size(SpecTable):
         "another R/L than straight slots need the machine is taken as built",
     ] = field(default=None, kw_only=True)
     roller_radius_mm: Annotated[Positive, "roller radius r; default L/20"] = None
+    mouth_radius_mm: Annotated[
+        float, NOT_NEGATIVE, "rounding radius of the corners of straight slots' mouths"
+    ] = field(default=0.0, kw_only=True)
+    horn_tip_mm: Annotated[
+        float, NOT_NEGATIVE, "horns thinner than this at their tips are cut back to flats so wide"
+    ] = field(default=0.0, kw_only=True)
     process: Annotated[
         str | None, OneOf(PROCESSES), "manufacturing process; sets clearances, fits and limits"
     ] = None

@@ -6,12 +6,14 @@ from functools import cache
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.manual.explained import Entry, entries
+from geneva_cli.manual import TOPICS
+from geneva_cli.manual.explained import GROUPS, Entry, entries
 from geneva_cli.motion import registry
-from geneva_cli.names import spoken, unit_of
+from geneva_cli.names import SHORT_UNITS, UNITS, described, heading, spoken, unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 
 TEXTS = ("formula", "source", "to_do")  # of an entry, as it has them
+UNIT_WORDS = {*UNITS.values(), *SHORT_UNITS.values(), "°"}  # behind a heading's comma
 CHECKS, INPUTS = "checks.", "inputs."  # beginnings of a report's names of checks and of keys
 
 
@@ -31,27 +33,87 @@ class Meaning(NamedTuple):
 def meanings(word: str) -> list[Meaning]:
     """All meanings of a word, full (``timing.dwell_s``) or shortened (``dwell_s``).
 
-    It may be the words in which `check` and other summaries print a name. Raises GenevaError, with
-    the nearest name, for an unknown word.
+    It may be the words in which any output prints a name. Empty for an unknown word.
 
     >>> [(m.group, m.unit) for m in meanings("loads.pin_force_N.rms")]
     [('quantity', 'N')]
-    >>> [m.group for m in meanings("jerk_max")], [m.name for m in meanings("pin stress")]
-    (['check', 'quantity', 'key'], ['pin_stress_MPa'])
+    >>> [m.group for m in meanings("jerk_max")], [m.name for m in meanings("flywheel")]
+    (['check', 'quantity', 'key'], ['sizing.flywheel_kgm2'])
     """
-    known_meanings = _lookup(word)
-    if not known_meanings:
-        plain, known = word.casefold(), names()
-        printed = (name for name in known if spoken(name)[0].casefold() == plain)
-        known_meanings = _lookup(next(printed, plain.replace(" ", "-")))
-    if not known_meanings:
-        known += [CHECKS + n for e in entries() if e.group == "check" for n in e.names]
-        among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
-        raise GenevaError(
-            f'"{cut(word)}" is not a check, quantity, kind, law, warning, part, choice or '
-            f"key{nearest(word, among)}; `geneva explain` lists them"
-        )
-    return known_meanings
+    exact = _lookup(word) or _lookup(word.casefold().replace(" ", "-"))
+    if exact:
+        return exact
+    wanted, known = _words(word), names()
+    printed = [name for name in known if wanted in _printed(name)]
+    if not printed:  # a quantity with an ending, as pin force max
+        ends = [name for name in known if name.startswith(".")]
+        parts = {end: [words for words in _printed(end) if words <= wanted] for end in ends}
+        printed = [
+            name + end
+            for end, some in parts.items()
+            if some
+            for name in known
+            if any(own | words == wanted for own in _printed(name) for words in some)
+        ]
+    return list(dict.fromkeys(one for name in printed for one in _lookup(name)))
+
+
+def _words(text: str) -> frozenset[str]:
+    """The words of a heading without its unit, in any order: torque on the input, input torque."""
+    words, _, unit = text.rpartition(", ")
+    text = words if words and unit in UNIT_WORDS else text
+    whole = frozenset(text.casefold().replace("'s", "").replace(",", " ").split())
+    return whole - {"at", "in", "inputs", "of", "on", "the", "to"} or whole
+
+
+@cache
+def _printed(name: str) -> frozenset[frozenset[str]]:
+    """The words in which tables and documents print a name, whole or its last part."""
+    last = name.rpartition(".")[2]
+    texts = spoken(name)[0], spoken(last)[0], described(last)[0]
+    return frozenset(filter(None, map(_words, texts)))
+
+
+def related(word: str) -> list[tuple[str, str, str]]:
+    """Group, name and a sentence of everything that a word is part of, as ``listed`` has them.
+
+    The word may be a group, such as ``checks``. Names and headings come before texts.
+
+    >>> len(related("laws")), related("loads")[0][:2]
+    (12, ('quantity', 'loads.omega_rad_s'))
+    """
+    plain = word.casefold()
+    everything = [*listed(), *(("key", key.name, key.meaning) for key in _keys())]
+    group = {**GROUPS, "keys": "key"}.get(plain)
+    if group:
+        return [one for one in everything if one[0] == group]
+    wanted = _words(word.replace("_", " "))
+    texts = {one: (heading(one[1]), f"{one[1]} {one[2]}".casefold()) for one in everything}
+    found = [
+        one for place in (0, 1) for one in texts if all(w in texts[one][place] for w in wanted)
+    ]
+    return list(dict.fromkeys(found))
+
+
+def unknown(word: str) -> GenevaError:
+    """The error for a word that stands nowhere, with the nearest name."""
+    known = names()
+    known += [CHECKS + n for e in entries() if e.group == "check" for n in e.names]
+    among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
+    return GenevaError(
+        f'"{cut(word)}" is not a check, quantity, kind, law, warning, part, choice or '
+        f"key{nearest(word, among)}; `geneva explain` lists them"
+    )
+
+
+def groups() -> list[tuple[str, int, str, str]]:
+    """Each group of words: its name, how many they are, what they are, and three of them."""
+    out = []
+    for page, group in GROUPS.items():
+        own = [name for entry in entries() if entry.group == group for name in entry.names]
+        some = dict.fromkeys(own[i * len(own) // 3] for i in range(3))
+        out.append((page, len(own), TOPICS[page], ", ".join(some)))
+    return out
 
 
 def listed() -> list[tuple[str, str, str]]:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
-from geneva_cli.errors import GenevaError, clean, cut, few, nearest
+from geneva_cli.errors import GenevaError, below, clean, cut, few, nearest
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
 from geneva_cli.motion.motion import Motion
@@ -46,7 +46,7 @@ class _Files:
 
         if not isinstance(name, str):
             raise GenevaError(f"{rule.key} must be text, not {shown(name)}", place)
-        path = os.path.join(self.folder, name)
+        path = below(self.folder, name)
         self.read.append(path)
         return Points(tuple(read_pairs(path, rule, place)), name)
 
@@ -78,7 +78,7 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
     before = drive.pop("before", None)
     plain = _plain(tree, files)
     drawn = plain["outline"].files if "outline" in plain else ()
-    files.read += [os.path.join(files.folder, drawing) for drawing in drawn]
+    files.read += [below(files.folder, drawing) for drawing in drawn]
     return Spec(
         wheel=_kind(tree["wheel"], WHEELS, files),
         drive=_kind(drive, DRIVES, files),

@@ -119,13 +119,13 @@ def spec_lines(spec: Spec, notes: Mapping[str, str] = MappingProxyType({})) -> l
 
 
 def noted(block: Sequence[tuple[str, str]]) -> list[str]:
-    """Lines of settings, each with its note as a comment; all comments begin in one column.
+    """Lines of settings, each with its note as a comment, if any; they begin in one column.
 
     >>> noted([("z = 6", "slots"), ("gearing = 2", "type")])
     ['z = 6        # slots', 'gearing = 2  # type']
     """
-    width = max((len(setting) for setting, _ in block), default=0)
-    return [f"{setting.ljust(width)}  # {note}" for setting, note in block]
+    width = max((len(setting) for setting, note in block if note), default=0)
+    return [f"{setting.ljust(width)}  # {note}" if note else setting for setting, note in block]
 
 
 def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:

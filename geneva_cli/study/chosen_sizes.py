@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from geneva_cli.answer import Answer, Summary
 from geneva_cli.design import Design
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.chosen import Chosen
-from geneva_cli.specfile.inserted import inserted
+from geneva_cli.specfile.inserted import Written, inserted
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.table import Reading, record_table, rows_table
@@ -33,14 +32,27 @@ def of_sizes(design: Design, as_json: bool) -> Answer:
 def sized_text(design: Design) -> tuple[str, str]:
     """The text of a design's spec with all its chosen sizes, and a note on what it does not keep.
 
-    Comments and order are those of the file. Where an option changes a key, or the file has its
-    sizes in a line, all its tables are written anew; then the note says so.
+    Comments and order are those of the file. Where a text has no line for a table or a value, all
+    its tables are written anew; then the note says so.
     """
-    sizes = _by_key(design.chosen)
-    read = design.text
-    if read and not read.set_keys and (text := inserted(read.text, "size", sizes)):
-        return text, ""
-    return written(design.sized.spec, design.chosen), KEPT
+    kept = _in_its_text(design)
+    return (written(design.sized.spec, design.chosen), KEPT) if kept is None else (kept, "")
+
+
+def _in_its_text(design: Design) -> str | None:
+    """The text of the design's file with what options set, then with the chosen sizes."""
+    if design.text is None:
+        return None
+    text: str | None = design.text.text
+    keys = {one.path: Written(one.value) for one in design.text.set_keys}
+    for key, size in design.chosen.items():
+        keys[tuple(key.split("."))] = Written(size.value, size.why)
+    for table in dict.fromkeys(path[:-1] for path in keys):
+        own = {str(path[-1]): one for path, one in keys.items() if path[:-1] == table}
+        if text is None or not table or not all(isinstance(name, str) for name in table):
+            return None
+        text = inserted(text, ".".join(map(str, table)), own)
+    return text
 
 
 def written(spec: Spec, sizes: Mapping[str, Chosen]) -> str:
@@ -48,7 +60,3 @@ def written(spec: Spec, sizes: Mapping[str, Chosen]) -> str:
     lines = [f"title = {quoted(spec.title)}"] if spec.title else []
     lines += spec_lines(spec, {key: one.why for key, one in sizes.items()})
     return "\n".join(lines).lstrip("\n") + "\n"
-
-
-def _by_key(sizes: Mapping[str, Chosen]) -> dict[str, tuple[Any, str]]:
-    return {key.partition(".")[2]: (one.value, one.why) for key, one in sizes.items()}

@@ -15,6 +15,7 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 from geneva_cli.verdict.headline import (
+    anew_lines,
     both_ways_lines,
     chosen_lines,
     failure_lines,
@@ -46,14 +47,14 @@ class Verdict(NamedTuple):
         return not self.error and all_pass(self.checks)
 
 
-def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = None) -> Verdict:
+def verdict(path: str, settings: Sequence[str] = (), to_mm: float | None = None) -> Verdict:
     """Return the verdict on one spec; ``settings``, texts ``KEY=VALUE``, replace its own keys.
 
-    ``proof_mm`` is the tolerance of the proof that no parts collide.
+    ``to_mm`` is the tolerance of the proof that no parts collide.
     """
     try:
         design = load(path, settings)
-        checks = design.checks if proof_mm is None else design.proved_to(proof_mm)
+        checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
             files=design.spec.files,
@@ -69,7 +70,7 @@ def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = No
 
 
 def verdicts(
-    paths: list[str], settings: Sequence[str] = (), proof_mm: float | None = None
+    paths: list[str], settings: Sequence[str] = (), to_mm: float | None = None
 ) -> Iterator[Verdict]:
     """The verdicts on specs, in their order, each as ``verdict`` returns it.
 
@@ -77,7 +78,7 @@ def verdicts(
     """
     if list(paths).count("-") > 1:
         raise GenevaError("<stdin>: given twice, but it can be read only once; name it once")
-    judge = partial(verdict, settings=settings, proof_mm=proof_mm)
+    judge = partial(verdict, settings=settings, to_mm=to_mm)
     files = [path for path in paths if path != "-"]
     others = mapped(judge, files, min(len(files), cores()), "specs")
     for path in tracked(paths, "specs", len(paths)):
@@ -135,9 +136,10 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
         lines += (*chosen_lines(verdict.chosen, verdict.path),)
         summaries = [_head(verdict)._replace(lines=lines)]
     else:
-        details = [Summary(v.path, lines) for v in judged if (lines := _lines(v))]
+        each = ((v.path, (*_lines(v), *anew_lines(v.chosen))) for v in judged)
+        details = [Summary(path, lines) for path, lines in each if lines]
         unread = len(verdicts) - len(judged)
-        summaries = [*map(_head, judged), _count(judged, unread), *details]
+        summaries = [*map(_head, judged), _count(judged, unread), *_sized(judged), *details]
     return Answer(tuple(summaries), table if page else None, data)
 
 
@@ -167,3 +169,10 @@ def _count(judged: Sequence[Verdict], unread: int) -> Summary:
     text += f", {unread} cannot be read" if unread else ""
     text += f", {warned} with warnings" if warned else ""
     return Summary(text, state=FAILS if failed or unread else WARNS if warned else PASSES)
+
+
+def _sized(judged: Sequence[Verdict]) -> list[Summary]:
+    """How many specs have sizes that their loads chose; nothing without any."""
+    sized = sum(bool(v.chosen.sizes) for v in judged)
+    said = f"chosen by load in {sized} of {len(judged)} specs (geneva size SPEC writes them)"
+    return [Summary(f"sizes {said}")] if sized else []

@@ -66,11 +66,16 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
 def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
     """A record as it stands below its summary, without the warnings and the names shown there.
 
-    Notes on unknown values remain, as ``not_known``.
+    Notes on unknown values remain, as ``not_known``. Of an angle in two units, degrees remain. An
+    allowed stress without a stress is left out.
     """
     values = dict(zip(record.names, next(record.rows()), strict=True))
     notes = tuple(text for text in values.pop("warnings") if not is_warning(text))
     left = {name: value for name, value in values.items() if name not in without}
+    left = {name: value for name, value in left.items() if not name.endswith("_arcsec")}
+    for name in [n for n in left if n.endswith(".allowed_MPa")]:
+        if left.get(name.replace("allowed_MPa", "margin")) is None:  # there is no stress
+            del left[name]
     return record_table(left | ({"not_known": notes} if notes else {}), prose=record.prose)
 
 
@@ -78,9 +83,13 @@ def chosen_lines(by_load: ByLoad, path: str) -> Iterator[SummaryLine]:
     """The lines of the sizes that the load chose, and of those that an option changed."""
     if by_load.words:
         name = {"": "SPEC", "<stdin>": "-"}.get(path, path)
-        yield SummaryLine(
-            "sizes", f"chosen by load: {by_load.words} (geneva size {name} writes them)"
-        )
+        text = f"chosen by load: {by_load.words} (geneva size {name} writes them)"
+        yield SummaryLine("sizes", text)
+    yield from anew_lines(by_load)
+
+
+def anew_lines(by_load: ByLoad) -> Iterator[SummaryLine]:
+    """The line of the sizes that an option changed."""
     if by_load.changes:
         yield SummaryLine("note", f"sizes chosen anew: {by_load.changes}")
 

@@ -25,12 +25,29 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     return [
         *_of_wheel(mechanism),
         *_of_distance(mechanism),
+        *_stops(mechanism),
         *_as_built(mechanism),
         *_fits(mechanism),
         *_rounded_points(mechanism),
         *_overtaken(mechanism),
         *(_of_law(mechanism, mechanism.law) if mechanism.law else ()),
     ]
+
+
+def _stops(mechanism: Mechanism) -> Iterator[Notice]:
+    """A warning for an input that cannot stop and start while the wheel rests."""
+    drive = mechanism.spec.drive
+    if not drive.stop_s:
+        return
+    brake, start = drive.brake_and_start_deg
+    least = min(mechanism.dwell_deg(i) for i in range(len(mechanism.engagements)))
+    if not keeps(brake + start, "at most", least):
+        yield Notice(
+            "stop-in-motion",
+            f"the input turns {brake:.4g}° while it brakes and {start:.4g}° while it starts, but a "
+            f"dwell has {least:.4g}° only: the roller would be in a slot meanwhile. brake_s and "
+            f"start_s together must be at most {least / (3.0 * drive.n_rpm):.4g} s at this speed",
+        )
 
 
 def _of_wheel(mechanism: Mechanism) -> Iterator[Notice]:

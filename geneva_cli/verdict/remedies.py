@@ -51,9 +51,10 @@ entry_velocity_max: crank_radius_mm= wheel_radius_mm~
 pin_force_max_N: SLOWER LARGER MILDER
 input_torque_max_Nm product_acceleration_max_m_s2 product_slip: SLOWER MILDER
 contact_stress_max_MPa: SLOWER WIDER LARGER MILDER
-stopping_torque_Nm cycle_max_s: drive.n_rpm*30
+stopping_torque_Nm: drive.n_rpm*30
+cycle_max_s: drive.stop_s*0.1 drive.n_rpm*30
 motion_max_s: drive.n_rpm*30 MILDER
-dwell_min_s: SLOWER MILDER
+dwell_min_s: drive.stop_s*10 SLOWER MILDER
 index_play_max_deg: TIGHTER
 dwell_play_max_deg: lock_clearance_mm>0
 dwell_position_max_deg: lock_clearance_mm>0 tolerance.lock_radius_mm>0

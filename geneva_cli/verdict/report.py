@@ -46,8 +46,9 @@ def report(
         "checks_failed": tuple(_in_one_line(c) for c in rows if c.passes is False),
         "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
-    values |= values_of(REPORT, parts) | {"chosen": by_load.record, "warnings": tuple(warnings)}
-    return Report(record_table(values, title, words(mechanism)), passes)
+    values |= values_of(REPORT, parts)
+    ends = {"chosen": by_load.record, "warnings": tuple(warnings)}
+    return Report(record_table({**values, **ends}, title, words(mechanism)), passes)
 
 
 def _in_one_line(check: Check) -> str:

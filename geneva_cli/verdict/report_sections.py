@@ -138,6 +138,7 @@ def cranks(parts: Parts) -> Values:
         ends = behind + one.entry_deg, behind + one.exit_deg
         # n rpm is 6 n degrees a second
         after_s = (ends[0] - each[0].entry_deg) / (6.0 * spec.drive.n_rpm)
+        after_s += k * spec.drive.stop_s
         slot = (int(step) - place.number + 1) % every
         place_deg = 360.0 * step / spec.wheel.z
         rows.append((place.number, place_deg, behind, *ends, after_s, slot, every))

@@ -8,12 +8,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from bench import closed_forms
 from bench.formulas import Proportions, rates, textbook
 from bench.method import Method, Task
 from geneva_cli.drives.crank import Crank
 from geneva_cli.drives.elliptical_gears import EllipticalGears
 from geneva_cli.drives.epicyclic import Epicyclic
 from geneva_cli.drives.side_crank import SideCrank
+from geneva_cli.kinds.linear.motion import Linear
 from geneva_cli.kinds.linkages.four_bar import FourBar
 from geneva_cli.kinds.series.geneva_pair import GenevaPair
 from geneva_cli.motion.laws.standard import ModifiedSine, SineGroup
@@ -110,14 +112,24 @@ KINDS = (
         "wheel.offset_mm",
         -40.0,
         40.0,
+        formula=closed_forms.offset_slots,
     ),
-    VariedMachine("spherical", Spec(Spherical(6)), "wheel.axes_deg", 20.0, 160.0),
+    VariedMachine(
+        "spherical",
+        Spec(Spherical(6)),
+        "wheel.axes_deg",
+        20.0,
+        160.0,
+        formula=closed_forms.spherical,
+    ),
+    VariedMachine("linear", Spec(Linear(6)), "wheel.z", 3.0, 24.0, formula=closed_forms.linear),
     VariedMachine(
         "elliptical gears",
         Spec(External(6), EllipticalGears(eccentricity=0.1)),
         "drive.eccentricity",
         0.0,
         0.6,
+        formula=closed_forms.elliptical_gears,
     ),
     VariedMachine(
         "epicyclic",
@@ -125,6 +137,7 @@ KINDS = (
         "drive.planet_ratio",
         -0.05,
         0.02,
+        formula=closed_forms.epicyclic,
     ),
     VariedMachine(
         "curved slots",
@@ -133,6 +146,7 @@ KINDS = (
         -60.0,
         60.0,
         script=partial(modified_sine_peaks, 6),
+        formula=closed_forms.modified_sine,
     ),
     VariedMachine(
         "curved slots of a tilted law",
@@ -140,8 +154,16 @@ KINDS = (
         "motion.lambda",
         -0.12,
         0.12,
+        formula=closed_forms.sine_group,
     ),
-    VariedMachine("geneva pair", Spec(External(4), GenevaPair(first_z=4)), "wheel.z", 3.0, 5.0),
+    VariedMachine(
+        "geneva pair",
+        Spec(External(4), GenevaPair(first_z=4)),
+        "wheel.z",
+        3.0,
+        5.0,
+        formula=closed_forms.geneva_pair,
+    ),
     VariedMachine(
         "four-bar",
         Spec(
@@ -186,7 +208,7 @@ def one_by_one(
     """Method that computes at most ``most`` designs one by one, in place of all."""
     few = alone[:most]
     name = f"one by one (extrapolated from {len(few)})"
-    return Method(name, None, lambda: [one(m) for m in few], True, times=count / len(few))
+    return Method(name, None, lambda: [one(m) for m in few], True, False, count / len(few))
 
 
 def task_of_many(

@@ -15,6 +15,7 @@ class Method(NamedTuple):
     size: float | None
     run: Callable[[], Any]
     ours: bool = False
+    rival: bool = True  # False for our own code in another way, which no user has to write
     times: float = 1.0  # the run is that part of the task: a loop over a sample of the designs
     memory: Callable[[], float | None] | None = None  # peak of a run, MB
 
@@ -54,10 +55,11 @@ class BenchRow(NamedTuple):
     method: str
     size: float | None
     error: float | None
-    time_ratio: float
+    time_ratio: float  # of short calls the least time, else the median of pairs
     memory_MB: float | None
     ours: bool
     frontier: bool | None = None
+    rival: str | None = None  # "none but ourselves" where no other program does the task
     designs_per_s: float | None = None  # of one core
     time_exponent: float | None = None  # of the growth with size, on the row of the largest
     memory_exponent: float | None = None

@@ -19,22 +19,29 @@ from geneva_cli.table import Table, rows_table
 SUBJECTS = ("peaks", "many", "sweep", "motion", "synth", "start", "advice", "growth")
 
 
-def measure(name: str, quick: bool) -> tuple[Subject, list[BenchRow]]:
-    """One subject with its rows."""
+# Those of ``make bench``: kernels against rivals. The others are whole runs of the program, or have
+# no rival.
+SHORT = ("motion", "peaks", "many")
+
+
+def measure(name: str, quick: bool, part: float = 1.0) -> tuple[Subject, list[BenchRow]]:
+    """One subject with its rows.
+
+    ``quick`` takes small sizes, for tests. ``part`` is the fraction of the time that each method is
+    measured for.
+    """
     module = importlib.import_module(f"bench.subjects.{name}")
     subject = cast(Subject, module.subject(quick))
-    rows = [row for task in subject.tasks for row in _rows(name, subject, task, quick)]
+    seconds = 0.01 if quick else part * subject.seconds
+    rows = [row for task in subject.tasks for row in _rows(name, subject, task, seconds)]
     return subject, rows
 
 
-def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[BenchRow]:
+def _rows(name: str, subject: Subject, task: Task, seconds: float) -> Iterator[BenchRow]:
     yield BenchRow(name, task.name, f"baseline: {task.baseline}", None, None, 1.0, None, False)
-    answers, times = ratios(
-        task.baseline_run,
-        [m.run for m in task.methods],
-        0.01 if quick else subject.seconds,
-        subject.clock,
-    )
+    runs = [m.run for m in task.methods]
+    answers, times = ratios(task.baseline_run, runs, seconds, subject.clock)
+    alone = not any(m.rival and not m.ours for m in task.methods)
     rows = [
         BenchRow(
             name,
@@ -45,6 +52,7 @@ def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Benc
             time.ratio * method.times,
             method.memory() if method.memory else None,
             method.ours,
+            rival="none but ourselves" if alone and method.ours else None,
             designs_per_s=task.designs and task.designs / (time.least_s * method.times),
         )
         for method, answer, time in zip(task.methods, answers, times, strict=True)

@@ -4,13 +4,17 @@ import functools
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from sampling import some
 
+from bench import plots
+from bench.kinds import KINDS, values_of
 from bench.method import BenchRow, beats, with_frontier
 from bench.run import SUBJECTS, bench_table, measure
 from bench.subjects import start as bench_start
 from bench.timing_pairs import exponent, median_ratio, ratios
+from geneva_cli.motion.mechanism import build
 
 # The greatest error that ours may show, in the subject's own measure; of the others none.
 OURS = {
@@ -41,6 +45,35 @@ def test_a_subject(one):
         assert max(own, default=0.0) <= OURS.get(one, 0.0)
         assert max(own, default=0.0) <= max(min(r.error for r in others), 2 * subject.floor)
     assert bench_table(rows).names[:3] == ("subject", "task", "method")
+
+
+def test_a_row_says_where_nobody_else_does_the_task():
+    _, rows = measured("many")
+    alone = {row.task: row.rival for row in rows if row.ours}
+    (four_bar,) = [task for task in alone if "four-bar" in task]
+    (plain,) = [task for task in alone if "plain crank" in task]
+    assert (alone[four_bar], alone[plain]) == ("none but ourselves", None)
+
+
+def test_closed_forms_are_the_motions():
+    """Those of rivals, which are written without the program."""
+    for kind in KINDS:
+        if kind.formula:
+            value = values_of(kind, 1)[0].item()
+            moving = build(kind.spec.with_(kind.key, value)).engagements[0].motion
+            input_deg = np.linspace(moving.entry_deg, moving.exit_deg, 100)
+            theirs = kind.formula(value, np.radians(input_deg))
+            for own, other in zip(moving.derivatives(input_deg, (1, 2)), theirs, strict=True):
+                assert other == pytest.approx(own, abs=3e-14 * np.abs(own).max()), kind.name
+
+
+@pytest.mark.long
+def test_a_plot_has_a_panel_for_each_task(tmp_path):
+    subject, rows = measured("peaks")
+    path = tmp_path / "new" / "peaks.svg"
+    assert plots.write(subject, rows, str(path))
+    assert path.read_text().count("<!-- scan of 17") == len(subject.tasks)
+    assert not plots.write(subject, [], str(path))
 
 
 def row(error, time):

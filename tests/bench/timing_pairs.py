@@ -1,6 +1,7 @@
 """Times as ratios: every run follows a run of a baseline.
 
-A change in the computer's speed affects both alike. The ratio is the median over the pairs.
+A change in the computer's speed affects both alike. The ratio is the median over the pairs. For
+calls shorter than SHORTEST it is that of the least times of many runs: interruptions only add.
 """
 
 from __future__ import annotations
@@ -98,7 +99,11 @@ def ratios(
             own = _time(call, repeats[i], clock)
             spent[i] += own * repeats[i]
             pairs[i].append((base, own))
-    timed = [Timed(median_ratio(p), min(own for _, own in p)) for p in pairs]
+    least = min(base for p in pairs for base, _ in p)
+    timed = []
+    for p, repeat in zip(pairs, repeats, strict=True):
+        own_s = min(own for _, own in p)
+        timed.append(Timed(own_s / least if repeat > 1 else median_ratio(p), own_s))
     return list(answers), timed
 
 

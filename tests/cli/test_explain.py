@@ -33,7 +33,7 @@ from geneva_cli.motion.pitch_curve import WALLED
 from geneva_cli.motion.timing import CamFactors
 from geneva_cli.parts.gears import gear_curves
 from geneva_cli.parts.slots import groove
-from geneva_cli.specfile.meanings import meanings
+from geneva_cli.specfile.meanings import meanings, related
 from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import law_values, survey
 from geneva_cli.study.sweep.run import ERROR
@@ -279,7 +279,7 @@ def warned(example: str) -> set[str]:
         ("cycloidal", ["law"]),
         ("turns-back", ["warning", "key"]),
         ("first-wheel", ["part"]),
-        ("crank", ["kind", "part", "key"]),  # the key of [outline]
+        ("crank", ["kind", "part", "key"]),
         ("inputs.drive.n_rpm", ["key"]),
         ("wheel.steps_deg", ["key"]),
         ("A", ["key"] * 4),  # of two kinds, in [drive] and in [drive.before]
@@ -287,3 +287,38 @@ def warned(example: str) -> set[str]:
 )
 def test_what_a_word_means(word: str, groups: list[str]):
     assert [m.group for m in meanings(word)] == groups
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        ("flywheel", ["sizing.flywheel_kgm2"]),
+        ("pin stress", ["pin_stress_MPa", "life.pin_stress_MPa"]),
+        ("wheel torque, N m", ["loads.wheel_torque_Nm"]),
+        ("Torque on the input", [f"{of}.input_torque_Nm" for of in ("loads", "cycle", "sizing")]),
+        ("strength wheel shaft margin", ["strength.wheel_shaft.margin"]),
+        ("tightest", ["tightest"]),
+        ("Wheel left out", ["wheel-left-out", "accept.wheel-left-out"]),
+    ],
+)
+def test_words_as_they_are_printed(words: str, names: list[str]):
+    """Columns, headings and labels, whatever their unit, order and capitals."""
+    assert [m.name for m in meanings(words)] == names
+
+
+def test_a_word_without_an_entry_leads_to_what_it_is_part_of():
+    """A group lists its names; texts and the manual's pages come last."""
+    assert {group for group, _, _ in related("warnings")} == {"warning"}
+    assert len(related("warnings")) == len(explained("warning"))
+    assert ("quantity", "loads.wheel_bearing_N") in [one[:2] for one in related("bearings")]
+    assert "page   help spec" in CliRunner().invoke(app, ["explain", "taplo"]).stdout
+    refused = CliRunner().invoke(app, ["explain", "xyzzy"])
+    assert refused.exit_code == 2 and '"xyzzy" is not a check' in refused.stderr
+
+
+def test_without_a_word_people_get_groups_and_programs_all_names():
+    """A screen of groups, not a thousand lines."""
+    people = CliRunner().invoke(app, ["explain"]).stdout.splitlines()
+    assert len(people) < 24 and sum("84" in line or "checks" in line for line in people) >= 1
+    rows = json.loads(CliRunner().invoke(app, ["explain", "--format", "json"]).stdout)["rows"]
+    assert {row["name"] for row in rows} == {name for e in entries() for name in e.names}

@@ -11,6 +11,7 @@ from repo import GENEVA
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import COMMANDS, GROUPS, app
+from geneva_cli.manual import GROUPS as PAGES
 
 EXAMPLES = [
     (name, example)
@@ -32,6 +33,17 @@ def test_help_lists_the_commands_by_what_a_person_wants():
         block = said.partition(f"\n{group}:\n")[2].partition("\n\n")[0]
         assert [line.split()[0] for line in block.splitlines()] == list(commands)
     assert max(map(len, said.splitlines())) <= 80
+
+
+def test_help_begins_with_three_examples_and_ends_with_completion():
+    """Between them a line for each group of the manual, in place of all its topics."""
+    said = geneva("-h")
+    examples = said.partition("\nExamples:\n")[2].partition("\n\n")[0].splitlines()
+    assert [line.split()[1] for line in examples] == ["new", "check", "profile"]
+    topics = said.partition("\nManual")[2].partition("\n\n")[0].splitlines()[1:]
+    assert [line.split()[0].strip(",:").lower().replace("-", "") for line in topics] == [*PAGES]
+    options = [line.split()[0] for line in said.splitlines() if line.startswith("  -")]
+    assert options[-2:] == ["--install-completion", "--show-completion"]
 
 
 @pytest.mark.parametrize("name", COMMANDS)

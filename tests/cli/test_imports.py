@@ -124,10 +124,11 @@ ROWS = [
 
 # The quick ones may import this much of the program, and no more.
 OWN = {
-    "--help": "cli cli.app errors progress streams manual",
-    "--version": "cli cli.app errors progress streams",
+    "--help": "cli cli.app cli.command errors progress streams manual",
+    "--version": "cli cli.app cli.command errors progress streams",
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
-    "table --z 6": "cli cli.app errors progress streams table cli.commands cli.completion "
+    "table --z 6": "cli cli.app cli.command errors progress streams table cli.commands "
+    "cli.completion "
     "motion motion.wheels cli.options cli.commands.table motion.wheels.classic motion.timing "
     "output study output.finite output.formats output.text study.survey "
     "numerics motion.timing numerics.angles numerics.arrays spec spec.rules",
@@ -234,4 +235,4 @@ def test_completion(words):
     modules = loaded([], env=os.environ | settings)
     assert not modules & HEAVY
     if count == 1:  # a command's name: no command is imported
-        assert own(modules) == {"cli", "cli.app", "errors", "progress", "streams"}
+        assert own(modules) == {"cli", "cli.app", "cli.command", "errors", "progress", "streams"}

@@ -1,13 +1,15 @@
 """Reference pages that the code prints have every command, key and quantity."""
 
 import re
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
+from geneva_cli import manual
 from geneva_cli.cli.app import COMMANDS, app
 from geneva_cli.cli.pages import PRINTED, page
-from geneva_cli.manual import TOPICS
+from geneva_cli.manual import TOPICS, path
 from geneva_cli.manual.explained import entries
 from geneva_cli.specfile.keys import all_keys
 
@@ -24,8 +26,10 @@ def rows(text: str) -> list[list[str]]:
     return [re.split(r" (?<!\\)\| ", line.strip("| ")) for line in lines]
 
 
-def test_every_page_that_is_printed_is_a_topic() -> None:
+def test_every_page_that_is_printed_is_a_topic_and_no_file() -> None:
     assert PRINTED.keys() <= TOPICS.keys()
+    files = {Path(path(topic)) for topic in TOPICS if topic not in PRINTED}
+    assert files == set(Path(manual.__file__).parent.rglob("*.md"))
     assert all(page(topic).startswith("# ") for topic in PRINTED)
 
 

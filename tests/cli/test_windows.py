@@ -20,7 +20,7 @@ from geneva_cli.cli.pages import page
 from geneva_cli.manual import TOPICS
 from geneva_cli.output.terminal.layout import Window, value
 from geneva_cli.output.terminal.terminal_tables import chunks
-from geneva_cli.table import record_table, rows_table
+from geneva_cli.table import Reading, record_table, rows_table
 
 LOOKS = ({"TERM": "xterm-256color"}, {"TERM": "dumb"}, {"TERM": "xterm", "NO_COLOR": "1"})
 
@@ -75,6 +75,47 @@ def test_a_terminal_itself_says_how_wide_it_is(environment):
     assert max(map(len, map(bare, lines))) > 60
 
 
+def paged(tmp_path, *words, pager="cat > seen", **environment):
+    """The lines on a terminal of 24 lines, and what its pager got, None where none ran."""
+    file, before = tmp_path / "seen", os.getcwd()
+    file.unlink(missing_ok=True)
+    os.chdir(tmp_path)
+    try:
+        lines = on_a_terminal(80, {"TERM": "xterm", "PAGER": pager} | environment, *words)
+    finally:
+        os.chdir(before)
+    return lines, file.read_text(encoding="utf-8").splitlines() if file.exists() else None
+
+
+def test_long_output_stops_in_the_pager(tmp_path):
+    """And nowhere else: not what a screen holds, and not where nobody turns a page."""
+    lines, seen = paged(tmp_path, "help", "symbols")
+    assert lines == [] and len(seen) > 24 and "Symbols and conventions" in seen[0]
+    assert paged(tmp_path, "help", "symbols", pager="no-such-pager")[0] == seen
+    assert paged(tmp_path, "help", "symbols", pager="head -n 2")[0] == seen[:2]
+    assert paged(tmp_path, "help", "symbols", pager="cat")[0] == seen
+    for words in (["--no-pager", "help", "symbols"], ["help", "symbols", "--no-pager"]):
+        assert paged(tmp_path, *words) == (seen, None)
+    lines, seen = paged(tmp_path, "help", "symbols", TERM="dumb")
+    assert len(lines) > 24 and seen is None
+    assert paged(tmp_path, "table")[1] is None
+
+
+def test_a_pager_that_is_left_early_does_not_change_the_exit_status(tmp_path):
+    """The reader saw enough; a design that fails still fails."""
+    import pty
+
+    spec = tmp_path / "z6.toml"
+    spec.write_text("[wheel]\nz = 6\n[limits]\nvelocity_max = 0.9\n", encoding="utf-8")
+    environment = os.environ | {"TERM": "xterm", "PAGER": "head -n 1", "LINES": "5"}
+    master, slave = pty.openpty()
+    command = [GENEVA, "check", "-v", str(spec)]
+    with subprocess.Popen(command, stdout=slave, stderr=slave, env=environment) as run:
+        os.close(slave)
+        shown = repo.read_terminal(master).decode()
+    assert run.returncode == 1 and shown.count("\n") == 1 and "z6.toml: 1 of" in shown
+
+
 def test_a_wrong_column_is_refused_with_the_nearest():
     result = CliRunner().invoke(app, ["table", "--columns", "acceleration"])
     assert result.exit_code == 2
@@ -88,6 +129,17 @@ def test_columns_where_no_table_is_printed_are_refused(tmp_path):
     result = CliRunner().invoke(app, words)
     assert result.exit_code == 2 and "--columns is for tables" in result.stderr
     assert not file.exists()
+
+
+def test_a_column_that_decides_is_never_left_out():
+    """Whether parts can be built, and which of two kinds has a key."""
+    names = ("no", "machine", "peak_a", "peak_b", "peak_c", "peak_d", "parts")
+    peaks = [[-1.2345e-9 * i * j for j in (3, 4, 5, 6)] for i in (1, 2)]
+    rows = [(i, f"four-bar {i} 52.4 154", *peaks[i - 1], f"no: island {i}") for i in (1, 2)]
+    for decide in ((), ("parts",)):
+        reading = Reading(names, decide=decide)
+        text = "\n".join(lines_of(rows_table(names, rows).replaced(reading=reading), 60))
+        assert ("no: island" in text) == bool(decide)
 
 
 def lines_of(table, columns):
@@ -133,10 +185,12 @@ def test_any_table_fits(seed):
 @pytest.mark.parametrize(
     ("number", "unit", "text"),
     [
-        (0.123456789, "", "0.12346"),
-        (-1.23456e-10, "mm", "-1.2346e-10 mm"),
+        (0.123456789, "", "0.1235"),
+        (-1.23456e-10, "mm", "-1.235e-10 mm"),
         (-0.0, "deg", "0 deg"),
         (1234567, "", "1234567"),
+        (393.91305, "mm", "393.913 mm"),
+        (12345.6, "rpm", "12350 rpm"),
         (2.8e8, "h", "practically unlimited"),
         (float("inf"), "mm", "no bound"),
         (None, "mm", "-"),

@@ -10,7 +10,7 @@ from repo import GENEVA, get, posix, put
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.files import write
 
-ROOT_ALONE = os.name != "nt" and os.geteuid() != 0
+ROOT_ALONE = hasattr(os, "geteuid") and os.geteuid() != 0
 GONE = 2**22 + 1  # above the greatest number that Linux gives to a process
 
 

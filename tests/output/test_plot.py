@@ -20,7 +20,7 @@ from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
 from geneva_cli.output import letters, show_figure
 from geneva_cli.output.inks import LIGHT, colour
 from geneva_cli.output.plot import plot_png, plot_svg, plot_text
-from geneva_cli.output.plot.plot_layout import INCH, labels, ticks
+from geneva_cli.output.plot.plot_layout import PAGE, labels, ticks
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 SVG = "{http://www.w3.org/2000/svg}"
@@ -252,15 +252,30 @@ class Dots(NamedTuple):
 )
 def test_a_dot_of_a_png(draws, across, monkeypatch):
     """The pixels of its colour: their middle, and the area of a disc."""
-    monkeypatch.setattr(plot_png, "blocks", lambda figure: [Dots(draws)])
-    pixels = imread(io.BytesIO(plot_png.png_bytes(None)))[..., :3]
+    monkeypatch.setattr(plot_svg, "blocks", lambda figure: [Dots(draws)])
+    panel = Panel(Axis("velocity", "Velocity"), (Curve(1, "one", (([0.0], [0.0]),)),))
+    figure = Figure("", Axis("x", "x"), (panel,), (0.0, 1.0), ())
+    pixels = imread(io.BytesIO(plot_png.png_bytes(figure)))[..., :3]
     ink = np.array(to_rgb(colour(1, LIGHT)))
     share = (1.0 - pixels).sum(axis=2) / (1.0 - ink).sum()  # of a pixel that the dot covers
-    scale = 150.0 / INCH  # pixels of a px
+    scale = plot_png.WIDE / PAGE  # pixels of a px
     y, x = (np.average(i, weights=share) + 0.5 for i in np.indices(share.shape))
-    # Matplotlib moves a dot to whole pixels
-    assert (x / scale, y / scale) == pytest.approx((200.0, 40.0), abs=1.0 / scale)
+    assert (x / scale, y / scale) == pytest.approx((200.0, 40.0), abs=0.05 / scale)
     assert share.sum() == pytest.approx(math.pi / 4.0 * (across * scale) ** 2, rel=0.05)
+
+
+def test_letters_of_a_png_are_drawn():
+    """By the font of the extra, whatever fonts the machine has: a wider text has more ink."""
+    panel = Panel(Axis("velocity", "Velocity"), (Curve(1, "one", (([0.0], [0.0]),)),))
+    titles = ("", "W", "WWWW")
+    drawn = [
+        imread(
+            io.BytesIO(plot_png.png_bytes(Figure(title, Axis("x", "x"), (panel,), (0.0, 1.0), ())))
+        )
+        for title in titles
+    ]
+    none, one, four = ((1.0 - pixels[:, :, :3]).sum() for pixels in drawn)
+    assert four - none == pytest.approx(4.0 * (one - none), rel=0.02) and one > none + 100.0
 
 
 @pytest.mark.long

@@ -12,7 +12,6 @@ import math
 import multiprocessing
 import os
 import random
-import resource
 import signal
 import sys
 import tempfile
@@ -63,7 +62,13 @@ FUZZERS = {
 
 @contextlib.contextmanager
 def in_time(seconds):
-    """Raise TimeoutError after ``seconds`` of processor time; other processes do not count."""
+    """Raise TimeoutError after ``seconds`` of processor time; other processes do not count.
+
+    Windows has no such timer: there a run may take for ever.
+    """
+    if not hasattr(signal, "setitimer"):
+        yield
+        return
 
     def stop(number, frame):
         raise TimeoutError(f"more than {seconds} s")
@@ -82,11 +87,11 @@ def folder():
     """A temporary working folder with files of points, which nothing may harm."""
     with tempfile.TemporaryDirectory() as path, contextlib.chdir(path):
         for name, text in FILES.items():
-            with open(name, "w") as file:
+            with open(name, "w", encoding="utf-8") as file:
                 file.write(text)
         yield
         for name, text in FILES.items():
-            with open(name) as file:
+            with open(name, encoding="utf-8") as file:
                 assert file.read() == text, f"{name} was changed"
         assert sorted(os.listdir()) == sorted(FILES)
 
@@ -108,7 +113,10 @@ def _place(error):
 def _batch(job):
     """Run cases one after another; return the number of each result, and the first failures."""
     name, seed, start, count = job
-    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
+    with contextlib.suppress(ImportError):  # on Windows there is no limit
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
     ends, failed = {}, {}
     with folder():
         for number in range(start, start + count):

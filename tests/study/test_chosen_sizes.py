@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import Design, External, Load, load
 from geneva_cli.cli.app import app
-from geneva_cli.specfile.inserted import inserted
+from geneva_cli.specfile.inserted import Written, inserted
 from geneva_cli.study.chosen_sizes import KEPT, sized_text
 
 DESIGNS = sorted(path.stem for path in repo.DESIGNS.glob("*.toml"))
@@ -185,7 +185,7 @@ def test_the_table_and_the_file(turret):
     refused = run("size", "turret.toml", "-o", "turret.toml")
     assert refused.exit_code == 2 and repo.get("turret.toml").startswith(TURRET)
     fast = run("size", "turret.toml", "--set", "drive.n_rpm=90", "-o", "fast.toml")
-    assert fast.stderr == f"fast.toml: note: {KEPT}\n"
+    assert fast.stderr == "" and "\nface_width_mm = 18 # of the roller\n" in repo.get("fast.toml")
     assert (
         values(load("fast.toml"))["crank_shaft_stress_MPa"]
         == (values(load("turret.toml", ["drive.n_rpm=90"]))["crank_shaft_stress_MPa"])
@@ -194,6 +194,16 @@ def test_the_table_and_the_file(turret):
 
 
 @pytest.mark.long
+def test_a_text_without_lines_of_its_tables_is_written_anew(turret):
+    repo.put("flat.toml", "wheel = {z = 6}\nsize = {center_distance_mm = 80}\n")
+    again = run("size", "flat.toml", "-o", "again.toml")
+    assert again.stderr == f"again.toml: note: {KEPT}\n"
+    assert load("again.toml").chosen == {}
+    assert run("size", "turret.toml", "--set", "title=two words", "-o", "-").stdout.startswith(
+        'title = "two words"\n'
+    )
+
+
 def test_exported_specs_have_the_sizes_of_the_parts_beside_them(turret):
     assert run("export", "turret.toml", "--for", "laser", "-o", "shop").exit_code == 0
     exported = load("shop/spec.toml")
@@ -214,10 +224,15 @@ def test_exported_specs_have_the_sizes_of_the_parts_beside_them(turret):
         ("size = {shafts = 'turned'}\n", None),
         ("size.shafts = 'turned'\n[wheel]\nz = 6\n", None),
         ('title = """\n[size]\n"""\n', None),
+        (
+            "[size]\npin_mm = 4 # mine\nshafts = 'a#b' # two\n",
+            "[size]\npin_mm = 6.0 # mine\nshafts = 'a#b' # two\n",
+        ),
+        ("[size]\npin_mm = 4", "[size]\npin_mm = 6.0\n"),
     ],
 )
 def test_keys_are_inserted_or_refused(text, out):
-    found = inserted(text, "size", {"pin_mm": (6.0, "why")})
+    found = inserted(text, "size", {"pin_mm": Written(6.0, "why")})
     assert found == out
     if found:
         assert tomli.loads(found)["size"]["pin_mm"] == 6.0

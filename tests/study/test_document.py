@@ -14,9 +14,9 @@ from typer.testing import CliRunner
 from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.output import jsonfile
-from geneva_cli.output.document import html
-from geneva_cli.output.document.blocks import Document, Fact, Facts, Grid, value_text
-from geneva_cli.study.document import document
+from geneva_cli.output.document import document_pdf, html
+from geneva_cli.output.document.blocks import BAD, Document, Fact, Facts, Grid, Heading, value_text
+from geneva_cli.study.document import document, short_document
 
 pytestmark = pytest.mark.usefixtures("made_once")
 # Loads and a motor; a sphere; tolerances; a linkage; a groove; unlike engagements.
@@ -108,7 +108,8 @@ def has(cells: set[str], told: str, value: Any) -> bool:
     """Whether a value is in a cell, alone or before its unit; a text in any text."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return value in told if isinstance(value, str) else value_text(value) in cells
-    return value_text(value).replace("\u00a0", " ") in cells
+    texts = {value_text(value, unit).removesuffix(f" {unit}") for unit in ("", "mm")}
+    return bool({text.replace("\u00a0", " ") for text in texts} & cells)
 
 
 @pytest.mark.long
@@ -132,6 +133,47 @@ def _parts(cell: str) -> list[str]:
     bare = cell.removesuffix("°")
     head, _, _ = bare.rpartition(" ")
     return [cell, bare, head, bare.split(" ")[0], " ".join(bare.split(" ")[:3])]
+
+
+@pytest.mark.sampled(14)
+@pytest.mark.usefixtures("no_advice")
+@pytest.mark.parametrize("file", sorted(repo.DESIGNS.glob("*.toml")), ids=lambda f: f.stem)
+def test_a_report_for_a_first_reader_has_two_pages(file: Any) -> None:
+    """Verdict, picture, motor, loads with limits, parts, warnings; words in place of keys."""
+    design = load(str(file))
+    short = short_document(design)
+    heads = [block.text for block in short.blocks if isinstance(block, Heading)]
+    assert heads == ["The machine", "Greatest loads", "Parts", "Warnings"]
+    text = "".join(document_pdf.chunks(short))
+    assert len(re.findall(r"/Type /Page\b", text)) == 2
+    page = "".join(html.chunks(short))
+    assert "material." not in page and "geneva explain" not in page and "Motor" in page
+    grids = {block.heads: block for block in short.blocks if isinstance(block, Grid)}
+    loads = next((grid for heads, grid in grids.items() if "Limit" in heads), None)
+    assert bool(loads) or not design.cycle.is_loaded
+    stresses = {c.name: c for c in design.checks if c.name.endswith("_MPa") and c.value}
+    limits = [row[5] for row in loads.rows if row[5] is not None] if loads else []
+    assert set(limits) >= {c.limit for c in stresses.values()}
+
+
+@pytest.mark.usefixtures("no_advice")
+def test_a_report_shows_limits_beside_loads_and_what_fails() -> None:
+    """A limit of the cycle's loads stands in the row of the load; nothing is allowed without."""
+    design = load(str(repo.DESIGNS / "turret.toml"), ["limits.pin_force_max_N=150"])
+    (grid,) = (
+        b for b in short_document(design).blocks if isinstance(b, Grid) and "Limit" in b.heads
+    )
+    (force,) = (row for row in grid.rows if row[0] == "Pin force")
+    assert force[1:] == (
+        design.loads["pin_force_N"].max,
+        "N",
+        pytest.approx(-24.071, abs=5e-4),
+        "at most",
+        150,
+        BAD,
+    )
+    bare = load(str(repo.DESIGNS / "four-bar-z4.toml"))
+    assert "allowed" not in "".join(html.chunks(document(bare))).casefold()
 
 
 @pytest.mark.long
@@ -189,7 +231,7 @@ def test_inputs_say_what_is_a_default() -> None:
     design, found = of("turret")
     (grid,) = (b for b in found.blocks if isinstance(b, Grid) and b.heads[0] == "Key")
     rows = {row[0]: row[1:3] for row in grid.rows}
-    assert rows["load.inertia_kgm2"] == (1.2, "kg m²")
+    assert rows["load.inertia_kgm2"] == ("1.2", "kg m²")
     assert rows["drive.n_rpm"] == (design.spec.drive.n_rpm, "rpm")
     appendix = found.blocks[-1]
     assert isinstance(appendix, Facts)

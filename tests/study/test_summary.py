@@ -10,6 +10,7 @@ from geneva_cli.design import Design, load
 from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.study.summary.report_summary import of_tolerance, of_vibration
+from geneva_cli.verdict.headline import tightest
 
 pytestmark = pytest.mark.usefixtures("made_once")
 
@@ -36,7 +37,7 @@ def test_the_motor_is_the_next_standard_power(power_W: float, rated: float) -> N
 
 def test_a_turret_gets_one_motor() -> None:
     """By hand: 22.8 N m at 40 rpm, over the efficiencies 0.95 and 0.85, take 118 W."""
-    first, powers = of_loads(design("turret")).summaries
+    first, powers = of_loads(design("turret"), True).summaries
     motor = line(first, "motor")
     assert motor.text == "0.12 kW, 1400 rpm, gear ratio 35"
     by_hand = 22.80584 * 40.0 * math.tau / 60.0 / 0.95 / 0.85
@@ -70,3 +71,17 @@ def test_tolerance_names_what_contributes_most() -> None:
     assert answer.page is not None
     assert "not_known" in answer.page.names
     assert answer.data is record
+
+
+def test_the_tightest_check_is_nearest_to_its_limit() -> None:
+    """No other passing check uses more of its limit; 61.41 of 82.5 MPa here."""
+    checks = design("turret").checks
+    (told,) = tightest(checks)
+    bounded = [c for c in checks if c.passes and not c.is_proof and c.value and c.limit]
+    used = {
+        c.name: c.value / c.limit if c.must_be == "at most" else c.limit / c.value
+        for c in bounded
+        if c.name != "dwell_hold"  # yes or no
+    }
+    assert max(used, key=used.__getitem__) == "crank_shaft_stress_MPa"
+    assert told.text == "crank shaft stress 61.41 MPa at -17.24°, at most 82.5"

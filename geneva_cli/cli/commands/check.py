@@ -16,11 +16,9 @@ def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
     strict: Annotated[bool, flag("--strict", "Exit 1 on a warning too.")] = False,
     verbose: Annotated[
-        bool, typer.Option("-v", "--verbose", help="Every check, also on a terminal.")
+        bool, typer.Option("-v", "--verbose", help="Every check, a row each.")
     ] = False,
-    proof: Annotated[
-        float | None, option("MM", "Prove that no parts overlap by more.", name="--proof")
-    ] = None,
+    certify: Annotated[float | None, option("MM", "Prove that no parts overlap by more.")] = None,
     wheel: Annotated[
         str | None, option("FILE", "The wheel as somebody drew it: .dxf or .svg.", DRAWN)
     ] = None,
@@ -35,20 +33,20 @@ def run(
 ) -> None:
     """Check designs: failures with their remedies, warnings, and the tightest check.
 
-    It checks the motion, the parts and the spec's own [limits]. The exit status is 1 if a check
-    fails. If one spec cannot be read, the others are still checked.
+    It checks the motion, the parts and the spec's own [limits]. With -v, or as csv, json or md,
+    there is a row for each check. The exit status is 1 if a check fails. If one spec cannot be
+    read, the others are still checked.
     """
-    from geneva_cli.output import is_watched, show_answer
+    from geneva_cli.output import show_answer
     from geneva_cli.output.formats import table_as
     from geneva_cli.study.verdicts import of_checks, verdicts
 
     name = table_as(output, format)
     drawn = outline_settings(wheel, crank, slack)
-    results = list(verdicts(specs, [*(settings or ()), *drawn], proof))
+    results = list(verdicts(specs, [*(settings or ()), *drawn], certify))
     judged = [v for v in results if not v.error]
     if judged or name == "json":
-        is_short = is_watched(output, format) and not verbose
-        answer = of_checks(results, not is_short, name == "json")
+        answer = of_checks(results, verbose or name != "table", name == "json")
         show_answer(answer, output, format, [file for v in results for file in v.files])
     for v in results:
         if v.error:

@@ -28,19 +28,38 @@ def run(
     format: Format = "",
 ) -> None:
     """Explain a word of the output: meaning, formula, unit, source, what to do, manual page."""
+    from geneva_cli.cli.pages import search
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.output.formats import is_for_people
-    from geneva_cli.specfile.meanings import Meaning, as_markdown, listed, meanings
+    from geneva_cli.specfile.meanings import (
+        Meaning,
+        as_markdown,
+        groups,
+        listed,
+        meanings,
+        related,
+        unknown,
+    )
     from geneva_cli.table import Reading, rows_table
 
-    word = " ".join(words or ())
+    word, names = " ".join(words or ()), ("group", "name", "about")
+    people = is_for_people(output, format)
+    if not word and people:
+        title = "`geneva explain WORD` says what a word of any output means; these are explained:"
+        shown = rows_table(("words", "number", "about", "such_as"), groups(), title)
+        show(shown.replaced(reading=Reading(("words", "such_as"))), output, format)
+        return
     if not word:
-        reading = Reading(("name", "about"))
-        table = rows_table(("group", "name", "about"), listed()).replaced(reading=reading)
-        show(table, output, format)
+        show(rows_table(names, listed()), output, format)
         return
     entries = meanings(word)
-    if not is_for_people(output, format):
+    if not entries:
+        found = related(word) or [("page", f"help {hit.topic}", hit.line) for hit in search(word)]
+        if not found:
+            raise unknown(word)
+        title = f"{word}: `geneva explain NAME` says more." if people else ""
+        show(rows_table(names, found, title).replaced(reading=Reading(names[1:])), output, format)
+    elif not people:
         show(rows_table(Meaning._fields, entries), output, format)
     elif output == "-":
         show_markdown(as_markdown(entries))

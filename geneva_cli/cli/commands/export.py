@@ -13,7 +13,7 @@ from geneva_cli.cli.options import (
     require_written,
     say,
 )
-from geneva_cli.errors import GenevaError, clean
+from geneva_cli.errors import GenevaError, below, clean
 
 EXAMPLES = (
     "geneva export spec.toml -o turret",
@@ -49,12 +49,11 @@ def run(
     is written, and the exit status is 1.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import refuse_columns, show
+    from geneva_cli.output import show
     from geneva_cli.output.folder import Entry, filling_folder
     from geneva_cli.study.export import export_files, shop_warnings, trade_of
     from geneva_cli.table import rows_table
 
-    refuse_columns()
     needed = trade_of(trade)
     design = load(spec, settings or ())
     if not output:
@@ -66,13 +65,13 @@ def run(
     with filling_folder(output, entries, design.spec.files, force) as filling:
         for file in files:
             file.write(os.path.join(filling.new, file.name))
-    rows = [(os.path.join(output, one.file), one.content) for one in entries]
+    rows = [(below(output, one.file), one.content) for one in entries]
     show(rows_table(("file", "content"), rows, design.spec.title))
     for one in missing:
         print(clean(f"{spec}: warning: {one.name}: not written: {one.why}"), file=sys.stderr)
     for name in filling.kept:
         text = "no file of this design now, but somebody changed it: it stays"
-        print(clean(f"{os.path.join(output, name)}: warning: {text}"), file=sys.stderr)
+        print(clean(f"{below(output, name)}: warning: {text}"), file=sys.stderr)
     process = design.spec.size.process
     if trade and process != trade:
         print(

@@ -24,7 +24,7 @@ def run(
     """Show a page of the manual, the options of a command, or all places of a word."""
     from geneva_cli.cli.pages import Hit, page, search
     from geneva_cli.manual import TOPICS, contents
-    from geneva_cli.output import show, show_markdown
+    from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.table import Reading, rows_table
 
     topic = " ".join(words or ())
@@ -36,7 +36,7 @@ def run(
     elif topic not in TOPICS and topic in commands.list_commands(context):
         _, command, _ = commands.resolve_command(context, [topic])
         info = typer.Context(command, parent=context.find_root(), info_name=topic)
-        print(command.get_help(info))
+        show_text(command.get_help(info) + "\n")
     elif topic in TOPICS:
         show_markdown(page(topic))
     elif hits := search(topic):

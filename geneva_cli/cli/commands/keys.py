@@ -27,5 +27,6 @@ def run(
     from geneva_cli.specfile.keys import Key, about
     from geneva_cli.table import Reading, rows_table
 
-    reading = Reading(("key", "meaning", "table", "unit", "default", "range", "goes_with"))
+    first = ("key", "meaning", "goes_with", "table", "unit", "default", "range")
+    reading = Reading(first, decide=("goes_with",))  # two kinds may have a key of one name
     show(rows_table(Key._fields, about(word)).replaced(reading=reading), output, format)

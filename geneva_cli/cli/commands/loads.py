@@ -4,6 +4,8 @@ import sys
 from collections.abc import Sequence
 from typing import Annotated
 
+import typer
+
 from geneva_cli.cli.options import Format, Output, Reverse, Settings, SpecPath, flag, option, say
 from geneva_cli.errors import clean, is_warning
 
@@ -11,6 +13,7 @@ ROWS = 361
 
 EXAMPLES = (
     "geneva loads spec.toml",
+    "geneva loads spec.toml -v",
     "geneva loads spec.toml -o cycle.csv",
     "geneva loads spec.toml --set load.inertia_kgm2=0.8 --format json",
     "geneva loads spec.toml --certify",
@@ -23,6 +26,9 @@ def run(
         int | None, option("N", f"The cycle in N rows instead (csv: {ROWS}).")
     ] = None,
     certify: Annotated[bool, flag("--certify", "Prove the greatest loads instead.")] = False,
+    verbose: Annotated[
+        bool, typer.Option("-v", "--verbose", help="Powers, all loads, sizing and life too.")
+    ] = False,
     reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",
@@ -30,10 +36,10 @@ def run(
 ) -> None:
     """Loads of the motion: torque, forces, stress and power over a cycle.
 
-    The recommended motor comes first, then each quantity: its greatest and least value over the
-    motions, with their input angles. Mean and root mean square are over the whole period. As csv,
-    or with --samples, the cycle is printed in rows, evenly spaced in the input angle from entry.
-    json is always the summary.
+    The recommended motor comes first, then the greatest loads and the warnings. With -v each
+    quantity follows: its greatest and least value over the motions, with their input angles. Mean
+    and root mean square are over the whole period. As csv, or with --samples, the cycle is printed
+    in rows, evenly spaced in the input angle from entry. json and md always have everything.
 
     The pin force is a size; in rows it is negative on the wall that holds the wheel back. Torque
     and power of the input are negative where the wheel drives it; the greatest torque is a size. In
@@ -49,7 +55,7 @@ def run(
     called not proved. It needs geneva-cli[certify]. More: `geneva help accuracy`.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show, show_answer
+    from geneva_cli.output import choice, show, show_answer
     from geneva_cli.output.formats import is_for_people, table_as
     from geneva_cli.study.summary.load_lines import of_loads
 
@@ -66,7 +72,8 @@ def run(
         table = design.load_cycle(ROWS if samples is None else samples)
         show(table, output, format, design.spec.files)
     else:
-        show_answer(of_loads(design), output, format, design.spec.files)
+        answer = of_loads(design, name != "table" or verbose or bool(choice.columns))
+        show_answer(answer, output, format, design.spec.files)
     _say(design.spec.path, warnings)
 
 

@@ -11,6 +11,7 @@ from geneva_cli.output.formats import CAMS, CONTROLLERS, FORMATS
 
 EXAMPLES = (
     "geneva motion spec.toml --samples 13",
+    "geneva motion spec.toml --at 30,45",
     "geneva motion spec.toml -o motion.csv",
     "geneva motion spec.toml --turns 8 -o revolution.csv",
     "geneva motion spec.toml --format cam --for codesys -o cam.st",
@@ -21,6 +22,9 @@ CAM = "An electronic cam"
 def run(
     spec: SpecPath,
     samples: Annotated[int | None, option("N", "Rows, both ends included.  [default: 361]")] = None,
+    at: Annotated[
+        str, option("DEG,...", "Rows at these input angles from mid-motion: 30,45, -60..60:5.")
+    ] = "",
     turns: Annotated[
         int | None, option("N", "Turns of the input, with a row at each entry and jump.")
     ] = None,
@@ -46,7 +50,8 @@ def run(
 ) -> None:
     """Position, velocity, acceleration and jerk over a cycle from entry.
 
-    If the engagements differ, it covers a whole period of the machine.
+    If the engagements differ, it covers a whole period of the machine. velocity, acceleration and
+    jerk are relative to the input; omega_rad_s and alpha_rad_s2 are at the spec's speed.
 
     --format cam writes an electronic cam: polynomials of degree five as csv, CODESYS points
     (XYVA), or Beckhoff pairs. Standard error has the number of rows and the greatest error. The
@@ -60,13 +65,15 @@ def run(
     if format not in CAMS:
         if controller is not None or tolerance is not None:
             raise GenevaError("--for and --tolerance are for electronic cams: --format cam")
-        show(design.motion(361 if samples is None else samples, turns), output, format, files)
+        rows = 361 if samples is None else samples
+        show(design.motion(rows, turns, _angles(at, samples, turns)), output, format, files)
         warn(design)
         return
     from geneva_cli.spec.load_named import load_extra
 
-    if samples is not None:
-        raise GenevaError("--samples: a cam has the points that its --tolerance needs")
+    if samples is not None or at:
+        given = "--at" if at else "--samples"
+        raise GenevaError(f"{given}: a cam has the points that its --tolerance needs")
     controller = controller or CONTROLLERS[0]
     content, rows, error_deg = load_extra("servo", "cam")(
         design, controller, turns, 1e-4 if tolerance is None else tolerance
@@ -80,3 +87,15 @@ def run(
     warn(design)
     if not is_met:
         raise typer.Exit(1)
+
+
+def _angles(at: str, samples: int | None, turns: int | None) -> list[float] | None:
+    """The input angles of ``--at``, degrees; None without it."""
+    if not at:
+        return None
+    from geneva_cli.study.sweep.values import numbers
+
+    if samples is not None or turns is not None:
+        other = "--samples" if turns is None else "--turns"
+        raise GenevaError(f"--at sets the rows, and {other} too: give one of them")
+    return numbers(at, "--at")

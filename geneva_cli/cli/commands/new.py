@@ -7,7 +7,7 @@ import typer
 
 from geneva_cli.cli.completion import designs, kinds
 from geneva_cli.cli.options import Output, flag, option
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import GenevaError, below
 
 EXAMPLES = (
     "geneva new external -o wheel.toml",
@@ -37,7 +37,8 @@ def run(
 ) -> None:
     """Write a short commented spec to start from; --all for every key.
 
-    An existing file is kept, unless --force is given. For editors: `geneva help spec`.
+    `geneva check` judges it, and `geneva size` writes the sizes that it leaves out, so that they
+    stay. An existing file is kept, unless --force is given. For editors: `geneva help spec`.
     """
     from geneva_cli.output import show
     from geneva_cli.specfile.designs import design, titles
@@ -72,7 +73,7 @@ def _write(text: str, output: str, files: dict[str, str], force: bool) -> None:
     """Write a spec, and the files that it names into its folder."""
     from geneva_cli.output import refuse_existing, show_text
 
-    places = {os.path.join(os.path.dirname(output), file): files[file] for file in files}
+    places = {below(os.path.dirname(output), file): files[file] for file in files}
     if not force:
         refuse_existing(output)
         for place, content in places.items():

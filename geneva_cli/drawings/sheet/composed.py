@@ -26,9 +26,8 @@ from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.spec.materials import roller_material, wheel_material
-from geneva_cli.spec.tables import Material
-from geneva_cli.spec.workshops import Stock, workshop
+from geneva_cli.spec.materials import material_names
+from geneva_cli.spec.workshops import workshop
 from geneva_cli.spec.written import is_metric, length, number
 
 
@@ -75,10 +74,7 @@ def _composed(
     area = _inside(paper)
     if is_overfull(blocks, area):
         return None
-    materials = [
-        _material(spec.material_wheel, wheel_material(spec), workshop(spec.size.process).stock),
-        _material(spec.material_roller, roller_material(spec), Stock()),
-    ]
+    materials = [_in_inches(name) for name in material_names(spec)]
     general = {
         "scale": scale_name(scale),
         "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
@@ -91,7 +87,7 @@ def _composed(
     head = spec.title or spec.wheel.title
     _, low, right, _ = area
     corner = title_block(head, [general, *_fields(spec)]).moved(right - TITLE_WIDTH, low)
-    items = _items(rows, materials)
+    items = _items(rows)
     items = items.moved(right - items.width, corner.y1)
     placed = packed(blocks, [corner, items], area)
     if placed is None:
@@ -132,8 +128,7 @@ def _micro(roughness: str) -> str:
     return roughness if is_metric() or not roughness.startswith("Ra") else f"{roughness} µm"
 
 
-def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
-    own = {"material.wheel": materials[0], "material.roller": materials[1]}
+def _items(rows: list[dict[str, Any]]) -> Block:
     lines = [
         (
             str(i),
@@ -141,7 +136,7 @@ def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
             str(row["count"]),
             length(row["thickness_mm"]),
             _rounded(row["mass_kg"] / _mass_unit()[1]),
-            own[row["material"]],
+            _in_inches(row["material"]),
         )
         for i, row in enumerate(rows, 1)
     ]
@@ -150,16 +145,13 @@ def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
     return table((), [heading, *lines], columns)
 
 
-def _material(own: Material, of: Stock, usual: Stock) -> str:
-    """Return the grade of a material, or else its density if it is not the usual one."""
-    if own.grade or of == usual._replace(allowed_MPa=of.allowed_MPa):
-        return of.grade
-    density = of.density_kgm3
+def _in_inches(material: str) -> str:
+    """Return the name of a material; on a sheet in inches, a density in pounds."""
     if is_metric():
-        return f"{density:g} kg/m³"
-    from geneva_cli.output.inches import value_in_inches
+        return material
+    from geneva_cli.output.inches import text_in_inches
 
-    return f"{value_in_inches(density, 'kg/m³')[0]:.4g} lb/in³"
+    return text_in_inches(material)
 
 
 def _mass(kg: float) -> str:

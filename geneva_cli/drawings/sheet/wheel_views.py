@@ -17,6 +17,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.slot_ends import cut_walls
 from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.shafts.held_hubs import hub_note
 from geneva_cli.spec.written import degrees, length
@@ -53,6 +54,10 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
         text = f"clearance a side: {length(clear.slot_clearance_mm)} from roller to slot"
         lock = f", {length(clear.lock_clearance_mm)} from locking disc to recess"
         view.remark(text + (lock if sizes.lock else ""))
+    if sizes.mouth_radius:
+        view.remark(f"mouths of the slots rounded with R {length(sizes.mouth_radius)}")
+    if sizes.arm - sizes.half_width - sizes.recess < sizes.horn_tip:
+        view.remark(f"horns cut square to the slots where they are {length(sizes.horn_tip)} wide")
     for hub in hubs:
         draw_hub(view, hub, hub_note(assembly.mechanism.spec.size, "wheel"))
     bored(view, bores, assembly.mechanism.spec.size, "wheel")
@@ -63,7 +68,8 @@ def _axes(view: View, parts: FlatParts) -> None:
     outlines = parts.outlines
     for i, (engagement, direction) in enumerate(outlines.assembly.slots):
         if not engagement.slot.curved:
-            for end, mouth in _ends(turned(outlines.slots[engagement], direction)):
+            walls = turned(outlines.slots[engagement], direction)
+            for end, mouth in _ends(cut_walls(walls, outlines.wheel)):
                 view.centre_line(*((end, mouth) if outlines.assembly.sign > 0.0 else (mouth, end)))
         elif i == 0:
             for line in pitch_lines(parts, engagement):
@@ -90,7 +96,7 @@ def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point
 
 def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
     direction = next(d for one, d in parts.assembly.slots if one is engagement)
-    walls = turned(parts.slots[engagement], direction)
+    walls = cut_walls(turned(parts.slots[engagement], direction), parts.wheel)
     ends = _ends(walls)
     end, mouth = ends[0]
     turn = math.atan2(mouth[1] - end[1], mouth[0] - end[0])

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, Notice, cut
+from geneva_cli.errors import GenevaError, Notice, below, cut
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import Loop, loops
 from geneva_cli.geometry.measure import turned_pieces
@@ -123,7 +123,7 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> _Drawn | None:
     file = outline[part]
     if file is None:
         return None
-    path = os.path.join(os.path.dirname(spec.path), file)
+    path = below(os.path.dirname(spec.path), file)
     drawn = read_drawing(path)
     notes += [Notice("outline-units", f"{cut(file, 100)}: {text}") for text in drawn.notes]
     pieces = list(drawn.pieces)

@@ -10,7 +10,7 @@ import numpy as np
 from geneva_cli.design import Design
 from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import drawn_machine
-from geneva_cli.extras.outline.real_motion import at_crank, motion, steady_turn
+from geneva_cli.extras.outline.real_motion import at_crank, inside, motion, steady_turn
 from geneva_cli.extras.outline.turning import LATE, Turned, turned
 from geneva_cli.figure import Curve, Figure
 from geneva_cli.geometry.plates import placed
@@ -47,7 +47,7 @@ def drawn_scene(design: Design) -> Scene:
         rollers=(),
         pushes=tuple(_contacts(result, turn, time)),
         states=tuple(_states(turn, time, shown.turn_deg)),
-        figure=_figure(shown.figure, design.mechanism),
+        figure=_figure(shown.figure, design.mechanism, time),
     )
 
 
@@ -118,13 +118,16 @@ def _states(turn: LazyTurn, time: _Time, whole: float) -> Iterator[Phase]:
         yield Phase(last, whole, False, "the wheel rests")
 
 
-def _figure(figure: Figure, mechanism: Mechanism) -> Figure:
-    """The real velocity in place of all ideal curves."""
+def _figure(figure: Figure, mechanism: Mechanism, time: _Time) -> Figure:
+    """The real velocity in place of all ideal curves, with both ends of each push."""
     panel = next(panel for panel in figure.panels if panel.y.name == "velocity")
-    table = motion(mechanism, SAMPLES)
-    x, y = (np.asarray(table.columns[table.names.index(n)]) for n in ("input_deg", "velocity"))
-    piece = x.tolist(), y.tolist()
-    curve = Curve(panel.curves[0].number, panel.curves[0].name, (piece,))
+    ends = [time.at(x) for push in time.turn.pushes for x in inside(push)]
+    ends = [x for end in ends for x in (end - 1e-4, end, end + 1e-4)]
+    even = np.linspace(*figure.window, SAMPLES)
+    x = np.unique(np.clip(np.append(even, time.start + np.array(ends)), *figure.window))
+    rows = motion(mechanism, 2, x.tolist())
+    y = np.asarray(rows.columns[rows.names.index("velocity")])
+    curve = Curve(panel.curves[0].number, panel.curves[0].name, ((x.tolist(), y.tolist()),))
     return figure._replace(panels=(panel._replace(curves=(curve,)),), shaded=())
 
 

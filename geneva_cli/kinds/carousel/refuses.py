@@ -15,6 +15,11 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
     yield from of_transmission(spec)
     drive = spec.drive
     yield Conflict(
+        drive.stop_s != 0.0,
+        ("drive", "stop_s"),
+        'kind = "{spec.drive.NAME}" carries its wheels round at a constant speed: remove stop_s',
+    )
+    yield Conflict(
         spec.motion is not None and spec.unbalanced,
         ("mass", "radius_mm"),
         'kind = "{spec.drive.NAME}" with a law needs balanced wheels: set count to 2 or more '

@@ -114,7 +114,8 @@ def _on_mouth(
     spare = parameter(np.maximum(clear - lost, 0.0)) / L
     roller = mechanism.roller_radius_mm / L
     errors = _errors(mechanism, engagement, fraction)
-    return [mouth_contacts(engagement, *error, roller, spare) for error in errors]
+    own = roller, spare, mechanism.spec.size.mouth_radius_mm / L
+    return [mouth_contacts(engagement, *error, *own) for error in errors]
 
 
 def mouth_jumps_worst(mechanism: Mechanism) -> Array:

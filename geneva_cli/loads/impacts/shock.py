@@ -180,8 +180,9 @@ class MouthCorner(NamedTuple):
     crank: float
     center: float
     roller: float
-    wide: float  # half the mouth
+    wide: float  # half the mouth; to the middle of a rounding
     side: float
+    back: float = 0.0  # from the mouth to the middle of a rounding, along the slot
 
     def roller_at(self, tau: Array) -> tuple[Jet, Jet, Jet]:
         """Roller centre ``tau`` radians of the input after the true entry."""
@@ -206,7 +207,7 @@ class MouthCorner(NamedTuple):
     @property
     def place(self) -> tuple[float, float, float]:
         """Position of the corner."""
-        slot, far = self.axis.engagement.slot, self.axis.anchor.along
+        slot, far = self.axis.engagement.slot, self.axis.anchor.along - self.back
         if slot.height is None:
             return far, self.side * self.wide - slot.offset, 0.0
         m = library(self.wide)
@@ -240,7 +241,7 @@ class MouthCorner(NamedTuple):
         """
         span = 0.5 * self.axis.engagement.motion_deg * DEGREE
         x, _, z = self.roller_at(np.atleast_2d(0.0 * span))
-        along, top = self.axis.anchor.along, self.top
+        along, top = self.axis.anchor.along - self.back, self.top
         # distance of the roller's centre outside the mouth, and its speed outwards
         flat = self.axis.engagement.slot.height is None
         out, speed = (x - along if flat else x * top - z * along).arrays()
@@ -253,13 +254,19 @@ class MouthCorner(NamedTuple):
 
 
 def mouth_contacts(
-    engagement: Engagement, crank: float, center: float, roller: float, clearance: float
+    engagement: Engagement,
+    crank: float,
+    center: float,
+    roller: float,
+    clearance: float,
+    rounding: float = 0.0,
 ) -> FirstContacts | None:
-    """First contacts with the mouth's sharp corners; NaN if the roller touches none.
+    """First contacts with the mouth's corners; NaN if the roller touches none.
 
     ``crank`` and ``center`` are relative errors, as in ``shock.first_contacts``. ``roller`` is the
-    roller's radius and ``clearance`` that of the slot per side, both over L. They are floats, or
-    (m, 1) for m designs. None for slots that are solved for. A negative jump is backwards.
+    roller's radius, ``clearance`` that of the slot per side, and ``rounding`` the radius of the
+    corners, all over L. They are floats, or (m, 1) for m designs. None for slots that are solved
+    for. A negative jump is backwards.
 
         >>> from geneva_cli import Design, External
         >>> [engagement] = Design(External(6)).mechanism.engagements
@@ -270,8 +277,16 @@ def mouth_contacts(
     axis = RestingAxis.of(engagement)
     if axis is None:
         return None
+    far, wide, back = axis.anchor.along, roller + clearance, 0.0
+    if np.any(rounding):  # its circle touches wall and rim
+        x, y = engagement.slot(0.0, 0)
+        deep = np.hypot(x.c[0], y.c[0])
+        sign = np.where(deep < far, 1.0, -1.0)
+        rim = np.hypot(far, wide)
+        back = far - np.sqrt(far * far - 2.0 * sign * rounding * (rim + sign * wide))
     corners = [
-        MouthCorner(axis, crank, center, roller, roller + clearance, side) for side in (1.0, -1.0)
+        MouthCorner(axis, crank, center, roller + rounding, wide + rounding, side, back)
+        for side in (1.0, -1.0)
     ]
     with np.errstate(all="ignore"):
         one, other = (corner.contact() for corner in corners)

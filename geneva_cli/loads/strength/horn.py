@@ -8,6 +8,8 @@ the bending stress 6 N (s - s0)/(b t²), a tension at the slot's wall. On a curv
 part along the section's beam, which pushes or pulls evenly. So does the friction f N along the
 wall, which also bends the section with the lever t/2: towards the mouth it adds 4 f N/(b t).
 
+A tip that is cut back to a flat has no wall before it. There the roller does not press on the horn.
+
 The result is the greatest stress at the wall, over all places of the roller and all sections.
 Sections end half-way along the recess, where another horn begins. In the middle of a section shear
 adds 3/2 N/(b t), at its faces nothing. The body that carries the horn is rigid, and notches are
@@ -49,6 +51,7 @@ class Horn(NamedTuple):
     inwards: Array  # direction along the slot at its mouth
     across: Array  # direction perpendicular to that, from the recess's centre to the slot
     outwards: Array  # direction out of the wheel at the recess's centre, between two horns
+    tip_mm: Number = 0.0  # width of the flat to which a thinner tip is cut back
 
     def wall(self, input_deg: Number) -> tuple[Array, Array]:
         """Points of the slot's wall, and its normals towards the recess, in the horn's frame.
@@ -108,9 +111,18 @@ class Horn(NamedTuple):
             along, deep = normal[:, :, None], thick[:, None]
             pull = push[1] * along[0] - push[0] * along[1]  # along the beam
             bent = (moment * (6.0 / deep**2) - pull / deep) / np.asarray(width_mm)[..., None]
-            further = wall[0][:, None] > contact[0]
+            further = (wall[0][:, None] > contact[0]) & self.is_left(contact[:, :, :, 0])[
+                :, :, None
+            ]
             stress = np.where(further & np.isfinite(bent), bent, 0.0)
         return UnitStress(stress, wall[0], thick)
+
+    def is_left(self, wall: Array) -> Array:
+        """True for points (2, m, k) of the wall that a tip cut back has left."""
+        depth = wall[1] - self.tip_mm
+        inwards = np.sqrt(np.maximum(np.square(self.recess_mm) - depth * depth, 0.0))
+        left: Array = (depth >= self.recess_mm) | (wall[0] >= inwards) | np.equal(self.tip_mm, 0.0)
+        return left
 
     @property
     def stoutness(self) -> Array:
@@ -144,5 +156,6 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
         across = vector(-inwards[1], inwards[0])
         towards = L * vector(mouth.x, mouth.y) - centre
         across = across * np.copysign(1.0, product(across, towards))
-        sides.append(Horn(at, L, half_width_mm, recess_mm, centre, inwards, across, outwards))
+        tip = mechanism.spec.size.horn_tip_mm
+        sides.append(Horn(at, L, half_width_mm, recess_mm, centre, inwards, across, outwards, tip))
     return sides

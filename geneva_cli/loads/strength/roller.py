@@ -167,7 +167,8 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
     m = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
     m *= len(mechanism.engagements[0].passages)  # rollers on the crank
     radius_m = np.ravel(mechanism.roller_radius_mm / 1000.0)
-    rows, per_h = [], 60.0 * spec.drive.n_rpm * 360.0 / mechanism.under_load.period_deg  # periods
+    rows = []
+    per_h = 60.0 * spec.drive.n_rpm * 360.0 / mechanism.under_load.lasting_deg  # periods an hour
     for own in (each[i::m] for i in range(min(m, len(each)))):
         rolled = np.ravel(sum(one.rolled_m for one in own))
         force = (sum(one.load for one in own) / rolled) ** (1.0 / LIFE_EXPONENT)

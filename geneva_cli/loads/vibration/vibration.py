@@ -140,8 +140,11 @@ class Oscillators:
     it, except in the steady state.
     """
 
-    def __init__(self, mechanism: Mechanism, swing: Oscillator[Array]) -> None:
+    def __init__(
+        self, mechanism: Mechanism, swing: Oscillator[Array], speed: Array | float = 1.0
+    ) -> None:
         self.mechanism, self.swing = with_each_motion(mechanism), swing
+        self.speed = speed  # over that of the mechanism
         self.every = np.arange(len(swing.ratio))
         self.indices = [Index(self.mechanism, e) for e in self.mechanism.engagements]
 
@@ -210,6 +213,9 @@ class Oscillators:
         damping it has no sum, and a stop ends it after z - 1 motions.
         """
         exits, period = self._exits()
+        stops = np.ravel(self.mechanism.stop_deg) * self.speed  # one in each dwell
+        exits = [one + number * stops for number, one in enumerate(exits)]
+        period = period + len(exits) * stops
         first = np.ravel(self.mechanism.engagements[0].motion_deg)
         rate = self.swing.p / first  # by degrees of the input
         added = [one * i.step for one, i in zip(self.residual, self.indices, strict=True)]

@@ -136,7 +136,8 @@ def spectrum(mechanism: Mechanism, load: Oscillator[float], samples: int) -> Tab
     def rows(begin: int, end: int) -> list[object]:
         speed = every[begin:end]
         ratio = load.ratio * (n_rpm / speed)
-        oscillators = Oscillators(mechanism, Oscillator(ratio, np.full(len(speed), load.damping)))
+        swing = Oscillator(ratio, np.full(len(speed), load.damping))
+        oscillators = Oscillators(mechanism, swing, speed / n_rpm)
         share, turned = oscillators.share.max(axis=0), oscillators.residual_deg.max(axis=0)
         known = not _never_steady(mechanism, load)
         settled = oscillators.steady_share.max(axis=0) if known else [None] * len(speed)

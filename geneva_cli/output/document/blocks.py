@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.errors import clean
-from geneva_cli.table import NO_BOUND, in_digits
+from geneva_cli.table import NO_BOUND, for_people
 
 if TYPE_CHECKING:
     from geneva_cli.figure import Figure
@@ -94,18 +94,26 @@ TIMES = f"{NO_BREAK}×{NO_BREAK}"
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def value_text(value: Value | Row, unit: str = "", digits: int = 6) -> str:
+def value_text(value: Value | Row, unit: str = "", digits: int = 4) -> str:
     """A value with its unit. Raises ArithmeticError for NaN, a fault of this program.
 
     >>> value_text(182.612895, "°"), value_text(53.17, "W/m²"), value_text(None), value_text(True)
-    ('182.613°', '53.17 W/m²', '–', 'yes')
+    ('182.6°', '53.17 W/m²', '–', 'yes')
     """
     if isinstance(value, tuple):
         return ", ".join(value_text(one, unit, digits) for one in value) or "none"
-    text = _bare(value, digits)
+    text = _bare(value, unit, digits)
     if not unit or value is None or not is_number(value) or text == NO_BOUND:
         return text
     return f"{text}°" if unit == "°" else f"{text} {unit}"
+
+
+def texts(grid: Grid) -> list[list[str]]:
+    """The cells of a table as texts; a column's unit stands in its head."""
+    units = [head.rpartition(", ")[2] for head in grid.heads]
+    return [
+        [_bare(value, unit) for value, unit in zip(row, units, strict=True)] for row in grid.rows
+    ]
 
 
 def is_number(value: object) -> bool:
@@ -113,12 +121,12 @@ def is_number(value: object) -> bool:
     return value is None or (isinstance(value, (int, float)) and not isinstance(value, bool))
 
 
-def is_short(column: Iterable[Value]) -> bool:
-    """Return True for a column whose cells are not broken into lines, such as units."""
-    return all(len(value_text(value)) <= SHORT for value in column)
+def is_short(column: Iterable[str]) -> bool:
+    """Return True for a column whose texts are not broken into lines, such as units."""
+    return all(len(text) <= SHORT for text in column)
 
 
-def _bare(value: Value, digits: int) -> str:
+def _bare(value: Value, unit: str = "", digits: int = 4) -> str:
     if value is None:
         return "–"
     if isinstance(value, bool):
@@ -127,5 +135,5 @@ def _bare(value: Value, digits: int) -> str:
         return clean(str(value))
     if math.isnan(value):
         raise ArithmeticError("a value of the report is not a number")
-    number, _, power = in_digits(value, digits).partition("e")
+    number, _, power = for_people(value, unit, digits).partition("e")
     return f"{number}{TIMES}10{str(int(power)).translate(RAISED)}" if power else number

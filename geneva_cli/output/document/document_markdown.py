@@ -16,6 +16,7 @@ from geneva_cli.output.document.blocks import (
     Prose,
     TextList,
     is_number,
+    texts,
     value_text,
 )
 from geneva_cli.output.markdown import escaped
@@ -70,8 +71,8 @@ def _grid(grid: Grid, right: tuple[bool, ...] = ()) -> Iterator[str]:
     yield f"**{escaped(grid.caption)}**\n\n" if grid.caption else ""
     yield "| " + " | ".join(map(escaped, grid.heads)) + " |\n"
     yield "| " + " | ".join("---:" if side else "---" for side in sides) + " |\n"
-    for row in grid.rows:
-        yield "| " + " | ".join(escaped(value_text(value)) for value in row) + " |\n"
+    for row in texts(grid):
+        yield "| " + " | ".join(map(escaped, row)) + " |\n"
     yield "\n"
 
 

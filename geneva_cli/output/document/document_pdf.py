@@ -20,6 +20,7 @@ from geneva_cli.output.document.blocks import (
     TextList,
     is_number,
     is_short,
+    texts,
     value_text,
 )
 from geneva_cli.output.letters import western
@@ -148,13 +149,10 @@ STEP = LEADING * SMALL
 
 def grid(table: Grid) -> Iterator[Item]:
     """A table with a head, which is repeated on each page."""
-    columns = list(zip(*table.rows, strict=True))
-    right = [all(map(is_number, column)) for column in columns]
-    spaces = [NO_BREAK if is_short(column) else " " for column in columns]
-    rows = [
-        [value_text(value).replace(" ", space) for value, space in zip(row, spaces, strict=True)]
-        for row in table.rows
-    ]
+    right = [all(map(is_number, column)) for column in zip(*table.rows, strict=True)]
+    rows = texts(table)
+    spaces = [NO_BREAK if is_short(column) else " " for column in zip(*rows, strict=True)]
+    rows = [[text.replace(" ", s) for text, s in zip(row, spaces, strict=True)] for row in rows]
     widths = _widths(table.heads, rows)
     head = _row(table.heads, right, widths, bold=True)
     yield from caption(table.caption)
@@ -168,14 +166,14 @@ def grid(table: Grid) -> Iterator[Item]:
 
 def facts(table: Facts) -> Iterator[Item]:
     """Names and values, in two columns read downwards."""
-    texts = [(fact.name, value_text(fact.value, fact.unit)) for fact in table.facts]
-    half = (len(texts) + 1) // 2
+    named = [(fact.name, value_text(fact.value, fact.unit)) for fact in table.facts]
+    half = (len(named) + 1) // 2
     yield from caption(table.caption)
     gap = 6.0  # between facts side by side
     long = 0.5 * (WIDE - gap)
     for i in range(half):
-        pair = [(LEFT, texts[i])]
-        pair += [(LEFT + long + gap, texts[half + i])] if half + i < len(texts) else []
+        pair = [(LEFT, named[i])]
+        pair += [(LEFT + long + gap, named[half + i])] if half + i < len(named) else []
         item = _pair(pair, long)
         yield item._replace(keeps=i == 0 and half > 1)
     yield _space()

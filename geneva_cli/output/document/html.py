@@ -20,10 +20,10 @@ from geneva_cli.output.document.blocks import (
     Heading,
     Picture,
     Prose,
-    Row,
     TextList,
     is_number,
     is_short,
+    texts,
     value_text,
 )
 from geneva_cli.output.plot import plot_svg
@@ -114,7 +114,9 @@ def _block(block: Block, number: int) -> Iterator[str]:
 
 
 def _grid(grid: Grid) -> Iterator[str]:
-    sides = [_side(column) for column in zip(*grid.rows, strict=True)]
+    rows = texts(grid)
+    columns = zip(zip(*grid.rows, strict=True), zip(*rows, strict=True), strict=True)
+    sides = [NUMBER if all(map(is_number, c)) else ' class="s"' * is_short(t) for c, t in columns]
     heads = "".join(
         f'<th scope="col"{side if side == NUMBER else ""}>{_text(head)}</th>'
         for head, side in zip(grid.heads, sides, strict=True)
@@ -125,20 +127,13 @@ def _grid(grid: Grid) -> Iterator[str]:
         f'<div class="grid{wide}" tabindex="0">\n'
         f"<table>\n<caption>{_text(grid.caption)}</caption>\n{head}<tbody>\n"
     )
-    for first, *rest in grid.rows:
-        yield f'<tr><th scope="row">{_text(value_text(first))}</th>'
+    for first, *rest in rows:
+        yield f'<tr><th scope="row">{_text(first)}</th>'
         for value, side in zip(rest, sides[1:], strict=True):
             attribute = ' class="bad"' if value == BAD else side
-            yield f"<td{attribute}>{_text(value_text(value))}</td>"
+            yield f"<td{attribute}>{_text(value)}</td>"
         yield "</tr>\n"
     yield "</tbody>\n</table>\n</div>\n"
-
-
-def _side(column: Row) -> str:
-    """The class of a column's cells: numbers are right-aligned, short words unbroken."""
-    if all(map(is_number, column)):
-        return NUMBER
-    return ' class="s"' if is_short(column) else ""
 
 
 def _list(texts: tuple[str, ...]) -> Iterator[str]:

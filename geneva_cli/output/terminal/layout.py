@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from geneva_cli.errors import clean
 from geneva_cli.output.text import WIDTH, cell
-from geneva_cli.table import in_digits
+from geneva_cli.table import for_people
 
 GAP = "  "  # between two columns
 PROSE = 28  # letters to which a column of prose is narrowed before another column is omitted
@@ -29,11 +29,13 @@ class ShownColumn(NamedTuple):
     unit: str
     cells: Sequence[str]
     is_text: bool
+    decides: bool = False  # it is never left out
 
     def least(self, prose: int = PROSE) -> int:
         """Least width in letters to which it can be narrowed; of prose at least ``prose``."""
         if not self.is_prose():
             return self.natural()
+        prose = min(prose, 12) if self.decides else prose
         return max([min(self.natural(), prose), *map(width_of, self._words())])
 
     def natural(self) -> int:
@@ -113,10 +115,11 @@ def fitting(
     rank = {name: i for i, name in enumerate(order)}
     kept = list(columns)
     while True:
-        sizes = widths(kept, width)
-        if sizes is not None or len(kept) == 1:
-            return kept, sizes or [column.least() for column in kept]
-        kept.remove(max(kept, key=lambda column: rank[column.name]))
+        others = [column for column in kept if not column.decides and column.name != order[0]]
+        sizes = widths(kept, width, PROSE if len(others) > 1 else 18)
+        if sizes is not None or not others:
+            return kept, sizes or [column.least(PROSE) for column in kept]
+        kept.remove(max(others, key=lambda column: rank[column.name]))
 
 
 def heads(columns: Sequence[ShownColumn], sizes: Sequence[int], is_styled: bool) -> Iterator[str]:
@@ -178,14 +181,14 @@ def styled(text: str, style: str, is_styled: bool) -> str:
     return f"{style}{text}{PLAIN}" if is_styled and style and text else text
 
 
-NUMBER = 11  # letters of the widest number with five digits, -1.2345e-10
+NUMBER = 11  # letters of the widest number, -123456.789 mm
 
 
 def value(number: Any, unit: str = "") -> str:
     """A value for people at a terminal, with its unit.
 
     >>> value(34.733492, "N m"), value(53173000.0), value(2.8e8, "h")
-    ('34.733 N m', '5.3173e7', 'practically unlimited')
+    ('34.73 N m', '5.317e7', 'practically unlimited')
     """
     return with_unit(bare(number, unit), unit)
 
@@ -202,7 +205,7 @@ def bare(number: Any, unit: str) -> str:
     # A life of more than 114 years of running day and night is meaningless.
     if unit == "h" and number > 1e6:
         return "practically unlimited"
-    digits, e, power = in_digits(number, 5).partition("e")
+    digits, e, power = for_people(number, unit).partition("e")
     return f"{digits}e{int(power)}" if e else digits
 
 

@@ -176,18 +176,31 @@ def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
 
 
 def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
-    rows = block if table.mixed else without_noise(block)
+    rows = block if table.mixed else list(without_noise(block))
     columns = []
     naming = ("quantity", "dimension", "check")  # columns whose cells are names with units
+    by_row = _units_by_row(table, rows, naming)
     for name, values in zip(table.names, zip(*rows, strict=True), strict=True):
         literal = table.reading.designs and name not in naming
         words, unit = (name, "") if literal else spoken(name)
         is_text = any(isinstance(v, (str, bool)) for v in values)
-        texts = [bare(v, unit) for v in values]
+        texts = [bare(v, unit or other) for v, other in zip(values, by_row, strict=True)]
         if name in naming:
             texts = [clean(heading(text)) for text in texts]
-        columns.append(ShownColumn(name, clean(words), unit, texts, is_text))
+        decides = name in table.reading.decide
+        columns.append(ShownColumn(name, clean(words), unit, texts, is_text, decides))
     return columns
+
+
+def _units_by_row(
+    table: Table, rows: Sequence[Sequence[Any]], naming: Sequence[str]
+) -> Sequence[str]:
+    """The unit of each row's values, from its column of units or from the row's name."""
+    for name in ("unit", *naming, "key"):
+        if name in table.names:
+            cells = [str(row[table.names.index(name)] or "") for row in rows]
+            return cells if name == "unit" else [spoken(cell)[1] for cell in cells]
+    return [""] * len(rows)
 
 
 def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownColumn], list[str]]:

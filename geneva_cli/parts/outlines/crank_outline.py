@@ -25,7 +25,7 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.sizes import Sizes, crank_reach_and_hub
-from geneva_cli.parts.slots.roller_paths import mouth_corners, roller_centres
+from geneva_cli.parts.slots.roller_paths import HornSizes, horn_corners, roller_centres
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
 Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
@@ -141,16 +141,21 @@ def keyway_direction(assembly: Assembly) -> float:
     return next((0.5 * (start + end) for start, end in sectors(reliefs(assembly))), math.pi)
 
 
+def _horns(sizes: Sizes) -> HornSizes:
+    return HornSizes(sizes.roller, sizes.half_width, sizes.recess, sizes.rim, sizes.horn_tip)
+
+
 def lock_of(where: Assembly, size: Sizes, cut: Sequence[float] = ()) -> Lock:
     """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
-    mouths = mouth_corners(where, size.roller, size.recess, size.rim)
+    mouths = horn_corners(where, _horns(size))
     # arcs end where the motions do
     arcs = not is_whole(where, size) or where.mechanism.spec.size.relief == "arc"
     locking = sectors(reliefs(where) if arcs else widened(where, size, mouths))
     half = min((*(0.5 * (end - start) for start, end in locking), *cut), default=math.nan)
     edge = where.full.spec.size.lock_edge_mm or 0.0
-    lock = Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
     corners = [radius for mouth in mouths.values() for radius in mouth]
+    first = corners[0] if size.horn_tip else size.rim
+    lock = Lock(where.L, where.sign, size.lock, size.recess, first, half, edge)
     if max(corners) - min(corners) < SAME_LENGTH * where.L:
         return lock
     near, far = abs(where.L - size.recess), where.L + size.recess
@@ -175,7 +180,7 @@ def crank_contours(
         return _rings(assembly, sizes, swept, spare)
     around = reliefs(assembly)
     if relief == "sector":
-        mouths = mouth_corners(assembly, sizes.roller, sizes.recess, sizes.rim)
+        mouths = horn_corners(assembly, _horns(sizes))
         around = widened(assembly, sizes, mouths)
     if sum(one.end - one.start for one in around) > math.tau - SAME_ANGLE:
         raise GenevaError(

@@ -22,6 +22,7 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import array, scalar
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.outlines.slot_ends import Tip, rounded, tip
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import corner, least_mouth, mouth, rest
 from geneva_cli.parts.turn.pairs import CONTACT
@@ -135,32 +136,82 @@ def wheel_contour(
     the other. They are in the wheel's frame, with that slot ahead. Raises GenevaError where a
     recess leaves no horn next to a slot.
     """
-    segments: list[Segment] = []
     around = assembly.slots
-    walls = [turned(slots[engagement], direction).segments for engagement, direction in around]
+    walls = [[*turned(slots[engagement], direction).segments] for engagement, direction in around]
+    rims: list[list[Segment]] = []
     for i, (_, start) in enumerate(around):
         following = (i + 1) % len(around)
-        segments += walls[i]
         span = (around[following][1] - start) % math.tau
         recess = next(
             start + off
             for at in assembly.rests
             if (off := (at - start) % math.tau) < span or span == 0.0
         )
-        ends = segments[-1].end, walls[following][0].start
         if convex and i == len(around) // 2:
-            segments.append(_about((0.0, 0.0), *ends, 1.0))
+            rims.append([_about((0.0, 0.0), walls[i][-1].end, walls[following][0].start, 1.0)])
         else:
-            segments += _rim(assembly, sizes, *ends, recess)
-    return closed("WHEEL", segments)
+            rims.append(_rim(assembly, sizes, walls[i], walls[following], recess))
+    if sizes.mouth_radius:
+        for i, rim in enumerate(rims):
+            _round_mouths(assembly, sizes, walls[i], rim, walls[(i + 1) % len(walls)])
+    both = zip(walls, rims, strict=True)
+    return closed("WHEEL", [segment for wall, rim in both for segment in (*wall, *rim)])
 
 
-def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) -> list[Segment]:
+def _round_mouths(
+    assembly: Assembly,
+    sizes: Sizes,
+    before: list[Segment],
+    rim: list[Segment],
+    after: list[Segment],
+) -> None:
+    """Round the corners at both ends of a rim, and of the walls of the slots beside it."""
+    c, sign = sizes.mouth_radius, assembly.sign
+    before[-1:], rim[:1] = _split(rounded(_plain(before[-1]), _plain(rim[0]), c, sign))
+    first, arc, last = rounded(_plain(rim[-1]), _plain(after[0]), c, sign)
+    rim[-1:], after[:1] = [first, arc], [last]
+
+
+def _split(three: list[Segment]) -> tuple[list[Segment], list[Segment]]:
+    return three[:1], three[1:]
+
+
+def _plain(segment: Segment) -> Line | Arc:
+    assert isinstance(segment, Line | Arc)  # of a straight slot, which alone is rounded
+    return segment
+
+
+def _rim(
+    assembly: Assembly, sizes: Sizes, before: list[Segment], after: list[Segment], at: float
+) -> list[Segment]:
     """Return the rim from one slot's corner, through the recess, to the next slot's corner.
 
     Mouths of offset slots and of unequal steps end at different radii. One that the recess does not
-    reach is extended to the recess, along the roller's circle about the crank's axis.
+    reach is extended to the recess, along the roller's circle about the crank's axis. Horns thinner
+    than ``horn_tip_mm`` are cut back to flats: the walls ``before`` and ``after`` then end there.
     """
+    axis = assembly.L * math.cos(at), assembly.L * math.sin(at)
+    flats: list[Tip | None] = [None, None]
+    if sizes.lock and sizes.horn_tip:
+        one, other = before[-1], after[0]
+        assert isinstance(one, Line) and isinstance(other, Line)
+        k, flat = sizes.recess, sizes.horn_tip
+        inwards = Line(other.end, other.start)
+        flats = [tip(one, axis, k, flat), tip(inwards, axis, k, flat)]
+        before[-1] = one._replace(end=flats[0].wall) if flats[0] else one
+        after[0] = other._replace(start=flats[1].wall) if flats[1] else other
+    return _pieces(assembly, sizes, (before[-1].end, after[0].start), flats, at)
+
+
+def _pieces(
+    assembly: Assembly,
+    sizes: Sizes,
+    mouths: tuple[Point, Point],
+    flats: list[Tip | None],
+    at: float,
+) -> list[Segment]:
+    """Return the pieces of a rim between two mouths, with the flats of its horns."""
+    start, end = mouths
     L = assembly.L
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
     if math.remainder(last - first, math.tau) <= 0.0:
@@ -173,7 +224,8 @@ def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) 
     at = first + (at - first) % math.tau
     axis = L * math.cos(at), L * math.sin(at)
     distances = math.dist(start, axis), math.dist(end, axis)
-    if sizes.lock and min(distances) <= sizes.recess:
+    sharp = [d for d, flat in zip(distances, flats, strict=True) if not flat]
+    if sizes.lock and min(sharp, default=math.inf) <= sizes.recess:
         raise GenevaError(
             f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be "
             f"below {sizes.lock + min(distances) - sizes.recess:.6g}, or the roller smaller",
@@ -183,22 +235,28 @@ def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) 
     least = least_mouth(L, sizes.recess, sizes.rim) if sizes.lock else max(rims)
     before: list[Segment] = []
     after: list[Segment] = []
-    if assembly.sign > 0.0 and least > rims[0] + SAME_LENGTH * L:
+    outside = assembly.sign > 0.0
+    if outside and not flats[0] and least > rims[0] + SAME_LENGTH * L:
         rims[0], first = least, at - _opening(L, least, distances[0])
         before.append(_about(axis, start, _on(least, first), 1.0))
-    if assembly.sign > 0.0 and least > rims[1] + SAME_LENGTH * L:
+    if outside and not flats[1] and least > rims[1] + SAME_LENGTH * L:
         rims[1], last = least, at + _opening(L, least, distances[1])
         after.append(_about(axis, _on(least, last), end, 1.0))
     if not sizes.lock:
         return [*before, about((0.0, 0.0), rims[0], first, last - first), *after]
-    low, high = at - _opening(L, rims[0], sizes.recess), at + _opening(L, rims[1], sizes.recess)
-    return [
-        *before,
-        about((0.0, 0.0), rims[0], first, low - first),
-        _about(axis, _on(rims[0], low), _on(rims[1], high), -assembly.sign),
-        about((0.0, 0.0), rims[1], high, last - high),
-        *after,
-    ]
+    if flats[0]:
+        before, first_edge = [Line(start, flats[0].recess)], flats[0].recess
+    else:
+        low = at - _opening(L, rims[0], sizes.recess)
+        before.append(about((0.0, 0.0), rims[0], first, low - first))
+        first_edge = _on(rims[0], low)
+    if flats[1]:
+        after, last_edge = [Line(flats[1].recess, end)], flats[1].recess
+    else:
+        high = at + _opening(L, rims[1], sizes.recess)
+        after.insert(0, about((0.0, 0.0), rims[1], high, last - high))
+        last_edge = _on(rims[1], high)
+    return [*before, _about(axis, first_edge, last_edge, -assembly.sign), *after]
 
 
 def _on(radius: float, angle: float) -> Point:

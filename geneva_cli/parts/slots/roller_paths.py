@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.shapes import Point
+from geneva_cli.geometry.shapes import Line, Point
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.outlines.slot_ends import tip
 
 TURN_SAMPLES = 720  # input angles at which a path is sampled
 
@@ -103,6 +104,48 @@ def mouth_corners(
             entry, exit_ = (math.hypot(*corner(assembly, kind, end, r)) for end in (-1.0, 1.0))
         out[kind] = max(entry + shift, least), max(exit_ + shift, least)
     return out
+
+
+class HornSizes(NamedTuple):
+    """Sizes of mouths and horns, mm."""
+
+    roller: float
+    half_width: float
+    recess: float
+    rim: float
+    tip: float  # width of the flats of thin horns
+
+
+def horn_corners(assembly: Assembly, own: HornSizes) -> dict[Engagement, tuple[float, float]]:
+    """Return the distances from the wheel's axis of each slot's horns at their recesses, mm.
+
+    They are those of the horns before and after a motion, which are mouths' corners unless the
+    horns are cut back.
+    """
+    mouths = mouth_corners(assembly, own.roller, own.recess, own.rim)
+    if not (own.tip and own.recess):
+        return mouths
+    return {
+        kind: (_cut(assembly, own, kind, -1.0, entry), _cut(assembly, own, kind, 1.0, exit_))
+        for kind, (entry, exit_) in mouths.items()
+    }
+
+
+def _cut(assembly: Assembly, own: HornSizes, kind: Engagement, end: float, mouth: float) -> float:
+    """Return the distance of one horn's corner at its recess, with ``mouth`` that of its mouth."""
+    x, y = kind.slot(kind.end_deg(end), 0)
+    u, v = kind.slot(0.0, 0)
+    L, centre = assembly.L, rest(assembly, kind, end)
+    start = L * scalar(u.c[0]), L * scalar(v.c[0])
+    out = L * scalar(x.c[0]) - start[0], L * scalar(y.c[0]) - start[1]
+    long = math.hypot(*out)
+    ux, uy = out[0] / long, out[1] / long
+    side = math.copysign(own.half_width, (centre[1] - start[1]) * ux - (centre[0] - start[0]) * uy)
+    x0, y0 = start[0] - side * uy, start[1] + side * ux
+    level = math.sqrt(max(mouth * mouth - (y0 * ux - x0 * uy) ** 2, 0.0))
+    along = assembly.sign * level - (x0 * ux + y0 * uy)
+    cut = tip(Line((x0, y0), (x0 + along * ux, y0 + along * uy)), centre, own.recess, own.tip)
+    return math.hypot(*cut.recess) if cut else mouth
 
 
 def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from geneva_cli.names import described
 from geneva_cli.output.document.blocks import Block, Fact, Facts, Grid, Heading, Prose, TextList
 from geneva_cli.spec.schema import Field
 from geneva_cli.specfile.writer import keys_in, values_of
-from geneva_cli.table import Table
+from geneva_cli.table import Table, in_digits
 
 
 def capital(text: str) -> str:
@@ -97,7 +97,13 @@ def section(heading: str, blocks: Sequence[Block]) -> Iterator[Block]:
 def inputs(spec: Spec, with_units: Sequence[str]) -> Iterator[Block]:
     """The keys that are set, in the order of a file; ``with_units`` as in ``Design``."""
     rows = [
-        (name, value, described(key.key)[1], key.meaning)
+        # as it was set, with all its digits
+        (
+            name,
+            in_digits(value, 10) if isinstance(value, float) else value,
+            described(key.key)[1],
+            key.meaning,
+        )
         for name, key, value, is_default in _known(spec)
         if not is_default
     ]

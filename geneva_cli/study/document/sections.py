@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 from typing import Any
 
+from geneva_cli.answer import SummaryLine
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.loads.load_peaks import LoadSummary
+from geneva_cli.loads.load_tables import no_load
 from geneva_cli.manual.explained import entries
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.output.document.blocks import (
@@ -32,7 +35,7 @@ from geneva_cli.study.document.facts import (
     grids,
     section,
 )
-from geneva_cli.study.summary import report_summary
+from geneva_cli.study.summary.greatest_loads import PARTS, greatest_loads, parts_of
 from geneva_cli.table import Table
 from geneva_cli.verdict.strength import OF_LIFE
 
@@ -65,16 +68,40 @@ def drawn(design: Design) -> Iterator[Block]:
         yield Prose(f"Not drawn: {message}")
 
 
-def key_figures(design: Design) -> Grid:
-    """The key figures of the summary of ``geneva report``."""
-    lines = report_summary.key_figures(design)
-    rows = [(capital(x.label), f"{x.text}{f'; {x.note}' if x.note else ''}") for x in lines]
+def in_short(lines: Iterable[SummaryLine]) -> Grid:
+    """Lines of a summary as a table, without the commands that explain them."""
+    command = re.compile(r" ?\(?geneva explain [\w.-]+\)?")
+    rows = [
+        (capital(x.label), "; ".join(filter(None, (x.text, command.sub("", x.note)))))
+        for x in lines
+    ]
     return Grid("In short", ("", ""), tuple(rows))
 
 
-def warnings(left: RemainingValues) -> Iterator[Block]:
+def greatest(design: Design) -> Iterator[Block]:
+    """The greatest loads with their limits; or which keys they need."""
+    words = {True: "passes", False: BAD, None: ""}
+    rows = tuple(
+        (*row[:-3], row[-3] or "", row[-2], words[row[-1]]) for row in greatest_loads(design).rows()
+    )
+    yield Heading("Greatest loads")
+    if rows:
+        heads = ("", "Greatest", "Unit", "At input angle, °", "Must be", "Limit", "Verdict")
+        yield Grid("Over a cycle, with the limit of its check", heads, rows)
+    if not design.cycle.is_loaded:
+        yield Prose(f"{capital(no_load(design.cycle))}.")
+
+
+def parts_in_short(design: Design) -> Iterator[Block]:
+    """Count, material, size and mass of each part."""
+    table = parts_of(design)
+    if table is not None:
+        yield Heading("Parts")
+        yield grid("", table)
+
+
+def warnings(texts: tuple[str, ...]) -> Iterator[Block]:
     """The list of warnings."""
-    texts = tuple(left.one("warnings"))
     yield Heading("Warnings")
     yield TextList(texts) if texts else Prose("None.")
 
@@ -179,7 +206,10 @@ def strength(left: RemainingValues) -> Iterator[Block]:
     blocks: list[Block] = []
     shafts = "wheel_shaft", "wheel_key", "crank_shaft", "crank_key"
     for part in ("pin", "horn", "lock", "arm", *shafts):
-        blocks += facts(capital(part.replace("_", " ")), left.take(f"strength.{part}"))
+        values = left.take(f"strength.{part}")
+        if values.get("margin") is None:  # an allowed stress says nothing without a stress
+            values.pop("allowed_MPa", None)
+        blocks += facts(capital(part.replace("_", " ")), values)
     blocks += facts("Life", left.take("life"))
     yield from section("Life and strength", blocks)
 
@@ -225,8 +255,7 @@ def parts(left: RemainingValues) -> Iterator[Block]:
         yield Heading("Parts list")
     list_of_parts: Table | None = tables.get("part")
     if list_of_parts is not None:  # two tables, each as wide as a page
-        sizes = ("count", "material", "thickness_mm", "size_x_mm", "size_y_mm", "mass_kg")
-        yield grid("Parts", only(list_of_parts, ("name", *sizes)))
+        yield grid("Parts", only(list_of_parts, PARTS))
         places = ("z_low_mm", "z_high_mm", "centroid_x_mm", "centroid_y_mm", "inertia_kgm2")
         caption = "Places, densities and inertias"
         yield grid(caption, only(list_of_parts, ("name", "density_kgm3", *places)))

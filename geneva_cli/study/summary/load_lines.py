@@ -20,9 +20,12 @@ from geneva_cli.verdict.headline import bare, below_summary, chosen_lines, measu
 NO_BOUND = "no bound: see the warnings"
 
 
-def of_loads(design: Design) -> Answer:
-    """The answer of ``geneva loads``: some lines, and the powers with the definition of each."""
+def of_loads(design: Design, is_whole: bool) -> Answer:
+    """The answer of ``geneva loads``: motor and greatest loads; if ``is_whole``, all below them."""
     first = summary_of(design, load_lines(design), design.warnings)
+    if not is_whole:
+        more = SummaryLine("more", "-v: powers, all loads, sizing, life, and what is not known")
+        return Answer((first._replace(lines=(*first.lines, more)),), None, design.loads_table)
     powers = tuple(_powers(design))
     summaries = (first, Summary("Required power", powers)) if powers else (first,)
     return Answer(summaries, design.loads_page, design.loads_table)
@@ -35,11 +38,18 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
         return
     lines = [motor_line(design), *cycle_lines(design)]
     yield from lines
+    if design.spec.drive.stop_s:
+        yield _brake_line(design)
     if design.spec.drive.both_ways and not design.is_backwards:
         own, other = {line.text for line in lines}, design.backwards
         for there in (motor_line(other), *cycle_lines(other)):
             if there.text not in own:
                 yield there._replace(label=f"{there.label}, backwards")
+    yield from flywheel_line(design)
+
+
+def flywheel_line(design: Design) -> Iterator[SummaryLine]:
+    """The line of the flywheel, if the spec allows the input's speed to vary."""
     sizing = _sizing(design)
     whole, add = sizing["flywheel_kgm2"], sizing["flywheel_to_add_kgm2"]
     if whole is not None:
@@ -48,6 +58,23 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
         text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
         yield SummaryLine("flywheel", text)
     yield from chosen_lines(design.chosen_by_load, design.spec.path)
+
+
+def _brake_line(design: Design) -> SummaryLine:
+    """What braking and starting the rotor in each dwell takes."""
+    names = ("brake_torque_Nm", "start_torque_Nm", "energy_J", "power_W", "inertia_kgm2")
+    values = design.report.table.to_dict()
+    brake, start, energy, power, inertia = (values[f"input_stop.{name}"] for name in names)
+    if inertia is None:
+        return SummaryLine("brake", "not known: set inertia_kgm2 in [motor]")
+    torques = [
+        f"{what} {measured(torque, 'N m')}"
+        for what, torque in (("stops with", brake), ("starts with", start))
+        if torque is not None
+    ]
+    abrupt = "" if len(torques) == 2 else "; set brake_s and start_s in [drive] for both torques"
+    took = f"{measured(energy, 'J')} each time, {measured(power, 'W')}"
+    return SummaryLine("brake", f"{', '.join([*torques, took])}{abrupt}")
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
@@ -88,13 +115,21 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
         yield SummaryLine("rack", f"{moved}; force {pushed}")
 
 
-def _greatest(ends: LoadSummary[float | None], unit: str) -> str:
-    """Greatest size of a load, and its input angle; the earlier one of two equal sizes."""
+def greatest(ends: LoadSummary[float | None]) -> tuple[float, float | None] | None:
+    """Greatest size of a load and its input angle, the earlier of two equal ones; or None."""
     if ends.max is None or ends.min is None:
-        return NO_BOUND
+        return None
     both = (ends.max, ends.max_at_deg), (-ends.min, ends.min_at_deg)
     bar = (1.0 - TIE) * max(ends.max, -ends.min)
-    size, at_deg = min((p for p in both if p[0] >= bar), key=lambda p: p[1] or 0.0)
+    return min((p for p in both if p[0] >= bar), key=lambda p: p[1] or 0.0)
+
+
+def _greatest(ends: LoadSummary[float | None], unit: str) -> str:
+    """Greatest size of a load, and its input angle, in words."""
+    known = greatest(ends)
+    if known is None:
+        return NO_BOUND
+    size, at_deg = known
     where = "" if at_deg is None else f" at {measured(at_deg, 'deg')}"
     return f"{measured(size, unit)}{where}"
 

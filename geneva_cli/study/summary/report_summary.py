@@ -9,8 +9,15 @@ from geneva_cli.answer import Answer, Summary, SummaryLine
 from geneva_cli.design import Design
 from geneva_cli.errors import is_warning
 from geneva_cli.names import spoken
-from geneva_cli.study.summary.load_lines import cycle_lines, motor_line, record_answer, title_of
-from geneva_cli.table import Table
+from geneva_cli.study.summary.greatest_loads import greatest_loads, parts_of
+from geneva_cli.study.summary.load_lines import (
+    cycle_lines,
+    flywheel_line,
+    motor_line,
+    record_answer,
+    title_of,
+)
+from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.headline import (
     bare,
     below_summary,
@@ -26,8 +33,11 @@ from geneva_cli.verdict.headline import (
 )
 
 
-def of_report(design: Design) -> Answer:
-    """The answer of ``geneva report``: the verdict, key figures, failures and warnings."""
+def of_report(design: Design, is_full: bool) -> Answer:
+    """The answer of ``geneva report``: verdict, key figures, loads with limits, parts, warnings.
+
+    If ``is_full``, all values of the report stand below the summary instead.
+    """
     record = design.report.table
     state, text = headline(design.checks, design.warnings)
     checks, warnings = design.checks, design.warnings
@@ -37,7 +47,25 @@ def of_report(design: Design) -> Answer:
     lines = (*lines, *unused_lines(design.unused_acceptances))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
     shown = ("title", "passes", "checks_failed", "not_proved", "chosen")
-    return Answer((summary,), below_summary(record, without=shown), record)
+    page = below_summary(record, without=shown)
+    if not is_full:
+        tables = {"greatest_loads": greatest_loads(design), "parts": parts_of(design)}
+        page = record_table({n: t for n, t in tables.items() if t}, prose=record.prose)
+    return Answer((summary,), page, record)
+
+
+OF_LOADS = ("input", "pin", "wheel", "rack", "tightest", "motor")
+
+
+def machine_lines(design: Design) -> Iterator[SummaryLine]:
+    """The key figures without loads, which a table shows with their limits; then the motor."""
+    lines = list(key_figures(design))
+    yield from (line for line in lines if line.label not in OF_LOADS)
+    yield from (line for line in lines if line.label == "motor")
+    if design.cycle.is_loaded:
+        yield from flywheel_line(design)
+    if design.spec.drive.both_ways:
+        yield from both_ways_lines(design.checks)
 
 
 def key_figures(design: Design) -> Iterator[SummaryLine]:
@@ -54,6 +82,8 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
     )
     n_rpm = measured(design.spec.drive.n_rpm, "rpm")
     text = f"{steps} in {motions}, then {dwells} of dwell; input at {n_rpm}"
+    if design.spec.drive.stop_s:
+        text += f", at rest for {measured(design.spec.drive.stands_s, 's')} of each dwell"
     yield SummaryLine("cycle", text)
     yield _size(values)
     if design.cycle.is_loaded:
@@ -159,6 +189,5 @@ def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> SummaryL
     if worst is None:
         return SummaryLine(label, f"{what} is not known")
     most = measured(values[f"{name}.p997_deg"], "deg")
-    most += f" ({measured(values[f'{name}.p997_arcsec'], 'arc seconds', 3)})"
     text = f"{what} within {most} in 99.7 % of machines, {measured(worst, 'deg')} at worst"
     return SummaryLine(label, text)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, below, cut
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.parts.chosen import ByLoad, by_load
@@ -64,7 +64,7 @@ class SweepRequest(NamedTuple):
         """
         folder = os.path.dirname(self.files[0])
         words = [word for a in self.sweep.plan.axes for word in a.words]
-        return (*self.files, *(os.path.join(folder, word) for word in words))
+        return (*self.files, *(below(folder, word) for word in words))
 
     def blocks(self, done: int = 0) -> Iterator[Rows]:
         """All rows, in blocks; the first ``done`` rows are skipped."""

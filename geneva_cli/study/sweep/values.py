@@ -75,6 +75,23 @@ def axis(text: str, random: bool = False) -> VariedKey:
     return _axis(whole, values.strip().strip('"'), option, random)
 
 
+def numbers(text: str, option: str) -> list[float]:
+    """The numbers of a list with ranges, in their order, for an option that is no key.
+
+    Raises GenevaError, naming the option, for another text.
+
+    >>> numbers("30,45,-10..10:10", "--at")
+    [30.0, 45.0, -10.0, 0.0, 10.0]
+    """
+    option = f"{option} {cut(text.strip())}"
+    values = _axis("", text.strip(), option, random=False).values
+    _refuse_many(option, len(values), 1_000_000)
+    out = [float(x) for x in values if isinstance(x, float | int) and not isinstance(x, bool)]
+    if len(out) < len(values):
+        raise GenevaError(f"{option}: it must be numbers, as 30,45 or -60..60:10")
+    return out
+
+
 def refuse_twice(axes: Sequence[VariedKey], settings: Sequence[Setting]) -> None:
     """Raise GenevaError for a key that is varied twice, or both varied and set."""
     keys = [a.key for a in axes]

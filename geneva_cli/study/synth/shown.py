@@ -22,7 +22,7 @@ SHORT = {
     "acceleration_entry": "accel_entry",
 }
 RANKED = (
-    *("no", "machine", "acceleration_max", "z", "gearing", "parts", "n_rpm", "extra", "rollers"),
+    *("no", "machine", "parts", "acceleration_max", "z", "gearing", "n_rpm", "extra", "rollers"),
     *("motion_deg", "dwell_s", "acceleration_max_rad_s2", "acceleration_max_m_s2", "index_mm"),
     *("acceleration_entry", "velocity_max", "jerk_max", "tau", "power_max", "motion_s"),
     *("dwell_deg", "k", "ratio"),
@@ -63,7 +63,7 @@ def for_terminal(table: Table, most: int) -> Table:
     names = [c.head if c.source == "extra" else c.source for c in columns]
     rank = _ranks(columns)
     first = sorted(range(len(columns)), key=lambda i: rank[columns[i].source])
-    reading = Reading(tuple(names[i] for i in first))
+    reading = Reading(tuple(names[i] for i in first), decide=("parts",))
     return Table(tuple(names), [c.cells for c in columns], title=title, reading=reading)
 
 

@@ -186,6 +186,12 @@ _REPORT = (
     ),
     _alone("timing", "shortest_motion_s", "shortest_motion"),
     _batch("timing", "k_r", "motion_quantities:timing"),
+    _batch(
+        "input_stop",
+        "stands_s brake_deg start_deg inertia_kgm2 brake_torque_Nm start_torque_Nm energy_J "
+        "power_W",
+        "motion_quantities:input_stop",
+    ),
     _batch("timing", "index_gained_deg", "motion_quantities:index_gained"),
     _batch(
         "",

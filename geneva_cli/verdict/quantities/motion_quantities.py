@@ -32,6 +32,36 @@ def timing(of: Designs) -> Columns:
     return out | {"k_r": np.where(rest > 0.0, motion / rest, np.inf)}
 
 
+def input_stop(of: Designs) -> Columns:
+    """How the input stops in each dwell, and what the rotor's inertia asks of brake and start.
+
+    The roller is out of its slot meanwhile, so that the wheel and its load are at rest. NaN without
+    a stop; torques and energy are NaN without the rotor's inertia, or for an abrupt stop.
+    """
+    drive, motor = of.spec.drive, of.spec.motor
+    w, stops = omega(drive.n_rpm), len(of.machine.engagements)  # in a period
+    cycle_s = of.machine.lasting_deg / (6.0 * drive.n_rpm * stops)  # on average
+    none = np.where(np.asarray(drive.stop_s) > 0.0, 0.0, np.nan)
+    inertia = np.asarray(motor.inertia_kgm2 * motor.ratio**2)
+    inertia = np.where(inertia > 0.0, inertia, np.nan)
+    brake_s, start_s = (
+        np.where(np.asarray(x) > 0.0, x, np.nan) for x in (drive.brake_s, drive.start_s)
+    )
+    brake_deg, start_deg = drive.brake_and_start_deg
+    energy = 0.5 * inertia * w * w
+    values = {
+        "stands_s": drive.stands_s,
+        "brake_deg": brake_deg,
+        "start_deg": start_deg,
+        "inertia_kgm2": inertia,
+        "brake_torque_Nm": inertia * w / brake_s,
+        "start_torque_Nm": inertia * w / start_s,
+        "energy_J": energy,
+        "power_W": energy / cycle_s,
+    }
+    return {name: np.ravel(value + none) for name, value in values.items()}
+
+
 def _shared(values: Sequence[Number | None]) -> Array | None:
     """A value that is equal in all engagements, infinite where it differs; None if one lacks it."""
     known = [value for value in values if value is not None]

@@ -138,7 +138,7 @@ def worst_dwell_deg(mechanism: Mechanism, parts: Parts) -> float | None:
     _refuse_large(mechanism, use)
     ends = corners(list(use.values()))
     lock = _loosest_lock(mechanism, parts, ends)
-    return lock and math.degrees(_worst(lock, ends, use))
+    return math.degrees(_worst(lock, ends, use)) if lock else None
 
 
 def _loosest_lock(mechanism: Mechanism, parts: Parts, ends: Deviations) -> CutLock | None:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from bench.closed_forms import compiled
 from bench.formulas import textbook
 from bench.kinds import KINDS, VariedMachine, values_of
 from bench.method import Method, Subject, Task
@@ -97,6 +98,7 @@ def _task(count: int, orders: tuple[int, ...]) -> Task:
             "jets, whole arrays",
             count,
             lambda: [engagement.motion(skew, max(orders)).derivatives()[k] for k in orders],
+            rival=False,
         ),
         Method("ours", count, lambda: engagement.motion.derivatives(skew, orders), True),
         Method(
@@ -149,10 +151,14 @@ def _kind_task(kind: VariedMachine, count: int) -> Task:
     angles[1] = 0.5 * (angles[0] + angles[1])  # not its own mirror image: no half is copied
     methods = []
     if kind.formula:
-        script = partial(_in_blocks, partial(kind.formula, value), np.radians(angles))
+        formula, radians = partial(kind.formula, value), np.radians(angles)
+        script = partial(_in_blocks, formula, radians)
         methods.append(Method("a handbook's formulas, in blocks", count, script))
+        fast = compiled(kind.formula)
+        if fast:
+            methods.append(Method("the same by Numba", count, lambda: fast(value, radians)))
     methods += [
-        Method("jets, whole arrays", count, lambda: _jet_rates(motion, angles)),
+        Method("jets, whole arrays", count, lambda: _jet_rates(motion, angles), rival=False),
         Method("ours", count, lambda: motion.derivatives(angles, ORDERS), True),
     ]
     what = f"{kind.name}: {_named(ORDERS)}"

@@ -1,0 +1,184 @@
+"""A command as Typer runs it: own conversion of values, help with examples, and shared options.
+
+Annotations are objects here and in the commands, for Typer.
+"""
+
+import sys
+from collections.abc import Mapping
+from functools import partial
+from typing import Annotated, Any, get_args
+
+import typer
+from typer.core import TyperCommand
+from typer.main import get_command
+
+from geneva_cli.errors import GenevaError
+
+HELP = {"help_option_names": ["-h", "--help"]}
+USAGE: Any = typer.BadParameter.__base__  # Typer's error for arguments that no command takes
+
+
+class PlainValues:
+    """A command or group that converts what is typed by itself.
+
+    From release 0.29 on Typer loads pydantic for that, which doubles the time of a short run
+    (`make bench-start`). So every release is as quick, and has the same messages.
+    """
+
+    kinds: Mapping[str, Any] = {}  # name of a parameter -> its type
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Options and arguments, each with its own conversion."""
+        params: list[Any] = super().get_params(ctx)  # type: ignore[misc]
+        for param in params:
+            if param.name == "help":
+                param.callback = _help
+            if "process_value" not in vars(param):
+                kind = self.kinds.get(param.name)
+                param.process_value = partial(_value, param, kind, param.process_value)
+        return params
+
+
+def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
+    """Value of a parameter; what is required and missing is left to Typer, to ``refuse``.
+
+    While a shell completes words, nothing is refused.
+    """
+    if param.required and not typed and not ctx.resilient_parsing:
+        return refuse(ctx, typed)
+    value = () if typed is None and (param.multiple or param.nargs == -1) else typed
+    for number, meaning in {float: "a number", int: "a whole number"}.items():
+        if isinstance(typed, str) and kind in (number, number | None):
+            try:
+                value = number(typed)
+            except ValueError:
+                message = f"{typed!r} is not {meaning}"
+                raise typer.BadParameter(message, ctx=ctx, param=param) from None
+    return param.callback(ctx, param, value) if param.callback else value
+
+
+def _help(ctx: Any, param: Any, is_requested: bool) -> None:
+    """Show the help of a command, through the pager if it is long."""
+    if is_requested and not ctx.resilient_parsing:
+        if sys.stdout.isatty():
+            from geneva_cli.output.terminal import pager
+
+            pager.write([ctx.get_help() + "\n"])
+        else:
+            print(ctx.get_help())
+        ctx.exit()
+
+
+class Command(PlainValues, TyperCommand):
+    """A command whose help ends with examples, and which refuses ineffective options."""
+
+    examples: tuple[str, ...] = ()
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Parse arguments, and refuse an option that would have no effect.
+
+        Such an option is empty, as with an unset variable of a script, or stands there twice.
+        """
+        typed = list(args)
+        rest = super().parse_args(ctx, args)
+        if ctx.resilient_parsing:  # by a shell that completes words
+            return rest
+        order: list[Any] = [*self.make_parser(ctx).parse_args(typed)[2]]
+        for option in dict.fromkeys(order):
+            if not _is_option(option) or option.is_flag:
+                continue
+            value = ctx.params.get(option.name)
+            if "" in value if option.multiple and value else value == "":
+                raise GenevaError(f'{option.opts[0]} "": empty; give it a value, or leave it out')
+            if order.count(option) > 1 and not option.multiple:
+                raise GenevaError(f"{option.opts[0]}: given twice; only one of both would count")
+        return rest
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; its tables have the columns of --columns, and the units of --units."""
+        columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
+        units = ctx.params.pop("shown_units", "mm")
+        if not (columns or wide or units != "mm"):
+            return super().invoke(ctx)
+        from geneva_cli.output import Choice, choosing
+
+        names = [name.strip() for name in (columns or "").split(",")]
+        with choosing(Choice(tuple(filter(None, names)), wide, units)):
+            return super().invoke(ctx)
+
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        """The words after the command's name in its help."""
+        return ["[OPTIONS]", *(_placeholder(p) for p in self.params if not _is_option(p))]
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Write arguments, then options under their headings, with shared options last."""
+        groups: dict[str, list[tuple[str, str]]] = {"Arguments": []}
+        shared: list[tuple[str, str]] = []
+        for param in self.get_params(ctx):
+            record, heading = param.get_help_record(ctx), vars(param).get("rich_help_panel")
+            if record and not _is_option(param):
+                groups["Arguments"].append((_placeholder(param), record[1]))
+            elif record:
+                (groups.setdefault(heading, []) if heading else shared).append(record)
+        for heading, records in (groups | {"Options": shared}).items():
+            if records:
+                with formatter.section(heading):
+                    formatter.write_dl(records)
+
+    def format_epilog(self, ctx: Any, formatter: Any) -> None:
+        """Write the examples as typed, each continued on the next line if needed."""
+        if self.examples:
+            with formatter.section("Examples"):
+                for line in self.examples:
+                    formatter.write(f"  {_continued(line, formatter.width)}\n")
+
+
+def _is_option(param: Any) -> bool:
+    return bool(param.param_type_name == "option")
+
+
+def _placeholder(argument: Any) -> str:
+    """The word that stands for an argument in help."""
+    return str(argument.metavar or argument.name)
+
+
+def _continued(line: str, width: int) -> str:
+    """A command in lines of at most ``width`` letters, broken before options with a backslash."""
+    first, *options = line.split(" -")
+    lines = [first]
+    for option in options:
+        if len(lines[-1]) + len(option) + len("   - \\") > width:
+            lines[-1] += " \\"
+            lines.append(f"      -{option}")
+        else:
+            lines[-1] += f" -{option}"
+    return "\n".join(lines)
+
+
+def table_options(
+    columns: Annotated[
+        str | None,
+        typer.Option("--columns", metavar="NAME,...", help="Only these columns, named as in csv."),
+    ] = None,
+    wide: Annotated[
+        bool, typer.Option("--wide", help="All columns on a terminal, however wide.")
+    ] = False,
+) -> None:
+    """Options of every command that prints a table."""
+
+
+def unit_option(
+    shown_units: Annotated[
+        str, typer.Option("--units", metavar="UNIT", help="Numbers in mm, or in inch and lb.")
+    ] = "mm",
+) -> None:
+    """The option of commands whose numbers have units."""
+
+
+def as_command(name: str, run: Any) -> Any:
+    """A function as a command."""
+    one = typer.Typer(add_completion=False, rich_markup_mode=None)
+    one.command(name, cls=Command, context_settings=HELP)(run)
+    command: Any = get_command(one)
+    command.kinds = {n: get_args(k)[0] for n, k in run.__annotations__.items() if get_args(k)}
+    return command

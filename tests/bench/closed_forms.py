@@ -1,0 +1,141 @@
+"""Velocity and acceleration of each machine in closed form, as NumPy or Numba runs it.
+
+Each function takes the varied value of ``kinds.KINDS`` and input angles (k,) in radians from
+mid-motion, and returns two arrays (k,), up to the sign of the gearing. They are written out: Numba
+compiles them as they stand. Sources: the geometry of each machine, without the program.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+try:
+    import numba
+except ImportError:
+    numba = None
+
+jit: Callable[[Any], Any] = numba.njit if numba else lambda function: function
+SIXTH, QUARTER = np.pi / 6.0, np.pi / 4.0  # half the step of wheels of six and of four slots
+
+
+@jit
+def _turning(x: Any, y: Any, x1: Any, y1: Any, x2: Any, y2: Any) -> tuple[Any, Any]:
+    """Rate of the direction of (x, y) and its slope, from two derivatives."""
+    square = x * x + y * y
+    rate = (x * y1 - y * x1) / square
+    return rate, (x * y2 - y * x2 - 2.0 * rate * (x * x1 + y * y1)) / square
+
+
+def offset_slots(offset_mm: Any, x: Any) -> tuple[Any, Any]:
+    """Six slots whose axes pass the wheel's at a distance, on a centre distance of 100 mm.
+
+    At entry and exit the slot's axis touches the pin's circle: asin(R - e) + asin(R + e) is the
+    step. The pin is at the distance sqrt(u) from the wheel's axis; the slot points asin(e/sqrt(u))
+    beside it.
+    """
+    e = offset_mm / 100.0
+    lean = e / np.cos(SIXTH)
+    l = np.sin(SIXTH) * np.sqrt(1.0 - lean * lean)
+    sine, cosine = np.sin(x), np.cos(x)
+    u, u1, u2 = 1.0 + l * l - 2.0 * l * cosine, 2.0 * l * sine, 2.0 * l * cosine
+    rate = l * (cosine - l) / u
+    slope = -l * (1.0 - l * l) * sine / (u * u)
+    q = u - e * e
+    root = np.sqrt(q)
+    beside = -0.5 * e * u1 / (u * root)
+    bent = -0.5 * e * (u2 / (u * root) - u1 * u1 * (q + 0.5 * u) / (u * u * q * root))
+    return rate + beside, slope + bent
+
+
+def spherical(axes_deg: Any, x: Any) -> tuple[Any, Any]:
+    """Six slots on a sphere whose axis makes an angle with the crank's."""
+    axes = np.radians(axes_deg)
+    s = np.sin(axes) * np.sin(SIXTH)  # of the crank's half cone, from the right angle at entry
+    c = np.sqrt(1.0 - s * s)
+    sine, cosine = np.sin(x), np.cos(x)
+    near, far = c * np.sin(axes), s * np.cos(axes)
+    return _turning(near - far * cosine, s * sine, far * sine, s * cosine, far * cosine, -s * sine)
+
+
+def elliptical_gears(e: Any, x: Any) -> tuple[Any, Any]:
+    """Six slots behind equal elliptical gears, in their slow phase."""
+    l = np.sin(SIXTH)
+    square = 1.0 + e * e + 2.0 * e * np.cos(x)
+    f = 2.0 * np.arctan2((1.0 - e) * np.sin(0.5 * x), (1.0 + e) * np.cos(0.5 * x))
+    f1 = (1.0 - e * e) / square
+    f2 = f1 * 2.0 * e * np.sin(x) / square
+    sine, cosine = np.sin(f), np.cos(f)
+    below = 1.0 - 2.0 * l * cosine + l * l
+    g1 = l * (cosine - l) / below
+    g2 = -l * (1.0 - l * l) * sine / (below * below)
+    return g1 * f1, g2 * f1 * f1 + g1 * f2
+
+
+def epicyclic(planet_ratio: Any, x: Any) -> tuple[Any, Any]:
+    """Four slots; the roller sits on a planet that turns five times as fast as its carrier."""
+    r = planet_ratio
+    R = np.sin(QUARTER) + r
+    s, c, s5, c5 = np.sin(x), np.cos(x), np.sin(5.0 * x), np.cos(5.0 * x)
+    return _turning(
+        1.0 - R * c - r * c5,
+        R * s + r * s5,
+        R * s + 5.0 * r * s5,
+        R * c + 5.0 * r * c5,
+        R * c + 25.0 * r * c5,
+        -R * s - 25.0 * r * s5,
+    )
+
+
+def modified_sine(alpha0_deg: Any, x: Any) -> tuple[Any, Any]:
+    """Six curved slots for a modified sine."""
+    motion = np.pi - 2.0 * SIXTH - np.radians(alpha0_deg)
+    u = 0.5 + x / motion
+    w = np.minimum(u, 1.0 - u)
+    quick, slow = 4.0 * np.pi * w, (np.pi + 4.0 * np.pi * w) / 3.0
+    ends = w < 0.125
+    velocity = np.where(ends, 1.0 - np.cos(quick), 1.0 - 3.0 * np.cos(slow))
+    acceleration = np.where(ends, np.sin(quick), np.sin(slow)) * np.where(u < 0.5, 1.0, -1.0)
+    size = 2.0 * SIXTH / motion * np.pi / (4.0 + np.pi)
+    return size * velocity, size * 4.0 * np.pi / motion * acceleration
+
+
+def sine_group(tilt: Any, x: Any) -> tuple[Any, Any]:
+    """Six curved slots for a tilted group of sines."""
+    motion = np.pi - 2.0 * SIXTH
+    t = np.pi * (0.5 + x / motion)
+    s, c = np.sin(t), np.cos(t)
+    more, cube = 1.0 - 8.0 * tilt * c, s * s * s
+    size = 2.0 * SIXTH / motion * 8.0 / 3.0
+    slope = cube * (4.0 * c * more + 8.0 * tilt * s * s)
+    return size * cube * s * more, size * np.pi / motion * slope
+
+
+def geneva_pair(z: Any, x: Any) -> tuple[Any, Any]:
+    """A wheel whose crank is another wheel of four slots, while that one turns."""
+    k, l = np.sin(QUARTER), np.sin(np.pi / z)
+    sine, cosine = np.sin(x), np.cos(x)
+    below = 1.0 - 2.0 * k * cosine + k * k
+    f = np.arctan2(k * sine, 1.0 - k * cosine)
+    f1 = k * (cosine - k) / below
+    f2 = -k * (1.0 - k * k) * sine / (below * below)
+    sine, cosine = np.sin(f), np.cos(f)
+    below = 1.0 - 2.0 * l * cosine + l * l
+    g1 = l * (cosine - l) / below
+    g2 = -l * (1.0 - l * l) * sine / (below * below)
+    return g1 * f1, g2 * f1 * f1 + g1 * f2
+
+
+def linear(z: Any, x: Any) -> tuple[Any, Any]:
+    """A rack, over the crank's radius."""
+    return np.cos(x), -np.sin(x)
+
+
+def compiled(formula: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any] | None:
+    """A formula of this file compiled by Numba; None for others, and where that is missing."""
+    if numba is None or getattr(formula, "__module__", "") != __name__:
+        return None
+    own: Callable[[Any, Any], Any] = numba.njit(formula)
+    return own

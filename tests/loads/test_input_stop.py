@@ -1,0 +1,202 @@
+"""The input stopped in each dwell: times, means and heat by hand, and what the brake takes."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from bisect import bisect_right
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from geneva_cli import (
+    Carousel,
+    Crank,
+    Design,
+    External,
+    Load,
+    Motor,
+    RollerMaterial,
+    Shaft,
+    Size,
+)
+from geneva_cli.errors import GenevaError
+from geneva_cli.loads.sizing import sizing, sizings
+from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.many import many
+from geneva_cli.verdict.quantities.groups import REPORT, values
+
+STOPPED = Crank(n_rpm=60.0, stop_s=0.8, start_s=0.2, brake_s=0.1)
+LOAD = Load(inertia_kgm2=0.4, torque_Nm=15.0)
+OMEGA = 2.0 * math.pi  # 60 rpm
+
+
+def test_times_by_hand() -> None:
+    """Six slots move for 1/3 s and rest for 2/3 s of the turn, and 0.8 s longer."""
+    timing = Design(External(6), STOPPED).timing
+    assert (timing.motion_deg, timing.dwell_deg) == pytest.approx((120.0, 240.0), rel=1e-15)
+    dwell, cycle = 2.0 / 3.0 + 0.8, 1.8
+    assert (timing.dwell_s, timing.cycle_s) == pytest.approx((dwell, cycle), rel=1e-14)
+    assert (timing.k, timing.tau) == pytest.approx((1 / 3 / dwell, 1 / 3 / cycle), rel=1e-14)
+
+
+def test_means_and_heat_by_quadrature() -> None:
+    """T = (I w² psi'' + M) psi' of the closed form, integrated by mpmath over the motion."""
+    design = Design(External(6), STOPPED, load=LOAD, motor=Motor(gear_ratio=20.0))
+
+    def torque(a: mp.mpf) -> mp.mpf:
+        nenner = 5 - 4 * mp.cos(a)
+        first = (2 * mp.cos(a) - 1) / nenner
+        second = -6 * mp.sin(a) / nenner**2
+        return (0.4 * (2 * mp.pi) ** 2 * second + 15) * first
+
+    ends = [-mp.pi / 3, 0, mp.pi / 3]
+    cycle = 1.8 * OMEGA  # as an angle
+    mean = float(mp.quad(torque, ends)) / cycle
+    rms = math.sqrt(float(mp.quad(lambda a: torque(a) ** 2, ends)) / cycle)
+    loads = design.loads
+    assert loads["input_torque_Nm"].mean == pytest.approx(mean, rel=1e-12)
+    assert loads["input_torque_Nm"].rms == pytest.approx(rms, rel=1e-11)
+    # a cycle does the work of the torque over the step
+    assert loads["power_W"].mean == pytest.approx(15.0 * math.pi / 3.0 / 1.8, rel=1e-12)
+    heat = sizing(design.cycle)[0]["motor_torque_rms_Nm"]
+    assert heat == pytest.approx(rms / 20.0, rel=1e-11)
+
+
+def test_what_the_running_machine_does_is_as_before() -> None:
+    """Peaks, forces and the energy that swings while the input runs do not know of the stop."""
+    runs = Design(External(6), Crank(n_rpm=60.0), load=LOAD)
+    stops = Design(External(6), STOPPED, load=LOAD)
+    assert stops.peaks == runs.peaks
+    for name in ("pin_force_N", "input_torque_Nm"):
+        assert stops.loads[name].max == runs.loads[name].max
+    swings = [sizing(design.cycle)[0]["energy_fluctuation_J"] for design in (runs, stops)]
+    assert swings[1] == pytest.approx(swings[0], rel=1e-12)
+
+
+def test_a_batch_has_the_numbers_of_its_designs() -> None:
+    spec = Design(External(6), STOPPED, load=LOAD).spec
+    stops = np.array([0.15, 0.8, 2.0])
+    batch = many(spec, {"drive.stop_s": stops})
+    assert batch.machine
+    name = "motor_torque_rms_Nm"
+    rows = batch.spread(sizings(batch.machine, [name])[name])
+    for stop, row in zip(stops.tolist(), rows.tolist(), strict=True):
+        alone = sizing(Design.of(spec.with_("drive.stop_s", stop)).cycle)[0]
+        assert row == pytest.approx(alone[name], rel=1e-12)
+
+
+def turned_deg(drive: Drive, dwell_deg: float, time_s: float) -> float:
+    """The input's angle since the exit at a time since then: the speed profile, integrated."""
+    full, (brake, start) = 6.0 * drive.n_rpm, (drive.brake_s, drive.start_s)
+    lead = 0.5 * (dwell_deg - 0.5 * full * (brake + start)) / full
+    stands = drive.stop_s - 0.5 * (brake + start)
+    ends = np.cumsum([0.0, lead, brake, stands, start, lead]).tolist()
+    speeds = [(full, full), (full, 0.0), (0.0, 0.0), (0.0, full), (full, full)]
+    angle = 0.0
+    last = min(bisect_right(ends, time_s) - 1, 4)
+    for i in range(last + 1):
+        length = ends[i + 1] - ends[i]
+        part = min(time_s - ends[i], length)
+        first, end = speeds[i]
+        slope = (end - first) / length if length else 0.0
+        angle += first * part + 0.5 * slope * part * part
+    return angle
+
+
+@pytest.mark.parametrize(
+    ("wheel", "drive"),
+    [
+        (External(6), STOPPED),
+        (External(6), Crank(n_rpm=30.0, stop_s=1.0, brake_s=0.5)),
+        (External(4), Crank(n_rpm=60.0, rollers=2, stop_s=0.4, start_s=0.1, brake_s=0.05)),
+    ],
+)
+def test_the_time_column_runs_on_as_the_speed_profile(wheel: External, drive: Drive) -> None:
+    design = Design(wheel, drive)
+    timing = design.timing
+    places = np.linspace(timing.motion_deg / 2.0, timing.motion_deg / 2.0 + timing.dwell_deg, 41)
+    rows = design.motion(at_deg=places.tolist()).to_dict()
+    stands = design.timing.motion_deg / 2.0
+    for at, time in zip(rows["input_deg"], rows["time_s"], strict=True):
+        angle = turned_deg(drive, timing.dwell_deg, time - timing.motion_s)
+        assert angle == pytest.approx(at - stands, abs=1e-9)
+    assert rows["time_s"][-1] == pytest.approx(timing.cycle_s, rel=1e-14)
+    table = design.motion(50).to_dict()
+    assert table["time_s"][-1] == pytest.approx(timing.cycle_s, rel=1e-14)
+    two = design.motion(at_deg=[table["input_deg"][0] + 720.0]).to_dict()
+    turns = 2.0 * drive.rollers * timing.cycle_s
+    assert two["time_s"].tolist() == pytest.approx([turns], rel=1e-14)
+
+
+def test_unequal_steps_stop_in_each_dwell() -> None:
+    """Two steps a turn: the second entry is a motion, a dwell and a stop after the first."""
+    design = Design(External(6, steps_deg=(72.0, 48.0)), Crank(n_rpm=60.0, stop_s=0.5))
+    rows = design.motion(201).to_dict()
+    assert rows["time_s"][-1] == pytest.approx(1.0 + 2.0 * 0.5, rel=1e-14)
+    assert [t.dwell_s for t in design.timings] == pytest.approx([60 / 360 + 0.5] * 2, rel=1e-12)
+
+
+def test_the_roller_lasts_as_many_motions_and_more_hours() -> None:
+    size, roller = Size(face_width_mm=12.0), RollerMaterial(dynamic_capacity_N=5000.0)
+    each = [
+        Design(External(6), drive, load=LOAD, size=size, material_roller=roller).life
+        for drive in (Crank(n_rpm=60.0), STOPPED)
+    ]
+    motions, hours = (
+        [one[name] for one in each] for name in ("roller_life_motions", "roller_life_h")
+    )
+    assert motions[0] == motions[1]
+    assert hours[1] == pytest.approx(1.8 * hours[0], rel=1e-13)
+
+
+def test_a_swing_has_the_stop_to_die_out() -> None:
+    """Motions add their residual r to what is left of the earlier ones: |r/(1 - exp(p T))|."""
+    shaft = Shaft(stiffness_Nm_rad=2000.0, damping_ratio=0.02)
+    design = Design(External(6), STOPPED, load=Load(inertia_kgm2=0.4), shaft=shaft)
+    shown = design.vibration().to_dict()
+    frequency, zeta = math.sqrt(2000.0 / 0.4), 0.02
+    p = frequency * complex(-zeta, math.sqrt(1.0 - zeta * zeta))
+    expected = shown["residual_share"] / abs(1.0 - cmath.exp(p * 1.8))
+    assert shown["steady_share"] == pytest.approx(expected, rel=1e-9)
+
+
+def test_what_the_brake_takes_by_hand() -> None:
+    """0.002 kg m² behind 20 : 1 are 0.8 at the input, which turns at 2 pi rad/s."""
+    motor = Motor(gear_ratio=20.0, inertia_kgm2=0.002)
+    design = Design(External(6), STOPPED, load=LOAD, motor=motor)
+    found = values([group for group in REPORT if group.table == "input_stop"], design.parts)
+    energy = 0.5 * 0.8 * OMEGA**2
+    by_hand = {
+        "stands_s": 0.8 - 0.15,
+        "brake_deg": 18.0,  # half of 0.1 s at 360 degrees a second
+        "start_deg": 36.0,
+        "inertia_kgm2": 0.8,
+        "brake_torque_Nm": 0.8 * OMEGA / 0.1,
+        "start_torque_Nm": 0.8 * OMEGA / 0.2,
+        "energy_J": energy,
+        "power_W": energy / 1.8,
+    }
+    assert found == pytest.approx({f"input_stop.{k}": v for k, v in by_hand.items()}, rel=1e-13)
+    runs = Design(External(6), Crank(), load=LOAD, motor=motor)
+    none = values([group for group in REPORT if group.table == "input_stop"], runs.parts)
+    assert set(none.values()) == {None}
+
+
+def test_a_stop_that_does_not_fit_is_a_warning() -> None:
+    """A dwell of 240 degrees takes 3 n (brake_s + start_s) = 180 (0.7 + 0.7) = 252 not."""
+    long = Crank(n_rpm=60.0, stop_s=2.0, start_s=0.7, brake_s=0.7)
+    (text,) = Design(External(6), long).motion_warnings
+    assert text.name == "stop-in-motion"
+    assert "126° while it brakes" in text and "at most 1.333 s" in text
+    fits = Crank(n_rpm=60.0, stop_s=2.0, start_s=0.6, brake_s=2.0 / 3.0 + 1.0 / 15.0)
+    assert not Design(External(6), fits).motion_warnings
+
+
+def test_what_makes_no_stop_is_refused() -> None:
+    with pytest.raises(GenevaError, match=r"it must be at least 0\.2"):
+        Crank(stop_s=0.1, start_s=0.2, brake_s=0.2)
+    assert Crank(stop_s=0.15, start_s=0.1, brake_s=0.2).stands_s == pytest.approx(0.0, abs=1e-15)
+    with pytest.raises(GenevaError, match="at a constant speed: remove stop_s"):
+        _ = Design(External(4), Carousel(wheels=3, stop_s=0.5)).mechanism

@@ -1,0 +1,101 @@
+"""Rows of ``motion`` at chosen input angles, and the rates at the spec's speed."""
+
+from __future__ import annotations
+
+import math
+
+import mpmath as mp
+import pytest
+from typer.testing import CliRunner
+
+from geneva_cli import Carousel, Crank, Design, External, Linear, Size
+from geneva_cli.cli.app import app
+from geneva_cli.errors import GenevaError
+
+
+def test_rates_against_the_closed_form_at_50_digits() -> None:
+    """psi = atan2(l sin a, 1 - l cos a) of six slots at 30 rpm, differentiated by mpmath."""
+    rows = Design(External(6), Crank(n_rpm=30.0)).motion(at_deg=[-30.0, 20.0, 45.0]).to_dict()
+    with mp.workdps(50):
+        omega = mp.pi
+
+        def psi(t: mp.mpf) -> mp.mpf:
+            a = omega * t
+            return mp.atan2(mp.sin(a) / 2, 1 - mp.cos(a) / 2)
+
+        for i, a_deg in enumerate((-30, 20, 45)):
+            t = mp.radians(a_deg) / omega
+            assert rows["omega_rad_s"][i] == pytest.approx(float(mp.diff(psi, t)), rel=1e-13)
+            alpha = float(mp.diff(psi, t, 2))
+            assert rows["alpha_rad_s2"][i] == pytest.approx(alpha, rel=1e-12)
+            assert rows["wheel_deg"][i] == pytest.approx(math.degrees(psi(t)), rel=1e-13)
+            assert rows["time_s"][i] == pytest.approx((a_deg + 60.0) / 180.0, rel=1e-14)
+
+
+def test_the_rates_of_a_table_are_its_invariants_at_speed() -> None:
+    table = Design(External(6), Crank(n_rpm=45.0)).motion(73).to_dict()
+    omega = 45.0 * 2.0 * math.pi / 60.0
+    assert table["omega_rad_s"].tolist() == pytest.approx((omega * table["velocity"]).tolist())
+    alpha = omega**2 * table["acceleration"]
+    assert table["alpha_rad_s2"].tolist() == pytest.approx(alpha.tolist())
+    assert not table["omega_rad_s"][-20:].any()  # at rest they are exactly 0
+
+
+def test_a_rack_has_its_speed_in_metres() -> None:
+    """At mid-motion the rack is as fast as the roller, R w."""
+    rack = Design(Linear(6), Crank(n_rpm=60.0), size=Size(center_distance_mm=50.0))
+    row = rack.motion(at_deg=[0.0]).to_dict()
+    assert row["rack_speed_m_s"][0] == pytest.approx(0.05 * 2.0 * math.pi, rel=1e-14)
+    assert "omega_rad_s" not in row
+
+
+def test_any_turn_and_any_order() -> None:
+    """The wheel's angle and the time go on from turn to turn; entry and exit are of the motion."""
+    rows = Design(External(6)).motion(at_deg=[660.0, -60.0, 60.0, -100.0, 180.0]).to_dict()
+    assert rows["input_deg"].tolist() == [660.0, -60.0, 60.0, -100.0, 180.0]
+    assert rows["wheel_deg"].tolist() == pytest.approx([90.0, -30.0, 30.0, -30.0, 30.0])
+    assert rows["time_s"].tolist() == pytest.approx([2.0, 0.0, 1 / 3, -1 / 9, 2 / 3])
+    slope = math.tan(math.pi / 6.0)  # the jump at entry, tan(pi/z)
+    accelerations = [slope, slope, -slope, 0.0, 0.0]
+    assert rows["acceleration"].tolist() == pytest.approx(accelerations, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "design",
+    [
+        Design(External(4), Crank(rollers=2)),
+        Design(External(6, steps_deg=(72.0, 48.0))),
+        Design(External(4), Carousel(wheels=3)),
+    ],
+)
+def test_rows_are_those_of_the_whole_table(design: Design) -> None:
+    table = design.motion(40).to_dict()
+    some = [3, 11, 24, 38]  # the last row of all is an entry
+    rows = design.motion(at_deg=[table["input_deg"][i] for i in some]).to_dict()
+    for name, column in table.items():
+        assert rows[name].tolist() == pytest.approx([column[i] for i in some], abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--at", "a"), "--at a: it must be numbers"),
+        (("--at", "1..x"), '"x" is no number'),
+        (("--at", "1,,2"), "neither a number nor a word"),
+        (("--at", "1e9"), "at most 360000 degrees"),
+        (("--at", "3", "--samples", "3"), "--at sets the rows, and --samples too"),
+        (("--at", "3", "--turns", "2"), "--at sets the rows, and --turns too"),
+        (("--at", "3", "--format", "cam"), "a cam has the points"),
+    ],
+)
+def test_bad_angles_are_refused(options: tuple[str, ...], message: str) -> None:
+    shown = CliRunner().invoke(app, ["motion", "designs/offset-slots.toml", *options])
+    assert shown.exit_code == 2
+    assert message in shown.stderr
+
+
+def test_no_angles_are_refused() -> None:
+    with pytest.raises(GenevaError, match="must be numbers"):
+        Design(External(6)).motion(at_deg=[])
+    with pytest.raises(GenevaError, match="must be numbers"):
+        Design(External(6)).motion(at_deg=[math.nan])
