@@ -117,7 +117,7 @@ def _summary(result: Turned, mechanism: Mechanism) -> str:
     machine, turn = result.machine, result.senses[0].first
     index = math.degrees(turn.gained) / machine.slots_a_turn
     moving = turn.is_moving
-    free = np.degrees(turn.high - turn.low)
+    free = np.nan_to_num(np.degrees(turn.high - turn.low))
     rest = math.degrees(result.rest.high - result.rest.low)
     first = turn.pushes[0]
     last = max((p for p in turn.pushes if abs(p.end_wheel - p.begin_wheel) > 1e-3), default=first)

@@ -51,11 +51,14 @@ class FreeRanges:
         wheel = wheel.subset(np.flatnonzero((high >= L - far - slack) & (low <= L + far + slack)))
         low, high = levels(crank)
         crank = crank.subset(np.flatnonzero(L - high <= levels(wheel)[1].max(initial=0.0)))
-        self.whole, self.crank, self.L, self.sense, self.slack = wheel, crank, L, sense, slack
-        sector = one_sector(wheel, pitch, slack)
-        self.period = math.tau if sector is None else pitch
+        self.crank, self.L, self.sense, self.slack = crank, L, sense, slack
+        which = one_sector(wheel, pitch, slack)
+        self.period = math.tau if which is None else pitch
+        sector = wheel if which is None else wheel.subset(which)
+        # copies of one sector, so that rounded numbers of a drawing make no difference
+        self.whole = sector.around(round(math.tau / self.period))
         self.window: tuple[float, float] | None = None
-        self._meets(wheel if sector is None else wheel.subset(sector))
+        self._meets(sector)
 
     def _meets(self, wheel: Polyarc) -> None:
         self.stops = TurningStops(wheel, self.period, self.crank, self.L, 0.0)
