@@ -160,7 +160,9 @@ def contacts(
             off = place - wheel[met.row]
             shift = free.period * np.round(off / free.period)
             off = np.abs(off - shift)
-            k = np.flatnonzero(off < best[met.row])
+            # an arc about the wheel's axis pushes nothing; its ends are those of other pieces too
+            is_round = met.wheel.half + met.other.half > 0.0
+            k = np.flatnonzero((off < best[met.row]) & ~is_round)
             one, rows = met.other.at(k), met.row[k]
             at = free.stops.place(one, level[k])
             touched = np.column_stack((level[k] * np.cos(at), level[k] * np.sin(at)))
