@@ -85,7 +85,7 @@ def pytest_collection_modifyitems(items):
 
 
 def run(folder, *words, **more):
-    to = {**os.environ, "PYTHONPATH": f"{folder}:{folder / 'tests'}", **more}
+    to = {**os.environ, "PYTHONPATH": f"{folder}{os.pathsep}{folder / 'tests'}", **more}
     python = [sys.executable, "-m", *words]
     return subprocess.run(
         python, cwd=folder, env=to, capture_output=True, encoding="utf-8", check=False

@@ -5,6 +5,7 @@ The TOML reader itself determines the lines of keys.
 
 from __future__ import annotations
 
+import codecs
 import os
 import re
 import sys
@@ -200,7 +201,11 @@ def _read(path: str, name: str) -> str:
         return data.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
-        raise GenevaError(f"{name}:{line}: not UTF-8 text; save the file as UTF-8") from None
+        # Windows PowerShell 5 writes UTF-16 for >
+        is_utf16 = data[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+        what = "UTF-16 and not UTF-8 text" if is_utf16 else "not UTF-8 text"
+        advice = ", or write it with -o FILE in place of > FILE" if is_utf16 else ""
+        raise GenevaError(f"{name}:{line}: {what}; save the file as UTF-8{advice}") from None
 
 
 def _texts(tree: dict[str, Any], table: str = "") -> Iterator[tuple[str, str, Any]]:

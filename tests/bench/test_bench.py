@@ -72,7 +72,7 @@ def test_a_plot_has_a_panel_for_each_task(tmp_path):
     subject, rows = measured("peaks")
     path = tmp_path / "new" / "peaks.svg"
     assert plots.write(subject, rows, str(path))
-    assert path.read_text().count("<!-- scan of 17") == len(subject.tasks)
+    assert path.read_text(encoding="utf-8").count("<!-- scan of 17") == len(subject.tasks)
     assert not plots.write(subject, [], str(path))
 
 

@@ -82,7 +82,7 @@ def test_designs_have_one_zero(path: Path) -> None:
 @pytest.mark.parametrize("name", FAR)
 def test_far_places_have_one_zero(name: str, tmp_path: Path) -> None:
     share = [i / 40.0 for i in range(41)]
-    with (tmp_path / "late.csv").open("w", newline="") as file:
+    with (tmp_path / "late.csv").open("w", encoding="utf-8", newline="") as file:
         # x^2 (with a start at rest, as the reader asks): half of the way after 0.7 of the time
         csv.writer(file).writerows(
             [("u", "s"), *((u, 0.5 * (1 - math.cos(math.pi * u * u))) for u in share)]

@@ -56,7 +56,7 @@ NOT_TOML = [
     case("yaml", "wheel:\n  z: 6\n", 1, "not TOML", "write [table], or KEY = VALUE as in z = 6"),
     case("no-value", "[wheel]\nz =\n", 2, "the value is missing; write one behind the sign"),
     case("not-utf-8", b"[wheel]\nz = 6\n# gr\xfc\xdfe\n", 3, "not UTF-8", "save"),
-    case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "not UTF-8"),
+    case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "UTF-16", "-o FILE"),
     case("deep-lists", "a = " + "[" * 50_000, 0, "nested too deep"),
     case("5000-digits", "[wheel]\nz = " + "1" * 5000 + "\n", 0),
     case("two-megabytes", "# " + "x" * (1 << 21) + "\n" + WHEEL, 0, "larger than", "bytes"),

@@ -1,5 +1,6 @@
 """What a file that is written to keeps, what is never replaced, and what killed runs leave."""
 
+import errno
 import os
 import stat
 import subprocess
@@ -8,6 +9,7 @@ import pytest
 from repo import GENEVA, get, posix, put
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.output import files
 from geneva_cli.output.files import write
 
 ROOT_ALONE = hasattr(os, "geteuid") and os.geteuid() != 0
@@ -29,7 +31,10 @@ def temporary(name, number):
     return f".{name}.geneva-{number}.tmp"
 
 
-@pytest.mark.parametrize("name", ["a.csv", "a b+(1)@.csv", "größe.csv", "x" * 250 + ".csv"])
+LONG = pytest.param("x" * 250 + ".csv", marks=posix("paths of 300 letters"))
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a b+(1)@.csv", "größe.csv", LONG])
 def test_stale_ones_go(name):
     put(temporary(name.encode()[:200].decode(), GONE), "half a fi")
     write(name, ["whole"])
@@ -67,6 +72,24 @@ def test_two_writers_at_once():
     write("a.csv", outer())
     assert get("a.csv") == "outer whole"
     assert os.listdir() == ["a.csv"]
+
+
+def test_a_file_that_another_program_holds(monkeypatch):
+    """On Windows a table that is open in a spreadsheet cannot be replaced."""
+
+    def refused(*paths):
+        raise PermissionError(errno.EACCES, "Zugriff verweigert")  # in the system's language
+
+    put("a.csv", "kept")
+    monkeypatch.setattr(os, "replace", refused)
+    monkeypatch.setattr(files, "POSIX", False)
+    with pytest.raises(GenevaError) as error:
+        write("a.csv", ["new"])
+    assert str(error.value) == (
+        "a.csv: cannot write: Permission denied; close the file in other programs, or give "
+        "another name"
+    )
+    assert get("a.csv") == "kept" and os.listdir() == ["a.csv"]
 
 
 def test_read_only_is_refused():

@@ -2,12 +2,14 @@
 
 import ntpath
 import os
+from functools import partial
 
 import pytest
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.files import real_path
+from geneva_cli.output import files
 from geneva_cli.output.folder import Entry, filling_folder
+from geneva_cli.output.growing import GrowingFile
 from geneva_cli.output.reserved import fault, require_possible
 
 # as Microsoft lists them, "Naming Files, Paths, and Namespaces"
@@ -57,8 +59,21 @@ def test_drives_and_servers_are_no_names(path):
 @pytest.mark.skipif(os.name == "nt", reason="here the name itself is refused")
 def test_elsewhere_only_a_folder_for_others_is_refused(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert real_path("aux.csv") == os.path.realpath("aux.csv")
+    assert files.real_path("aux.csv") == os.path.realpath("aux.csv")
     wrong = pytest.raises(GenevaError, match=r'"aux\.csv": Windows reserves the name "aux"')
     with wrong, filling_folder("shop", [Entry("aux.csv", "points")]):
         pass
     assert not os.path.exists("shop")
+
+
+def test_every_file_and_folder_is_asked_for(tmp_path, monkeypatch):
+    """A file, one that grows, and a folder of an export, as on Windows."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(files, "require_possible", partial(require_possible, platform="win32"))
+    with pytest.raises(GenevaError, match='"nul" for a device'):
+        files.write("nul.csv", ["a text"])
+    with pytest.raises(GenevaError, match='"aux" for a device'):
+        GrowingFile("aux.csv", "a,b\n", "request", True)
+    with pytest.raises(GenevaError, match='"con" for a device'), filling_folder("con", []):
+        pass
+    assert os.listdir() == []

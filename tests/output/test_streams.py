@@ -197,7 +197,7 @@ LINES = {
 }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("line", LINES)
 @pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
 def test_files_on_standard_output_are_utf8(line, encoding):

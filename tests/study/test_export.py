@@ -1,6 +1,7 @@
 """`geneva export`: the files of each trade, all or none, and no file of a person replaced."""
 
 import csv
+import shutil
 
 import ezdxf
 import pytest
@@ -8,6 +9,7 @@ import repo
 import trimesh
 from typer.testing import CliRunner
 
+from geneva_cli import load
 from geneva_cli.cli.app import app
 from geneva_cli.study import export
 
@@ -38,7 +40,7 @@ def test_the_files_of_a_laser(spec, tmp_path):
     names = {f"{name}-1x-3mm.dxf" for name in cut}
     written = bytes_of(tmp_path / "out")
     assert set(written) == {*names, "sheet.pdf", "parts.csv", "spec.toml", "contents.csv"}
-    with (tmp_path / "out" / "contents.csv").open(newline="") as file:
+    with (tmp_path / "out" / "contents.csv").open(encoding="utf-8", newline="") as file:
         listed = {row["file"] for row in csv.DictReader(file)}
     assert listed == set(written) - {"contents.csv"}
     assert all(name in result.stdout for name in listed)
@@ -70,7 +72,7 @@ def test_what_is_printed_is_as_large_as_the_list_says(spec, tmp_path):
     settings = "--set", "size.process=print", "--set", "size.center_distance_mm=100"
     result = run(spec, "--for", "print", *settings, "-o", folder)
     assert (result.exit_code, result.stderr) == (0, "")
-    with (folder / "parts.csv").open(newline="") as file:
+    with (folder / "parts.csv").open(encoding="utf-8", newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["row"] == "part"]
     meshes = [path for path in folder.iterdir() if path.suffix == ".stl"]
     assert len(meshes) == len(rows)
@@ -121,3 +123,15 @@ def test_refused(spec, tmp_path):
     assert jams.exit_code == 1
     assert "--force writes it anyway" in jams.stderr
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "own"), [("law.csv", "law.csv"), ("Parts.csv", "points-Parts.csv")]
+)
+def test_points_take_the_name_of_no_other_file(name, own, tmp_path):
+    """Nor of one that Windows and macOS take for the same."""
+    text = (repo.DESIGNS / "table-law.toml").read_text(encoding="utf-8")
+    (tmp_path / "spec.toml").write_text(text.replace("table-law.csv", name), encoding="utf-8")
+    shutil.copy(repo.DESIGNS / "table-law.csv", tmp_path / name)
+    files = export._spec_files(load(str(tmp_path / "spec.toml")), {"parts.csv"})
+    assert [file.name for file in files] == [own, "spec.toml"]

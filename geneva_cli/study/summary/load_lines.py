@@ -46,6 +46,7 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
             if there.text not in own:
                 yield there._replace(label=f"{there.label}, backwards")
     yield from flywheel_line(design)
+    yield from chosen_lines(design.chosen_by_load, design.spec.path)
 
 
 def flywheel_line(design: Design) -> Iterator[SummaryLine]:
@@ -57,7 +58,6 @@ def flywheel_line(design: Design) -> Iterator[SummaryLine]:
         text = f"{measured(whole, 'kg m²')} on the input for a speed variation of {variation}"
         text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
         yield SummaryLine("flywheel", text)
-    yield from chosen_lines(design.chosen_by_load, design.spec.path)
 
 
 def _brake_line(design: Design) -> SummaryLine:
