@@ -448,10 +448,9 @@ class Design:
         )
 
         if self.is_drawn:
-            if turns is not None or at_deg is not None:
-                option = "--at" if turns is None else "--turns"
-                raise GenevaError(f"{option}: a drawing's motion is that of one turn; leave it out")
-            own: Table = self._of_drawing("motion", samples)
+            if turns is not None:
+                raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
+            own: Table = self._of_drawing("motion", samples, at_deg)
             return own
         if at_deg is not None:
             return angles_table(self.mechanism, at_deg)
