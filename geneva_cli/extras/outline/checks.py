@@ -11,6 +11,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import DrawnMachine
+from geneva_cli.extras.outline.slack import least_slack_mm, most_mm
 from geneva_cli.extras.outline.turning import (
     HELD_MIDDLE,
     LOOSE,
@@ -35,7 +36,8 @@ def checks(mechanism: Mechanism) -> list[Check]:
     Raises GenevaError for a drawing that is no outline.
     """
     result = turned(mechanism)
-    rows = [_turns(result, mechanism), _hold(result, mechanism), *_rests(result, mechanism)]
+    rows = [_turns(result, mechanism), *_slack(result), _hold(result, mechanism)]
+    rows += _rests(result, mechanism)
     return [*rows, *_entry(result, mechanism), *_drift(result, mechanism)]
 
 
@@ -81,6 +83,23 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
         )
         return Check("turns", 0.0, "at least", float(z), False, why)
     return Check("turns", float(z), "at least", float(z), True, _summary(result, mechanism))
+
+
+def _slack(result: Turned) -> Iterator[Check]:
+    """Check the least slack with which the wheel turns; a wheel that finds no slot has none."""
+    machine = result.machine
+    is_missed = result.rest.is_free and not any(sense.jam for sense in result.senses)
+    if is_missed and not result.has_indexed:
+        return
+    value, given = least_slack_mm(result), machine.free.slack
+    if value is None:
+        why = f"it would not turn with {most_mm(machine):.3g} mm less on every face either"
+        yield Check("turning_slack_mm", None, "at most", given, False, why)
+    elif value > given:
+        why = f"it would turn with {value:.2g} mm less on every face of the wheel or of the crank"
+        yield Check("turning_slack_mm", value, "at most", given, False, why)
+    else:
+        yield Check("turning_slack_mm", value, "at most", given, True)
 
 
 def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:

@@ -126,6 +126,24 @@ def test_a_wheel_that_jams_says_where(tmp_path):
         _ = design.peaks_table
 
 
+@pytest.mark.parametrize(("half", "needed"), [(2.97, 0.03), (3.0, 1e-6)])
+def test_a_slot_that_is_too_narrow_says_by_how_much(half, needed, tmp_path):
+    """A roller of 3 mm in a slot of twice 2.97 mm overlaps each wall by 0.03 mm."""
+    file = written(tmp_path, drawn_wheel(6, 30.0, half, math.hypot(60.0 * math.sqrt(0.75), 3.0)))
+    design = spec(tmp_path, file, 'held_by = "pin"')
+    slack = next(check for check in design.checks if check.name == "turning_slack_mm")
+    assert needed <= slack.value * (1.0 + 1e-9)
+    assert slack.value <= 1.02 * needed
+    assert slack.passes == (half == 3.0)
+
+
+def test_a_rim_that_is_too_short_needs_more_than_slack(tmp_path):
+    design = spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 33.0)), 'held_by = "pin"')
+    slack = next(check for check in design.checks if check.name == "turning_slack_mm")
+    assert (slack.value, slack.passes) == (None, False)
+    assert "would not turn with 1.2 mm less" in slack.why
+
+
 def test_an_impact_is_told_with_the_rim_that_would_avoid_it(tmp_path):
     file = written(tmp_path, drawn_wheel(6, 30.0, 3.25, 40.0))
     design = spec(tmp_path, file, 'held_by = "detent"')
