@@ -174,7 +174,7 @@ EXAMPLES_OF = tomllib.loads((repo.ROOT / "tests/cli/examples.toml").read_text(en
 
 # Shown by points of a file, a value that is null without a word, a body on a carousel, which no
 # design has off its axis, and drawings.
-WITHOUT_RUN = {"rounded-points", "not-known", "unbalance-windup", "outline-units"}
+WITHOUT_RUN = {"rounded-points", "not-known", "unbalance-windup", "outline-units", "ideal-machine"}
 WARNINGS = [e for e in entries() if e.group == "warning" and e.names[0] not in WITHOUT_RUN]
 
 # A missing proof of the gap does not fail. The others need drawings: tests/extras/outline has them.

@@ -294,6 +294,40 @@ def test_a_machine_as_built_is_struck_where_its_parts_meet(tmp_path):
     assert math.degrees(turn.pushes[0].begin) == pytest.approx(-53.482, abs=1e-3)
 
 
+def test_what_takes_the_ideal_machine_says_so(tmp_path):
+    file = written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0))
+    design = spec(tmp_path, file, 'held_by = "pin"').with_("load.inertia_kgm2", 0.01)
+    told = (
+        design.warnings,
+        design.loads_table.to_dict()["warnings"],
+        design.vibration(5.0).to_dict()["warnings"],
+        design.report.table.to_dict()["warnings"],
+    )
+    (note,) = design.ideal_notes
+    assert all(note in [str(text) for text in notes] for notes in told)
+    assert note not in design.check_warnings
+    plain = Design.of(design.spec.replace(outline=type(design.spec.outline)()))
+    assert design.loads_table.to_dict()["pin_force_N.max"] == plain.loads["pin_force_N"].max
+    assert not plain.ideal_notes
+    for ask in (design.tolerance, design.tolerance_histogram):
+        with pytest.raises(GenevaError, match="our own parts, which the drawings"):
+            ask()
+
+
+@pytest.mark.parametrize(
+    ("command", "status"), [("compare", 0), ("plot", 0), ("export", 2), ("tolerance", 2)]
+)
+def test_commands_say_what_they_do_with_drawings(command, status, tmp_path):
+    spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0)))
+    options = {"export": ["-o", str(tmp_path / "out")], "plot": ["--pick", "velocity"]}
+    words = [command, str(tmp_path / "spec.toml"), *options.get(command, [])]
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == status
+    wanted = "[ideal-machine]" if status == 0 else "leave out [outline]"
+    assert wanted in result.stderr
+    assert not (tmp_path / "out").exists()
+
+
 def test_a_drawing_is_named_by_options_too(tmp_path):
     file = written(tmp_path, drawn_wheel(6, 30.0, 3.25, 33.0))
     (tmp_path / "spec.toml").write_text(PLAIN.format(wheel='held_by = "pin"'))
