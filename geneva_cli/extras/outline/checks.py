@@ -21,9 +21,14 @@ from geneva_cli.extras.outline.turning import (
     impacts,
     turned,
 )
+from geneva_cli.extras.outline.walls import smallest_wall
+from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import shown
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
+from geneva_cli.parts.turn.free_ranges import one_sector
+from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.verdict.checks.check import Check, compared
 
 ROUNDING_DEG = 1e-3  # a smaller play comes from the slack
@@ -37,7 +42,7 @@ def checks(mechanism: Mechanism) -> list[Check]:
     """
     result = turned(mechanism)
     rows = [_turns(result, mechanism), *_slack(result), _hold(result, mechanism)]
-    rows += _rests(result, mechanism)
+    rows += [*_rests(result, mechanism), *_walls(result.machine)]
     return [*rows, *_entry(result, mechanism), *_drift(result, mechanism)]
 
 
@@ -199,6 +204,23 @@ def _rests(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
         text += f", and may stand between {math.degrees(low):.5g} and {math.degrees(high):.5g}°"
     must_be = "above" if put_back else "at least"
     yield Check("turning_rests_deg", value, must_be, limit, ok, "" if ok else text)
+
+
+def _walls(machine: DrawnMachine) -> Iterator[Check]:
+    """Check the smallest wall of a drawn wheel; an internal one without its ring has none."""
+    spec, place = machine.assembly.mechanism.spec, machine.assembly
+    if spec.outline.wheel is None or (place.sign < 0.0 and len(machine.wheel) == 1):
+        return
+    outline = Polyarc(machine.wheel)
+    sector = one_sector(outline, math.tau / spec.wheel.z, machine.free.slack)
+    wall = smallest_wall(machine.wheel, sector)
+    if wall is None:
+        return
+    least = wall_min(spec.size, place.L)
+    passes = keeps(wall.thickness, "at least", least)
+    start, end = (shown((z.real, z.imag)) for z in (wall.start, wall.end))
+    why = "" if passes else f"thinnest from {start} to {end}"
+    yield Check("wall_mm", wall.thickness, "at least", least, passes, why)
 
 
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
