@@ -19,10 +19,10 @@ def test_walls_of_plain_wheels():
     bore = with_material_left(disc(0.0, 0.0, 20.0), False)
     assert smallest_wall([wheel, bore]).thickness == pytest.approx(30.0 - 3.25 - 20.0, abs=1e-9)
     horned = drawn_wheel(6, 30.0, 3.25, 45.0, (60.0, 22.0))
-    mouth = complex(math.sqrt(45.0**2 - 3.25**2), 3.25)
-    recess = 60.0 * complex(math.cos(math.pi / 6.0), math.sin(math.pi / 6.0))
-    found = smallest_wall([horned])
-    assert found.thickness == pytest.approx(abs(mouth - recess) - 22.0, abs=1e-9)
+    # from the recess's corner on the rim to the side of the slot
+    opening = math.acos((60.0**2 + 45.0**2 - 22.0**2) / (2.0 * 60.0 * 45.0))
+    horn = 45.0 * math.sin(math.pi / 6.0 - opening) - 3.25
+    assert smallest_wall([horned]).thickness == pytest.approx(horn, abs=1e-9)
     near = drawn_wheel(4, 20.0, 3.0, 45.0, (60.0, 38.0))  # the recess comes close to a slot's side
     least = 60.0 * math.sin(math.pi / 4.0) - 38.0 - 3.0
     assert smallest_wall([near]).thickness == pytest.approx(least, abs=1e-9)
