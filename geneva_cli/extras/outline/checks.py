@@ -10,6 +10,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.extras.outline.contact import contacts
+from geneva_cli.extras.outline.impact_force import hardest, strike_text
 from geneva_cli.extras.outline.machine import DrawnMachine
 from geneva_cli.extras.outline.slack import least_slack_mm, most_mm
 from geneva_cli.extras.outline.turning import (
@@ -18,7 +19,7 @@ from geneva_cli.extras.outline.turning import (
     Impact,
     SenseResult,
     Turned,
-    impacts,
+    hardest_impact,
     turned,
 )
 from geneva_cli.extras.outline.walls import smallest_wall
@@ -53,13 +54,12 @@ def as_built(mechanism: Mechanism) -> Check:
     """
     result = turned(mechanism)
     check = _turns(result, mechanism)
-    every = impacts(result)
-    if not (check.passes and every):
+    struck = hardest(mechanism, result)
+    if not (check.passes and struck):
         return check
-    worst = max(every, key=lambda one: abs(one.velocity))
-    at = _shown_deg(result.machine, worst.crank)
-    text = f"roller, clearance and disc strike the wheel with {abs(worst.velocity):.4g} of the "
-    return check._replace(why=f"{text}input's speed at {at:.5g}°; {check.why}")
+    text = f"roller, clearance and disc strike the wheel with {abs(struck.jump):.4g} of the "
+    text += f"input's speed at {struck.at_deg:.5g}°{strike_text(struck)}"
+    return check._replace(why=f"{text}; {check.why}")
 
 
 def warnings(mechanism: Mechanism) -> list[Notice]:
@@ -225,14 +225,16 @@ def _walls(machine: DrawnMachine) -> Iterator[Check]:
 
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check the velocity with which the wheel is set in motion."""
-    every = impacts(result)
-    if not every:
+    worst = hardest_impact(result)
+    if worst is None:
         return
-    worst = max(every, key=lambda one: abs(one.velocity))
     limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
     at = _shown_deg(result.machine, worst.crank)
     row = compared("entry_velocity_max", abs(worst.velocity), "at most", limit, at)
-    yield row if row.passes else row._replace(why=_ideal_text(result, mechanism, worst))
+    struck = hardest(mechanism, result)
+    assert struck is not None
+    text = f"{_ideal_text(result, mechanism, worst)}{strike_text(struck)}"
+    yield row if row.passes else row._replace(why=text)
 
 
 def _ideal_text(result: Turned, mechanism: Mechanism, worst: Impact) -> str:

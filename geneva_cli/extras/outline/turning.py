@@ -22,6 +22,7 @@ LATE = 1e-3  # radians: a push that moves the wheel less is not counted as an im
 LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
 HELD_MIDDLE = ("detent", "pin")  # they put the wheel back to the middle of its dwell
 SENSES = (1, -1)
+JUST = 1e-12  # radians after a push begins
 
 
 class Impact(NamedTuple):
@@ -172,6 +173,12 @@ def impacts(result: Turned) -> list[Impact]:
     return out
 
 
+def hardest_impact(result: Turned) -> Impact | None:
+    """Return the hardest impact, the one forwards of two that are equal; None without any."""
+    every = impacts(result)
+    return max(every, key=lambda one: (round(abs(one.velocity), 9), one.way), default=None)
+
+
 def _impact(machine: DrawnMachine, push: Push, way: int) -> Impact:
     at = after(push, way)
     return Impact(float(rates(machine, at)[1][0]), push.begin, push.begin_wheel, way)
@@ -179,7 +186,7 @@ def _impact(machine: DrawnMachine, push: Push, way: int) -> Impact:
 
 def after(push: Push, way: int) -> tuple[float, float]:
     """Return crank and wheel angles just after a push begins."""
-    return push.begin + way * 1e-12, push.begin_wheel
+    return push.begin + way * JUST, push.begin_wheel
 
 
 def rates(machine: DrawnMachine, at: tuple[float, float]) -> tuple[np.ndarray, ...]:

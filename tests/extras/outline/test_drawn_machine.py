@@ -20,7 +20,9 @@ from geneva_cli.extras.outline.pictures import drawn_scene
 from geneva_cli.extras.outline.turning import impacts, turned
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.geometry.sheet import Drawing
+from geneva_cli.loads.strength.pin import stiffness_N_mm
 from geneva_cli.output import draw
+from geneva_cli.spec.workshops import Stock
 
 PLAIN = """[wheel]
 z = 6
@@ -151,6 +153,26 @@ def test_an_impact_is_told_with_the_rim_that_would_avoid_it(tmp_path):
     assert entry.value == pytest.approx(1.16207, abs=1e-4)
     assert abs(entry.at_deg) == pytest.approx(41.332, abs=1e-3)
     assert "rim is at 40 mm, and must reach 52.05" in entry.why  # the root of L² cos² b + r²
+
+
+def test_an_impact_has_a_force_where_an_inertia_is_given(tmp_path):
+    """The moment is I dw; pin and wall store I dw² / 2 under the force, by Palmgren's numbers."""
+    file = written(tmp_path, drawn_wheel(6, 30.0, 3.25, 40.0))
+    plain = spec(tmp_path, file, 'held_by = "detent"')
+    assert plain.peaks_table["impact.force_N"] is None
+    heavy = plain.with_("load.inertia_kgm2", 0.01).with_("size.face_width_mm", 6.0)
+    heavy = heavy.with_("size.pin_mm", 3.0)
+    found, w = heavy.peaks_table, math.tau  # 60 rpm
+    dw = found["impact.jump"] * w
+    assert found["impact.jump"] == pytest.approx(1.16207, abs=1e-5)
+    assert found["impact.moment_Nms"] == pytest.approx(0.01 * dw, rel=1e-12)
+    force = found["impact.force_N"]
+    bend = 1.0 / stiffness_N_mm(heavy.spec.size, 6.0, 3.0, Stock().youngs_modulus_GPa)
+    press = 3.84e-5 / 6.0**0.8
+    stored = press * force**1.9 * 0.9 / 1.9 + 0.5 * bend * force**2
+    assert stored == pytest.approx(0.5 * 0.01 * dw**2 * 1e3, rel=1e-6)
+    entry = next(c for c in heavy.checks if c.name == "entry_velocity_max")
+    assert f"the roller strikes it with {force:.4g} N" in entry.why
 
 
 def test_without_a_lock_or_detent_nothing_holds(tmp_path):
