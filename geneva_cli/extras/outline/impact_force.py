@@ -41,7 +41,7 @@ def hardest(mechanism: Mechanism, result: Turned) -> Struck | None:
         return None
     machine = result.machine
     at_deg = machine.assembly.to_input(math.degrees(worst.crank))
-    rate = float(crank_jet(mechanism, np.array([at_deg]))[0].c[1][0])
+    rate = np.ravel(crank_jet(mechanism, np.array([at_deg]))[0].c[1]).item(0)
     jump = worst.velocity * rate
     shown_deg = machine.assembly.shown_deg(math.degrees(worst.crank))
     moment = float(np.ravel(impulse_Nms(mechanism, np.array([[abs(jump)]])))[0])
