@@ -41,6 +41,12 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Tip | None:
     depth = abs(side) - width
     if not width or depth >= recess:
         return None
+    if depth <= 0.0:
+        raise GenevaError(
+            f"horn_tip_mm = {width:g}: the horns are nowhere so thick: below {abs(side):g} their "
+            "tips end before the middle of a recess; use a smaller tip",
+            ("size", "horn_tip_mm"),
+        )
     at = foot - math.sqrt(recess**2 - depth * depth)
     if at >= long:
         return None
