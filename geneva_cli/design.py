@@ -281,12 +281,17 @@ class Design:
     def chosen(self) -> dict[str, Chosen]:
         """Every size that a rule or the load chose, by its key; ``geneva size`` writes them.
 
+        Raises GenevaError, naming the key, for sizes that leave no wheel or no crank.
+
         >>> Design(External(6)).chosen["size.pin_mm"]
         Chosen(value=5.0, why='default r')
         """
         from geneva_cli.parts.chosen import chosen
+        from geneva_cli.parts.detail_sizes import detail_sizes
 
-        return chosen(self.mechanism)
+        if self.spec.has_parts:
+            _ = self.parts.built
+        return chosen(self.mechanism, detail_sizes(self.mechanism))
 
     @answer
     def sized(self) -> Design:
@@ -443,10 +448,9 @@ class Design:
         )
 
         if self.is_drawn:
-            if turns is not None or at_deg is not None:
-                option = "--at" if turns is None else "--turns"
-                raise GenevaError(f"{option}: a drawing's motion is that of one turn; leave it out")
-            own: Table = self._of_drawing("motion", samples)
+            if turns is not None:
+                raise GenevaError("--turns: a drawing's motion is that of one turn; leave it out")
+            own: Table = self._of_drawing("motion", samples, at_deg)
             return own
         if at_deg is not None:
             return angles_table(self.mechanism, at_deg)

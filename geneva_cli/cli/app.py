@@ -79,12 +79,12 @@ class LazyGroup(PlainValues, TyperGroup):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the options before the command; a wrong one becomes a line and an exit code."""
-        shows_help = not args
         if NO_PAGER in args:  # before or behind the command
             from geneva_cli.output.terminal import pager
 
             pager.is_wanted = False
             args = [word for word in args if word != NO_PAGER]
+        shows_help = not args
         try:
             return super().parse_args(ctx, args)
         except USAGE as error:

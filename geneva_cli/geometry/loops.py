@@ -60,7 +60,7 @@ def shown(point: Point) -> str:
     >>> shown((12.0, -0.33333))
     '(12, -0.3333)'
     """
-    x, y = (f"{v:.6f}"[:-2].rstrip("0").rstrip(".") for v in point)
+    x, y = (f"{v:.4f}".rstrip("0").rstrip(".") for v in point)
     return f"({x}, {y})".replace("-0,", "0,").replace("-0)", "0)")
 
 

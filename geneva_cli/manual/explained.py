@@ -28,13 +28,10 @@ class Entry(NamedTuple):
     page: str
     names: tuple[str, ...]
     meaning: str
-    why: str = ""  # those of entries that were not shortened yet
     formula: str = ""
     unit: str = ""
     source: str = ""
     to_do: str = ""
-    bad: str = ""  # a command that shows the warning or the check that fails
-    good: str = ""  # the command after the repair
     see: str = ""  # links to other pages
 
     @property

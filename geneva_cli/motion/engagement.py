@@ -392,9 +392,9 @@ class Engagement(Batchable):
     def gained(self) -> Number:
         """Wheel angle beyond its next rest at which the roller leaves the rim, radians.
 
-        It is 0 but on a crank as built; negative where the roller leaves before that rest.
+        It is NaN but on a crank as built; negative where the roller leaves before that rest.
         """
-        return 0.0 if self.built is None else self.built.gained
+        return math.nan if self.built is None else self.built.gained
 
     def end_deg(self, end: float) -> float:
         """Input angle at entry, where ``end`` is -1, or at exit, where it is 1."""

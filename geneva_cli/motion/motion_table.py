@@ -96,6 +96,15 @@ def turns_table(mechanism: Mechanism, samples: int, count: int, knots: Array) ->
     return Table(motion_columns(mechanism), [np.concatenate(c) for c in zip(*columns, strict=True)])
 
 
+def checked_angles(at_deg: Sequence[float]) -> Array:
+    """Input angles, degrees. Raises GenevaError for no number, or more than 1000 turns away."""
+    places: Array = np.array([float(x) for x in at_deg], dtype=np.float64)
+    most = 360_000.0  # degrees; farther away they lose their digits
+    if not len(places) or not (abs(places) <= most).all():
+        raise GenevaError(f"input angles must be numbers of at most {most:g} degrees")
+    return places
+
+
 def angles_table(mechanism: Mechanism, at_deg: Sequence[float]) -> Table:
     """Rows as of ``motion_table`` at input angles from mid-motion, degrees, in their order.
 
@@ -103,10 +112,7 @@ def angles_table(mechanism: Mechanism, at_deg: Sequence[float]) -> Table:
     before. An entry and an exit within rounding of an angle belong to it. Raises GenevaError for
     angles that are no numbers, or more than a thousand turns away.
     """
-    places: Array = np.array([float(x) for x in at_deg], dtype=np.float64)
-    most = 360_000.0  # degrees; farther away they lose their digits
-    if not len(places) or not (abs(places) <= most).all():
-        raise GenevaError(f"input angles must be numbers of at most {most:g} degrees")
+    places = checked_angles(at_deg)
     start, period = first_entry_deg(mechanism), mechanism.period_deg
     count = np.floor((places - start + SAME_INPUT_DEG) / period)
     knots = start + np.append(0.0, knots_deg(mechanism, 1))

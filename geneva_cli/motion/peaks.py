@@ -125,9 +125,9 @@ def _record(
         for end in ("entry", "exit"):
             if f"{name}_{end}" in sizes:
                 out[f"{name}.{end}"] = sizes[f"{name}_{end}"]
-    gained = max((scalar(one.gained) for one in engagements), key=abs)
+    gained = scalar(engagements[0].gained)  # all rollers leave the rim alike
     out |= {"motion_deg": engagements[0].motion_deg, "dwell_deg": dwell_deg}
-    return out | {"index_gained_deg": math.degrees(gained)}
+    return out | {"index_gained_deg": None if math.isnan(gained) else math.degrees(gained)}
 
 
 def greatest_jumps(engagements: Sequence[Engagement]) -> list[float | None]:

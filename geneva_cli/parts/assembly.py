@@ -16,6 +16,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Point
+from geneva_cli.kept import Known
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.pivots import Joint, Link
@@ -319,6 +320,7 @@ def gear_plane(mechanism: Mechanism) -> int:
     return 1 + _deepest(mechanism, _own_links(mechanism, np.zeros(1)))
 
 
+@Known
 def is_bridged(mechanism: Mechanism) -> bool:
     """Return True if a bridge bears the crank's shaft, because a link turns over its axis below."""
     spec, size, L = mechanism.spec, mechanism.spec.size, mechanism.center_distance_mm

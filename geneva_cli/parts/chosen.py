@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -41,7 +42,7 @@ NAMES = {
 class Chosen(NamedTuple):
     """A size that the spec leaves out: its value in the key's unit, and who chose it."""
 
-    value: float
+    value: float | str
     why: str
 
 
@@ -77,21 +78,26 @@ class ByLoad(NamedTuple):
             for key, one in self.sizes.items()
         }
 
-    def _was(self, key: str) -> float | None:
+    def _was(self, key: str) -> float | str | None:
         was = self.before[key].value if key in self.before else None
         return None if was == self.sizes[key].value else was
 
 
-def chosen(mechanism: Mechanism) -> dict[str, Chosen]:
+def chosen(
+    mechanism: Mechanism, details: Mapping[str, float | str] = MappingProxyType({})
+) -> dict[str, Chosen]:
     """Return every size that a rule or the load chose, by its key ``size.NAME``; mm.
 
+    ``details`` are those of ``detail_sizes``, which need the parts.
     They are in the order of the keys of ``[size]``. Written into the spec they make the same
-    machine. Hubs, walls, screws, links and teeth that follow from them alone are not among them.
+    machine. Left out are sizes that differ from place to place, as those of bolt circles and of
+    shafts of links; they follow from the others.
 
     >>> chosen(Design(External(6)).mechanism)["size.roller_radius_mm"]
     Chosen(value=5.0, why='default L/20')
     """
-    size, (values, _) = mechanism.spec.size, key_sizes(mechanism)
+    size = mechanism.spec.size
+    values = {**key_sizes(mechanism).values, **details}
     loaded, meanings = by_load(mechanism), _meanings()
     return {
         f"size.{key}": loaded.get(f"size.{key}")
@@ -120,13 +126,15 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
     return {f"size.{key}": Chosen(values[key], f"by load: {whys[key]}") for key in held}
 
 
-def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float]) -> bool:
+def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str]) -> bool:
     """Return True for a size of a part that the machine has."""
     spec, value = mechanism.spec, values[key]
+    if key == "lock_bolts" or isinstance(value, str):
+        return True
     if key in LEFT_OUT or (key in ALLOWED and spec.size.process is None):
         return False
-    if key == "center_distance_mm":  # some drives solve for it
-        return value == spec.given_distance_mm
+    if key == "center_distance_mm":  # some drives solve for it, or it follows from R
+        return value == spec.given_distance_mm and spec.size.crank_radius_mm is None
     if key == "crank_bore_mm":  # 0: the shaft ends in the arm
         return value > 0.0 or "arm_bore_mm" in values
     if key == "relief_clearance_mm":

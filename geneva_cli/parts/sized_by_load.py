@@ -249,10 +249,10 @@ def _crank_bored(
     if sizes.crank_bore:
         # a larger bore leaves no space for its default hub, of 1.5 bores
         most = min(0.6 * space, within_hub(size, "crank"))
-        through = bores_from(2.0 * sizes.crank_bore, 2.0 * most)
-        trial = first_that((bored(0.5 * d) for d in through), holds)
-        if holds(trial):
-            return trial
+        for d in bores_from(2.0 * sizes.crank_bore, 2.0 * most):
+            trial = bored(0.5 * d)
+            if holds(trial):
+                return trial
     # past links and gears the shaft may have no other way out
     if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.gears:
         return trial

@@ -280,7 +280,7 @@ def meaning(c: Check, parts: str = "") -> str:
         return f"not positively driven during {100.0 * (1.0 - value):.3g} % of the motion"
     if c.name == "hand_over_offset_mm":
         return (
-            f"the rim does not reach the roller, which first touches the wheel{where}, "
+            f"the mouth does not reach the roller, which first touches the wheel{where}, "
             f"{value:.4g} mm farther off the slot's middle than the clearance"
         )
     if c.name in ("motion_play_deg", "motion_play_mm"):

@@ -1,8 +1,8 @@
 """Velocity and acceleration of each machine in closed form, as NumPy or Numba runs it.
 
-Each function takes the varied value of ``kinds.KINDS`` and input angles (k,) in radians from
-mid-motion, and returns two arrays (k,), up to the sign of the gearing. They are written out: Numba
-compiles them as they stand. Sources: the geometry of each machine, without the program.
+Each function takes the varied value of ``kinds.KINDS``, or its ``place``, and input angles (k,) in
+radians from mid-motion. It returns two arrays (k,). They are written out, so that Numba compiles
+them as they stand. Sources: the geometry of each machine, without the program.
 """
 
 from __future__ import annotations
@@ -126,6 +126,39 @@ def geneva_pair(z: Any, x: Any) -> tuple[Any, Any]:
     g1 = l * (cosine - l) / below
     g2 = -l * (1.0 - l * l) * sine / (below * below)
     return g1 * f1, g2 * f1 * f1 + g1 * f2
+
+
+def four_bar(place: Any, x: Any) -> tuple[Any, Any]:
+    """Four slots driven by a coupler point, for the links of ``kinds.KINDS``.
+
+    ``place`` holds the coupler point's angle in degrees, the crank's angle at mid-motion in
+    radians, the wheel's axis from the crank's, mm, along the frame and across it, and the wheel's
+    sense.
+    """
+    point_deg, middle, along, across, sense = place
+    a, g, b, c = 40.0, 100.0, 90.0, 80.0
+    crank = a * np.exp(1j * (middle + x))
+    d, d1, d2 = g - crank, -1j * crank, crank  # from the crank's pin to the rocker's pivot
+    D = d.real * d.real + d.imag * d.imag
+    D1 = 2.0 * (d.real * d1.real + d.imag * d1.imag)
+    D2 = 2.0 * (a * a + d.real * d2.real + d.imag * d2.imag)
+    high, low = (b + c) * (b + c), (b - c) * (b - c)
+    N = np.sqrt((high - D) * (D - low))
+    N1 = D1 * (high + low - 2.0 * D) / (2.0 * N)
+    N2 = (0.5 * D2 * (high + low - 2.0 * D) - D1 * D1 - N1 * N1) / N
+    u = 1.0 / D
+    u1 = -D1 * u * u
+    u2 = -D2 * u * u - 2.0 * D1 * u * u1
+    m, half = (b - c) * (b + c), 0.5 / b  # the coupler's direction is k d
+    k = half * (1.0 + m * u + 1j * N * u)
+    k1 = half * (m * u1 + 1j * (N1 * u + N * u1))
+    k2 = half * (m * u2 + 1j * (N2 * u + 2.0 * N1 * u1 + N * u2))
+    w = 60.0 * np.exp(1j * np.radians(point_deg))
+    P = crank + w * k * d - (along + 1j * across)
+    P1 = 1j * crank + w * (k1 * d + k * d1)
+    P2 = -crank + w * (k2 * d + 2.0 * k1 * d1 + k * d2)
+    v, a = _turning(P.real, P.imag, P1.real, P1.imag, P2.real, P2.imag)
+    return sense * v, sense * a
 
 
 def linear(z: Any, x: Any) -> tuple[Any, Any]:

@@ -76,6 +76,18 @@ class VariedMachine(NamedTuple):
     script: Callable[[Any], Any] | None = None
     # and for velocity and acceleration of one design at angles in radians
     formula: Callable[[Any, Any], Any] | None = None
+    # what that takes in the value's place where the wheel is searched, from value and engagement
+    place: Callable[[float, Any], tuple[float, ...]] | None = None
+
+    def argument(self, value: float, engagement: Any) -> Any:
+        """What the formula takes for a value of the key."""
+        return self.place(value, engagement) if self.place else value
+
+
+def four_bar_place(point_deg: float, engagement: Any) -> tuple[float, ...]:
+    """The coupler point's angle, the crank's at mid-motion, the wheel's axis, and its sense."""
+    at = engagement.reactions
+    return point_deg, at.middle, -at.L * at.x, -at.L * at.y, at.sense
 
 
 KINDS = (
@@ -181,6 +193,8 @@ KINDS = (
         -50.0,
         -35.0,
         4_096,
+        formula=closed_forms.four_bar,
+        place=four_bar_place,
     ),
 )
 

@@ -60,10 +60,11 @@ def test_closed_forms_are_the_motions():
     for kind in KINDS:
         if kind.formula:
             value = values_of(kind, 1)[0].item()
-            moving = build(kind.spec.with_(kind.key, value)).engagements[0].motion
-            input_deg = np.linspace(moving.entry_deg, moving.exit_deg, 100)
-            theirs = kind.formula(value, np.radians(input_deg))
-            for own, other in zip(moving.derivatives(input_deg, (1, 2)), theirs, strict=True):
+            engagement = build(kind.spec.with_(kind.key, value)).engagements[0]
+            input_deg = np.linspace(engagement.entry_deg, engagement.exit_deg, 100)
+            theirs = kind.formula(kind.argument(value, engagement), np.radians(input_deg))
+            ours = engagement.motion.derivatives(input_deg, (1, 2))
+            for own, other in zip(ours, theirs, strict=True):
                 assert other == pytest.approx(own, abs=3e-14 * np.abs(own).max()), kind.name
 
 

@@ -92,10 +92,7 @@ def test_long_output_stops_in_the_pager(tmp_path):
     lines, seen = paged(tmp_path, "help", "symbols")
     assert lines == [] and len(seen) > 24 and "Symbols and conventions" in seen[0]
     assert paged(tmp_path, "help", "symbols", pager="no-such-pager")[0] == seen
-    assert paged(tmp_path, "help", "symbols", pager="head -n 2")[0] == seen[:2]
-    assert paged(tmp_path, "help", "symbols", pager="cat")[0] == seen
-    for words in (["--no-pager", "help", "symbols"], ["help", "symbols", "--no-pager"]):
-        assert paged(tmp_path, *words) == (seen, None)
+    assert paged(tmp_path, "help", "symbols", "--no-pager") == (seen, None)
     lines, seen = paged(tmp_path, "help", "symbols", TERM="dumb")
     assert len(lines) > 24 and seen is None
     assert paged(tmp_path, "table")[1] is None

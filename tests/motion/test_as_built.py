@@ -184,7 +184,7 @@ def test_index_gained() -> None:
     angle = math.degrees(math.asin(2.0 * area / (L * rim)))
     gained = design.peaks_table.to_dict()["index_gained_deg"]
     assert gained == pytest.approx(angle - 30.0, rel=1e-12)
-    assert Design(External(6)).peaks_table.to_dict()["index_gained_deg"] == 0.0
+    assert Design(External(6)).peaks_table.to_dict()["index_gained_deg"] is None
 
 
 def test_warning_of_the_impact() -> None:
@@ -247,24 +247,25 @@ def test_a_batch_has_the_numbers_of_its_designs(
             own = np.broadcast_to(ends[name], (batch.machine.designs,))[k]
             assert own == pytest.approx(math.inf if alone is None else alone, abs=1e-14)
         alone_deg = math.degrees(machine.engagements[0].gained)
+        alone_deg = math.inf if math.isnan(alone_deg) else alone_deg
         assert np.broadcast_to(gained, (batch.machine.designs,))[k] == pytest.approx(
             alone_deg, abs=1e-12
         )
 
 
 def test_tolerances_spread_the_jump_about_that_of_the_machine() -> None:
-    """Every drawn machine is one as built: the mean of their jumps by 21 x 21 single machines."""
+    """Every drawn machine is one as built: the mean of their jumps by 11 x 11 single machines."""
     size = Size(center_distance_mm=100.0, crank_radius_mm=53.0)
     tolerance = Tolerance(center_distance_mm=0.2, crank_radius_mm=0.3)
-    row = Design(External(6), size=size, tolerance=tolerance).tolerance(16384).to_dict()
-    places = np.linspace(-1.0, 1.0, 22)[:-1] + 1.0 / 21.0  # middles of equal fractions
+    row = Design(External(6), size=size, tolerance=tolerance).tolerance(8192).to_dict()
+    places = np.linspace(-1.0, 1.0, 12)[:-1] + 1.0 / 11.0  # middles of equal fractions
     each = [
         built(External(6), 100 + 0.2 * u, 53 + 0.3 * v).mechanism.engagements[0].jumps[0]
         for u in places
         for v in places
     ]
-    assert row["entry_jump.mean"] == pytest.approx(np.mean(each), abs=2e-5)
-    assert row["entry_jump.std"] == pytest.approx(np.std(each), rel=5e-3)
+    assert row["entry_jump.mean"] == pytest.approx(np.mean(each), abs=5e-5)
+    assert row["entry_jump.std"] == pytest.approx(np.std(each), rel=8e-3)
     ends = [built(External(6), 99.8, 53.3), built(External(6), 100.2, 52.7)]
     assert row["entry_jump.worst"] == pytest.approx(
         max(one.mechanism.engagements[0].jumps[0] for one in ends), rel=1e-12

@@ -145,3 +145,11 @@ def test_a_rim_without_a_distance_names_the_distance_whose_mouth_it_is() -> None
     assert "with 70.4367 the roller" in text
     by_radius = Design(External(6), size=Size(wheel_radius_mm=61.0, crank_radius_mm=35.0))
     assert not by_radius.motion_warnings
+
+
+def test_a_sized_spec_keeps_the_crank_radius_alone() -> None:
+    """With both keys a later change of z would make a machine as built."""
+    sized = Design(External(6), size=Size(crank_radius_mm=R)).sized
+    assert sized.spec.size.center_distance_mm is None
+    assert sized.spec.size.roller_radius_mm == 3.0
+    assert sized.mechanism.center_distance_mm == pytest.approx(60.0, rel=1e-15)

@@ -57,8 +57,8 @@ def test_a_rim_that_is_too_small_is_hit(rim, index, at_deg, velocity):
     forwards, backwards = own.turn(-math.pi / 6, 1, 1), own.turn(math.pi / 6, 1, -1)
     assert forwards.jam is None
     assert backwards.jam is None
-    assert DEG(forwards.index) == pytest.approx(index, abs=1e-3)
-    assert backwards.index == pytest.approx(-forwards.index, abs=1e-9)
+    assert DEG(forwards.gained) == pytest.approx(index, abs=1e-3)
+    assert backwards.gained == pytest.approx(-forwards.gained, abs=1e-9)
     (push,) = forwards.pushes
     first, rate = meets(rim, 1.0)
     assert DEG(push.begin) == pytest.approx(at_deg, abs=1e-3)
@@ -119,7 +119,7 @@ def overlaps(wheel, at, centre):
 
 @pytest.mark.parametrize("rim", [36.0, 45.0])
 def test_polygons_that_are_pushed_go_as_far(rim):
-    index = DEG(turner(rim).turn(-math.pi / 6).index)
+    index = DEG(turner(rim).turn(-math.pi / 6).gained)
     assert pushed_index(rim, -30.0) == pytest.approx(index, abs=0.02)
 
 

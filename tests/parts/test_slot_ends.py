@@ -211,7 +211,6 @@ def test_a_roller_meets_a_rounded_mouth(own: Gearing, error: float) -> None:
         (wheel(lock_radius_mm=0.0, horn_tip_mm=1.0), "without a locking disc"),
         (wheel(mouth_radius_mm=8.0), "no space for this rounding"),
         (wheel(horn_tip_mm=30.0), "more than half of the slots"),
-        (wheel(horn_tip_mm=60.0), "nowhere so thick"),
         (
             Design(External(Z), motion=Motion(Cycloidal()), size=Size(mouth_radius_mm=1.0)),
             "for straight slots",

@@ -174,7 +174,7 @@ def test_a_sweep_says_that_each_row_has_its_own_sizes(turret):
 
 def test_the_table_and_the_file(turret):
     table = run("size", "turret.toml")
-    assert table.stdout.startswith("Turret: 11 sizes chosen, 5 of them by the load\n")
+    assert table.stdout.startswith("Turret: 16 sizes chosen, 5 of them by the load\n")
     tree = json.loads(run("size", "turret.toml", "--format", "json").stdout)
     assert list(tree) == ["spec", "title", "rows"]
     assert all(list(row) == ["key", "value", "why"] for row in tree["rows"])
@@ -193,7 +193,6 @@ def test_the_table_and_the_file(turret):
     assert run("size", "fast.toml").stdout == "Turret: no size to choose\n"
 
 
-@pytest.mark.long
 def test_a_text_without_lines_of_its_tables_is_written_anew(turret):
     repo.put("flat.toml", "wheel = {z = 6}\nsize = {center_distance_mm = 80}\n")
     again = run("size", "flat.toml", "-o", "again.toml")
@@ -204,6 +203,23 @@ def test_a_text_without_lines_of_its_tables_is_written_anew(turret):
     )
 
 
+def test_what_cannot_be_sized_is_refused_at_its_line(turret):
+    repo.put("wide.toml", "[wheel]\nz = 6\n[size]\nwheel_bore_mm = 190\n")
+    wide = run("size", "wide.toml", "-o", "sized.toml")
+    assert wide.exit_code == 2
+    assert wide.stderr.startswith("wide.toml:4: wheel_bore_mm = 190: the slots reach down to ")
+    picture = run("size", "turret.toml", "-o", "sizes.svg")
+    assert picture.exit_code == 2 and ".toml" in picture.stderr
+
+
+def test_a_distance_that_a_crank_radius_gives_is_not_chosen():
+    spec = Design(External(6)).with_("size.crank_radius_mm", 40.0)
+    assert "size.center_distance_mm" not in spec.chosen
+    assert math.isclose(spec.sized.mechanism.center_distance_mm, 80.0)
+    assert Design(External(6)).chosen["size.center_distance_mm"].value == 100.0
+
+
+@pytest.mark.long
 def test_exported_specs_have_the_sizes_of_the_parts_beside_them(turret):
     assert run("export", "turret.toml", "--for", "laser", "-o", "shop").exit_code == 0
     exported = load("shop/spec.toml")

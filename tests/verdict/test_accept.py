@@ -20,8 +20,10 @@ from geneva_cli.spec.schema import fields
 SPEC = """\
 [wheel]
 z = 30
+held_by = "brake"
 [size]
 roller_radius_mm = 1.5
+lock_radius_mm = 0
 slot_clearance_mm = 0.5
 [accept]
 many-slots = "a dial of 30 stations"
@@ -95,9 +97,9 @@ def test_an_accepted_warning_is_copied_with_its_reason() -> None:
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ('many-slot = "agreed"', 'dial.toml:7: unknown key many-slot in [accept] (did you mean "m'),
-        ('many-slots = " "', "dial.toml:7: many-slots needs the reason for accepting it"),
-        ("many-slots = 3", "dial.toml:7: many-slots must be text, not 3"),
+        ('many-slot = "agreed"', 'dial.toml:9: unknown key many-slot in [accept] (did you mean "m'),
+        ('many-slots = " "', "dial.toml:9: many-slots needs the reason for accepting it"),
+        ("many-slots = 3", "dial.toml:9: many-slots must be text, not 3"),
     ],
 )
 def test_bad_names_and_reasons_have_their_line(spec: str, line: str, message: str) -> None:

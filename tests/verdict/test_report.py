@@ -82,7 +82,7 @@ def test_tolerances_say_what_is_not_known(tmp_path: Path) -> None:
     (said, _) = found["warnings"]
     assert said.startswith("dwell_position is not known: no drawn locking disc")
     page = tmp_path / "page.md"
-    run("report", spec, "-o", str(page))
+    run("report", spec, "--full", "-o", str(page))
     assert said in page.read_text(encoding="utf-8")
 
 

@@ -5,7 +5,7 @@ import sys
 from typing import Annotated
 
 from geneva_cli.cli.options import Format, Settings, SpecPath, output_option
-from geneva_cli.errors import clean
+from geneva_cli.errors import GenevaError, clean, cut
 
 EXAMPLES = (
     "geneva size spec.toml",
@@ -41,6 +41,11 @@ def run(
         answer = of_sizes(design, table_as(output, format) == "json")
         show_answer(answer, output, format, design.spec.files)
         return
+    if output != "-" and extension != "toml":
+        raise GenevaError(
+            f'-o "{cut(output, 300)}": a spec ends in .toml, and the table of its sizes in .csv, '
+            ".json or .md"
+        )
     text, lost = sized_text(design)
     show_text(text, output, design.spec.files)
     notes = [f"note: {lost}"] if lost else []

@@ -74,7 +74,7 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
         why = "; ".join(dict.fromkeys(_jam_text(result.machine, s) for s in result.senses if s.jam))
         return Check("turns", float(worst.passed), "at least", float(z), False, why, at)
     if not result.has_indexed:
-        index = math.degrees(worst.first.index)
+        index = math.degrees(worst.first.gained)
         why = (
             f"the crank turns, but the wheel goes on by {abs(index):.4g}° only: no roller finds a "
             "slot; check [size], wheel_turn_deg and crank_turn_deg in [outline]"
@@ -115,9 +115,9 @@ def _shown_deg(machine: DrawnMachine, crank: float) -> float:
 def _summary(result: Turned, mechanism: Mechanism) -> str:
     """What the turn gives, in words."""
     machine, turn = result.machine, result.senses[0].first
-    index = math.degrees(turn.index) / machine.slots_a_turn
+    index = math.degrees(turn.gained) / machine.slots_a_turn
     moving = turn.is_moving
-    free = np.degrees(turn.high - turn.low)
+    free = np.nan_to_num(np.degrees(turn.high - turn.low))
     rest = math.degrees(result.rest.high - result.rest.low)
     first = turn.pushes[0]
     last = max((p for p in turn.pushes if abs(p.end_wheel - p.begin_wheel) > 1e-3), default=first)

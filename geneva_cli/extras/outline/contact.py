@@ -160,7 +160,9 @@ def contacts(
             off = place - wheel[met.row]
             shift = free.period * np.round(off / free.period)
             off = np.abs(off - shift)
-            k = np.flatnonzero(off < best[met.row])
+            # an arc about the wheel's axis pushes nothing; its ends are those of other pieces too
+            is_round = met.wheel.half + met.other.half > 0.0
+            k = np.flatnonzero((off < best[met.row]) & ~is_round)
             one, rows = met.other.at(k), met.row[k]
             at = free.stops.place(one, level[k])
             touched = np.column_stack((level[k] * np.cos(at), level[k] * np.sin(at)))
@@ -173,8 +175,8 @@ def contacts(
                 best[rows[i]] = off[k[i]]
                 point[rows[i]] = level[k[i]] * np.cos(own[i]), level[k[i]] * np.sin(own[i])
                 sides[:, :, rows[i]] = ours[:, i], theirs[:, i]
-    crank, theirs = (Side(*side[:3], side[3] > 0.5) for side in sides)
-    return Contact(free.sense, free.L, crank, theirs, wheel, best < near, point)
+    crank, own_side = (Side(s[0], s[1], s[2], s[3] > 0.5) for s in sides)
+    return Contact(free.sense, free.L, crank, own_side, wheel, best < near, point)
 
 
 def _lever(ours: Array, theirs: Array, touched: Array) -> Array:

@@ -192,8 +192,8 @@ def _require_reach(wheel: Polyarc, crank: Polyarc, L: float) -> None:
     inner, rim = (float(v) for v in (levels(wheel)[0].min(), levels(wheel)[1].max()))
     if L - far > rim or L + far < inner:
         raise GenevaError(
-            f"no part reaches the other: the crank reaches {far:.6g} mm from its axis, the wheel "
-            f"lies {inner:.4g} to {rim:.6g} mm from its own, and the axes are {L:.6g} mm apart; "
-            "set center_distance_mm in [size], and check the drawings' units",
+            f"no part reaches the other. The crank reaches {far:.6g} mm from its axis, the wheel "
+            f"lies {inner:.4g} to {rim:.6g} mm from its own. The axes are {L:.6g} mm apart: set "
+            "center_distance_mm in [size], and check the drawings' units",
             ("outline",),
         )

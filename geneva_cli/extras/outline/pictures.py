@@ -10,7 +10,7 @@ import numpy as np
 from geneva_cli.design import Design
 from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import drawn_machine
-from geneva_cli.extras.outline.real_motion import at_crank, motion, steady_turn
+from geneva_cli.extras.outline.real_motion import at_crank, inside, motion, steady_turn
 from geneva_cli.extras.outline.turning import LATE, Turned, turned
 from geneva_cli.figure import Curve, Figure
 from geneva_cli.geometry.plates import placed
@@ -47,7 +47,7 @@ def drawn_scene(design: Design) -> Scene:
         rollers=(),
         pushes=tuple(_contacts(result, turn, time)),
         states=tuple(_states(turn, time, shown.turn_deg)),
-        figure=_figure(shown.figure, design.mechanism),
+        figure=_figure(shown.figure, design.mechanism, time),
     )
 
 
@@ -69,7 +69,7 @@ class _Time:
         turn = self.turn
         after = turn.crank >= self.entry - 1e-9
         order = np.concatenate((np.flatnonzero(after), np.flatnonzero(~after)))
-        value = (turn.wheel + np.where(after, 0.0, turn.index))[order]
+        value = (turn.wheel + np.where(after, 0.0, turn.gained))[order]
         at = np.array([self.at(float(x)) for x in turn.crank[order]])
         keep = np.append(np.diff(at) > 1e-6, True)
         at, value = at[keep], value[keep]
@@ -78,7 +78,8 @@ class _Time:
         pairs = rate[:-1] * rate[1:]
         mean = 2.0 * pairs / np.where(pairs > 0.0, rate[:-1] + rate[1:], 1.0)
         slope = np.concatenate((rate[:1], np.where(pairs > 0.0, mean, 0.0), rate[-1:]))
-        return Track(*(tuple(each.tolist()) for each in (at, value, slope)), turn.index)
+        knots, values, slopes = (tuple(each.tolist()) for each in (at, value, slope))
+        return Track(knots, values, slopes, turn.gained)
 
 
 def _layered(contours: tuple[Contour, ...], layer: Layer) -> tuple[Shape, ...]:
@@ -117,12 +118,16 @@ def _states(turn: LazyTurn, time: _Time, whole: float) -> Iterator[Phase]:
         yield Phase(last, whole, False, "the wheel rests")
 
 
-def _figure(figure: Figure, mechanism: Mechanism) -> Figure:
-    """The real velocity in place of all ideal curves."""
+def _figure(figure: Figure, mechanism: Mechanism, time: _Time) -> Figure:
+    """The real velocity in place of all ideal curves, with both ends of each push."""
     panel = next(panel for panel in figure.panels if panel.y.name == "velocity")
-    table = motion(mechanism, SAMPLES)
-    piece = table["input_deg"].tolist(), table["velocity"].tolist()
-    curve = Curve(panel.curves[0].number, panel.curves[0].name, (piece,))
+    ends = [time.at(x) for push in time.turn.pushes for x in inside(push)]
+    ends = [x for end in ends for x in (end - 1e-4, end, end + 1e-4)]
+    even = np.linspace(*figure.window, SAMPLES)
+    x = np.unique(np.clip(np.append(even, time.start + np.array(ends)), *figure.window))
+    rows = motion(mechanism, 2, x.tolist())
+    y = np.asarray(rows.columns[rows.names.index("velocity")])
+    curve = Curve(panel.curves[0].number, panel.curves[0].name, ((x.tolist(), y.tolist()),))
     return figure._replace(panels=(panel._replace(curves=(curve,)),), shaded=())
 
 

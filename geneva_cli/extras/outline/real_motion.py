@@ -8,6 +8,7 @@ an impact, at which the acceleration has no bound.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from geneva_cli.extras.outline.turning import LATE, LOOSE, Turned, turned
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import (
     check_samples,
+    checked_angles,
     inputs,
     motion_columns,
     rates_at_speed,
@@ -55,42 +57,43 @@ def steady_turn(result: Turned) -> LazyTurn:
     return LazyTurn(last.crank, *moved, pushes, last.jam)
 
 
-def motion(mechanism: Mechanism, samples: int) -> Table:
+def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = None) -> Table:
     """Return ``samples`` rows, evenly spaced in the input angle, over a period from the entry.
 
-    Raises GenevaError for a number of samples out of range, and if the wheel does not turn.
+    With ``at_deg`` they are at those input angles from mid-motion instead. Raises GenevaError for a
+    number of samples out of range, angles that are no numbers, and if the wheel does not turn.
     """
-    check_samples(samples)
+    if at_deg is None:
+        check_samples(samples)
+        input_deg = inputs(mechanism, samples, 0, samples)
+    else:
+        input_deg = checked_angles(at_deg)
     result = turned(mechanism)
     turn = steady_turn(result)
-    input_deg = inputs(mechanism, samples, 0, samples)
-    theta = crank_jet(mechanism, input_deg)
-    start = turn.crank[0]
-    laps = np.floor((theta.c[0] - start) / math.tau)
-    crank = theta.c[0] - math.tau * laps
-    wheel, rates = at_crank(result, turn, crank)
+    theta, whole = crank_jet(mechanism, input_deg)
+    laps = np.floor((theta.c[0] - turn.crank[0]) / math.tau)
+    wheel, rates = at_crank(result, turn, theta.c[0] - math.tau * laps)
     outer = Jet((wheel, rates[0], rates[1] / 2.0, rates[2] / 6.0))
-    psi = composed(outer, theta)
-    _, velocity, acceleration, jerk = psi.arrays()
-    # the crank's angle is within half a turn of mid-motion; whole turns add whole steps
-    turns = np.cumsum(np.concatenate(([0.0], np.diff(crank) < -math.pi)))
-    shown = np.degrees(wheel + turns * turn.index)
+    _, velocity, acceleration, jerk = composed(outer, theta).arrays()
+    shown = np.degrees(wheel + (whole + laps) * turn.gained)
     columns = [times_s(mechanism, input_deg), input_deg, shown, velocity, acceleration, jerk]
     of_velocity, of_acceleration = rates_at_speed(mechanism).values()
     columns += [velocity * of_velocity, acceleration * of_acceleration]
     return Table(motion_columns(mechanism), columns)
 
 
-def crank_jet(mechanism: Mechanism, input_deg: Array) -> Jet:
-    """Return the crank's angle from mid-motion, radians, with its derivatives by the input's."""
+def crank_jet(mechanism: Mechanism, input_deg: Array) -> tuple[Jet, Array]:
+    """Return the crank's angle, radians, with its derivatives by the input's, and whole turns.
+
+    The angle is within half a turn of mid-motion; the turns are those of the crank beside it.
+    """
     first = mechanism.engagements[0]
-    whole = 360.0 * mechanism.spec.turns
-    at = input_deg - first.mid_deg
-    at = at - whole * np.round(at / whole)
-    x, y = first.path(at, 3)
+    turn_deg = 360.0 * mechanism.spec.turns
+    whole = np.round((input_deg - first.mid_deg) / turn_deg)
+    x, y = first.path(input_deg - first.mid_deg - turn_deg * whole, 3)
     out = atan2(y, 1.0 - x) if mechanism.spec.wheel.SIGN > 0.0 else atan2(y, x - 1.0)
-    size = np.zeros(len(at))
-    return Jet([c + size for c in out.c])
+    size = np.zeros(len(input_deg))
+    return Jet([c + size for c in out.c]), whole
 
 
 def at_crank(result: Turned, turn: LazyTurn, crank: Array) -> tuple[Array, list[Array]]:
@@ -168,7 +171,7 @@ def _quantity(
     """A quantity at crank angles in pushes, by the input's angle."""
     wheel, rates = at_crank(result, turn, crank)
     input_deg = np.array([_input_deg(result, float(x)) for x in crank])
-    inner = crank_jet(mechanism, input_deg)
+    inner, _ = crank_jet(mechanism, input_deg)
     outer = Jet((wheel, rates[0], rates[1] / 2.0, rates[2] / 6.0))
     _, velocity, acceleration, jerk = composed(outer, inner).arrays()
     known = {

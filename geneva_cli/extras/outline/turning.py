@@ -15,6 +15,7 @@ from geneva_cli.parts.turn.free_ranges import Range
 from geneva_cli.parts.turn.lazy_turn import Jam, LazyTurn, Push, Turner
 
 SETTLED = 1e-9  # radians: the wheel rests where it rested a turn before
+FEW_TRIALS = 2
 TRIALS = 8  # places of rest that are tried over the free range
 HALVINGS = 10  # of the space between two of them
 LATE = 1e-3  # radians: a push that moves the wheel less is not counted as an impact
@@ -70,7 +71,7 @@ class Turned(NamedTuple):
     def has_indexed(self) -> bool:
         """True if the wheel has gone on by more than half of a step in each sense."""
         step = self.machine.step
-        return all(sense.way * sense.first.index > 0.5 * step for sense in self.senses)
+        return all(sense.way * sense.first.gained > 0.5 * step for sense in self.senses)
 
 
 @lru_cache(maxsize=4)
@@ -122,12 +123,14 @@ def _turning(
     def goes(rest: float) -> bool:
         for way in SENSES:
             turn = turner.turn(rest, 1, way, exact=False)
-            if turn.jam is not None or way * turn.index < 0.5 * machine.step:
+            if turn.jam is not None or way * turn.gained < 0.5 * machine.step:
                 return False
         return True
 
     middle = min(max(machine.rest, low), high)
-    places = np.linspace(low, high, TRIALS + 1)
+    # a lock leaves a short range; where nothing holds the wheel it may stand anywhere
+    trials = TRIALS if high - low > 0.1 * machine.step else FEW_TRIALS
+    places = np.linspace(low, high, trials + 1)
     places[0], places[-1] = low + 1e-9 * (high - low), high - 1e-9 * (high - low)
     if high - low < 1e-5:
         return (low, high) if goes(middle) else None
@@ -138,9 +141,9 @@ def _turning(
     ends = []
     for step in (-1, 1):
         i = first
-        while 0 <= i + step <= TRIALS and good[i + step]:
+        while 0 <= i + step <= trials and good[i + step]:
             i += step
-        inside, outside = float(places[i]), float(places[min(max(i + step, 0), TRIALS)])
+        inside, outside = float(places[i]), float(places[min(max(i + step, 0), trials)])
         for _ in range(HALVINGS if inside != outside else 0):
             half = 0.5 * (inside + outside)
             inside, outside = (half, outside) if goes(half) else (inside, half)

@@ -124,6 +124,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     size, r = mechanism.spec.size, mechanism.roller_radius_mm
     try:
         sizes, bore = rack_sizes(mechanism), rack_bore(mechanism)
+        arm = crank_arm(mechanism) if bore else None
     except GenevaError:  # reported by the check of the parts
         return NO_SIZES
     thick = drawn_thicknesses(size, sizes.arm)
@@ -136,8 +137,10 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         "wheel_thickness_mm": thick.wheel,
         "lock_thickness_mm": thick.lock,
         "arm_thickness_mm": thick.arm,
-        **({"arm_bore_mm": 2.0 * bore} if bore else {}),
     }
+    if arm:
+        wide = {"bore": bore, "hub": arm.hub, "eye": arm.eye}
+        known |= {f"arm_{name}_mm": 2.0 * radius for name, radius in wide.items()}
     return KeySizes(known, ())
 
 

@@ -9,6 +9,7 @@ above the wheel's lower face is a distance inwards from its outer sphere.
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -33,11 +34,13 @@ from geneva_cli.parts.sizes import (
     arm_bore,
     drawn_thicknesses,
     hole_radius,
+    hub_and_eye,
     pin_radius,
     refuse_stepped_shaft,
     refuse_wide_pin,
 )
 from geneva_cli.spec.default_sizes import Thicknesses, value_or
+from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 if TYPE_CHECKING:
@@ -119,8 +122,14 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         "lock_radius_mm": sizes.lock_mm,
         "wheel_bore_mm": 2.0 * sizes.bore_mm,
         "pin_mm": 2.0 * sizes.pin_mm,
-        **({"arm_bore_mm": 2.0 * sizes.arm_bore_mm} if sizes.arm_bore_mm else {}),
     }
+    if sizes.arm_bore_mm:
+        known["arm_bore_mm"] = 2.0 * sizes.arm_bore_mm
+        with suppress(GenevaError):  # reported by the check of the parts
+            pin, passing = hole_radius(size, sizes.pin_mm), sizes.passing_mm(sizes.opening_mm)
+            wall = wall_min(size, sizes.radius_mm)
+            hub, eye = hub_and_eye(size, wall, pin, sizes.arm_bore_mm, passing)
+            known |= {"arm_hub_mm": 2.0 * hub, "arm_eye_mm": 2.0 * eye}
     return KeySizes(known | thick, keys_by_load(mechanism, bool(sizes.recess)))
 
 

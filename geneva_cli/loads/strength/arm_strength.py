@@ -47,30 +47,31 @@ def arm_stress_MPa(dimensions: ArmDimensions, force_N: Number) -> Array:
 
     It is infinite where a hole leaves nothing of the width.
     """
-    arm = ArmDimensions(*map(np.asarray, dimensions))
+    force_N, *own = np.broadcast_arrays(force_N, *dimensions)
+    arm = ArmDimensions(*own)
     taper = (arm.hub - arm.eye) / arm.length
     with np.errstate(divide="ignore"):
         twice = np.minimum(arm.length, arm.eye / np.maximum(taper, 0.0))
     # place of each section, its half width, and half the hole in its middle
-    sections = [
+    sections = (
         *((x, arm.eye + taper * x, 0.0 * x) for x in (arm.hole, twice, arm.length - arm.bored)),
         (arm.hole, arm.eye, arm.hole),
         (arm.length, arm.hub, arm.bored),
-    ]
-    h, twist, stresses = arm.thickness, force_N * arm.offset, []
+    )
+    x, half, bore = (np.stack(each) for each in zip(*sections, strict=True))
+    h, twist = arm.thickness, force_N * arm.offset
     with np.errstate(divide="ignore", invalid="ignore"):  # nothing left; a force without a bound
-        for x, half, bore in sections:
-            width, hole = 2.0 * half, 2.0 * bore
-            left = width - hole
-            in_plane = 6.0 * force_N * x * width / (h * (width**3 - hole**3))
-            out_of_plane = 6.0 * force_N * arm.offset / (left * h * h) + force_N / (left * h)
-            # at a hole 3/2 V/(left/2 h), V being half the twist over the walls' distance
-            couple = 1.5 * twist / (0.5 * (width + hole) * left * h)
-            shear = np.where(hole > 0.0, couple, torsion_MPa(twist, left, h))
-            total = in_plane**2 + out_of_plane**2 + 3.0 * shear**2
-            root = np.sqrt(np.maximum(total**2 - 12.0 * (shear * out_of_plane) ** 2, 0.0))
-            stresses.append(np.where(left > 0.0, np.sqrt(0.5 * (total + root)), np.inf))
-    most: Array = np.max(np.broadcast_arrays(*stresses), axis=0)
+        width, hole = 2.0 * half, 2.0 * bore
+        left = width - hole
+        in_plane = 6.0 * force_N * x * width / (h * (width**3 - hole**3))
+        out_of_plane = 6.0 * force_N * arm.offset / (left * h * h) + force_N / (left * h)
+        # at a hole 3/2 V/(left/2 h), V being half the twist over the walls' distance
+        couple = 1.5 * twist / (0.5 * (width + hole) * left * h)
+        shear = np.where(hole > 0.0, couple, torsion_MPa(twist, left, h))
+        total = in_plane**2 + out_of_plane**2 + 3.0 * shear**2
+        root = np.sqrt(np.maximum(total**2 - 12.0 * (shear * out_of_plane) ** 2, 0.0))
+        stress = np.where(left > 0.0, np.sqrt(0.5 * (total + root)), np.inf)
+    most: Array = stress.max(axis=0)
     return most
 
 

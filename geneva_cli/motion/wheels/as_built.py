@@ -19,6 +19,7 @@ and has the whole jump. Radial slots rest at b on both sides.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -102,9 +103,12 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
         deepest = m.sqrt((1.0 - l - e) * (1.0 - l + e))
         mid = mid._replace(wheel=m.atan2(e, deepest) - tilt)
         skew = Skew(e, tilt, deepest, (entry, mid, exit_))
-    # the pin's direction from the wheel's axis where it leaves the rim
-    cosine = (1.0 + rim * rim - l * l) / (2.0 * rim)
-    leaves = m.acos(smaller(larger(cosine, 0.0 * l - 1.0), 0.0 * l + 1.0)) + m.asin(e / rim)
+    # the slot's direction from the wheel's axis where the pin leaves the rim, if it passes it
+    cosine, one = (1.0 + rim * rim - l * l) / (2.0 * rim), 0.0 * l + 1.0
+    passes = (cosine <= 1.0) & (rim > abs(e))
+    along = m.sqrt(larger(rim * rim - e * e, 0.0 * one))
+    leaves = m.acos(smaller(larger(cosine, -one), one)) + m.atan2(e, along)
+    leaves = choose(passes, leaves, math.nan)
     return RollerPlace(
         step,
         0.5 * (exit_.crank_deg - entry.crank_deg),
@@ -118,7 +122,7 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
 def as_derived(place: RollerPlace) -> RollerPlace:
     """A place of a crank whose R/L is what its slots need, as one of a crank as built."""
     skew, b = place.skew, place.step.b
-    built = AsBuilt(True, 0.0 * b, (skew.tilt if skew else 0.0) - b, False)
+    built = AsBuilt(True, math.nan, (skew.tilt if skew else 0.0) - b, False)
     return place._replace(closed=None, built=built)
 
 

@@ -184,7 +184,7 @@ def _length(element: ElementTree.Element, key: str) -> float:
 
 def _pieces(move: Move, frame: Affine) -> Pieces:
     if move.kind == "L":
-        p, q = map(frame, move.points)
+        p, q = (frame(z) for z in move.points)
         return [Line((p.real, p.imag), (q.real, q.imag))]
     if move.kind == "C":
         return bezier_pieces([frame(z) for z in move.points])

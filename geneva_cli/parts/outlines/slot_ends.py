@@ -41,16 +41,10 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Tip | None:
     depth = abs(side) - width
     if not width or depth >= recess:
         return None
-    if depth <= 0.0:
-        raise GenevaError(
-            f"horn_tip_mm = {width:g}: the horns are nowhere so thick: below {abs(side):g} their "
-            "tips end before the middle of a recess; use a smaller tip",
-            ("size", "horn_tip_mm"),
-        )
-    at = foot - math.sqrt(recess**2 - depth * depth)
+    at = foot - math.sqrt(max(recess**2 - depth * depth, 0.0))
     if at >= long:
         return None
-    if at <= 0.5 * long:
+    if depth <= 0.0 or at <= 0.5 * long:
         raise GenevaError(
             f"horn_tip_mm = {width:g}: the horns would lose more than half of the slots; "
             "use a smaller tip, or a smaller lock_radius_mm",

@@ -10,7 +10,7 @@ from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.held_hubs import held_hub
-from geneva_cli.parts.shafts.screws import bolt_circle
+from geneva_cli.parts.shafts.screws import BoltCircle, bolt_circle
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.spec.tables import Size
 
@@ -29,7 +29,12 @@ def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
 
 
 def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
-    """Return the holes for the dial on the wheel, evenly spaced, the first between two slots.
+    """Return the holes for the dial on the wheel, evenly spaced, the first between two slots."""
+    return dial_circle(assembly, sizes).holes
+
+
+def dial_circle(assembly: Assembly, sizes: Sizes) -> BoltCircle:
+    """Return the bolts of the dial.
 
     By default their circle is in the middle between the bore and the slots and recesses.
     """
@@ -37,7 +42,7 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
     ring = sizes.wheel_reach, sizes.slot_end
     if sizes.outer:
         ring = max(sizes.slot_end, assembly.L + sizes.recess), sizes.outer
-    return bolt_circle(size, "dial", assembly.L, ring, assembly.rests[0]).holes
+    return bolt_circle(size, "dial", assembly.L, ring, assembly.rests[0])
 
 
 def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:

@@ -165,15 +165,24 @@ def _round_mouths(
     rim: list[Segment],
     after: list[Segment],
 ) -> None:
-    """Round the corners at both ends of a rim, and of the walls of the slots beside it."""
+    """Round the corners at both ends of a rim, and of the walls of the slots beside it.
+
+    A mouth that is extended along the roller's circle runs on smoothly: its corner is at the rim.
+    """
     c, sign = sizes.mouth_radius, assembly.sign
-    before[-1:], rim[:1] = _split(rounded(_plain(before[-1]), _plain(rim[0]), c, sign))
-    first, arc, last = rounded(_plain(rim[-1]), _plain(after[0]), c, sign)
-    rim[-1:], after[:1] = [first, arc], [last]
+    if _is_extension(rim[0]):
+        rim[:2] = rounded(_plain(rim[0]), _plain(rim[1]), c, sign)
+    else:
+        before[-1], *rim[:1] = rounded(_plain(before[-1]), _plain(rim[0]), c, sign)
+    if _is_extension(rim[-1]):
+        rim[-2:] = rounded(_plain(rim[-2]), _plain(rim[-1]), c, sign)
+    else:
+        *rim[-1:], after[0] = rounded(_plain(rim[-1]), _plain(after[0]), c, sign)
 
 
-def _split(three: list[Segment]) -> tuple[list[Segment], list[Segment]]:
-    return three[:1], three[1:]
+def _is_extension(piece: Segment) -> bool:
+    """True for an arc of a mouth about the crank's axis, and not of the rim."""
+    return isinstance(piece, Arc) and math.hypot(*piece.centre) > 0.1 * piece.radius
 
 
 def _plain(segment: Segment) -> Line | Arc:

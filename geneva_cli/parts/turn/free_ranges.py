@@ -12,7 +12,7 @@ import math
 from bisect import bisect_left
 from collections.abc import Iterator
 from copy import copy
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -23,6 +23,8 @@ from geneva_cli.parts.turn.stops import Meetings, TurningStops
 SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
 BLOCK = 32  # crank angles that are computed together, as much the same pieces are near then
 FEW = 4000  # pairs of pieces that are not worth a selection
+
+Intervals: TypeAlias = tuple[Whole, Array, Array]  # rows, starts and ends
 
 
 class Range(NamedTuple):
@@ -49,11 +51,14 @@ class FreeRanges:
         wheel = wheel.subset(np.flatnonzero((high >= L - far - slack) & (low <= L + far + slack)))
         low, high = levels(crank)
         crank = crank.subset(np.flatnonzero(L - high <= levels(wheel)[1].max(initial=0.0)))
-        self.whole, self.crank, self.L, self.sense, self.slack = wheel, crank, L, sense, slack
-        sector = one_sector(wheel, pitch, slack)
-        self.period = math.tau if sector is None else pitch
+        self.crank, self.L, self.sense, self.slack = crank, L, sense, slack
+        which = one_sector(wheel, pitch, slack)
+        self.period = math.tau if which is None else pitch
+        sector = wheel if which is None else wheel.subset(which)
+        # copies of one sector, so that rounded numbers of a drawing make no difference
+        self.whole = sector.around(round(math.tau / self.period))
         self.window: tuple[float, float] | None = None
-        self._meets(wheel if sector is None else wheel.subset(sector))
+        self._meets(sector)
 
     def _meets(self, wheel: Polyarc) -> None:
         self.stops = TurningStops(wheel, self.period, self.crank, self.L, 0.0)
@@ -102,8 +107,8 @@ class FreeRanges:
                 rows.append(first + met.row)
                 starts.append(met.start)
                 ends.append(met.end)
-        every = (np.concatenate(each) for each in (rows, starts, ends))
-        return Ranges(*every, len(crank_angle), self.period)
+        intervals = np.concatenate(rows), np.concatenate(starts), np.concatenate(ends)
+        return Ranges(intervals, len(crank_angle), self.period)
 
     def meetings(self, crank_angle: Array) -> Iterator[Meetings]:
         """Yield the pairs of branches that meet at crank angles (n,), which are near each other."""
@@ -123,14 +128,16 @@ class FreeRanges:
 class Ranges:
     """The free ranges of n poses, from the intervals that are blocked in them."""
 
-    def __init__(self, row: Whole, start: Array, end: Array, count: int, period: float) -> None:
+    def __init__(self, intervals: Intervals, count: int, period: float) -> None:
         self.period = period
+        row, start, end = intervals
         shift = period * np.floor(start / period)
-        merged = union(row, start - shift - SAME, end - shift + SAME)
+        row, start, end = union(row, start - shift - SAME, end - shift + SAME)
         # with the copies a period before and after, those that cross an end of the period merge
-        row, start, end = (np.concatenate((each, each, each)) for each in merged)
-        copy = np.repeat((0.0, -period, period), len(merged[0]))
-        row, start, end = union(row, start + copy, end + copy)
+        copy = np.repeat((0.0, -period, period), len(row))
+        row = np.concatenate((row, row, row))
+        start, end = (np.concatenate((each, each, each)) + copy for each in (start, end))
+        row, start, end = union(row, start, end)
         self.ends = np.searchsorted(row, np.arange(count + 1)).tolist()
         self.low, self.high = start.tolist(), end.tolist()
 
@@ -149,7 +156,7 @@ class Ranges:
         return Range(True, before, after)
 
 
-def union(row: Whole, start: Array, end: Array) -> tuple[Whole, Array, Array]:
+def union(row: Whole, start: Array, end: Array) -> Intervals:
     """Return the union of intervals in each row: rows, starts and ends, ascending."""
     if not len(row):
         return row, start, end

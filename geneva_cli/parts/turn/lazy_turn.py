@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.parts.turn.free_ranges import FreeRanges, Range, Ranges
 
 STEPS = 1440  # positions of a turn of the crank: a quarter of a degree apart
@@ -23,6 +23,7 @@ SLOW = 4.0  # velocity of the wheel, of the crank's, up to which a step is not d
 # normal's right angle: friction stops such a push.
 STEEPEST = 30.0
 SHORTEST = 1e-10  # radians of the crank: a step that is not divided any more
+FACETED = 1e-4  # mm: outlines of short lines have a larger slack
 SAME = 1e-11  # radians of the wheel: a smaller move is rounding
 
 
@@ -45,7 +46,10 @@ class Jam(NamedTuple):
 
 
 class LazyTurn(NamedTuple):
-    """The wheel at ascending or descending crank angles (n,), radians, and its free range there."""
+    """The wheel at ascending or descending crank angles (n,), radians, and its free range there.
+
+    The range is NaN between the positions of the grid, where only pieces nearby are looked at.
+    """
 
     crank: Array
     wheel: Array
@@ -55,12 +59,12 @@ class LazyTurn(NamedTuple):
     jam: Jam | None
 
     @property
-    def index(self) -> float:
+    def gained(self) -> float:
         """How far the wheel has turned, radians."""
         return float(self.wheel[-1] - self.wheel[0]) if len(self.wheel) else 0.0
 
     @property
-    def is_moving(self) -> Array:
+    def is_moving(self) -> Mask:
         """Mask (n,) of the positions at which the wheel is pushed, or just was."""
         mask = np.zeros(len(self.crank), dtype=bool)
         for push in self.pushes:
@@ -136,8 +140,8 @@ class _Path:
         """Return the motion."""
         if self.begun is not None:
             self.pushes.append(Push(*self.begun, *self.rows[-1][:2]))
-        columns = np.array(self.rows).reshape(-1, 4).T
-        return LazyTurn(*columns, tuple(self.pushes), jam)
+        crank, wheel, low, high = np.array(self.rows).reshape(-1, 4).T
+        return LazyTurn(crank, wheel, low, high, tuple(self.pushes), jam)
 
     def to(self, crank: float, around: Callable[[float], Range]) -> None:
         """Go on to the next position of the crank."""
@@ -160,7 +164,8 @@ class _Path:
     def _first(self, good: float, bad: float, wheel: float) -> float:
         """Return the crank angle from which on the wheel is not free, just before it."""
         free = self.free.near(good, bad, wheel, SAME)
-        while abs(bad - good) > 1e-14 * math.tau:
+        # 1e-13 radians with a slack of 1e-6 mm: an event of facets is not known so closely
+        while abs(bad - good) > 1e-7 * self.free.slack:
             places = np.linspace(good, bad, PARTS + 1)
             ranges = free.at(places[1:-1])
             hit = [i for i in range(PARTS - 1) if not ranges.around(i, wheel).is_free]
@@ -170,13 +175,15 @@ class _Path:
             good, bad = float(places[i]), float(places[i + 1])
         return good
 
-    def _follow(self, crank: float, around: Callable[[float], Range]) -> None:
+    def _follow(
+        self, crank: float, around: Callable[[float], Range], is_near: bool = False
+    ) -> None:
         """Go on to a crank angle to which the wheel is pushed."""
         before, wheel = self.rows[-1][:2]
         step, pushed = abs(crank - before), _pushed(around(wheel), wheel)
         steepest = STEEPEST if step < 1e-4 else SLOW
         if abs(pushed - wheel) <= steepest * step + SAME:
-            self._add(crank, pushed, around)
+            self._add(crank, pushed, around, is_near)
             return
         if step < SHORTEST:
             there = around(wheel)
@@ -184,10 +191,18 @@ class _Path:
         places = np.linspace(before, crank, PARTS + 1)[1:]
         ranges = self.free.near(before, crank, wheel, STEEPEST * step).at(places)
         for i in range(PARTS):
-            self._follow(float(places[i]), _looker(ranges, i))
+            self._follow(float(places[i]), _looker(ranges, i), is_near=True)
 
-    def _add(self, crank: float, wheel: float, around: Callable[[float], Range]) -> None:
-        """Add a position that touches, with the free range on the other side."""
+    def _add(
+        self, crank: float, wheel: float, around: Callable[[float], Range], is_near: bool = False
+    ) -> None:
+        """Add a position that touches, with the free range on the other side.
+
+        The ranges of pieces that are near do not know it.
+        """
+        if is_near:
+            self.rows.append((crank, wheel, math.nan, math.nan))
+            return
         sides = [around(wheel), around(wheel - SAME), around(wheel + SAME)]
         free = [there for there in sides if there.is_free]
         low, high = (free[0].low, free[0].high) if free else (wheel, wheel)
@@ -201,7 +216,7 @@ class _Path:
         if self.exact:
             low, high = self.rows[max(len(self.rows) - 2, 0)][0], crank
             free = self.free.near(low, high, wheel, SLOW * abs(high - low))
-            for _ in range(7):
+            for _ in range(7 if self.free.slack < FACETED else 4):
                 places = np.linspace(low, high, PARTS + 1)
                 ranges = free.at(places)
                 moved = [_pushed(ranges.around(i, wheel), wheel) for i in range(PARTS + 1)]
@@ -213,7 +228,7 @@ class _Path:
         if end != before:
             if (end - before) * self.way < 0.0:
                 del self.rows[-1]
-            self._add(end, farthest, there)
+            self._add(end, farthest, there, is_near=there is not around)
         self.pushes.append(Push(*self.begun, end, farthest))
         self.begun = None
         self._add(crank, farthest, around)

@@ -32,9 +32,9 @@ def greatest_loads(design: Design) -> Table:
     for name in LOADS if design.cycle.is_loaded else ():
         axis, known = AXIS_BY_NAME[name], greatest(design.loads[name])
         stem, _, unit = name.rpartition("_")
-        check = checks.pop(f"{stem}_max_{unit}", None)
-        bound = (check.must_be, check.limit, check.passes) if check else (None, None, None)
-        if known:
+        if known:  # else the row of its check says that it has no bound
+            check = checks.pop(f"{stem}_max_{unit}", None)
+            bound = (check.must_be, check.limit, check.passes) if check else (None, None, None)
             size, at_deg = known
             rows.append((axis.label, size, axis.unit, at_deg, *bound))
     for name, check in checks.items():

@@ -75,7 +75,7 @@ def slips_deg(friction: float) -> float:
 def hand_over_offset(name: str, parts: Parts, turn: FullTurn) -> Check:
     """The offset from the slot's middle, beyond its clearance, of a roller that first touches.
 
-    It is not 0 where the rim does not reach the roller at entry or exit.
+    It is not 0 where the mouth does not reach the roller at entry or exit.
     """
     offset, at_deg = turn.contact
     return compared(name, offset, "at most", 0.0, at_deg if offset else None)

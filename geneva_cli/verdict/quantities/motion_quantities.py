@@ -141,11 +141,9 @@ def _jumps(machine: Mechanism) -> list[Array]:
 
 
 def index_gained(of: Designs) -> Columns:
-    """The greatest wheel angle beyond its rest at which a roller leaves the rim, degrees."""
-    each = np.broadcast_arrays(*(np.ravel(one.gained) for one in of.machine.engagements))
-    gained = np.stack(each)
-    greatest = np.take_along_axis(gained, abs(gained).argmax(axis=0)[None], axis=0)[0]
-    return {"index_gained_deg": np.degrees(greatest)}
+    """The wheel angle beyond its rest at which a roller as built leaves the rim, degrees."""
+    gained = np.degrees(np.ravel(of.machine.engagements[0].gained))  # all rollers leave alike
+    return {"index_gained_deg": np.where(np.isnan(gained), np.inf, gained)}
 
 
 def product_motion_of(of: Designs) -> ProductMotion | None:

@@ -146,17 +146,19 @@ def _peak(k: int) -> float:
 
 def _kind_task(kind: VariedMachine, count: int) -> Task:
     value = values_of(kind, 1)[0].item()
-    motion = build(kind.spec.with_(kind.key, value)).engagements[0].motion
+    engagement = build(kind.spec.with_(kind.key, value)).engagements[0]
+    motion = engagement.motion
     angles = np.linspace(motion.entry_deg, motion.exit_deg, count)
     angles[1] = 0.5 * (angles[0] + angles[1])  # not its own mirror image: no half is copied
     methods = []
     if kind.formula:
-        formula, radians = partial(kind.formula, value), np.radians(angles)
+        argument = kind.argument(value, engagement)
+        formula, radians = partial(kind.formula, argument), np.radians(angles)
         script = partial(_in_blocks, formula, radians)
         methods.append(Method("a handbook's formulas, in blocks", count, script))
         fast = compiled(kind.formula)
         if fast:
-            methods.append(Method("the same by Numba", count, lambda: fast(value, radians)))
+            methods.append(Method("the same by Numba", count, lambda: fast(argument, radians)))
     methods += [
         Method("jets, whole arrays", count, lambda: _jet_rates(motion, angles), rival=False),
         Method("ours", count, lambda: motion.derivatives(angles, ORDERS), True),

@@ -1,17 +1,23 @@
 """Drawings of wheel and crank: how they turn, against the ideal machine, and what is refused."""
 
+import json
 import math
 
 import ezdxf
 import numpy as np
 import pytest
 import repo
+import shapely
 from drawn_wheels import drawn_wheel
+from shapely import affinity
+from typer.testing import CliRunner
 
+from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.checks import lag_deg
-from geneva_cli.extras.outline.turning import turned
+from geneva_cli.extras.outline.pictures import drawn_scene
+from geneva_cli.extras.outline.turning import impacts, turned
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output import draw
@@ -137,13 +143,13 @@ def test_without_a_lock_or_detent_nothing_holds(tmp_path):
 def test_frames_are_turned_and_mirrored(tmp_path):
     contour = drawn_wheel(6, 30.0, 3.25, 45.0)
     flat = spec(tmp_path, written(tmp_path, contour), 'held_by = "pin"')
-    index = turned(flat.mechanism).senses[0].first.index
+    index = turned(flat.mechanism).senses[0].first.gained
     off = flat.with_("outline.wheel_turn_deg", 30.0)
     assert failing(off)[0] == "turns"
     for key, value in (("wheel_turn_deg", 60.0), ("mirror", "wheel")):
         design = flat.with_(f"outline.{key}", value)
         again = turned(design.mechanism)
-        assert again.senses[0].first.index == pytest.approx(index, abs=1e-9)
+        assert again.senses[0].first.gained == pytest.approx(index, abs=1e-9)
 
 
 def test_a_missing_part_and_a_far_one_are_refused(tmp_path):
@@ -179,7 +185,7 @@ def test_a_thousand_lines_turn_like_arcs(tmp_path):
     one, two = (turned(design.mechanism) for design in (arcs, lines))
     assert two.machine.free.slack == 1e-3
     assert two.turns
-    assert two.senses[0].first.index == pytest.approx(one.senses[0].first.index, abs=1e-4)
+    assert two.senses[0].first.gained == pytest.approx(one.senses[0].first.gained, abs=1e-4)
 
 
 def test_a_design_in_python_takes_drawings_too(tmp_path):
@@ -192,3 +198,93 @@ def test_a_design_in_python_takes_drawings_too(tmp_path):
         outline=Outline(wheel=str(file)),
     )
     assert design.checks[0].passes
+
+
+def ring(x, y, radius, sides=360):
+    turns = [math.tau * k / sides for k in range(sides)]
+    return shapely.Polygon([(x + radius * math.cos(t), y + radius * math.sin(t)) for t in turns])
+
+
+def scripted(rim):
+    """The wheel of the page's script, as OpenSCAD makes it: regular polygons for circles."""
+    z, L, r, c, R = 6, 100.0, 5.0, 0.05, 50.0
+    shape = ring(0.0, 0.0, rim)
+    for k in range(z):
+        slot = shapely.box(L - R, -r - c, L, r + c).union(ring(L - R, 0.0, r + c))
+        recess = affinity.rotate(ring(L, 0.0, R - 2.0 * r + c), 180.0 / z, origin=(0, 0))
+        shape = shape.difference(affinity.rotate(slot.union(recess), 360.0 * k / z, origin=(0, 0)))
+    return shape
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("rim", "fails"), [(80.0, ["entry_velocity_max"]), (86.747, [])])
+def test_the_wheels_of_the_page_are_judged_as_it_says(rim, fails, tmp_path):
+    document = ezdxf.new("R2000", units=4)
+    corners = [(round(x, 4), round(y, 4)) for x, y in scripted(rim).exterior.coords]
+    for p, q in zip(corners, corners[1:], strict=False):
+        document.modelspace().add_line(p, q)
+    document.saveas(tmp_path / "wheel.dxf")
+    (tmp_path / "machine.toml").write_text(
+        "[wheel]\nz = 6\n[limits]\nentry_velocity_max = 0.05\n[outline]\nwheel = 'wheel.dxf'\n"
+    )
+    assert failing(load(str(tmp_path / "machine.toml"))) == fails
+
+
+def test_a_page_turns_the_drawings_and_marks_their_contact(tmp_path):
+    file = written(tmp_path, drawn_wheel(6, 30.0, 3.25, 40.0))
+    design = spec(tmp_path, file, 'held_by = "detent"')
+    shown = drawn_scene(design)
+    wheel, crank = shown.bodies
+    assert wheel.angle.gain == pytest.approx(turned(design.mechanism).senses[0].first.gained)
+    assert len(wheel.shapes) == len(crank.shapes) == 1
+    (push,) = shown.pushes
+    for t, x, y in zip(push.at, push.x, push.y, strict=True):
+        pin = complex(60.0, 0.0) - 30.0 * complex(*cos_sin(shown.start_deg + t, -1.0))
+        assert abs(complex(x, y) - pin) == pytest.approx(3.0, abs=2e-4)  # on the roller
+    assert [phase.moves for phase in shown.states] == [False, True, False]
+
+
+def cos_sin(deg, way):
+    return math.cos(math.radians(deg)), way * math.sin(math.radians(deg))
+
+
+def test_a_drawing_lies_over_our_own(tmp_path):
+    file = written(tmp_path, drawn_wheel(6, 30.0, 3.25, 40.0))
+    design = spec(tmp_path, file, 'held_by = "detent"')
+    both = design.drawing_over(design.drawing("wheel"))
+    assert [shape.layer for shape in both.shapes].count("OUTLINE") == 1
+    assert design.drawing("wheel").shapes == both.shapes[:-1]
+
+
+def test_a_machine_as_built_is_struck_where_its_parts_meet(tmp_path):
+    """The values that the same parts gave by hand: roller in clearance, disc in its recess."""
+    path = tmp_path / "built.toml"
+    path.write_text(
+        "[wheel]\nz = 6\n[size]\ncenter_distance_mm = 50\ncrank_radius_mm = 25.217025694\n"
+        "roller_radius_mm = 2.5\nslot_clearance_mm = 0.1\nlock_clearance_mm = 0.1\n"
+        "lock_radius_mm = 20\nwheel_radius_mm = 40\n"
+    )
+    first = turned(load(str(path)).mechanism)
+    struck = impacts(first)[0]
+    assert struck.velocity == pytest.approx(0.101386, abs=1e-6)
+    assert math.degrees(struck.crank) == pytest.approx(-50.905, abs=1e-3)
+    assert math.degrees(first.senses[0].first.gained) == pytest.approx(59.871, abs=1e-3)
+    tight = ["size.slot_clearance_mm=0", "size.lock_clearance_mm=0"]
+    assert not turned(load(str(path), tight).mechanism).turns
+    free = turned(load(str(path), [*tight, "size.lock_radius_mm=0"]).mechanism)
+    turn = free.senses[0].first
+    assert math.degrees(turn.pushes[0].begin) == pytest.approx(-53.482, abs=1e-3)
+
+
+def test_a_drawing_is_named_by_options_too(tmp_path):
+    file = written(tmp_path, drawn_wheel(6, 30.0, 3.25, 33.0))
+    (tmp_path / "spec.toml").write_text(PLAIN.format(wheel='held_by = "pin"'))
+    words = ["check", str(tmp_path / "spec.toml"), "--wheel", str(file), "--format", "json"]
+    result = CliRunner().invoke(app, [*words, "--slack", "0.00001"])
+    assert result.exit_code == 1
+    rows = json.loads(result.stdout)["rows"]
+    assert rows[0]["check"] == "turns"
+    assert rows[0]["passes"] is False
+    broken = CliRunner().invoke(app, [*words, "--slack", "2"])
+    assert broken.exit_code == 2
+    assert "--slack" in broken.output or "slack_mm" in broken.output

@@ -128,7 +128,8 @@ def machine(
     L = target.center_distance_mm(size.center_distance_mm)
     if L is None and not made.ONE_ARM:  # it has no crank of one radius: the frame's distance
         L = size.derived_distance_mm
-    if size.center_distance_mm != L:
+    as_built = L is not None and size.crank_radius_mm is not None  # a candidate has its own R/L
+    if size.center_distance_mm != L or as_built:
         size = size.replace(center_distance_mm=L, crank_radius_mm=None)
     return own.replace(
         wheel=wheel, drive=made, motion=motion, size=size, title="", path="", files=()
