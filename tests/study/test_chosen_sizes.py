@@ -89,6 +89,46 @@ def test_a_sized_spec_has_the_same_values_in_check(pair):
     assert all(after[name][2] for name in after.keys() - before.keys())
 
 
+# Machines with details, the keys of them that are written, and a drawing that shows them.
+DETAILED = {
+    "epicyclic-z4": (
+        ["size.gear_module_mm=1", "size.process=laser"],
+        {"gear_teeth", "gear_shift", "gear_backlash_mm", "gear_bolt_mm", "gear_bolt_circle_mm"},
+        "links",
+    ),
+    "gear-sector": (["size.gear_module_mm=2"], {"gear_shift"}, "assembly"),
+    "elliptical-gears": (
+        ["size.gear_module_mm=2.442763"],
+        {"gear_teeth", "gear_shift"},
+        "gears",
+    ),
+    "turret": (
+        ["size.crank_hub_mm=60", "size.pin_gap_mm=0.1", "size.lock_thickness_mm=8"],
+        {"crank_hub_length_mm", "lock_bolts", "lock_bolt_mm"},
+        "assembly",
+    ),
+    "spherical-z6": (
+        ["size.dial_bolts=4", "size.wheel_bore_mm=8"],
+        {"dial_bolt_mm", "lock_bolts", "lock_bolt_mm"},
+        "assembly",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", some([*DETAILED], ["gear-sector"]))
+def test_gears_screws_and_hubs_are_written_and_drawn_as_they_were(name, tmp_path):
+    settings, keys, part = DETAILED[name]
+    origin = load(str(repo.DESIGNS / f"{name}.toml"), settings)
+    assert {f"size.{key}" for key in keys} <= origin.chosen.keys()
+    path = tmp_path / "sized.toml"
+    path.write_text(sized_text(origin)[0], encoding="utf-8")
+    sized = load(str(path))
+    assert sized.chosen == {}
+    before, after = values(origin), values(sized)
+    assert {name: after[name] for name in before} == before
+    assert sized.drawing(part).shapes == origin.drawing(part).shapes
+
+
 @pytest.mark.long
 def test_a_machine_that_is_built_bears_what_it_bears(turret):
     """At 90 rpm the shaft of 12 mm fails; the advice is the speed at which it just holds."""
