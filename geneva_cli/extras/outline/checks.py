@@ -19,6 +19,7 @@ from geneva_cli.extras.outline.turning import (
     Turned,
     impacts,
     turned,
+    turning,
 )
 from geneva_cli.geometry.loops import shown
 from geneva_cli.motion.mechanism import Mechanism
@@ -166,7 +167,7 @@ def _rests(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     low, high = result.rest.low, result.rest.high
     if high - low < LOOSE or not result.rest.is_free:
         return
-    begin, end = result.turning or (result.machine.rest, result.machine.rest)
+    begin, end = turning(result) or (result.machine.rest, result.machine.rest)
     put_back = mechanism.spec.wheel.held_by in HELD_MIDDLE
     limit = 0.0 if put_back else math.degrees(high - low)
     value = math.degrees(end - begin)

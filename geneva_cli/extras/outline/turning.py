@@ -60,7 +60,6 @@ class Turned(NamedTuple):
     senses: tuple[SenseResult, SenseResult]
     rest: Range  # where the wheel may stand in the dwell
     is_held: bool  # the outlines hold the wheel in the dwell
-    turning: tuple[float, float] | None  # places of rest from which it turns in both senses
 
     @property
     def turns(self) -> bool:
@@ -85,9 +84,8 @@ def turned(mechanism: Mechanism) -> Turned:
     is_held = rest.is_free and high - low < 2.0 * half * (1.0 - 1e-9)
     is_put_back = mechanism.spec.wheel.held_by in HELD_MIDDLE or high - low < LOOSE
     senses = tuple(_sense(turner, machine, way, is_put_back) for way in SENSES)
-    turning = _turning(turner, machine, (low, high)) if rest.is_free else None
     limited = Range(rest.is_free, low, high)
-    return Turned(machine, turner, (senses[0], senses[1]), limited, is_held, turning)
+    return Turned(machine, turner, (senses[0], senses[1]), limited, is_held)
 
 
 def _sense(turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool) -> SenseResult:
@@ -114,11 +112,15 @@ def _sense(turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool) -
     return SenseResult(way, tuple(out), z, drift)
 
 
-def _turning(
-    turner: Turner, machine: DrawnMachine, span: tuple[float, float]
-) -> tuple[float, float] | None:
-    """Return the places of rest around the middle from which the wheel turns; None without any."""
-    low, high = span
+def turning(result: Turned) -> tuple[float, float] | None:
+    """Return the places of rest around the middle from which the wheel turns; None without any.
+
+    It tries many turns, which costs more than everything else of a drawing.
+    """
+    machine, turner = result.machine, result.turner
+    is_free, low, high = result.rest
+    if not is_free:
+        return None
 
     def goes(rest: float) -> bool:
         for way in SENSES:
