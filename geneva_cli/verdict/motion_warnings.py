@@ -44,9 +44,9 @@ def _stops(mechanism: Mechanism) -> Iterator[Notice]:
     if not keeps(brake + start, "at most", least):
         yield Notice(
             "stop-in-motion",
-            f"the input turns {brake:.4g}° while it brakes and {start:.4g}° while it starts, but a "
-            f"dwell has {least:.4g}° only: the roller would be in a slot meanwhile. brake_s and "
-            f"start_s together must be at most {least / (3.0 * drive.n_rpm):.4g} s at this speed",
+            f"the input turns {brake:.4g}° while it brakes and {start:.4g}° while it starts, but "
+            f"the dwell has only {least:.4g}°. The roller would be in a slot. At this speed brake_s "
+            f"and start_s may take {least / (3.0 * drive.n_rpm):.4g} s together",
         )
 
 

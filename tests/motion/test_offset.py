@@ -17,8 +17,7 @@ from witness import mp
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import worst
 
-# nearer, the peak lies between two doubles of the input angle
-NEAR = (1e-4, 1e-9, 1e-11)
+NEAR = (1e-4, 1e-9)  # much nearer, peaks lie between two doubles of the input angle
 
 
 def spec(z, offset):
