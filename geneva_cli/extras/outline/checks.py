@@ -26,6 +26,7 @@ from geneva_cli.extras.outline.turning import (
 from geneva_cli.extras.outline.walls import smallest_wall
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import shown
+from geneva_cli.geometry.measure import at
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
@@ -34,6 +35,7 @@ from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.verdict.checks.check import Check, compared
 
 ROUNDING_DEG = 1e-3  # a smaller play comes from the slack
+POINTS = 9  # of each piece, where parts overlap
 ENTRY_VELOCITY = 0.01  # default of ``entry_velocity_max``
 
 
@@ -72,10 +74,7 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
     z = mechanism.spec.wheel.z
     worst = min(result.senses, key=lambda sense: sense.passed)
     if not result.rest.is_free:
-        why = (
-            "parts overlap in the middle of the dwell: check wheel_turn_deg, crank_turn_deg and "
-            "mirror in [outline]"
-        )
+        why = _overlap_text(result.machine, mechanism)
         return Check("turns", 0.0, "at least", float(z), False, why)
     if worst.jam is not None:
         at = _shown_deg(result.machine, worst.jam.crank)
@@ -127,6 +126,28 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
     return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} in its own frame"
 
 
+def _overlap_text(machine: DrawnMachine, mechanism: Mechanism) -> str:
+    """Where the crank lies deepest in the wheel, in the middle of the dwell."""
+    text = "parts overlap in the middle of the dwell"
+    turn = float(machine.free.crank_direction(np.array([machine.start]))[0])
+    fractions = np.linspace(0.0, 1.0, POINTS)
+    points = [at(p, float(t)) for shape in machine.crank for p in shape.segments for t in fractions]
+    z = np.array([complex(*point) for point in points]) * np.exp(1j * turn) + machine.assembly.L
+    z *= np.exp(-1j * machine.rest)
+    depth = Polyarc(machine.wheel).signed(np.column_stack((z.real, z.imag)))
+    deepest = int(np.argmin(depth))
+    if depth[deepest] < 0.0:
+        where = shown((float(z[deepest].real), float(z[deepest].imag)))
+        text += f": the crank is {-depth[deepest]:.3g} mm inside the wheel at {where} in its frame"
+    hint = "check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
+    if mechanism.spec.outline.crank is None:
+        hint += (
+            "; the crank is our own: give its drawing with --crank, or set lock_radius_mm = 0 in "
+            "[size] if it has no locking disc"
+        )
+    return f"{text}; {hint}"
+
+
 def _from_rest(machine: DrawnMachine, wheel: float) -> float:
     """A wheel's angle in its own step, degrees from the middle of it."""
     step = machine.step / machine.slots_a_turn
@@ -154,7 +175,7 @@ def _summary(result: Turned, mechanism: Mechanism) -> str:
     held = f"{_play(rest)} in the dwell" if result.is_held else "nothing holds it in the dwell"
     text += f"{held}, {_play(float(free[moving].max(initial=0.0)))} in motion"
     widest = float(free[~moving].max(initial=0.0))
-    if widest > rest + ROUNDING_DEG:
+    if result.is_held and widest > rest + ROUNDING_DEG:
         text += f", at most {widest:.4g}° while it rests"
     lag = lag_deg(result)
     if lag > ROUNDING_DEG:

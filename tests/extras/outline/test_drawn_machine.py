@@ -197,6 +197,15 @@ def test_without_a_lock_or_detent_nothing_holds(tmp_path):
     assert "dwell_hold" in failing(design)
 
 
+def test_an_overlap_in_the_dwell_says_where(tmp_path):
+    """Our disc of 25 mm reaches to 35 mm of the wheel's axis, 10 mm below the rim."""
+    design = spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0)))
+    design = design.with_("size.lock_radius_mm", 25.0)
+    (turns,) = [check for check in design.checks if check.name == "turns"]
+    assert "10 mm inside the wheel at (30.3109, 17.5)" in turns.why
+    assert "lock_radius_mm = 0" in turns.why
+
+
 def test_frames_are_turned_and_mirrored(tmp_path):
     contour = drawn_wheel(6, 30.0, 3.25, 45.0)
     flat = spec(tmp_path, written(tmp_path, contour), 'held_by = "pin"')
