@@ -50,8 +50,8 @@ def checks(mechanism: Mechanism) -> list[Check]:
     return [*rows, *_entry(result, mechanism), *_drift(result, mechanism)]
 
 
-def as_built(mechanism: Mechanism) -> Check:
-    """Return the check that our own parts on a crank as built turn, with their impact in words.
+def as_built(mechanism: Mechanism) -> list[Check]:
+    """Return the checks that our own parts on a crank as built turn, and of their impact.
 
     Raises GenevaError for parts that are not flat, or whose rollers go round no crank.
     """
@@ -59,10 +59,11 @@ def as_built(mechanism: Mechanism) -> Check:
     check = _turns(result, mechanism)
     struck = hardest(mechanism, result)
     if not (check.passes and struck):
-        return check
-    text = f"roller, clearance and disc strike the wheel with {abs(struck.jump):.4g} of the "
-    text += f"input's speed at {struck.at_deg:.5g}°{strike_text(struck)}"
-    return check._replace(why=f"{text}; {check.why}")
+        return [check]
+    limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
+    row = compared("strike_velocity", abs(struck.jump), "at most", limit, struck.at_deg)
+    text = f"roller, clearance and disc strike the wheel{strike_text(struck)}"
+    return [check, row if row.passes else row._replace(why=text)]
 
 
 def warnings(mechanism: Mechanism) -> list[Notice]:

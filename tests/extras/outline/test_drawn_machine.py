@@ -336,6 +336,9 @@ def test_a_machine_as_built_is_struck_where_its_parts_meet(built):
     assert impact.velocity == pytest.approx(0.101386, abs=1e-6)
     assert math.degrees(impact.crank) == pytest.approx(-50.905, abs=1e-3)
     assert math.degrees(first.senses[0].first.gained) == pytest.approx(59.871, abs=1e-3)
+    (row,) = [check for check in load(built).checks if check.name == "strike_velocity"]
+    assert row.value == pytest.approx(0.101386, abs=1e-6)
+    assert (row.limit, row.passes) == (0.01, False)
 
 
 @pytest.mark.long
