@@ -112,7 +112,7 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
 
     >>> heavy = Design(External(6), load=Load(torque_Nm=100.0))
     >>> by_load(heavy.mechanism)["size.pin_mm"]
-    Chosen(value=12.0, why='by load: 1155 N on the pin')
+    Chosen(value=7.0, why='by load: 2000 N on the pin')
     """
     if not mechanism.spec.is_loaded:
         return {}

@@ -18,7 +18,7 @@ from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.verdict.both_directions import worst_checks
-from geneva_cli.verdict.checks import single_check
+from geneva_cli.verdict.checks import pushed_round, single_check
 from geneva_cli.verdict.checks.all_checks import (
     LIMITS,
     MOTION,
@@ -121,7 +121,9 @@ class Trial:
         """The least margin of a check in all directions, negative where it fails."""
         rows: list[Check | None] = []
         for way in self.ways:
-            if name in OF_TURN:
+            if name == "turns":
+                rows.append(pushed_round(way.mechanism) if way.mechanism.no_turn else None)
+            elif name in OF_TURN:
                 rows.append(check_named(TURNING, name, way, way.turned.turn))
             else:
                 if name == "parts":
@@ -137,8 +139,11 @@ class Trial:
                 yield from untold(among, way.mechanism)
             if parts and spec.is_turned and spec.has_parts:
                 yield from untold(standing(way.mechanism), way.built)
-            if parts and spec.is_turned and turn and not way.mechanism.no_turn:
-                yield from untold(TURNING, way, way.turned.turn)
+            if parts and spec.is_turned and turn:
+                if way.mechanism.no_turn:
+                    yield pushed_round(way.mechanism)
+                else:
+                    yield from untold(TURNING, way, way.turned.turn)
 
 
 class Adviser:
@@ -274,7 +279,7 @@ class Adviser:
 
 def _cost(name: str) -> int:
     """The order of checks: of the motion and its limits, of parts at rest, of the whole turn."""
-    return 0 if name in QUICK else 2 if name in OF_TURN else 1
+    return 0 if name in QUICK else 2 if name in (*OF_TURN, "turns") else 1
 
 
 def _edge(

@@ -10,23 +10,32 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.extras.outline.contact import contacts
+from geneva_cli.extras.outline.impact_force import hardest, strike_text
 from geneva_cli.extras.outline.machine import DrawnMachine
+from geneva_cli.extras.outline.slack import least_slack_mm, most_mm
 from geneva_cli.extras.outline.turning import (
     HELD_MIDDLE,
     LOOSE,
     Impact,
     SenseResult,
     Turned,
-    impacts,
+    hardest_impact,
     turned,
     turning,
 )
+from geneva_cli.extras.outline.walls import smallest_wall
+from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import shown
+from geneva_cli.geometry.measure import at
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
+from geneva_cli.parts.turn.free_ranges import one_sector
+from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.verdict.checks.check import Check, compared
 
 ROUNDING_DEG = 1e-3  # a smaller play comes from the slack
+POINTS = 9  # of each piece, where parts overlap
 ENTRY_VELOCITY = 0.01  # default of ``entry_velocity_max``
 
 
@@ -36,7 +45,8 @@ def checks(mechanism: Mechanism) -> list[Check]:
     Raises GenevaError for a drawing that is no outline.
     """
     result = turned(mechanism)
-    rows = [_turns(result, mechanism), _hold(result, mechanism), *_rests(result, mechanism)]
+    rows = [_turns(result, mechanism), *_slack(result), _hold(result, mechanism)]
+    rows += [*_rests(result, mechanism), *_walls(result.machine)]
     return [*rows, *_entry(result, mechanism), *_drift(result, mechanism)]
 
 
@@ -47,13 +57,12 @@ def as_built(mechanism: Mechanism) -> Check:
     """
     result = turned(mechanism)
     check = _turns(result, mechanism)
-    every = impacts(result)
-    if not (check.passes and every):
+    struck = hardest(mechanism, result)
+    if not (check.passes and struck):
         return check
-    worst = max(every, key=lambda one: abs(one.velocity))
-    at = _shown_deg(result.machine, worst.crank)
-    text = f"roller, clearance and disc strike the wheel with {abs(worst.velocity):.4g} of the "
-    return check._replace(why=f"{text}input's speed at {at:.5g}°; {check.why}")
+    text = f"roller, clearance and disc strike the wheel with {abs(struck.jump):.4g} of the "
+    text += f"input's speed at {struck.at_deg:.5g}°{strike_text(struck)}"
+    return check._replace(why=f"{text}; {check.why}")
 
 
 def warnings(mechanism: Mechanism) -> list[Notice]:
@@ -65,10 +74,7 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
     z = mechanism.spec.wheel.z
     worst = min(result.senses, key=lambda sense: sense.passed)
     if not result.rest.is_free:
-        why = (
-            "parts overlap in the middle of the dwell: check wheel_turn_deg, crank_turn_deg and "
-            "mirror in [outline]"
-        )
+        why = _overlap_text(result.machine, mechanism)
         return Check("turns", 0.0, "at least", float(z), False, why)
     if worst.jam is not None:
         at = _shown_deg(result.machine, worst.jam.crank)
@@ -82,6 +88,23 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
         )
         return Check("turns", 0.0, "at least", float(z), False, why)
     return Check("turns", float(z), "at least", float(z), True, _summary(result, mechanism))
+
+
+def _slack(result: Turned) -> Iterator[Check]:
+    """Check the least slack with which the wheel turns; a wheel that finds no slot has none."""
+    machine = result.machine
+    is_missed = result.rest.is_free and not any(sense.jam for sense in result.senses)
+    if is_missed and not result.has_indexed:
+        return
+    value, given = least_slack_mm(result), machine.free.slack
+    if value is None:
+        why = f"it would not turn with {most_mm(machine):.3g} mm less on every face either"
+        yield Check("turning_slack_mm", None, "at most", given, False, why)
+    elif value > given:
+        why = f"it would turn with {value:.2g} mm less on every face of the wheel or of the crank"
+        yield Check("turning_slack_mm", value, "at most", given, False, why)
+    else:
+        yield Check("turning_slack_mm", value, "at most", given, True)
 
 
 def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
@@ -101,6 +124,28 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
     own, theirs = touching.named(0)
     where = shown((float(touching.point[0, 0]), float(touching.point[0, 1])))
     return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} in its own frame"
+
+
+def _overlap_text(machine: DrawnMachine, mechanism: Mechanism) -> str:
+    """Where the crank lies deepest in the wheel, in the middle of the dwell."""
+    text = "parts overlap in the middle of the dwell"
+    turn = float(machine.free.crank_direction(np.array([machine.start]))[0])
+    fractions = np.linspace(0.0, 1.0, POINTS)
+    points = [at(p, float(t)) for shape in machine.crank for p in shape.segments for t in fractions]
+    z = np.array([complex(*point) for point in points]) * np.exp(1j * turn) + machine.assembly.L
+    z *= np.exp(-1j * machine.rest)
+    depth = Polyarc(machine.wheel).signed(np.column_stack((z.real, z.imag)))
+    deepest = int(np.argmin(depth))
+    if depth[deepest] < 0.0:
+        where = shown((float(z[deepest].real), float(z[deepest].imag)))
+        text += f": the crank is {-depth[deepest]:.3g} mm inside the wheel at {where} in its frame"
+    hint = "check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
+    if mechanism.spec.outline.crank is None:
+        hint += (
+            "; the crank is our own: give its drawing with --crank, or set lock_radius_mm = 0 in "
+            "[size] if it has no locking disc"
+        )
+    return f"{text}; {hint}"
 
 
 def _from_rest(machine: DrawnMachine, wheel: float) -> float:
@@ -130,7 +175,7 @@ def _summary(result: Turned, mechanism: Mechanism) -> str:
     held = f"{_play(rest)} in the dwell" if result.is_held else "nothing holds it in the dwell"
     text += f"{held}, {_play(float(free[moving].max(initial=0.0)))} in motion"
     widest = float(free[~moving].max(initial=0.0))
-    if widest > rest + ROUNDING_DEG:
+    if result.is_held and widest > rest + ROUNDING_DEG:
         text += f", at most {widest:.4g}° while it rests"
     lag = lag_deg(result)
     if lag > ROUNDING_DEG:
@@ -183,16 +228,35 @@ def _rests(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     yield Check("turning_rests_deg", value, must_be, limit, ok, "" if ok else text)
 
 
+def _walls(machine: DrawnMachine) -> Iterator[Check]:
+    """Check the smallest wall of a drawn wheel; an internal one without its ring has none."""
+    spec, place = machine.assembly.mechanism.spec, machine.assembly
+    if spec.outline.wheel is None or (place.sign < 0.0 and len(machine.wheel) == 1):
+        return
+    outline = Polyarc(machine.wheel)
+    sector = one_sector(outline, math.tau / spec.wheel.z, machine.free.slack)
+    wall = smallest_wall(machine.wheel, sector)
+    if wall is None:
+        return
+    least = wall_min(spec.size, place.L)
+    passes = keeps(wall.thickness, "at least", least)
+    start, end = (shown((z.real, z.imag)) for z in (wall.start, wall.end))
+    why = "" if passes else f"thinnest from {start} to {end}"
+    yield Check("wall_mm", wall.thickness, "at least", least, passes, why)
+
+
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check the velocity with which the wheel is set in motion."""
-    every = impacts(result)
-    if not every:
+    worst = hardest_impact(result)
+    if worst is None:
         return
-    worst = max(every, key=lambda one: abs(one.velocity))
     limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
     at = _shown_deg(result.machine, worst.crank)
     row = compared("entry_velocity_max", abs(worst.velocity), "at most", limit, at)
-    yield row if row.passes else row._replace(why=_ideal_text(result, mechanism, worst))
+    struck = hardest(mechanism, result)
+    assert struck is not None
+    text = f"{_ideal_text(result, mechanism, worst)}{strike_text(struck)}"
+    yield row if row.passes else row._replace(why=text)
 
 
 def _ideal_text(result: Turned, mechanism: Mechanism, worst: Impact) -> str:

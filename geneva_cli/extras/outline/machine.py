@@ -16,6 +16,8 @@ from geneva_cli.geometry.moments import oriented
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.jet import Jet, atan2
 from geneva_cli.output.foreign import read_drawing
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import parts_of
@@ -80,6 +82,20 @@ def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
     start = math.radians(first.entry - 0.5 * dwell)
     rest = -first.engagement.half_step
     return DrawnMachine(place, theirs, ours, roller, free, start, rest, tuple(notes))
+
+
+def crank_jet(mechanism: Mechanism, input_deg: Array) -> tuple[Jet, Array]:
+    """Return the crank's angle, radians, with its derivatives by the input's, and whole turns.
+
+    The angle is within half a turn of mid-motion; the turns are those of the crank beside it.
+    """
+    first = mechanism.engagements[0]
+    turn_deg = 360.0 * mechanism.spec.turns
+    whole = np.round((input_deg - first.mid_deg) / turn_deg)
+    x, y = first.path(input_deg - first.mid_deg - turn_deg * whole, 3)
+    out = atan2(y, 1.0 - x) if mechanism.spec.wheel.SIGN > 0.0 else atan2(y, x - 1.0)
+    size = np.zeros(len(input_deg))
+    return Jet([c + size for c in out.c]), whole
 
 
 def _dwell_deg(place: Assembly) -> float:

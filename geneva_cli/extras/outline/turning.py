@@ -22,6 +22,7 @@ LATE = 1e-3  # radians: a push that moves the wheel less is not counted as an im
 LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
 HELD_MIDDLE = ("detent", "pin")  # they put the wheel back to the middle of its dwell
 SENSES = (1, -1)
+JUST = 1e-12  # radians after a push begins
 
 
 class Impact(NamedTuple):
@@ -82,16 +83,25 @@ def turned(mechanism: Mechanism) -> Turned:
     half = 0.5 * math.tau / mechanism.spec.wheel.z
     low, high = max(rest.low, machine.rest - half), min(rest.high, machine.rest + half)
     is_held = rest.is_free and high - low < 2.0 * half * (1.0 - 1e-9)
-    is_put_back = mechanism.spec.wheel.held_by in HELD_MIDDLE or high - low < LOOSE
-    senses = tuple(_sense(turner, machine, way, is_put_back) for way in SENSES)
+    is_put_back = put_back(machine, Range(rest.is_free, low, high))
+    senses = tuple(one_sense(turner, machine, way, is_put_back) for way in SENSES)
     limited = Range(rest.is_free, low, high)
     return Turned(machine, turner, (senses[0], senses[1]), limited, is_held)
 
 
-def _sense(turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool) -> SenseResult:
+def put_back(machine: DrawnMachine, rest: Range) -> bool:
+    """Return whether the wheel begins each turn of the crank in the middle of its dwell."""
+    held_by = machine.assembly.mechanism.spec.wheel.held_by
+    return held_by in HELD_MIDDLE or rest.high - rest.low < LOOSE
+
+
+def one_sense(
+    turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool, exact: bool = True
+) -> SenseResult:
     """Turn the crank until the wheel has made a turn, jams, or rests as a turn before.
 
-    Something may put it back to the middle of its dwell after each turn of the crank.
+    Something may put it back to the middle of its dwell after each turn of the crank. Without
+    ``exact`` the angles at which pushes begin and end are those of the grid.
     """
     z, rest = machine.assembly.mechanism.spec.wheel.z, machine.rest
     is_alike = machine.free.period < 6.0  # one sector stands for all
@@ -99,7 +109,7 @@ def _sense(turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool) -
     out: list[LazyTurn] = []
     at, drift = rest, 0.0
     for k in range(every):
-        turn = turner.turn(at, 1, way)
+        turn = turner.turn(at, 1, way, exact)
         out.append(turn)
         if turn.jam is not None or not len(turn.wheel):
             return SenseResult(way, tuple(out), k * machine.slots_a_turn, drift)
@@ -165,6 +175,12 @@ def impacts(result: Turned) -> list[Impact]:
     return out
 
 
+def hardest_impact(result: Turned) -> Impact | None:
+    """Return the hardest impact, the one forwards of two that are equal; None without any."""
+    every = impacts(result)
+    return max(every, key=lambda one: (round(abs(one.velocity), 9), one.way), default=None)
+
+
 def _impact(machine: DrawnMachine, push: Push, way: int) -> Impact:
     at = after(push, way)
     return Impact(float(rates(machine, at)[1][0]), push.begin, push.begin_wheel, way)
@@ -172,7 +188,7 @@ def _impact(machine: DrawnMachine, push: Push, way: int) -> Impact:
 
 def after(push: Push, way: int) -> tuple[float, float]:
     """Return crank and wheel angles just after a push begins."""
-    return push.begin + way * 1e-12, push.begin_wheel
+    return push.begin + way * JUST, push.begin_wheel
 
 
 def rates(machine: DrawnMachine, at: tuple[float, float]) -> tuple[np.ndarray, ...]:

@@ -64,6 +64,12 @@ class FreeRanges:
         self.stops = TurningStops(wheel, self.period, self.crank, self.L, 0.0)
         self.own = self.stops.wheel(0.0)
 
+    def with_slack(self, slack: float) -> FreeRanges:
+        """Return the ranges in which parts may overlap by another ``slack``, mm."""
+        out = copy(self)
+        out.slack = slack
+        return out
+
     def near(self, low: float, high: float, wheel: float, most: float) -> FreeRanges:
         """Return the ranges of the pieces that may touch between two crank angles, radians.
 

@@ -84,13 +84,13 @@ class _Stuck(Exception):
 class Turner:
     """Turns a wheel by its crank, from one position and one sense to the next.
 
-    The free ranges of a whole turn of the crank are computed once.
+    The free ranges of a whole turn of the crank are computed once, at ``steps`` positions.
     """
 
-    def __init__(self, free: FreeRanges, start: float) -> None:
+    def __init__(self, free: FreeRanges, start: float, steps: int = STEPS) -> None:
         self.free, self.start = free, start
         many = len(free.crank) * len(free.stops.outline) > MANY
-        self.steps = STEPS // 2 if many else STEPS
+        self.steps = min(steps, STEPS // 2) if many else steps
         self.ranges = free.at(start + math.tau * np.arange(self.steps) / self.steps)
 
     def rest(self, wheel: float) -> Range:

@@ -101,7 +101,7 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
     if not turned:
         return
     if mechanism.no_turn:
-        yield _pushed_round(mechanism)
+        yield pushed_round(mechanism)
         return
     from geneva_cli.parts.turn.pairs import WorkLimit
 
@@ -113,8 +113,11 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
     yield from applicable(TURNING, machine, turn)
 
 
-def _pushed_round(mechanism: Mechanism) -> Check:
-    """Whether parts turn that do not follow the formulas: by what touches, if that is installed."""
+def pushed_round(mechanism: Mechanism) -> Check:
+    """Return whether parts turn that do not follow the formulas, by what touches.
+
+    Without that extra the check has no verdict.
+    """
     try:
         check: Check = load_extra("outline", "as_built")(mechanism)
     except GenevaError:

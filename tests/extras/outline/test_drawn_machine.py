@@ -22,7 +22,9 @@ from geneva_cli.extras.outline.pictures import drawn_scene
 from geneva_cli.extras.outline.turning import impacts, turned
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.geometry.sheet import Drawing
+from geneva_cli.loads.strength.pin import stiffness_N_mm
 from geneva_cli.output import draw
+from geneva_cli.spec.workshops import Stock
 
 PLAIN = """[wheel]
 z = 6
@@ -137,6 +139,24 @@ def test_a_wheel_that_jams_says_where(tmp_path):
         _ = design.peaks_table
 
 
+@pytest.mark.parametrize(("half", "needed"), [(2.97, 0.03), (3.0, 1e-6)])
+def test_a_slot_that_is_too_narrow_says_by_how_much(half, needed, tmp_path):
+    """A roller of 3 mm in a slot of twice 2.97 mm overlaps each wall by 0.03 mm."""
+    file = written(tmp_path, drawn_wheel(6, 30.0, half, math.hypot(60.0 * math.sqrt(0.75), 3.0)))
+    design = spec(tmp_path, file, 'held_by = "pin"')
+    slack = next(check for check in design.checks if check.name == "turning_slack_mm")
+    assert needed <= slack.value * (1.0 + 1e-9)
+    assert slack.value <= 1.02 * needed
+    assert slack.passes == (half == 3.0)
+
+
+def test_a_rim_that_is_too_short_needs_more_than_slack(tmp_path):
+    design = spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 33.0)), 'held_by = "pin"')
+    slack = next(check for check in design.checks if check.name == "turning_slack_mm")
+    assert (slack.value, slack.passes) == (None, False)
+    assert "would not turn with 1.2 mm less" in slack.why
+
+
 @pytest.fixture(scope="module")
 def struck(tmp_path_factory):
     """A machine whose rim is too short."""
@@ -152,9 +172,38 @@ def test_an_impact_is_told_with_the_rim_that_would_avoid_it(struck):
     assert "rim is at 40 mm, and must reach 52.05" in entry.why  # the root of L² cos² b + r²
 
 
+def test_an_impact_has_a_force_where_an_inertia_is_given(tmp_path):
+    """The moment is I dw; pin and wall store I dw² / 2 under the force, by Palmgren's numbers."""
+    file = written(tmp_path, drawn_wheel(6, 30.0, 3.25, 40.0))
+    plain = spec(tmp_path, file, 'held_by = "detent"')
+    assert plain.peaks_table["impact.force_N"] is None
+    heavy = plain.with_("load.inertia_kgm2", 0.01).with_("size.face_width_mm", 6.0)
+    heavy = heavy.with_("size.pin_mm", 3.0)
+    found, w = heavy.peaks_table, math.tau  # 60 rpm
+    dw = found["impact.jump"] * w
+    assert found["impact.jump"] == pytest.approx(1.16207, abs=1e-5)
+    assert found["impact.moment_Nms"] == pytest.approx(0.01 * dw, rel=1e-12)
+    force = found["impact.force_N"]
+    bend = 1.0 / stiffness_N_mm(heavy.spec.size, 6.0, 3.0, Stock().youngs_modulus_GPa)
+    press = 3.84e-5 / 6.0**0.8
+    stored = press * force**1.9 * 0.9 / 1.9 + 0.5 * bend * force**2
+    assert stored == pytest.approx(0.5 * 0.01 * dw**2 * 1e3, rel=1e-6)
+    entry = next(c for c in heavy.checks if c.name == "entry_velocity_max")
+    assert f"the roller strikes it with {force:.4g} N" in entry.why
+
+
 def test_without_a_lock_or_detent_nothing_holds(tmp_path):
     design = spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 33.0)))
     assert "dwell_hold" in failing(design)
+
+
+def test_an_overlap_in_the_dwell_says_where(tmp_path):
+    """Our disc of 25 mm reaches to 35 mm of the wheel's axis, 10 mm below the rim."""
+    design = spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0)))
+    design = design.with_("size.lock_radius_mm", 25.0)
+    (turns,) = [check for check in design.checks if check.name == "turns"]
+    assert "10 mm inside the wheel at (30.3109, 17.5)" in turns.why
+    assert "lock_radius_mm = 0" in turns.why
 
 
 def test_frames_are_turned_and_mirrored(tmp_path):
@@ -296,6 +345,40 @@ def test_a_machine_as_built_without_clearance_jams_or_is_struck_at_its_mouth(bui
     free = turned(load(built, [*tight, "size.lock_radius_mm=0"]).mechanism)
     turn = free.senses[0].first
     assert math.degrees(turn.pushes[0].begin) == pytest.approx(-53.482, abs=1e-3)
+
+
+def test_what_takes_the_ideal_machine_says_so(tmp_path):
+    file = written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0))
+    design = spec(tmp_path, file, 'held_by = "pin"').with_("load.inertia_kgm2", 0.01)
+    told = (
+        design.warnings,
+        design.loads_table.to_dict()["warnings"],
+        design.vibration(5.0).to_dict()["warnings"],
+        design.report.table.to_dict()["warnings"],
+    )
+    (note,) = design.ideal_notes
+    assert all(note in [str(text) for text in notes] for notes in told)
+    assert note not in design.check_warnings
+    plain = Design.of(design.spec.replace(outline=type(design.spec.outline)()))
+    assert design.loads_table.to_dict()["pin_force_N.max"] == plain.loads["pin_force_N"].max
+    assert not plain.ideal_notes
+    for ask in (design.tolerance, design.tolerance_histogram):
+        with pytest.raises(GenevaError, match="our own parts, which the drawings"):
+            ask()
+
+
+@pytest.mark.parametrize(
+    ("command", "status"), [("compare", 0), ("plot", 0), ("export", 2), ("tolerance", 2)]
+)
+def test_commands_say_what_they_do_with_drawings(command, status, tmp_path):
+    spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0)))
+    options = {"export": ["-o", str(tmp_path / "out")], "plot": ["--pick", "velocity"]}
+    words = [command, str(tmp_path / "spec.toml"), *options.get(command, [])]
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == status
+    wanted = "[ideal-machine]" if status == 0 else "leave out [outline]"
+    assert wanted in result.stderr
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_drawing_is_named_by_options_too(tmp_path):
