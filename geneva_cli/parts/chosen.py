@@ -38,6 +38,9 @@ NAMES = {
     "size.link_thickness_mm": "links {:g} thick",
 }
 
+# Tables of quantities that depend on the sizes of the parts.
+OF_SIZES = ("parts", "strength", "life", "checks", "tolerance")
+
 
 class Chosen(NamedTuple):
     """A size that the spec leaves out: its value in the key's unit, and who chose it."""
