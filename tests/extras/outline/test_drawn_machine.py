@@ -232,6 +232,29 @@ def test_four_bars_carry_their_rollers_round_no_crank(tmp_path):
         _ = design.checks
 
 
+def test_rounded_arcs_get_the_slack_that_their_gaps_tell(tmp_path):
+    """Numbers with four decimals: walls overlap by half of the last, and ends of arcs miss."""
+    document, z, r = ezdxf.new("R2000", units=4), 6, 3.0
+    rim = math.hypot(60.0 * math.sqrt(0.75), r)
+    for piece in drawn_wheel(z, 30.0, r, rim).segments:
+        if isinstance(piece, Arc):
+            (x, y), radius = piece.centre, piece.radius
+            ends = [
+                round(math.degrees(math.atan2(p[1] - y, p[0] - x)), 4)
+                for p in (piece.start, piece.end)
+            ]
+            ends = ends if piece.bulge > 0.0 else ends[::-1]
+            document.modelspace().add_arc((round(x, 4), round(y, 4)), round(radius, 4), *ends)
+        else:
+            p, q = ([round(v, 4) for v in point] for point in (piece.start, piece.end))
+            document.modelspace().add_line(p, q)
+    document.saveas(tmp_path / "rounded.dxf")
+    design = spec(tmp_path, "rounded.dxf", 'held_by = "pin"')
+    assert 1e-5 < turned(design.mechanism).machine.free.slack < 5e-4
+    assert "turns" not in failing(design)
+    assert "turns" in failing(design.with_("outline.slack_mm", 1e-6))
+
+
 @pytest.mark.long
 def test_a_thousand_lines_turn_like_arcs(tmp_path):
     """Facets of a wheel and its crank: the answer is that of the arcs, within the sagittas."""
