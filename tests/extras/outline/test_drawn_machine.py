@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import repo
 import shapely
-from drawn_wheels import drawn_wheel
+from drawn_wheels import disc, drawn_wheel
 from shapely import affinity
 from typer.testing import CliRunner
 
@@ -138,6 +138,21 @@ def test_an_impact_is_told_with_the_rim_that_would_avoid_it(tmp_path):
 def test_without_a_lock_or_detent_nothing_holds(tmp_path):
     design = spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0)))
     assert "dwell_hold" in failing(design)
+
+
+def test_rollers_have_no_corners(tmp_path):
+    """Of two rollers the second enters as the first: the greatest power is that of the formulas."""
+    rim = math.sqrt(100.0**2 * 0.75 + 5.0**2)
+    wheel = written(tmp_path, drawn_wheel(6, 50.0, 5.0, rim))
+    crank = tmp_path / "crank.dxf"
+    draw(Drawing("", (disc(50.0, 0.0, 5.0), disc(-50.0, 0.0, 5.0))), str(crank))
+    design = spec(tmp_path, wheel, 'held_by = "pin"\n[drive]\nrollers = 2')
+    design = design.with_("size.center_distance_mm", 100.0).with_("size.roller_radius_mm", 5.0)
+    found = design.with_("outline.crank", str(crank))
+    at = [120.0 + off for off in (-1e-9, -1e-12, 0.0, 1e-12, 1e-9)]
+    assert np.abs(found.motion(at_deg=at)["acceleration"]).max() < 6.0
+    power = found.peaks_table["power.max"]
+    assert power == pytest.approx(design.peaks.power.max, rel=1e-6)
 
 
 def test_an_overlap_in_the_dwell_says_where(tmp_path):
