@@ -20,7 +20,6 @@ from geneva_cli.extras.outline.turning import (
     impacts,
     turned,
 )
-from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import shown
 from geneva_cli.geometry.measure import at
 from geneva_cli.motion.mechanism import Mechanism
@@ -105,16 +104,11 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
 def _overlap_text(machine: DrawnMachine, mechanism: Mechanism) -> str:
     """Where the crank lies deepest in the wheel, in the middle of the dwell."""
     text = "parts overlap in the middle of the dwell"
-    turn = float(machine.free.crank_direction(np.array([machine.start]))[0])
     fractions = np.linspace(0.0, 1.0, POINTS)
     points = [at(p, float(t)) for shape in machine.crank for p in shape.segments for t in fractions]
-    z = np.array([complex(*point) for point in points]) * np.exp(1j * turn) + machine.assembly.L
-    z *= np.exp(-1j * machine.rest)
-    depth = Polyarc(machine.wheel).signed(np.column_stack((z.real, z.imag)))
-    deepest = int(np.argmin(depth))
-    if depth[deepest] < 0.0:
-        where = shown((float(z[deepest].real), float(z[deepest].imag)))
-        text += f": the crank is {-depth[deepest]:.3g} mm inside the wheel at {where} in its frame"
+    depth, where = machine.deepest(points)
+    if depth > 0.0:
+        text += f": the crank is {depth:.3g} mm inside the wheel at {shown(where)} in its frame"
     hint = "check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
     if mechanism.spec.outline.crank is None:
         hint += (
@@ -207,7 +201,7 @@ def _rests(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check the velocity with which the wheel is set in motion."""
     every = impacts(result)
-    if not every:
+    if not (every and result.rest.is_free):
         return
     worst = max(every, key=lambda one: abs(one.velocity))
     limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +13,7 @@ from geneva_cli.errors import GenevaError, Notice, below, cut
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import Loop, loops
 from geneva_cli.geometry.measure import turned_pieces
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, closed, two_arcs
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Point, closed, two_arcs
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.output.foreign import read_drawing
@@ -53,6 +54,19 @@ class DrawnMachine(NamedTuple):
     def slots_a_turn(self) -> int:
         """Number of slots that a turn of the crank should pass."""
         return len(self.assembly.motions)
+
+    def deepest(self, points: Sequence[Point]) -> tuple[float, Point]:
+        """Return how deep points of the crank lie in the wheel in the middle of the dwell, mm.
+
+        The place is that of the deepest one, in the wheel's own frame; the depth is below 0 if all
+        lie outside.
+        """
+        turn = float(self.free.crank_direction(np.array([self.start]))[0])
+        z = np.array([complex(*point) for point in points]) * np.exp(1j * turn)
+        z = (z + self.assembly.L) * np.exp(-1j * self.rest)
+        depth = -Polyarc(self.wheel).signed(np.column_stack((z.real, z.imag)))
+        i = int(np.argmax(depth))
+        return float(depth[i]), (float(z[i].real), float(z[i].imag))
 
 
 def drawn_machine(mechanism: Mechanism) -> DrawnMachine:

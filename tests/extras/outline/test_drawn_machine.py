@@ -164,6 +164,18 @@ def test_an_overlap_in_the_dwell_says_where(tmp_path):
     assert "lock_radius_mm = 0" in turns.why
 
 
+def test_a_roller_wholly_inside_the_wheel_overlaps(tmp_path):
+    """It meets no edge: between two slots, 30 mm from the axis, it is far from all of them."""
+    wheel = written(tmp_path, drawn_wheel(6, 30.0, 3.0, 52.05))
+    crank = tmp_path / "crank.dxf"
+    draw(Drawing("", (disc(30.0, 0.0, 3.0), disc(-30.0, 0.0, 1.0))), str(crank))
+    design = spec(tmp_path, wheel, 'held_by = "pin"').with_("outline.crank", str(crank))
+    (turns,) = [check for check in design.checks if check.name == "turns"]
+    assert "parts overlap in the middle of the dwell: the crank is" in turns.why
+    with pytest.raises(GenevaError, match="does not turn"):
+        _ = design.peaks_table
+
+
 def test_frames_are_turned_and_mirrored(tmp_path):
     contour = drawn_wheel(6, 30.0, 3.25, 45.0)
     flat = spec(tmp_path, written(tmp_path, contour), 'held_by = "pin"')
