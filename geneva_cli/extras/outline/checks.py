@@ -130,16 +130,11 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
 def _overlap_text(machine: DrawnMachine, mechanism: Mechanism) -> str:
     """Where the crank lies deepest in the wheel, in the middle of the dwell."""
     text = "parts overlap in the middle of the dwell"
-    turn = float(machine.free.crank_direction(np.array([machine.start]))[0])
     fractions = np.linspace(0.0, 1.0, POINTS)
     points = [at(p, float(t)) for shape in machine.crank for p in shape.segments for t in fractions]
-    z = np.array([complex(*point) for point in points]) * np.exp(1j * turn) + machine.assembly.L
-    z *= np.exp(-1j * machine.rest)
-    depth = Polyarc(machine.wheel).signed(np.column_stack((z.real, z.imag)))
-    deepest = int(np.argmin(depth))
-    if depth[deepest] < 0.0:
-        where = shown((float(z[deepest].real), float(z[deepest].imag)))
-        text += f": the crank is {-depth[deepest]:.3g} mm inside the wheel at {where} in its frame"
+    depth, where = machine.deepest(points)
+    if depth > 0.0:
+        text += f": the crank is {depth:.3g} mm inside the wheel at {shown(where)} in its frame"
     hint = "check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
     if mechanism.spec.outline.crank is None:
         hint += (
@@ -249,7 +244,7 @@ def _walls(machine: DrawnMachine) -> Iterator[Check]:
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check the velocity with which the wheel is set in motion."""
     worst = hardest_impact(result)
-    if worst is None:
+    if worst is None or not result.rest.is_free:
         return
     limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
     at = _shown_deg(result.machine, worst.crank)

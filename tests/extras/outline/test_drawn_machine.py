@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import repo
 import shapely
-from drawn_wheels import drawn_wheel
+from drawn_wheels import disc, drawn_wheel
 from sampling import some
 from shapely import affinity
 from typer.testing import CliRunner
@@ -197,6 +197,21 @@ def test_without_a_lock_or_detent_nothing_holds(tmp_path):
     assert "dwell_hold" in failing(design)
 
 
+def test_rollers_have_no_corners(tmp_path):
+    """Of two rollers the second enters as the first: the greatest power is that of the formulas."""
+    rim = math.sqrt(100.0**2 * 0.75 + 5.0**2)
+    wheel = written(tmp_path, drawn_wheel(6, 50.0, 5.0, rim))
+    crank = tmp_path / "crank.dxf"
+    draw(Drawing("", (disc(50.0, 0.0, 5.0), disc(-50.0, 0.0, 5.0))), str(crank))
+    design = spec(tmp_path, wheel, 'held_by = "pin"\n[drive]\nrollers = 2')
+    design = design.with_("size.center_distance_mm", 100.0).with_("size.roller_radius_mm", 5.0)
+    found = design.with_("outline.crank", str(crank))
+    at = [120.0 + off for off in (-1e-9, -1e-12, 0.0, 1e-12, 1e-9)]
+    assert np.abs(found.motion(at_deg=at)["acceleration"]).max() < 6.0
+    power = found.peaks_table["power.max"]
+    assert power == pytest.approx(design.peaks.power.max, rel=1e-6)
+
+
 def test_an_overlap_in_the_dwell_says_where(tmp_path):
     """Our disc of 25 mm reaches to 35 mm of the wheel's axis, 10 mm below the rim."""
     design = spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0)))
@@ -204,6 +219,18 @@ def test_an_overlap_in_the_dwell_says_where(tmp_path):
     (turns,) = [check for check in design.checks if check.name == "turns"]
     assert "10 mm inside the wheel at (30.3109, 17.5)" in turns.why
     assert "lock_radius_mm = 0" in turns.why
+
+
+def test_a_roller_wholly_inside_the_wheel_overlaps(tmp_path):
+    """It meets no edge: between two slots, 30 mm from the axis, it is far from all of them."""
+    wheel = written(tmp_path, drawn_wheel(6, 30.0, 3.0, 52.05))
+    crank = tmp_path / "crank.dxf"
+    draw(Drawing("", (disc(30.0, 0.0, 3.0), disc(-30.0, 0.0, 1.0))), str(crank))
+    design = spec(tmp_path, wheel, 'held_by = "pin"').with_("outline.crank", str(crank))
+    (turns,) = [check for check in design.checks if check.name == "turns"]
+    assert "parts overlap in the middle of the dwell: the crank is" in turns.why
+    with pytest.raises(GenevaError, match="does not turn"):
+        _ = design.peaks_table
 
 
 def test_frames_are_turned_and_mirrored(tmp_path):
