@@ -78,6 +78,15 @@ def test_no_unit_is_noted(tmp_path):
     assert "millimetres" in dxf(tmp_path, lambda d, m: m.add_circle((0, 0), 1), 0).notes[0]
 
 
+def test_a_file_without_a_header_is_in_millimetres(tmp_path):
+    rows = ["0", "SECTION", "2", "ENTITIES", "0", "CIRCLE", "8", "0", "10", "0.0", "20", "0.0"]
+    text = "\n".join([*rows, "40", "2.0", "0", "ENDSEC", "0", "EOF", ""])
+    (tmp_path / "drawing.dxf").write_text(text, encoding="ascii")
+    drawn = read_drawing(str(tmp_path / "drawing.dxf"))
+    assert areas(drawn) == [pytest.approx(4.0 * math.pi, rel=1e-12)]
+    assert "millimetres" in drawn.notes[0]
+
+
 def test_a_spline_stays_within_the_tolerance(tmp_path):
     """Points of the spline by de Boor's own library against the arcs that replace it."""
     points = [(0, 0), (10, 5), (20, -5), (30, 10)]

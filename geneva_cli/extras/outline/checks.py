@@ -21,10 +21,12 @@ from geneva_cli.extras.outline.turning import (
     Turned,
     hardest_impact,
     turned,
+    turning,
 )
 from geneva_cli.extras.outline.walls import smallest_wall
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import shown
+from geneva_cli.geometry.measure import at
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
@@ -33,6 +35,7 @@ from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.verdict.checks.check import Check, compared
 
 ROUNDING_DEG = 1e-3  # a smaller play comes from the slack
+POINTS = 9  # of each piece, where parts overlap
 ENTRY_VELOCITY = 0.01  # default of ``entry_velocity_max``
 
 
@@ -47,8 +50,8 @@ def checks(mechanism: Mechanism) -> list[Check]:
     return [*rows, *_entry(result, mechanism), *_drift(result, mechanism)]
 
 
-def as_built(mechanism: Mechanism) -> Check:
-    """Return the check that our own parts on a crank as built turn, with their impact in words.
+def as_built(mechanism: Mechanism) -> list[Check]:
+    """Return the checks that our own parts on a crank as built turn, and of their impact.
 
     Raises GenevaError for parts that are not flat, or whose rollers go round no crank.
     """
@@ -56,10 +59,11 @@ def as_built(mechanism: Mechanism) -> Check:
     check = _turns(result, mechanism)
     struck = hardest(mechanism, result)
     if not (check.passes and struck):
-        return check
-    text = f"roller, clearance and disc strike the wheel with {abs(struck.jump):.4g} of the "
-    text += f"input's speed at {struck.at_deg:.5g}°{strike_text(struck)}"
-    return check._replace(why=f"{text}; {check.why}")
+        return [check]
+    limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
+    row = compared("strike_velocity", abs(struck.jump), "at most", limit, struck.at_deg)
+    text = f"roller, clearance and disc strike the wheel{strike_text(struck)}"
+    return [check, row if row.passes else row._replace(why=text)]
 
 
 def warnings(mechanism: Mechanism) -> list[Notice]:
@@ -71,10 +75,7 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
     z = mechanism.spec.wheel.z
     worst = min(result.senses, key=lambda sense: sense.passed)
     if not result.rest.is_free:
-        why = (
-            "parts overlap in the middle of the dwell: check wheel_turn_deg, crank_turn_deg and "
-            "mirror in [outline]"
-        )
+        why = _overlap_text(result.machine, mechanism)
         return Check("turns", 0.0, "at least", float(z), False, why)
     if worst.jam is not None:
         at = _shown_deg(result.machine, worst.jam.crank)
@@ -126,6 +127,23 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
     return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} in its own frame"
 
 
+def _overlap_text(machine: DrawnMachine, mechanism: Mechanism) -> str:
+    """Where the crank lies deepest in the wheel, in the middle of the dwell."""
+    text = "parts overlap in the middle of the dwell"
+    fractions = np.linspace(0.0, 1.0, POINTS)
+    points = [at(p, float(t)) for shape in machine.crank for p in shape.segments for t in fractions]
+    depth, where = machine.deepest(points)
+    if depth > 0.0:
+        text += f": the crank is {depth:.3g} mm inside the wheel at {shown(where)} in its frame"
+    hint = "check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
+    if mechanism.spec.outline.crank is None:
+        hint += (
+            "; the crank is our own: give its drawing with --crank, or set lock_radius_mm = 0 in "
+            "[size] if it has no locking disc"
+        )
+    return f"{text}; {hint}"
+
+
 def _from_rest(machine: DrawnMachine, wheel: float) -> float:
     """A wheel's angle in its own step, degrees from the middle of it."""
     step = machine.step / machine.slots_a_turn
@@ -153,7 +171,7 @@ def _summary(result: Turned, mechanism: Mechanism) -> str:
     held = f"{_play(rest)} in the dwell" if result.is_held else "nothing holds it in the dwell"
     text += f"{held}, {_play(float(free[moving].max(initial=0.0)))} in motion"
     widest = float(free[~moving].max(initial=0.0))
-    if widest > rest + ROUNDING_DEG:
+    if result.is_held and widest > rest + ROUNDING_DEG:
         text += f", at most {widest:.4g}° while it rests"
     lag = lag_deg(result)
     if lag > ROUNDING_DEG:
@@ -190,7 +208,7 @@ def _rests(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     low, high = result.rest.low, result.rest.high
     if high - low < LOOSE or not result.rest.is_free:
         return
-    begin, end = result.turning or (result.machine.rest, result.machine.rest)
+    begin, end = turning(result) or (result.machine.rest, result.machine.rest)
     put_back = mechanism.spec.wheel.held_by in HELD_MIDDLE
     limit = 0.0 if put_back else math.degrees(high - low)
     value = math.degrees(end - begin)
@@ -226,7 +244,7 @@ def _walls(machine: DrawnMachine) -> Iterator[Check]:
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check the velocity with which the wheel is set in motion."""
     worst = hardest_impact(result)
-    if worst is None:
+    if worst is None or not result.rest.is_free:
         return
     limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
     at = _shown_deg(result.machine, worst.crank)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -12,8 +13,7 @@ from geneva_cli.errors import GenevaError, Notice, below, cut
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import Loop, greatest_gap, loops
 from geneva_cli.geometry.measure import turned_pieces
-from geneva_cli.geometry.moments import oriented
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Point, closed, two_arcs
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
@@ -56,6 +56,19 @@ class DrawnMachine(NamedTuple):
     def slots_a_turn(self) -> int:
         """Number of slots that a turn of the crank should pass."""
         return len(self.assembly.motions)
+
+    def deepest(self, points: Sequence[Point]) -> tuple[float, Point]:
+        """Return how deep points of the crank lie in the wheel in the middle of the dwell, mm.
+
+        The place is that of the deepest one, in the wheel's own frame; the depth is below 0 if all
+        lie outside.
+        """
+        turn = float(self.free.crank_direction(np.array([self.start]))[0])
+        z = np.array([complex(*point) for point in points]) * np.exp(1j * turn)
+        z = (z + self.assembly.L) * np.exp(-1j * self.rest)
+        depth = -Polyarc(self.wheel).signed(np.column_stack((z.real, z.imag)))
+        i = int(np.argmax(depth))
+        return float(depth[i]), (float(z[i].real), float(z[i].imag))
 
 
 def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
@@ -177,15 +190,32 @@ def _with_rollers(
     R = ideal = abs(turned[0])
     if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
         ideal = place.L * math.sin(math.pi / mechanism.spec.wheel.z)
-    crank = drawn.contours if drawn else own
-    for loop in drawn.loops if drawn else ():
-        circle = _as_circle(loop)
-        if circle and not loop.is_hole and abs(complex(*circle.centre)) > circle.radius:
-            return crank, Roller(abs(complex(*circle.centre)), circle.radius, True, ideal)
+    crank, found = own, list[Circle]()
+    if drawn:
+        found = [c for loop in drawn.loops if (c := _as_roller(loop)) is not None]
+        rest = [loop.contour for loop in drawn.loops if _as_roller(loop) is None]
+        crank = (*rest, *map(_round, found))
+    if found:
+        return crank, Roller(math.hypot(*found[0].centre), found[0].radius, True, ideal)
     if drawn and Polyarc(crank).signed(np.array([(turned[0].real, turned[0].imag)]))[0] < 0.0:
         return crank, Roller(R, radius, True, ideal)
-    rollers = [oriented(Circle("ROLLER", (pin.real, pin.imag), radius), ())[0] for pin in turned]
+    rollers = [_round(Circle("ROLLER", (pin.real, pin.imag), radius)) for pin in turned]
     return (*crank, *rollers), Roller(R, radius, False, ideal)
+
+
+def _round(roller: Circle) -> Contour:
+    """Return a roller as two arcs, whose ends are not where it touches straight slots.
+
+    At an entry both walls touch it across the crank's arm, where ends would count as corners.
+    """
+    across = math.atan2(roller.centre[1], roller.centre[0])
+    return closed("ROLLER", two_arcs(roller, across + 1.0))
+
+
+def _as_roller(loop: Loop) -> Circle | None:
+    """Return an outline that is a full circle beside the crank's axis as one."""
+    circle = None if loop.is_hole else _as_circle(loop)
+    return circle if circle and math.hypot(*circle.centre) > circle.radius else None
 
 
 def _as_circle(loop: Loop) -> Circle | None:

@@ -61,12 +61,12 @@ class Turned(NamedTuple):
     senses: tuple[SenseResult, SenseResult]
     rest: Range  # where the wheel may stand in the dwell
     is_held: bool  # the outlines hold the wheel in the dwell
-    turning: tuple[float, float] | None  # places of rest from which it turns in both senses
 
     @property
     def turns(self) -> bool:
         """True if it turns in both senses, from the middle of its dwell on."""
-        return all(sense.jam is None for sense in self.senses) and self.has_indexed
+        passes = all(sense.jam is None for sense in self.senses)
+        return self.rest.is_free and passes and self.has_indexed
 
     @property
     def has_indexed(self) -> bool:
@@ -81,14 +81,17 @@ def turned(mechanism: Mechanism) -> Turned:
     machine = drawn_machine(mechanism)
     turner = Turner(machine.free, machine.start)
     rest = turner.rest(machine.rest)
+    # an outline wholly inside the wheel meets none of its edges
+    depth, _ = machine.deepest([contour.segments[0].start for contour in machine.crank])
+    if depth > 2.0 * machine.free.slack:
+        rest = rest._replace(is_free=False)
     half = 0.5 * math.tau / mechanism.spec.wheel.z
     low, high = max(rest.low, machine.rest - half), min(rest.high, machine.rest + half)
     is_held = rest.is_free and high - low < 2.0 * half * (1.0 - 1e-9)
     is_put_back = put_back(machine, Range(rest.is_free, low, high))
     senses = tuple(one_sense(turner, machine, way, is_put_back) for way in SENSES)
-    turning = _turning(turner, machine, (low, high)) if rest.is_free else None
     limited = Range(rest.is_free, low, high)
-    return Turned(machine, turner, (senses[0], senses[1]), limited, is_held, turning)
+    return Turned(machine, turner, (senses[0], senses[1]), limited, is_held)
 
 
 def put_back(machine: DrawnMachine, rest: Range) -> bool:
@@ -124,11 +127,15 @@ def one_sense(
     return SenseResult(way, tuple(out), z, drift)
 
 
-def _turning(
-    turner: Turner, machine: DrawnMachine, span: tuple[float, float]
-) -> tuple[float, float] | None:
-    """Return the places of rest around the middle from which the wheel turns; None without any."""
-    low, high = span
+def turning(result: Turned) -> tuple[float, float] | None:
+    """Return the places of rest around the middle from which the wheel turns; None without any.
+
+    It tries many turns, which costs more than everything else of a drawing.
+    """
+    machine, turner = result.machine, result.turner
+    is_free, low, high = result.rest
+    if not is_free:
+        return None
 
     def goes(rest: float) -> bool:
         for way in SENSES:

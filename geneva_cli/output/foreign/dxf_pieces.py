@@ -44,7 +44,8 @@ def read_dxf(data: bytes) -> Drawn:
     data that is no DXF file, and for an entity that is no outline.
     """
     document = _document(data)
-    code = int(document.header.get("$INSUNITS", 0) or 0)
+    # a file without a header gets the library's own, whose unit is the metre
+    code = int(document.header.get("$INSUNITS", 0) or 0) if b"$INSUNITS" in data else 0
     if code and code not in UNITS:
         raise GenevaError(
             f"$INSUNITS is {code}: it must be one of {', '.join(map(str, UNITS))}; 4 is millimetres"
