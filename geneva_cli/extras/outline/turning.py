@@ -183,7 +183,7 @@ def impacts(result: Turned) -> list[Impact]:
 def hardest_impact(result: Turned) -> Impact | None:
     """Return the hardest impact, the one forwards of two that are equal; None without any."""
     every = impacts(result)
-    return max(every, key=lambda one: (round(abs(one.velocity), 9), one.way), default=None)
+    return max(every, key=lambda one: (round(abs(one.velocity), 4), one.way), default=None)
 
 
 def _impact(machine: DrawnMachine, push: Push, way: int) -> Impact:
