@@ -992,7 +992,10 @@ class Design:
         return self.spec.accept.applied([Notice("ideal-machine", text)] if self.is_drawn else [])
 
     def refuse_drawn(self, what: str) -> None:
-        """Raise GenevaError for ``what`` is asked of a machine with drawings."""
+        """Raise GenevaError if the machine has drawings, of which ``what`` is not known.
+
+        >>> Design(External(6)).refuse_drawn("tolerances are those")
+        """
         if self.is_drawn:
             with self._located:
                 raise GenevaError(
