@@ -130,7 +130,7 @@ def _used(
     element: ElementTree.Element, named: dict[str, ElementTree.Element]
 ) -> ElementTree.Element:
     """Return the element that a <use> shows."""
-    link = element.get("href") or element.get("{http://www.w3.org/1999/xlink}href", "")
+    link = element.get("href") or element.get("{http://www.w3.org/1999/xlink}href") or ""
     target = named.get(link.removeprefix("#")) if link.startswith("#") else None
     if target is None:
         raise GenevaError(f'<use href="{cut(link, 40)}"> names nothing in the file')
