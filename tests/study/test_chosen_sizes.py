@@ -234,6 +234,9 @@ def test_the_table_and_the_file(turret):
     tree = json.loads(run("size", "turret.toml", "--format", "json").stdout)
     assert list(tree) == ["spec", "title", "rows"]
     assert all(list(row) == ["key", "value", "why"] for row in tree["rows"])
+    repo.put("untitled.toml", "[wheel]\nz = 6\n")
+    untitled = json.loads(run("size", "untitled.toml", "--format", "json").stdout)
+    assert untitled["title"] == "" == load("untitled.toml").loads_table.to_dict()["title"]
     assert run("size", "turret.toml", "-o", "sizes.csv").exit_code == 0
     assert repo.get("sizes.csv").startswith("key,value,why\n")
     printed = run("size", "turret.toml", "-o", "-")

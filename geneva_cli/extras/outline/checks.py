@@ -50,8 +50,8 @@ def checks(mechanism: Mechanism) -> list[Check]:
     return [*rows, *_entry(result, mechanism), *_drift(result, mechanism)]
 
 
-def as_built(mechanism: Mechanism) -> Check:
-    """Return the check that our own parts on a crank as built turn, with their impact in words.
+def as_built(mechanism: Mechanism) -> list[Check]:
+    """Return the checks that our own parts on a crank as built turn, and of their impact.
 
     Raises GenevaError for parts that are not flat, or whose rollers go round no crank.
     """
@@ -59,10 +59,11 @@ def as_built(mechanism: Mechanism) -> Check:
     check = _turns(result, mechanism)
     struck = hardest(mechanism, result)
     if not (check.passes and struck):
-        return check
-    text = f"roller, clearance and disc strike the wheel with {abs(struck.jump):.4g} of the "
-    text += f"input's speed at {struck.at_deg:.5g}°{strike_text(struck)}"
-    return check._replace(why=f"{text}; {check.why}")
+        return [check]
+    limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
+    row = compared("strike_velocity", abs(struck.jump), "at most", limit, struck.at_deg)
+    text = f"roller, clearance and disc strike the wheel{strike_text(struck)}"
+    return [check, row if row.passes else row._replace(why=text)]
 
 
 def warnings(mechanism: Mechanism) -> list[Notice]:
@@ -129,16 +130,11 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
 def _overlap_text(machine: DrawnMachine, mechanism: Mechanism) -> str:
     """Where the crank lies deepest in the wheel, in the middle of the dwell."""
     text = "parts overlap in the middle of the dwell"
-    turn = float(machine.free.crank_direction(np.array([machine.start]))[0])
     fractions = np.linspace(0.0, 1.0, POINTS)
     points = [at(p, float(t)) for shape in machine.crank for p in shape.segments for t in fractions]
-    z = np.array([complex(*point) for point in points]) * np.exp(1j * turn) + machine.assembly.L
-    z *= np.exp(-1j * machine.rest)
-    depth = Polyarc(machine.wheel).signed(np.column_stack((z.real, z.imag)))
-    deepest = int(np.argmin(depth))
-    if depth[deepest] < 0.0:
-        where = shown((float(z[deepest].real), float(z[deepest].imag)))
-        text += f": the crank is {-depth[deepest]:.3g} mm inside the wheel at {where} in its frame"
+    depth, where = machine.deepest(points)
+    if depth > 0.0:
+        text += f": the crank is {depth:.3g} mm inside the wheel at {shown(where)} in its frame"
     hint = "check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
     if mechanism.spec.outline.crank is None:
         hint += (
@@ -248,7 +244,7 @@ def _walls(machine: DrawnMachine) -> Iterator[Check]:
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check the velocity with which the wheel is set in motion."""
     worst = hardest_impact(result)
-    if worst is None:
+    if worst is None or not result.rest.is_free:
         return
     limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
     at = _shown_deg(result.machine, worst.crank)

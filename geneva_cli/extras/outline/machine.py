@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, below, cut
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.loops import Loop, loops
+from geneva_cli.geometry.loops import Loop, greatest_gap, loops
 from geneva_cli.geometry.measure import turned_pieces
-from geneva_cli.geometry.moments import oriented
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Point, closed, two_arcs
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
@@ -23,7 +23,7 @@ from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_ranges import FreeRanges, levels
 
-EXACT_MM, FACETED_MM = 1e-6, 1e-3  # overlaps that count as touching: of arcs, of short lines
+EXACT_MM, MOST_MM = 1e-6, 1e-3  # overlaps that count as touching: of exact arcs, of short lines
 
 
 class Roller(NamedTuple):
@@ -57,6 +57,19 @@ class DrawnMachine(NamedTuple):
         """Number of slots that a turn of the crank should pass."""
         return len(self.assembly.motions)
 
+    def deepest(self, points: Sequence[Point]) -> tuple[float, Point]:
+        """Return how deep points of the crank lie in the wheel in the middle of the dwell, mm.
+
+        The place is that of the deepest one, in the wheel's own frame; the depth is below 0 if all
+        lie outside.
+        """
+        turn = float(self.free.crank_direction(np.array([self.start]))[0])
+        z = np.array([complex(*point) for point in points]) * np.exp(1j * turn)
+        z = (z + self.assembly.L) * np.exp(-1j * self.rest)
+        depth = -Polyarc(self.wheel).signed(np.column_stack((z.real, z.imag)))
+        i = int(np.argmax(depth))
+        return float(depth[i]), (float(z[i].real), float(z[i].imag))
+
 
 def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
     """Return a machine with the drawings of its ``[outline]``.
@@ -71,8 +84,8 @@ def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
         own = parts_of(mechanism).flat.outlines
     theirs = wheel.contours if wheel else (own.wheel,)
     ours, roller = _with_rollers(crank, mechanism, place, tuple(own.crank) if not crank else ())
-    are_exact = [drawn.is_exact for drawn in (wheel, crank) if drawn]
-    slack = outline.slack_mm or (EXACT_MM if all(are_exact) else FACETED_MM)
+    rounded = sum(drawn.slack for drawn in (wheel, crank) if drawn)
+    slack = outline.slack_mm or min(max(rounded, EXACT_MM), MOST_MM)
     L, z = place.L, spec.wheel.z
     both = Polyarc(theirs), Polyarc(ours)
     _require_reach(*both, L)
@@ -123,10 +136,10 @@ def _assembly(mechanism: Mechanism) -> Assembly:
 
 
 class _Drawn(NamedTuple):
-    """The outlines of a drawing in the frame of our own; exact ones have arcs, and no facets."""
+    """The outlines of a drawing in the frame of our own, and how far rounding may overlap them."""
 
     loops: tuple[Loop, ...]
-    is_exact: bool
+    slack: float  # mm
 
     @property
     def contours(self) -> tuple[Contour, ...]:
@@ -151,7 +164,10 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> _Drawn | None:
         own = tuple(loops(pieces))
     except GenevaError as error:
         raise GenevaError(f"{cut(path, 300)}: {error}") from None
-    return _Drawn(own, drawn.is_exact and any(isinstance(piece, Arc) for piece in pieces))
+    if not (drawn.is_exact and any(isinstance(piece, Arc) for piece in pieces)):
+        return _Drawn(own, MOST_MM)  # facets
+    gap = 2.0 * greatest_gap(pieces)  # of numbers that were rounded
+    return _Drawn(own, gap if gap > EXACT_MM else 0.0)
 
 
 def _mirrored(piece: Line | Arc) -> Line | Arc:
@@ -174,15 +190,32 @@ def _with_rollers(
     R = ideal = abs(turned[0])
     if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
         ideal = place.L * math.sin(math.pi / mechanism.spec.wheel.z)
-    crank = drawn.contours if drawn else own
-    for loop in drawn.loops if drawn else ():
-        circle = _as_circle(loop)
-        if circle and not loop.is_hole and abs(complex(*circle.centre)) > circle.radius:
-            return crank, Roller(abs(complex(*circle.centre)), circle.radius, True, ideal)
+    crank, found = own, list[Circle]()
+    if drawn:
+        found = [c for loop in drawn.loops if (c := _as_roller(loop)) is not None]
+        rest = [loop.contour for loop in drawn.loops if _as_roller(loop) is None]
+        crank = (*rest, *map(_round, found))
+    if found:
+        return crank, Roller(math.hypot(*found[0].centre), found[0].radius, True, ideal)
     if drawn and Polyarc(crank).signed(np.array([(turned[0].real, turned[0].imag)]))[0] < 0.0:
         return crank, Roller(R, radius, True, ideal)
-    rollers = [oriented(Circle("ROLLER", (pin.real, pin.imag), radius), ())[0] for pin in turned]
+    rollers = [_round(Circle("ROLLER", (pin.real, pin.imag), radius)) for pin in turned]
     return (*crank, *rollers), Roller(R, radius, False, ideal)
+
+
+def _round(roller: Circle) -> Contour:
+    """Return a roller as two arcs, whose ends are not where it touches straight slots.
+
+    At an entry both walls touch it across the crank's arm, where ends would count as corners.
+    """
+    across = math.atan2(roller.centre[1], roller.centre[0])
+    return closed("ROLLER", two_arcs(roller, across + 1.0))
+
+
+def _as_roller(loop: Loop) -> Circle | None:
+    """Return an outline that is a full circle beside the crank's axis as one."""
+    circle = None if loop.is_hole else _as_circle(loop)
+    return circle if circle and math.hypot(*circle.centre) > circle.radius else None
 
 
 def _as_circle(loop: Loop) -> Circle | None:

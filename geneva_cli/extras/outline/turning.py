@@ -65,7 +65,8 @@ class Turned(NamedTuple):
     @property
     def turns(self) -> bool:
         """True if it turns in both senses, from the middle of its dwell on."""
-        return all(sense.jam is None for sense in self.senses) and self.has_indexed
+        passes = all(sense.jam is None for sense in self.senses)
+        return self.rest.is_free and passes and self.has_indexed
 
     @property
     def has_indexed(self) -> bool:
@@ -80,6 +81,10 @@ def turned(mechanism: Mechanism) -> Turned:
     machine = drawn_machine(mechanism)
     turner = Turner(machine.free, machine.start)
     rest = turner.rest(machine.rest)
+    # an outline wholly inside the wheel meets none of its edges
+    depth, _ = machine.deepest([contour.segments[0].start for contour in machine.crank])
+    if depth > 2.0 * machine.free.slack:
+        rest = rest._replace(is_free=False)
     half = 0.5 * math.tau / mechanism.spec.wheel.z
     low, high = max(rest.low, machine.rest - half), min(rest.high, machine.rest + half)
     is_held = rest.is_free and high - low < 2.0 * half * (1.0 - 1e-9)

@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.parts.turn.stops import Meetings, TurningStops
 
 SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
@@ -144,6 +144,7 @@ class Ranges:
         row = np.concatenate((row, row, row))
         start, end = (np.concatenate((each, each, each)) + copy for each in (start, end))
         row, start, end = union(row, start, end)
+        self.intervals = row, start, end
         self.ends = np.searchsorted(row, np.arange(count + 1)).tolist()
         self.low, self.high = start.tolist(), end.tolist()
 
@@ -160,6 +161,14 @@ class Ranges:
         if angle < before:
             return Range(False, self.low[k - 1] + shift, before)
         return Range(True, before, after)
+
+    def are_blocked(self, angle: float) -> Mask:
+        """Return in which poses an angle of the wheel, radians, is not free: (n,)."""
+        row, start, end = self.intervals
+        at = angle - self.period * math.floor(angle / self.period)
+        out = np.zeros(len(self.ends) - 1, dtype=bool)
+        out[row[(start < at) & (at < end)]] = True
+        return out
 
 
 def union(row: Whole, start: Array, end: Array) -> Intervals:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import repo
 import shapely
-from drawn_wheels import drawn_wheel
+from drawn_wheels import disc, drawn_wheel
 from sampling import some
 from shapely import affinity
 from typer.testing import CliRunner
@@ -197,6 +197,21 @@ def test_without_a_lock_or_detent_nothing_holds(tmp_path):
     assert "dwell_hold" in failing(design)
 
 
+def test_rollers_have_no_corners(tmp_path):
+    """Of two rollers the second enters as the first: the greatest power is that of the formulas."""
+    rim = math.sqrt(100.0**2 * 0.75 + 5.0**2)
+    wheel = written(tmp_path, drawn_wheel(6, 50.0, 5.0, rim))
+    crank = tmp_path / "crank.dxf"
+    draw(Drawing("", (disc(50.0, 0.0, 5.0), disc(-50.0, 0.0, 5.0))), str(crank))
+    design = spec(tmp_path, wheel, 'held_by = "pin"\n[drive]\nrollers = 2')
+    design = design.with_("size.center_distance_mm", 100.0).with_("size.roller_radius_mm", 5.0)
+    found = design.with_("outline.crank", str(crank))
+    at = [120.0 + off for off in (-1e-9, -1e-12, 0.0, 1e-12, 1e-9)]
+    assert np.abs(found.motion(at_deg=at)["acceleration"]).max() < 6.0
+    power = found.peaks_table["power.max"]
+    assert power == pytest.approx(design.peaks.power.max, rel=1e-6)
+
+
 def test_an_overlap_in_the_dwell_says_where(tmp_path):
     """Our disc of 25 mm reaches to 35 mm of the wheel's axis, 10 mm below the rim."""
     design = spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0)))
@@ -204,6 +219,18 @@ def test_an_overlap_in_the_dwell_says_where(tmp_path):
     (turns,) = [check for check in design.checks if check.name == "turns"]
     assert "10 mm inside the wheel at (30.3109, 17.5)" in turns.why
     assert "lock_radius_mm = 0" in turns.why
+
+
+def test_a_roller_wholly_inside_the_wheel_overlaps(tmp_path):
+    """It meets no edge: between two slots, 30 mm from the axis, it is far from all of them."""
+    wheel = written(tmp_path, drawn_wheel(6, 30.0, 3.0, 52.05))
+    crank = tmp_path / "crank.dxf"
+    draw(Drawing("", (disc(30.0, 0.0, 3.0), disc(-30.0, 0.0, 1.0))), str(crank))
+    design = spec(tmp_path, wheel, 'held_by = "pin"').with_("outline.crank", str(crank))
+    (turns,) = [check for check in design.checks if check.name == "turns"]
+    assert "parts overlap in the middle of the dwell: the crank is" in turns.why
+    with pytest.raises(GenevaError, match="does not turn"):
+        _ = design.peaks_table
 
 
 def test_frames_are_turned_and_mirrored(tmp_path):
@@ -230,6 +257,29 @@ def test_four_bars_carry_their_rollers_round_no_crank(tmp_path):
     design = load(str(repo.DESIGNS / "four-bar-z4.toml"), [f"outline.wheel={tmp_path}/w.dxf"])
     with pytest.raises(GenevaError, match="do not go round the crank's axis"):
         _ = design.checks
+
+
+def test_rounded_arcs_get_the_slack_that_their_gaps_tell(tmp_path):
+    """Numbers with four decimals: walls overlap by half of the last, and ends of arcs miss."""
+    document, z, r = ezdxf.new("R2000", units=4), 6, 3.0
+    rim = math.hypot(60.0 * math.sqrt(0.75), r)
+    for piece in drawn_wheel(z, 30.0, r, rim).segments:
+        if isinstance(piece, Arc):
+            (x, y), radius = piece.centre, piece.radius
+            ends = [
+                round(math.degrees(math.atan2(p[1] - y, p[0] - x)), 4)
+                for p in (piece.start, piece.end)
+            ]
+            ends = ends if piece.bulge > 0.0 else ends[::-1]
+            document.modelspace().add_arc((round(x, 4), round(y, 4)), round(radius, 4), *ends)
+        else:
+            p, q = ([round(v, 4) for v in point] for point in (piece.start, piece.end))
+            document.modelspace().add_line(p, q)
+    document.saveas(tmp_path / "rounded.dxf")
+    design = spec(tmp_path, "rounded.dxf", 'held_by = "pin"')
+    assert 1e-5 < turned(design.mechanism).machine.free.slack < 5e-4
+    assert "turns" not in failing(design)
+    assert "turns" in failing(design.with_("outline.slack_mm", 1e-6))
 
 
 @pytest.mark.long
@@ -336,6 +386,9 @@ def test_a_machine_as_built_is_struck_where_its_parts_meet(built):
     assert impact.velocity == pytest.approx(0.101386, abs=1e-6)
     assert math.degrees(impact.crank) == pytest.approx(-50.905, abs=1e-3)
     assert math.degrees(first.senses[0].first.gained) == pytest.approx(59.871, abs=1e-3)
+    (row,) = [check for check in load(built).checks if check.name == "strike_velocity"]
+    assert row.value == pytest.approx(0.101386, abs=1e-6)
+    assert (row.limit, row.passes) == (0.01, False)
 
 
 @pytest.mark.long
