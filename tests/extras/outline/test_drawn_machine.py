@@ -20,7 +20,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.checks import lag_deg
 from geneva_cli.extras.outline.pictures import drawn_scene
 from geneva_cli.extras.outline.turning import impacts, turned
-from geneva_cli.geometry.shapes import Arc
+from geneva_cli.geometry.shapes import Arc, Line, closed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.loads.strength.pin import stiffness_N_mm
 from geneva_cli.output import draw
@@ -148,6 +148,28 @@ def test_a_slot_that_is_too_narrow_says_by_how_much(half, needed, tmp_path):
     assert needed <= slack.value * (1.0 + 1e-9)
     assert slack.value <= 1.02 * needed
     assert slack.passes == (half == 3.0)
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("at_mm", [33.0, 38.21, 47.773])
+def test_a_burr_in_a_slot_is_not_missed_between_two_steps(at_mm, tmp_path):
+    """One of 0.002 mm touches a roller of 3 mm for 0.22 mm of its way: a step is 0.13 mm at most.
+
+    In a slot without clearance there is no place for it.
+    """
+    rim = math.hypot(60.0 * math.sqrt(0.75), 3.0)
+    pieces = []
+    for k, piece in enumerate(drawn_wheel(6, 30.0, 3.0, rim).segments):
+        if k != 2:  # the upper side of the slot along x, outwards
+            pieces.append(piece)
+            continue
+        points = [piece.start, (at_mm - 0.002, 3.0), (at_mm, 2.998), (at_mm + 0.002, 3.0)]
+        pieces += [Line(p, q) for p, q in zip(points, [*points[1:], piece.end], strict=True)]
+    file = written(tmp_path, closed("WHEEL", pieces))
+    design = spec(tmp_path, file, 'held_by = "pin"')
+    assert turned(design.mechanism).machine.free.slack == 1e-6
+    assert not turned(design.mechanism).turns
+    assert turned(design.with_("outline.slack_mm", 0.002).mechanism).turns
 
 
 def test_a_rim_that_is_too_short_needs_more_than_slack(tmp_path):
