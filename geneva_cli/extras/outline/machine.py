@@ -103,6 +103,13 @@ def _dwell_deg(place: Assembly) -> float:
 
 def _assembly(mechanism: Mechanism) -> Assembly:
     """Return the positions of the crank; its rollers must go round its axis."""
+    wheel = mechanism.spec.wheel
+    if not wheel.FLAT:
+        raise GenevaError(
+            f'gearing = "{wheel.NAME}": an outline is turned in one plane about two axes, as those '
+            'of gearing = "external" and "internal" are',
+            ("outline",),
+        )
     place = assembly(mechanism)
     at = np.linspace(-180.0, 180.0, 9)
     axis = np.array((place.L, 0.0))

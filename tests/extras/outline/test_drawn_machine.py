@@ -206,6 +206,12 @@ def test_four_bars_carry_their_rollers_round_no_crank(tmp_path):
         _ = design.checks
 
 
+def test_only_flat_wheels_have_outlines(tmp_path):
+    setting = f"outline.wheel={tmp_path}/w.dxf"
+    with pytest.raises(GenevaError, match=r'"spherical": an outline is turned in one plane'):
+        _ = load(str(repo.DESIGNS / "spherical-z6.toml"), [setting]).checks
+
+
 @pytest.mark.long
 def test_a_thousand_lines_turn_like_arcs(tmp_path):
     """Facets of a wheel and its crank: the answer is that of the arcs, within the sagittas."""
