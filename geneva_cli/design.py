@@ -992,7 +992,12 @@ class Design:
         return self.spec.accept.applied([Notice("ideal-machine", text)] if self.is_drawn else [])
 
     def refuse_drawn(self, what: str) -> None:
-        """Raise GenevaError for ``what`` is asked of a machine with drawings."""
+        """Raise GenevaError for a machine with drawings, whose parts are not ours.
+
+        ``what`` begins the message: "the files for a shop are those".
+
+        >>> Design(External(6)).refuse_drawn("the files for a shop are those")
+        """
         if self.is_drawn:
             with self._located:
                 raise GenevaError(
