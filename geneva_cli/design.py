@@ -992,9 +992,11 @@ class Design:
         return self.spec.accept.applied([Notice("ideal-machine", text)] if self.is_drawn else [])
 
     def refuse_drawn(self, what: str) -> None:
-        """Raise GenevaError if the machine has drawings, of which ``what`` is not known.
+        """Raise GenevaError for a machine with drawings, whose parts are not ours.
 
-        >>> Design(External(6)).refuse_drawn("tolerances are those")
+        ``what`` begins the message: "the files for a shop are those".
+
+        >>> Design(External(6)).refuse_drawn("the files for a shop are those")
         """
         if self.is_drawn:
             with self._located:

@@ -126,6 +126,11 @@ def test_what_is_no_outline_is_refused(tmp_path):
         dxf(tmp_path, lambda d, m: m.add_3dface([(0, 0), (1, 0), (1, 1), (0, 1)]))
 
 
+def test_a_missing_block_is_named(tmp_path):
+    with pytest.raises(GenevaError, match="a block that the file lacks: GEAR"):
+        dxf(tmp_path, lambda d, m: m.add_blockref("GEAR", (0, 0)))
+
+
 @pytest.mark.parametrize(
     ("name", "data", "words"),
     [

@@ -119,6 +119,13 @@ def _dwell_deg(place: Assembly) -> float:
 
 def _assembly(mechanism: Mechanism) -> Assembly:
     """Return the positions of the crank; its rollers must go round its axis."""
+    wheel = mechanism.spec.wheel
+    if not wheel.FLAT:
+        raise GenevaError(
+            f'gearing = "{wheel.NAME}": an outline is turned in one plane about two axes, as those '
+            'of gearing = "external" and "internal" are',
+            ("outline",),
+        )
     place = assembly(mechanism)
     at = np.linspace(-180.0, 180.0, 9)
     axis = np.array((place.L, 0.0))
@@ -239,10 +246,12 @@ def _require_reach(wheel: Polyarc, crank: Polyarc, L: float) -> None:
     """Raise GenevaError if no part reaches the other."""
     far = float(levels(crank)[1].max())
     inner, rim = (float(v) for v in (levels(wheel)[0].min(), levels(wheel)[1].max()))
+    if wheel.signed(np.zeros((1, 2)))[0] < 0.0:  # its material lies about its axis
+        inner = 0.0
     if L - far > rim or L + far < inner:
         raise GenevaError(
             f"no part reaches the other. The crank reaches {far:.6g} mm from its axis, the wheel "
-            f"lies {inner:.4g} to {rim:.6g} mm from its own. The axes are {L:.6g} mm apart: set "
+            f"lies {inner:.6g} to {rim:.6g} mm from its own. The axes are {L:.6g} mm apart: set "
             "center_distance_mm in [size], and check the drawings' units",
             ("outline",),
         )

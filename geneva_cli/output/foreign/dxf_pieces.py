@@ -89,6 +89,8 @@ def _entities(document: Document, entities: Iterable[Any], depth: int) -> Iterat
         if kind != "INSERT":
             yield entity
             continue
+        if entity.dxf.name not in document.blocks:
+            raise GenevaError(f"INSERT of a block that the file lacks: {cut(entity.dxf.name, 100)}")
         several = entity.multi_insert() if entity.mcount > 1 else [entity]
         for one in several:
             yield from _entities(document, one.virtual_entities(), depth + 1)

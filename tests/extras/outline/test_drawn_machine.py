@@ -271,8 +271,12 @@ def test_a_missing_part_and_a_far_one_are_refused(tmp_path):
     with pytest.raises(GenevaError, match=r"none\.dxf: cannot read: No such file"):
         _ = spec(tmp_path, "none.dxf").checks
     small = written(tmp_path, drawn_wheel(6, 3.0, 0.325, 4.5))
-    with pytest.raises(GenevaError, match="no part reaches the other"):
+    words = r"no part reaches the other\. The crank reaches 33 mm .* the wheel lies 0 to 4\.5 mm"
+    with pytest.raises(GenevaError, match=words):
         _ = spec(tmp_path, small).checks
+    around = spec(tmp_path, written(tmp_path, disc(0.0, 0.0, 100.0)), 'held_by = "pin"')
+    (turns,) = [check for check in around.checks if check.name == "turns"]
+    assert "parts overlap" in turns.why  # the crank lies wholly in the plate
 
 
 def test_four_bars_carry_their_rollers_round_no_crank(tmp_path):
@@ -302,6 +306,12 @@ def test_rounded_arcs_get_the_slack_that_their_gaps_tell(tmp_path):
     assert 1e-5 < turned(design.mechanism).machine.free.slack < 5e-4
     assert "turns" not in failing(design)
     assert "turns" in failing(design.with_("outline.slack_mm", 1e-6))
+
+
+def test_only_flat_wheels_have_outlines(tmp_path):
+    setting = f"outline.wheel={tmp_path}/w.dxf"
+    with pytest.raises(GenevaError, match=r'"spherical": an outline is turned in one plane'):
+        _ = load(str(repo.DESIGNS / "spherical-z6.toml"), [setting]).checks
 
 
 @pytest.mark.long
