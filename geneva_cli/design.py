@@ -603,7 +603,13 @@ class Design:
         from geneva_cli.loads.vibration.oscillator import oscillator
         from geneva_cli.loads.vibration.vibration_answers import vibration_table
 
-        return vibration_table(self.mechanism, oscillator(self.mechanism, period_ratio, damping))
+        own = oscillator(self.mechanism, period_ratio, damping)
+        table = vibration_table(self.mechanism, own)
+        noted = [
+            ((*self.ideal_notes, *column[0]),) if name == "warnings" else column
+            for name, column in zip(table.names, table.columns, strict=True)
+        ]
+        return table.replaced(columns=noted)
 
     @question
     def spectrum(
@@ -918,6 +924,7 @@ class Design:
         """
         from geneva_cli.verdict.tolerance.study import tolerance_table
 
+        self.refuse_drawn("tolerances are those")
         return tolerance_table(self.mechanism, self.parts, samples, seed, radius_mm)
 
     @question
@@ -931,6 +938,7 @@ class Design:
         """
         from geneva_cli.verdict.tolerance.study import histogram_table
 
+        self.refuse_drawn("tolerances are those")
         return histogram_table(self.mechanism, self.parts, samples, seed)
 
     @answer
@@ -954,11 +962,44 @@ class Design:
         from geneva_cli.verdict.both_directions import all_warnings
         from geneva_cli.verdict.warnings import warnings
 
-        if self.is_drawn:
-            return self.spec.accept.applied(self._of_drawing("warnings"))
         # the other direction's would be called backwards, which this one is
         every = (warnings if self.is_backwards else all_warnings)(self.parts)
-        return self.spec.accept.applied(every)
+        own = self.spec.accept.applied(every)
+        return [*self.ideal_notes, *self.check_warnings, *own] if self.is_drawn else own
+
+    @answer
+    def check_warnings(self) -> list[Notice]:
+        """The warnings of ``geneva check``: those about drawings alone, if there are any.
+
+        >>> Design(External(6)).check_warnings
+        []
+        """
+        if self.is_drawn:
+            return self.spec.accept.applied(self._of_drawing("warnings"))
+        return self.warnings
+
+    @property
+    def ideal_notes(self) -> list[Notice]:
+        """A warning that loads and parts of a machine with drawings are those of its formulas.
+
+        >>> [one.name for one in Design(External(6), outline=Outline("wheel.dxf")).ideal_notes]
+        ['ideal-machine']
+        """
+        text = (
+            "loads, curves and parts are those of the ideal machine of this spec, not of the "
+            "drawings in [outline]; check, peaks, motion and animate turn the drawings"
+        )
+        return self.spec.accept.applied([Notice("ideal-machine", text)] if self.is_drawn else [])
+
+    def refuse_drawn(self, what: str) -> None:
+        """Raise GenevaError for ``what`` is asked of a machine with drawings."""
+        if self.is_drawn:
+            with self._located:
+                raise GenevaError(
+                    f"{what} of our own parts, which the drawings in [outline] replace: leave out "
+                    "[outline]",
+                    ("outline",),
+                )
 
     @answer
     def unused_acceptances(self) -> list[str]:
@@ -967,7 +1008,9 @@ class Design:
         >>> Design(External(6), accept=Accept(many_slots="agreed")).unused_acceptances
         ['many-slots']
         """
-        return self.spec.accept.unused(self.warnings)
+        # of drawings without turning parts of ours, which check does not need
+        drawn = [*self.ideal_notes, *self.check_warnings] if self.is_drawn else None
+        return self.spec.accept.unused(self.warnings if drawn is None else drawn)
 
     @answer
     def report(self) -> Report:

@@ -54,6 +54,19 @@ def loops(pieces: Sequence[Line | Arc]) -> list[Loop]:
     ]
 
 
+def greatest_gap(pieces: Sequence[Line | Arc]) -> float:
+    """Return the greatest distance of ends that ``loops`` joins, mm.
+
+    It is of the size of the rounding of a drawing's numbers. Raises GenevaError as ``loops`` does
+    for open and branching outlines.
+
+    >>> greatest_gap([Line((0.0, 0.0), (1.0, 0.0)), Line((1.0, 1e-4), (0.0, 0.0))])
+    0.0001
+    """
+    ends = [point for piece in _distinct(pieces) for point in (piece.start, piece.end)]
+    return max(math.dist(ends[i], ends[j]) for i, j in enumerate(_partners(ends)))
+
+
 def shown(point: Point) -> str:
     """A place in a drawing, for messages.
 

@@ -50,6 +50,7 @@ class Kind(NamedTuple):
     dimensions: str = ""  # in the list of parts, of these parts
     # function that returns the ``KeySizes`` of a mechanism, where its parts are not flat
     sizes: str = ""
+    details: str = ""  # function of a mechanism that returns sizes of its parts' details
     stressed: str = ""  # dimensions of stressed parts, where no layout of flat parts has them
     wheel_body: str = ""  # function that returns mass and inertia of a mechanism's wheel
     motion_checks: Mapping[str, str] = _NONE  # by their names

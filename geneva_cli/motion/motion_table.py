@@ -101,7 +101,7 @@ def checked_angles(at_deg: Sequence[float]) -> Array:
     places: Array = np.array([float(x) for x in at_deg], dtype=np.float64)
     most = 360_000.0  # degrees; farther away they lose their digits
     if not len(places) or not (abs(places) <= most).all():
-        raise GenevaError(f"input angles must be numbers of at most {most:g} degrees")
+        raise GenevaError(f"--at: input angles must be numbers of at most {most:g} degrees")
     return places
 
 

@@ -156,5 +156,8 @@ class Scene(NamedTuple):
     figure: Figure
     box: Box  # of all shapes during the turn
     stops: tuple[float, float] | None = None  # from the start: the machine goes back and forth
+    # from the start: where the input stands still for so many seconds, in the middle of each dwell
+    pauses: tuple[float, ...] = ()
+    stop_s: float = 0.0
     # rotation of the frame in which all positions are written: of a carrier
     frame: Rotation | None = None

@@ -1,4 +1,4 @@
-"""The sizes of details of flat parts by keys of the spec: arm, bolts, relief, hub, flats and links.
+"""The sizes of details by keys of the spec: arm, bolts, relief, hub, flats, links and gears.
 
 They follow from the sizes of wheel and crank: a load changes them only through those.
 """
@@ -9,15 +9,17 @@ from contextlib import suppress
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.records import thing
 from geneva_cli.parts.arm import bolts, crank_arm
 from geneva_cli.parts.gears.gear_curves import pair_teeth
-from geneva_cli.parts.links.links import drawn_links
+from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import reliefs, sectors
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import dial_circle, wheel_hub_length
 from geneva_cli.parts.shafts.bores import bore_of
+from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
 
 Values = dict[str, float | str]
 
@@ -29,11 +31,14 @@ def detail_sizes(mechanism: Mechanism) -> Values:
     the checks report.
     """
     out: Values = {}
-    if not mechanism.spec.is_flat:
-        return out
+    own_details = thing(mechanism.spec.wheel.NAME, "details")
     with suppress(GenevaError):
+        if own_details:
+            return {**own_details(mechanism)}
+        if not mechanism.spec.is_flat:
+            return out
         parts = drawn(*machine_sizes(mechanism))
-        for own in (_arm, _wheel, _flats, _links):
+        for own in (_arm, _wheel, _crank_hub, _flats, _links):
             out |= own(parts)
     return out
 
@@ -62,6 +67,12 @@ def _wheel(parts: Outlines) -> Values:
     return out
 
 
+def _crank_hub(parts: Outlines) -> Values:
+    """Return the length of the crank's hub, from the arm up."""
+    hub, gap = crank_hub(parts), parts.assembly.mechanism.spec.size.allowances.pin_gap_mm
+    return {"crank_hub_length_mm": hub.high + gap} if hub else {}
+
+
 def _flats(parts: Outlines) -> Values:
     """Return the depths of the flats of D bores."""
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
@@ -71,10 +82,34 @@ def _flats(parts: Outlines) -> Values:
 
 
 def _links(parts: Outlines) -> Values:
-    """Return pins and width of links, and the teeth of a pair of noncircular gears."""
-    machine = parts.assembly.full
-    links, teeth = drawn_links(machine, parts), pair_teeth(machine.spec.gears, machine.spec.size)
-    out: Values = {"gear_teeth": teeth.z} if teeth else {}
+    """Return pins and width of links, and the sizes of gears."""
+    links = drawn_links(parts.assembly.full, parts)
+    out = _screws(links) | _teeth(parts.assembly.full, links)
     if links.sizes and any(links.plates):
         out |= {"link_pin_mm": 2.0 * links.sizes.pin, "link_width_mm": 2.0 * links.sizes.eye}
     return out
+
+
+def _screws(links: Links) -> Values:
+    """Return the holes of the screws of a gear that stands still, and their circle."""
+    circles = [gear.screws for gear in links.gears if gear.screws and gear.screws.turns]
+    return {
+        key: 2.0 * radius
+        for one in circles
+        for key, radius in (("gear_bolt_mm", one.hole), ("gear_bolt_circle_mm", one.radius))
+    }
+
+
+def _teeth(machine: Mechanism, links: Links) -> Values:
+    """Return number, shift and backlash of the teeth of gears."""
+    size, pair = machine.spec.size, pair_teeth(machine.spec.gears, machine.spec.size)
+    backlash: Values = {"gear_backlash_mm": size.allowances.gear_backlash_mm}
+    if pair:
+        return {"gear_teeth": pair.z, "gear_shift": pair.shift, **backlash}
+    if not links.mesh:
+        return {}
+    small = next(iter(links.mesh.gears.values()))
+    shift: Values = {"gear_shift": small.shift, **backlash}
+    # the module sets the number of teeth on sectors
+    is_whole = all(len(gear.middles[0]) == gear.z for gear in links.mesh.gears.values())
+    return {"gear_teeth": small.z, **shift} if is_whole and small.z >= 3 else shift

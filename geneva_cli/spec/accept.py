@@ -61,6 +61,7 @@ class Accept(SpecTable):
     gears_without_teeth: Reason = None
     taken_as_built: Reason = None
     outline_units: Reason = None
+    ideal_machine: Reason = None
     bent_parts: Reason = None
     narrow_for_process: Reason = None
 

@@ -23,7 +23,7 @@ def of_sizes(design: Design, as_json: bool) -> Answer:
     rows = rows.replaced(reading=Reading(("key", "value", "why")))
     data = rows
     if as_json:
-        data = record_table({"spec": spec.path, "title": spec.title or None, "rows": rows})
+        data = record_table({"spec": spec.path, "title": spec.title, "rows": rows})
     count, loaded = len(sizes), len(design.chosen_by_load.sizes)
     text = f"{count} sizes chosen, {loaded} of them by the load" if count else "no size to choose"
     return Answer((Summary(f"{title_of(design)}: {text}"),), rows if count else None, data)

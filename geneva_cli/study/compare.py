@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.tolerances import same
+from geneva_cli.parts.chosen import OF_SIZES, ByLoad, Chosen, by_load
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import PLAIN
 from geneva_cli.specfile.writer import keys_in, values_of
@@ -32,19 +33,26 @@ def compare(
     specs are compared. ``picks`` are the quantities to show. Without them all that need no parts
     are shown, and the keys of wheel, drives and motion in which the specs differ. ``ratio`` divides
     numbers by those of the first design. Numbers differ if they do so by more than rounding.
-    ``reverse`` adds a column for each design turning the other way.
+    ``reverse`` adds a column for each design turning the other way. The table's prose says which
+    sizes the loads of varied designs choose anew.
 
     Raises GenevaError for a design that cannot be read or built.
     """
     texts = spec_texts(paths, settings, vary, ("quantity", "differs"))  # the table's own columns
     designs = designs_of(texts, reverse)
-    machines = [design.mechanism for design in designs.values()]
-    if picks:
-        picked = pick(picks)
-        each = [dict(zip(picked.names, picked.of(m), strict=True)) for m in machines]
-    else:
-        first = dict.fromkeys(MACHINE.names)
-        each = [{**first, **_shape(m.spec), **values(parts_of(m))} for m in machines]
+    picked = pick(picks) if picks else None
+    has_sizes = not picks or any(name.startswith(OF_SIZES) for name in picks)
+    each: list[dict[str, Cell]] = []
+    sizes: list[Mapping[str, Chosen]] = []
+    for design in designs.values():
+        machine = design.mechanism
+        if picked:
+            each.append(dict(zip(picked.names, picked.of(machine), strict=True)))
+        else:
+            first = dict.fromkeys(MACHINE.names)
+            each.append({**first, **_shape(machine.spec), **values(parts_of(machine))})
+        # while the loads of this machine are known
+        sizes.append(by_load(machine) if vary and has_sizes else {})
     rows = []
     for quantity in dict.fromkeys(name for own in each for name in own):
         if quantity.startswith(INPUTS) and not picks:  # the spec or the columns' names show these
@@ -61,7 +69,14 @@ def compare(
     if len(designs) == 1:  # nothing to differ from
         names, rows = names[:-1], [row[:-1] for row in rows]
     table = rows_table(names, rows, mixed=True)
-    return table.replaced(reading=Reading(designs=True))
+    return table.replaced(prose=_chosen_anew([*designs], sizes), reading=Reading(designs=True))
+
+
+def _chosen_anew(names: Sequence[str], sizes: Sequence[Mapping[str, Chosen]]) -> str:
+    """The sizes that the loads of varied designs choose other than that of the first, in words."""
+    changes = [ByLoad(own, sizes[0]).changes for own in sizes]
+    texts = [f"{name}: {text}" for name, text in zip(names, changes, strict=True) if text]
+    return f"sizes chosen anew, against {names[0]}: {'; '.join(texts)}" if texts else ""
 
 
 def _shape(spec: Spec) -> dict[str, Cell]:
@@ -75,7 +90,8 @@ def _shape(spec: Spec) -> dict[str, Cell]:
 def differing(table: Table) -> Table:
     """The rows of a comparison whose cells differ; none of a single design."""
     rows = [row for row in table.rows() if row[-1]] if "differs" in table.names else []
-    return rows_table(table.names, rows, mixed=True).replaced(reading=table.reading)
+    kept = rows_table(table.names, rows, mixed=True)
+    return kept.replaced(prose=table.prose, reading=table.reading)
 
 
 def over(cell: Cell, first: Cell) -> Cell:

@@ -74,6 +74,7 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
     >>> [file.name for file in files][:3]
     ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
     """
+    design.refuse_drawn("the files for a shop are those")
     files: list[ExportFile] = []
     missing: list[Missing] = []
     bent = design.parts.LAID_FLAT

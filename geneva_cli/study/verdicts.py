@@ -59,7 +59,7 @@ def verdict(path: str, settings: Sequence[str] = (), to_mm: float | None = None)
             path=design.spec.path,
             files=design.spec.files,
             checks=tuple(checks),
-            warnings=tuple(design.warnings),
+            warnings=tuple(design.check_warnings),
             unused=tuple(design.unused_acceptances),
             with_units=tuple(design.with_units),
             both_ways=design.spec.drive.both_ways,

@@ -41,6 +41,7 @@ SLOW = 20  # trials for which one counts whose turn takes too long
 # Fractions of the way to a remedy's end that are tried: the first step, the end, and between them.
 PLACES = (1.0 / 12.0, 1.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0)
 QUICK = {*MOTION, *LIMITS}  # which need no parts
+PUSHED = ("turns", "strike_velocity")  # of machines as built, by what touches
 # Keys that change no outline: the parts need not be turned again.
 APART = (
     *("drive.n_rpm", "size.face_width_mm", "size.pin_held", "size.lock_edge_mm"),
@@ -121,8 +122,9 @@ class Trial:
         """The least margin of a check in all directions, negative where it fails."""
         rows: list[Check | None] = []
         for way in self.ways:
-            if name == "turns":
-                rows.append(pushed_round(way.mechanism) if way.mechanism.no_turn else None)
+            if name in PUSHED:
+                pushed = pushed_round(way.mechanism) if way.mechanism.no_turn else []
+                rows += [check for check in pushed if check.name == name]
             elif name in OF_TURN:
                 rows.append(check_named(TURNING, name, way, way.turned.turn))
             else:
@@ -141,7 +143,7 @@ class Trial:
                 yield from untold(standing(way.mechanism), way.built)
             if parts and spec.is_turned and turn:
                 if way.mechanism.no_turn:
-                    yield pushed_round(way.mechanism)
+                    yield from pushed_round(way.mechanism)
                 else:
                     yield from untold(TURNING, way, way.turned.turn)
 
@@ -279,7 +281,7 @@ class Adviser:
 
 def _cost(name: str) -> int:
     """The order of checks: of the motion and its limits, of parts at rest, of the whole turn."""
-    return 0 if name in QUICK else 2 if name in (*OF_TURN, "turns") else 1
+    return 0 if name in QUICK else 2 if name in (*OF_TURN, *PUSHED) else 1
 
 
 def _edge(

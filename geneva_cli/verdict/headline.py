@@ -187,10 +187,14 @@ def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
         yield SummaryLine("tightest", f"{label} {compared_text(check, unit)}")
 
 
+# yes or no, and what a machine that turns always keeps
+WITHOUT_MARGIN = ("dwell_hold", "parts", "full_turn", "turns", "turning_slack_mm")
+
+
 def _limit_fraction(check: Check) -> float | None:
     """Fraction of its limit that a check uses, 1 at the limit; None if it has no such fraction."""
     value, limit = check.value, check.limit
-    has_margin = not check.is_proof and check.name not in ("dwell_hold", "parts", "full_turn")
+    has_margin = not check.is_proof and check.name not in WITHOUT_MARGIN
     if not (check.passes and value and limit and has_margin):
         return None
     return value / limit if check.must_be == "at most" else limit / value

@@ -45,8 +45,8 @@ def _stops(mechanism: Mechanism) -> Iterator[Notice]:
         yield Notice(
             "stop-in-motion",
             f"the input turns {brake:.4g}° while it brakes and {start:.4g}° while it starts, but "
-            f"the dwell has only {least:.4g}°. The roller would be in a slot. At this speed brake_s "
-            f"and start_s may take {least / (3.0 * drive.n_rpm):.4g} s together",
+            f"the dwell has only {least:.4g}°. The roller would be in a slot. At this speed "
+            f"brake_s and start_s may take {least / (3.0 * drive.n_rpm):.4g} s together",
         )
 
 

@@ -48,7 +48,7 @@ CRANK: crank_bore_mm*0.2 crank_bore_mm=0
 THICK: wheel_thickness_mm? face_width_mm? lock_thickness_mm? arm_thickness_mm?
 velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
 entry_velocity_max: crank_radius_mm= wheel_radius_mm~
-turns: crank_radius_mm=
+turns strike_velocity: crank_radius_mm=
 pin_force_max_N: SLOWER LARGER MILDER
 input_torque_max_Nm product_acceleration_max_m_s2 product_slip: SLOWER MILDER
 contact_stress_max_MPa: SLOWER WIDER LARGER MILDER
@@ -202,7 +202,11 @@ def rounded(good: float, far: float, bad: float) -> float:
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     """Changes of the spec that may make a failing check pass, the likeliest first."""
     spec, name = mechanism.spec, check.name
-    own = {} if name in (*MOTION, *LIMITS, *TOLERANCES, "turns") else _own_sizes(spec.size)
+    own = (
+        {}
+        if name in (*MOTION, *LIMITS, *TOLERANCES, "turns", "strike_velocity")
+        else _own_sizes(spec.size)
+    )
     # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
     words = [words for key, words in own.items() if key in check.why]
     words += [_table().get(name, _table()["OTHERS"]), *own.values()]

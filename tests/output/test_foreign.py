@@ -144,7 +144,8 @@ def test_a_missing_block_is_named(tmp_path):
         ("a.svg", b'<svg><path d="M0 0 K 1 3"/></svg>', "unknown letter"),
         ("a.svg", b'<svg><circle r="1e400"/></svg>', "is no number"),
         ("a.svg", b'<svg><circle r="0"/></svg>', "no width"),
-        ("a.svg", b'<svg><rect width="4" height="4" rx="1"/></svg>', "rounded corners"),
+        ("a.svg", b'<svg><use href="#gone"/></svg>', "names nothing"),
+        ("a.svg", b'<svg><g id="a"><use href="#a"/></g></svg>', "nested more than 16 deep"),
         ("a.svg", b'<svg><g transform="matrix(1,2)"/></svg>', "not known"),
         ("a.svg", b'<!DOCTYPE x [<!ENTITY a "b">]><svg/>', "entities"),
         ("a.svg", b'<svg><line x2="9e9"/></svg>', "at most 1e\\+06 mm"),
@@ -213,3 +214,31 @@ def test_a_skewed_circle_is_the_ellipse_of_its_points():
         z = complex(*piece.start)
         t = np.linalg.solve(np.array([[p.real, q.real], [p.imag, q.imag]]), (z.real, z.imag))
         assert np.hypot(*t) == pytest.approx(1.0, abs=1e-4)
+
+
+def test_rectangles_are_rounded_as_svg_says(tmp_path):
+    """A corner lacks r² (1 - pi/4); without ry it is rx, and neither is above half an edge."""
+    full = 60.0
+    for attributes, lacks in (
+        ('rx="1"', 4.0 - math.pi),
+        ('ry="1"', 4.0 - math.pi),
+        ('rx="2" ry="1"', 2.0 * (4.0 - math.pi)),
+        ('rx="9" ry="9"', 15.0 * (4.0 - math.pi)),  # an ellipse of half axes 5 and 3
+        ('rx="0" ry="1"', 0.0),
+        ('rx="1" ry="3"', 3.0 * (4.0 - math.pi)),
+    ):
+        drawn = svg(tmp_path, f'<rect x="2" y="1" width="10" height="6" {attributes}/>')
+        assert areas(drawn) == pytest.approx([full - lacks], abs=2e-3)
+        xs = [p[0] for piece in drawn.pieces for p in (piece.start, piece.end)]
+        assert (min(xs), max(xs)) == pytest.approx((2.0, 12.0), abs=1e-4)
+
+
+def test_what_use_shows_is_read_where_it_is_shown(tmp_path):
+    body = (
+        '<defs><circle id="hole" r="2"/><symbol id="s"><use href="#hole" x="1"/></symbol></defs>'
+        '<use href="#hole" x="9" y="20"/><use href="#s" transform="scale(2) translate(20 5)"/>'
+    )
+    drawn = svg(tmp_path, body)
+    assert areas(drawn) == pytest.approx([4.0 * math.pi, 16.0 * math.pi])
+    centres = {tuple(round(v, 6) for v in piece.centre) for piece in drawn.pieces}
+    assert centres == {(9.0, -20.0), (42.0, -10.0)}

@@ -245,3 +245,21 @@ def test_a_machine_with_stops_goes_back_and_forth_between_them():
         wheel, crank, *_ = json.loads(engine.eval(f"JSON.stringify({ask})"))
         pose = Pose(np.array([wheel]), np.array([crank]), np.empty((1, 0, 2)))
         assert abs(gaps.locking(pose)[0]) < PLACE * data["size"]
+
+
+def test_an_input_that_is_stopped_stands_once_in_each_dwell():
+    """Turning and standing take as long as the machine's cycles, over some turns of its crank."""
+    design = design_of("two-pins-z4").with_("drive.stop_s", 0.8)
+    engine, data = script_of("".join(page.chunks(scene(design))))
+    assert data["pauses"] == pytest.approx([90.0, 270.0])  # the first dwell has no length
+    turns, step, at, stood = 3, 7.3, 0.0, []
+    while at < turns * data["turn"]:
+        there = engine.eval(f"pauseBetween(scene.pauses, scene.turn, {at!r}, {at + step!r})")
+        stood += [there] if there is not None else []
+        at = at + step if there is None else there
+    dwells = [k * data["turn"] + pause for k in range(turns) for pause in data["pauses"]]
+    assert stood == pytest.approx(dwells)
+    cycles = turns * math.fsum(one.cycle_s for one in design.timings)
+    spent = turns * data["seconds"] + len(stood) * data["stop_s"]
+    assert spent == pytest.approx(cycles, rel=1e-12)
+    assert scene(design_of("two-pins-z4")).pauses == ()

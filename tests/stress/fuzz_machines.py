@@ -16,8 +16,13 @@ LIMITS = {
     "contact_stress_max_MPa": 300.0, "pv_max_W_m2": 1e8, "roller_life_min_h": 2e4,
     "lock_stress_max_MPa": 800.0, "lock_deflection_max_deg": 0.05,
     "slot_wear_max_mm_per_million": 0.1, "product_acceleration_max_m_s2": 10.0,
+    "entry_velocity_max": 0.02, "dwell_min_s": 0.3, "motion_max_s": 0.5, "cycle_max_s": 1.0,
+    "index_play_max_deg": 0.1, "dwell_play_max_deg": 0.1,
 }  # fmt: skip
-WHEELS_ONLY = ("dwell_torque_Nm", "product_acceleration_max_m_s2")
+WHEELS_ONLY = (
+    *("dwell_torque_Nm", "product_acceleration_max_m_s2", "dwell_position_max_deg"),
+    *("index_play_max_deg", "dwell_play_max_deg"),
+)
 PRODUCT = {"radius_mm": 300.0, "friction": 0.5, "swing_Hz": 2.0}
 
 
@@ -52,7 +57,12 @@ WORDED = {
     "wheel_bore": ("round", "D", "hex"),
     "shafts": ("plain", "turned"),
 }
-TAKEN = ("center_distance_mm", "roller_radius_mm", "face_width_mm")  # keys of [size] set apart
+TAKEN = (
+    "center_distance_mm",
+    "crank_radius_mm",
+    "roller_radius_mm",
+    "face_width_mm",
+)  # keys of [size] set apart
 
 
 def near(rng, value, spread=0.3):
@@ -76,6 +86,8 @@ def usual(rng, key, L, R, r, outside):
     if key == "gear_teeth":
         return rng.choice([12, 17, 20, 30])
     of = {
+        "mouth_radius_mm": 0.1 * r,
+        "horn_tip_mm": 0.2 * r,
         "wheel_radius_mm": math.sqrt(L * L - R * R if outside and R < L else L * L + R * R),
         "wheel_outer_radius_mm": L + R + 2.0 * r,
         "slot_bottom_clearance_mm": 0.05 * r,
@@ -267,6 +279,9 @@ def loaded(rng):
         text += [f"[{table}]", *[f"{k} = {v!r}" for k, v in given.items() if k in about]]
         if about is LOADS and rng.random() < 0.3:
             text.append(f'friction_at = "{rng.choice(["pin", "pin", "slot"])}"')
+    if rng.random() < 0.2:
+        text.append(f"dwell_position_max_deg = {near(rng, 0.5)!r}")
+        text += ["[tolerance]", f"lock_radius_mm = {near(rng, 0.02)!r}"]
     return text
 
 
@@ -321,7 +336,19 @@ def machine_text(rng, kind=None):
         if rng.random() < 0.5:
             stiffness, damping = near(rng, 500.0, 3.0), rng.choice([0.0, 0.02, rng.random()])
             text += ["[shaft]", f"stiffness_Nm_rad = {stiffness!r}", f"damping_ratio = {damping!r}"]
+    text = with_radius(rng, text, L, R, flat and not curved)
+    if curved or not flat or "stop = true" in text:
+        text = [line for line in text if not line.startswith(("mouth_radius", "horn_tip"))]
     return "\n".join(fitting(text)) + "\n"
+
+
+def with_radius(rng, text, L, R, straight):
+    """The lines with the crank's radius now and then, in place of L or, as built, beside it."""
+    distance = f"center_distance_mm = {L!r}"
+    if straight and distance in text and rng.random() < 0.1:
+        radius = f"crank_radius_mm = {near(rng, R, 1e-3)!r}"
+        text[text.index(distance)] = rng.choice([radius, f"{distance}\n{radius}"])
+    return text
 
 
 def fitting(text):
@@ -371,7 +398,7 @@ def rack_text(rng):
     for line in loaded(rng):
         key, _, value = line.partition(" = ")
         table = line if line.startswith("[") else table
-        if table != "[product]" and key not in WHEELS_ONLY:
+        if table not in ("[product]", "[tolerance]") and key not in WHEELS_ONLY:
             # a wheel's loads, as a mass and a force at the crank's radius, of about the same size
             text.append(f"{pushed[key]} = {float(value) * 100.0!r}" if key in pushed else line)
     if kind == "crank" and rng.random() < 0.5:

@@ -135,7 +135,7 @@ def _parts(cell: str) -> list[str]:
     return [cell, bare, head, bare.split(" ")[0], " ".join(bare.split(" ")[:3])]
 
 
-@pytest.mark.sampled(20)
+@pytest.mark.sampled(40)
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("file", sorted(repo.DESIGNS.glob("*.toml")), ids=lambda f: f.stem)
 def test_a_report_for_a_first_reader_has_two_pages(file: Any) -> None:
@@ -158,7 +158,7 @@ def test_a_report_for_a_first_reader_has_two_pages(file: Any) -> None:
 
 @pytest.mark.usefixtures("no_advice")
 def test_a_report_shows_limits_beside_loads_and_what_fails() -> None:
-    """A limit of the cycle's loads stands in the row of the load; nothing is allowed without."""
+    """A limit of the cycle's loads stands in the row of the load."""
     design = load(str(repo.DESIGNS / "turret.toml"), ["limits.pin_force_max_N=150"])
     (grid,) = (
         b for b in short_document(design).blocks if isinstance(b, Grid) and "Limit" in b.heads
@@ -172,6 +172,11 @@ def test_a_report_shows_limits_beside_loads_and_what_fails() -> None:
         150,
         BAD,
     )
+
+
+@pytest.mark.long
+@pytest.mark.usefixtures("no_advice")
+def test_nothing_is_allowed_without_a_load() -> None:
     bare = load(str(repo.DESIGNS / "four-bar-z4.toml"))
     assert "allowed" not in "".join(html.chunks(document(bare))).casefold()
 

@@ -62,7 +62,7 @@ def test_vibration_names_the_speeds_to_avoid() -> None:
 
 def test_tolerance_names_what_contributes_most() -> None:
     one = design("tolerances")
-    record = one.tolerance(1024)
+    record = one.tolerance(64)
     answer = of_tolerance(one, record)
     (summary,) = answer.summaries
     assert line(summary, "greatest").text.startswith("slot angle contributes 72.2 %")

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.cli.completion import fields, keys, listed
-from geneva_cli.cli.options import AlsoReverse, Format, Output, Settings, flag, option
+from geneva_cli.cli.options import AlsoReverse, Format, Output, Settings, flag, option, say
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
@@ -43,6 +43,7 @@ def run(
 
     --against compares one spec with a cam indexer and a servo.
     """
+    from geneva_cli.design import load
     from geneva_cli.output import refuse_inches, show
     from geneva_cli.study.compare import compare
     from geneva_cli.study.compare import differing as only_differing
@@ -63,3 +64,5 @@ def run(
         table = compare(specs, settings or (), vary or (), picks, ratio, reverse)
         table = only_differing(table) if differing else table
     show(table, output, format, specs)
+    for path in specs:
+        say(path, load(path, settings or ()).ideal_notes)

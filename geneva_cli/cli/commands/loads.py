@@ -63,6 +63,7 @@ def run(
     if certify:
         certificates = design.certified_loads(is_for_people(output, format))
         show(certificates, output, format, design.spec.files)
+        say(design.spec.path, design.ideal_notes)
         return
     name = table_as(output, format)
     by_rows = name == "csv" or (samples is not None and name != "json")

@@ -63,6 +63,7 @@ def run(
     show_figure(figure, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
         warn(design)
+        say(design.spec.path, design.ideal_notes)
     for path, text in left_out:
         say(path, [text])
 

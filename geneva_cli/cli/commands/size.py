@@ -27,7 +27,8 @@ def run(
     ask of a machine that is built "does it also run at 90?" with the spec that has its sizes.
 
     The written spec gives the same values as its origin, to the last digit, and has its comments.
-    FILE as csv, json or md has the table instead.
+    What needs a written thickness, as the wheel's own inertia, is known there besides. FILE as csv,
+    json or md has the table instead.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show_answer, show_text

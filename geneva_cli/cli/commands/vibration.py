@@ -34,6 +34,7 @@ def run(
     if table_as(output, format) == "csv":
         table = design.spectrum(samples, period_ratio, damping)
         show(table, output, format, design.spec.files)
+        say(design.spec.path, design.ideal_notes)
         return
     result = design.vibration(period_ratio, damping)
     show_answer(of_vibration(design, result), output, format, design.spec.files)

@@ -10,20 +10,28 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.extras.outline.contact import contacts
+from geneva_cli.extras.outline.impact_force import hardest, strike_text
 from geneva_cli.extras.outline.machine import DrawnMachine
+from geneva_cli.extras.outline.slack import least_slack_mm, most_mm
 from geneva_cli.extras.outline.turning import (
     HELD_MIDDLE,
     LOOSE,
     Impact,
     SenseResult,
     Turned,
-    impacts,
+    hardest_impact,
     turned,
+    turning,
 )
+from geneva_cli.extras.outline.walls import smallest_wall
+from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.loops import shown
 from geneva_cli.geometry.measure import at
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
+from geneva_cli.parts.turn.free_ranges import one_sector
+from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.verdict.checks.check import Check, compared
 
 ROUNDING_DEG = 1e-3  # a smaller play comes from the slack
@@ -37,24 +45,25 @@ def checks(mechanism: Mechanism) -> list[Check]:
     Raises GenevaError for a drawing that is no outline.
     """
     result = turned(mechanism)
-    rows = [_turns(result, mechanism), _hold(result, mechanism), *_rests(result, mechanism)]
+    rows = [_turns(result, mechanism), *_slack(result), _hold(result, mechanism)]
+    rows += [*_rests(result, mechanism), *_walls(result.machine)]
     return [*rows, *_entry(result, mechanism), *_drift(result, mechanism)]
 
 
-def as_built(mechanism: Mechanism) -> Check:
-    """Return the check that our own parts on a crank as built turn, with their impact in words.
+def as_built(mechanism: Mechanism) -> list[Check]:
+    """Return the checks that our own parts on a crank as built turn, and of their impact.
 
     Raises GenevaError for parts that are not flat, or whose rollers go round no crank.
     """
     result = turned(mechanism)
     check = _turns(result, mechanism)
-    every = impacts(result)
-    if not (check.passes and every):
-        return check
-    worst = max(every, key=lambda one: abs(one.velocity))
-    at = _shown_deg(result.machine, worst.crank)
-    text = f"roller, clearance and disc strike the wheel with {abs(worst.velocity):.4g} of the "
-    return check._replace(why=f"{text}input's speed at {at:.5g}°; {check.why}")
+    struck = hardest(mechanism, result)
+    if not (check.passes and struck):
+        return [check]
+    limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
+    row = compared("strike_velocity", abs(struck.jump), "at most", limit, struck.at_deg)
+    text = f"roller, clearance and disc strike the wheel{strike_text(struck)}"
+    return [check, row if row.passes else row._replace(why=text)]
 
 
 def warnings(mechanism: Mechanism) -> list[Notice]:
@@ -80,6 +89,23 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
         )
         return Check("turns", 0.0, "at least", float(z), False, why)
     return Check("turns", float(z), "at least", float(z), True, _summary(result, mechanism))
+
+
+def _slack(result: Turned) -> Iterator[Check]:
+    """Check the least slack with which the wheel turns; a wheel that finds no slot has none."""
+    machine = result.machine
+    is_missed = result.rest.is_free and not any(sense.jam for sense in result.senses)
+    if is_missed and not result.has_indexed:
+        return
+    value, given = least_slack_mm(result), machine.free.slack
+    if value is None:
+        why = f"it would not turn with {most_mm(machine):.3g} mm less on every face either"
+        yield Check("turning_slack_mm", None, "at most", given, False, why)
+    elif value > given:
+        why = f"it would turn with {value:.2g} mm less on every face of the wheel or of the crank"
+        yield Check("turning_slack_mm", value, "at most", given, False, why)
+    else:
+        yield Check("turning_slack_mm", value, "at most", given, True)
 
 
 def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
@@ -182,7 +208,7 @@ def _rests(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     low, high = result.rest.low, result.rest.high
     if high - low < LOOSE or not result.rest.is_free:
         return
-    begin, end = result.turning or (result.machine.rest, result.machine.rest)
+    begin, end = turning(result) or (result.machine.rest, result.machine.rest)
     put_back = mechanism.spec.wheel.held_by in HELD_MIDDLE
     limit = 0.0 if put_back else math.degrees(high - low)
     value = math.degrees(end - begin)
@@ -198,16 +224,35 @@ def _rests(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     yield Check("turning_rests_deg", value, must_be, limit, ok, "" if ok else text)
 
 
+def _walls(machine: DrawnMachine) -> Iterator[Check]:
+    """Check the smallest wall of a drawn wheel; an internal one without its ring has none."""
+    spec, place = machine.assembly.mechanism.spec, machine.assembly
+    if spec.outline.wheel is None or (place.sign < 0.0 and len(machine.wheel) == 1):
+        return
+    outline = Polyarc(machine.wheel)
+    sector = one_sector(outline, math.tau / spec.wheel.z, machine.free.slack)
+    wall = smallest_wall(machine.wheel, sector)
+    if wall is None:
+        return
+    least = wall_min(spec.size, place.L)
+    passes = keeps(wall.thickness, "at least", least)
+    start, end = (shown((z.real, z.imag)) for z in (wall.start, wall.end))
+    why = "" if passes else f"thinnest from {start} to {end}"
+    yield Check("wall_mm", wall.thickness, "at least", least, passes, why)
+
+
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check the velocity with which the wheel is set in motion."""
-    every = impacts(result)
-    if not (every and result.rest.is_free):
+    worst = hardest_impact(result)
+    if worst is None or not result.rest.is_free:
         return
-    worst = max(every, key=lambda one: abs(one.velocity))
     limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
     at = _shown_deg(result.machine, worst.crank)
     row = compared("entry_velocity_max", abs(worst.velocity), "at most", limit, at)
-    yield row if row.passes else row._replace(why=_ideal_text(result, mechanism, worst))
+    struck = hardest(mechanism, result)
+    assert struck is not None
+    text = f"{_ideal_text(result, mechanism, worst)}{strike_text(struck)}"
+    yield row if row.passes else row._replace(why=text)
 
 
 def _ideal_text(result: Turned, mechanism: Mechanism, worst: Impact) -> str:

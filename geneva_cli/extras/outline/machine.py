@@ -11,17 +11,19 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, below, cut
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.loops import Loop, loops
+from geneva_cli.geometry.loops import Loop, greatest_gap, loops
 from geneva_cli.geometry.measure import turned_pieces
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Point, closed, two_arcs
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.jet import Jet, atan2
 from geneva_cli.output.foreign import read_drawing
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_ranges import FreeRanges, levels
 
-EXACT_MM, FACETED_MM = 1e-6, 1e-3  # overlaps that count as touching: of arcs, of short lines
+EXACT_MM, MOST_MM = 1e-6, 1e-3  # overlaps that count as touching: of exact arcs, of short lines
 
 
 class Roller(NamedTuple):
@@ -82,8 +84,8 @@ def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
         own = parts_of(mechanism).flat.outlines
     theirs = wheel.contours if wheel else (own.wheel,)
     ours, roller = _with_rollers(crank, mechanism, place, tuple(own.crank) if not crank else ())
-    are_exact = [drawn.is_exact for drawn in (wheel, crank) if drawn]
-    slack = outline.slack_mm or (EXACT_MM if all(are_exact) else FACETED_MM)
+    rounded = sum(drawn.slack for drawn in (wheel, crank) if drawn)
+    slack = outline.slack_mm or min(max(rounded, EXACT_MM), MOST_MM)
     L, z = place.L, spec.wheel.z
     both = Polyarc(theirs), Polyarc(ours)
     _require_reach(*both, L)
@@ -93,6 +95,20 @@ def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
     start = math.radians(first.entry - 0.5 * dwell)
     rest = -first.engagement.half_step
     return DrawnMachine(place, theirs, ours, roller, free, start, rest, tuple(notes))
+
+
+def crank_jet(mechanism: Mechanism, input_deg: Array) -> tuple[Jet, Array]:
+    """Return the crank's angle, radians, with its derivatives by the input's, and whole turns.
+
+    The angle is within half a turn of mid-motion; the turns are those of the crank beside it.
+    """
+    first = mechanism.engagements[0]
+    turn_deg = 360.0 * mechanism.spec.turns
+    whole = np.round((input_deg - first.mid_deg) / turn_deg)
+    x, y = first.path(input_deg - first.mid_deg - turn_deg * whole, 3)
+    out = atan2(y, 1.0 - x) if mechanism.spec.wheel.SIGN > 0.0 else atan2(y, x - 1.0)
+    size = np.zeros(len(input_deg))
+    return Jet([c + size for c in out.c]), whole
 
 
 def _dwell_deg(place: Assembly) -> float:
@@ -127,10 +143,10 @@ def _assembly(mechanism: Mechanism) -> Assembly:
 
 
 class _Drawn(NamedTuple):
-    """The outlines of a drawing in the frame of our own; exact ones have arcs, and no facets."""
+    """The outlines of a drawing in the frame of our own, and how far rounding may overlap them."""
 
     loops: tuple[Loop, ...]
-    is_exact: bool
+    slack: float  # mm
 
     @property
     def contours(self) -> tuple[Contour, ...]:
@@ -155,7 +171,10 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> _Drawn | None:
         own = tuple(loops(pieces))
     except GenevaError as error:
         raise GenevaError(f"{cut(path, 300)}: {error}") from None
-    return _Drawn(own, drawn.is_exact and any(isinstance(piece, Arc) for piece in pieces))
+    if not (drawn.is_exact and any(isinstance(piece, Arc) for piece in pieces)):
+        return _Drawn(own, MOST_MM)  # facets
+    gap = 2.0 * greatest_gap(pieces)  # of numbers that were rounded
+    return _Drawn(own, gap if gap > EXACT_MM else 0.0)
 
 
 def _mirrored(piece: Line | Arc) -> Line | Arc:

@@ -14,6 +14,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.contact import contacts
+from geneva_cli.extras.outline.impact_force import Struck, hardest
+from geneva_cli.extras.outline.machine import crank_jet
 from geneva_cli.extras.outline.turning import LATE, LOOSE, Turned, turned
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import (
@@ -25,7 +27,7 @@ from geneva_cli.motion.motion_table import (
     times_s,
 )
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.numerics.jet import Jet, atan2, composed
+from geneva_cli.numerics.jet import Jet, composed
 from geneva_cli.parts.turn.lazy_turn import LazyTurn, Push
 from geneva_cli.table import Table, record_table
 
@@ -82,20 +84,6 @@ def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = 
     return Table(motion_columns(mechanism), columns)
 
 
-def crank_jet(mechanism: Mechanism, input_deg: Array) -> tuple[Jet, Array]:
-    """Return the crank's angle, radians, with its derivatives by the input's, and whole turns.
-
-    The angle is within half a turn of mid-motion; the turns are those of the crank beside it.
-    """
-    first = mechanism.engagements[0]
-    turn_deg = 360.0 * mechanism.spec.turns
-    whole = np.round((input_deg - first.mid_deg) / turn_deg)
-    x, y = first.path(input_deg - first.mid_deg - turn_deg * whole, 3)
-    out = atan2(y, 1.0 - x) if mechanism.spec.wheel.SIGN > 0.0 else atan2(y, x - 1.0)
-    size = np.zeros(len(input_deg))
-    return Jet([c + size for c in out.c]), whole
-
-
 def at_crank(result: Turned, turn: LazyTurn, crank: Array) -> tuple[Array, list[Array]]:
     """Return the wheel's angle and three derivatives by the crank's, at crank angles of a turn.
 
@@ -123,7 +111,7 @@ def at_crank(result: Turned, turn: LazyTurn, crank: Array) -> tuple[Array, list[
 def peaks(mechanism: Mechanism) -> Table:
     """Return the greatest velocity, acceleration, jerk and power, as ``geneva peaks`` prints them.
 
-    They are those inside the pushes; the impacts at their beginnings are apart, as ``impact``.
+    They are those inside the pushes; the hardest impact at a beginning is apart, as ``impact``.
     """
     result = turned(mechanism)
     turn = steady_turn(result)
@@ -149,9 +137,13 @@ def peaks(mechanism: Mechanism) -> Table:
     values["motion_deg"] = end - begin
     values["dwell_deg"] = mechanism.whole_deg - (end - begin)
     values["stations"] = None
+    struck = hardest(mechanism, result)
+    for name in Struck._fields:
+        values[f"impact.{name}"] = None if struck is None else getattr(struck, name)
     fields = {**dict.fromkeys(QUANTITIES, FIELDS), "power": FIELDS[:2]}
     names = [f"{name}.{field}" for name in QUANTITIES for field in fields[name]]
     ordered = ("spec", "title", *names, "motion_deg", "dwell_deg", "stations")
+    ordered += tuple(f"impact.{name}" for name in Struck._fields)
     return record_table({name: values[name] for name in ordered})
 
 

@@ -22,6 +22,7 @@ LATE = 1e-3  # radians: a push that moves the wheel less is not counted as an im
 LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
 HELD_MIDDLE = ("detent", "pin")  # they put the wheel back to the middle of its dwell
 SENSES = (1, -1)
+JUST = 1e-12  # radians after a push begins
 
 
 class Impact(NamedTuple):
@@ -60,7 +61,6 @@ class Turned(NamedTuple):
     senses: tuple[SenseResult, SenseResult]
     rest: Range  # where the wheel may stand in the dwell
     is_held: bool  # the outlines hold the wheel in the dwell
-    turning: tuple[float, float] | None  # places of rest from which it turns in both senses
 
     @property
     def turns(self) -> bool:
@@ -88,17 +88,25 @@ def turned(mechanism: Mechanism) -> Turned:
     half = 0.5 * math.tau / mechanism.spec.wheel.z
     low, high = max(rest.low, machine.rest - half), min(rest.high, machine.rest + half)
     is_held = rest.is_free and high - low < 2.0 * half * (1.0 - 1e-9)
-    is_put_back = mechanism.spec.wheel.held_by in HELD_MIDDLE or high - low < LOOSE
-    senses = tuple(_sense(turner, machine, way, is_put_back) for way in SENSES)
-    turning = _turning(turner, machine, (low, high)) if rest.is_free else None
+    is_put_back = put_back(machine, Range(rest.is_free, low, high))
+    senses = tuple(one_sense(turner, machine, way, is_put_back) for way in SENSES)
     limited = Range(rest.is_free, low, high)
-    return Turned(machine, turner, (senses[0], senses[1]), limited, is_held, turning)
+    return Turned(machine, turner, (senses[0], senses[1]), limited, is_held)
 
 
-def _sense(turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool) -> SenseResult:
+def put_back(machine: DrawnMachine, rest: Range) -> bool:
+    """Return whether the wheel begins each turn of the crank in the middle of its dwell."""
+    held_by = machine.assembly.mechanism.spec.wheel.held_by
+    return held_by in HELD_MIDDLE or rest.high - rest.low < LOOSE
+
+
+def one_sense(
+    turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool, exact: bool = True
+) -> SenseResult:
     """Turn the crank until the wheel has made a turn, jams, or rests as a turn before.
 
-    Something may put it back to the middle of its dwell after each turn of the crank.
+    Something may put it back to the middle of its dwell after each turn of the crank. Without
+    ``exact`` the angles at which pushes begin and end are those of the grid.
     """
     z, rest = machine.assembly.mechanism.spec.wheel.z, machine.rest
     is_alike = machine.free.period < 6.0  # one sector stands for all
@@ -106,7 +114,7 @@ def _sense(turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool) -
     out: list[LazyTurn] = []
     at, drift = rest, 0.0
     for k in range(every):
-        turn = turner.turn(at, 1, way)
+        turn = turner.turn(at, 1, way, exact)
         out.append(turn)
         if turn.jam is not None or not len(turn.wheel):
             return SenseResult(way, tuple(out), k * machine.slots_a_turn, drift)
@@ -119,11 +127,15 @@ def _sense(turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool) -
     return SenseResult(way, tuple(out), z, drift)
 
 
-def _turning(
-    turner: Turner, machine: DrawnMachine, span: tuple[float, float]
-) -> tuple[float, float] | None:
-    """Return the places of rest around the middle from which the wheel turns; None without any."""
-    low, high = span
+def turning(result: Turned) -> tuple[float, float] | None:
+    """Return the places of rest around the middle from which the wheel turns; None without any.
+
+    It tries many turns, which costs more than everything else of a drawing.
+    """
+    machine, turner = result.machine, result.turner
+    is_free, low, high = result.rest
+    if not is_free:
+        return None
 
     def goes(rest: float) -> bool:
         for way in SENSES:
@@ -168,6 +180,12 @@ def impacts(result: Turned) -> list[Impact]:
     return out
 
 
+def hardest_impact(result: Turned) -> Impact | None:
+    """Return the hardest impact, the one forwards of two that are equal; None without any."""
+    every = impacts(result)
+    return max(every, key=lambda one: (round(abs(one.velocity), 9), one.way), default=None)
+
+
 def _impact(machine: DrawnMachine, push: Push, way: int) -> Impact:
     at = after(push, way)
     return Impact(float(rates(machine, at)[1][0]), push.begin, push.begin_wheel, way)
@@ -175,7 +193,7 @@ def _impact(machine: DrawnMachine, push: Push, way: int) -> Impact:
 
 def after(push: Push, way: int) -> tuple[float, float]:
     """Return crank and wheel angles just after a push begins."""
-    return push.begin + way * 1e-12, push.begin_wheel
+    return push.begin + way * JUST, push.begin_wheel
 
 
 def rates(machine: DrawnMachine, at: tuple[float, float]) -> tuple[np.ndarray, ...]:

@@ -17,6 +17,7 @@ KINDS = (
         tables={"wheel": "kinds.spherical.dimensions:meridians_table"},
         dimensions="kinds.spherical.dimensions:dimensions",
         sizes="kinds.spherical.sizes:key_sizes",
+        details="kinds.spherical.parts:screw_sizes",
         stressed="kinds.spherical.sizes:stressed",
         wheel_body="kinds.spherical.parts:shell_body",
         cut_parts="kinds.spherical.locking:CutShells",

@@ -294,3 +294,18 @@ def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
     return cap, Plate(
         "arm's hub", "ARM", Circle("ARM", ORIGIN, arm.hub), (bored,), *ball.arm_span_mm
     )
+
+
+def screw_sizes(mechanism: Mechanism) -> dict[str, float]:
+    """Return the screws of locking sectors and dial by keys of ``[size]``: numbers, and holes, mm.
+
+    Raises GenevaError where the sizes leave no arm, or no place for them.
+    """
+    parts = SphereParts(mechanism)
+    arm, sectors = parts.arm, len(parts.shells.crank)
+    dial = dial_holes(mechanism.spec.size, parts.ball)
+    out = {"dial_bolt_mm": 2.0 * dial[0].radius} if dial else {}
+    if arm and sectors:
+        out["lock_bolts"] = len(arm.bolts) // sectors
+        out |= {"lock_bolt_mm": 2.0 * arm.bolts[0].radius} if arm.bolts else {}
+    return out

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -11,6 +12,7 @@ from geneva_cli.loads.contact import contact as touching
 from geneva_cli.loads.impacts.change_of_sides import changes, drag_over, impacts_of
 from geneva_cli.loads.impacts.shock import (
     FirstContacts,
+    Mouth,
     RestingAxis,
     first_contacts,
     mouth_contacts,
@@ -105,7 +107,7 @@ def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
 
 
 def _on_mouth(
-    mechanism: Mechanism, engagement: Engagement, fraction: float
+    mechanism: Mechanism, engagement: Engagement, fraction: float, recess_mm: float = 0.0
 ) -> list[FirstContacts | None]:
     """First contacts with the mouth's corners, for the largest roller in the narrowest slot."""
     tolerance, L = mechanism.spec.tolerance, mechanism.center_distance_mm
@@ -114,13 +116,38 @@ def _on_mouth(
     spare = parameter(np.maximum(clear - lost, 0.0)) / L
     roller = mechanism.roller_radius_mm / L
     errors = _errors(mechanism, engagement, fraction)
-    own = roller, spare, mechanism.spec.size.mouth_radius_mm / L
-    return [mouth_contacts(engagement, *error, *own) for error in errors]
+    mouth = Mouth(mechanism.spec.size.mouth_radius_mm / L, _lost(mechanism, engagement, recess_mm))
+    return [mouth_contacts(engagement, *error, roller, spare, mouth) for error in errors]
 
 
-def mouth_jumps_worst(mechanism: Mechanism) -> Array:
-    """Sizes of the worst jumps on a mouth's corner, (m,); 0 if no roller touches a corner."""
-    every = [on for one in mechanism.engagements for on in _on_mouth(mechanism, one, 1.0)]
+def _lost(mechanism: Mechanism, engagement: Engagement, recess_mm: float) -> tuple[float, float]:
+    """Lengths over L by which blunt horns shorten a slot's walls, as ``mouth_contacts`` has them.
+
+    In the slot's frame the recess's centre is L cos b along it, and L sin b across on either side.
+    """
+    size, L = mechanism.spec.size, mechanism.center_distance_mm
+    axis = RestingAxis.of(engagement)
+    if not (size.horn_tip_mm and recess_mm and axis):
+        return 0.0, 0.0
+    width = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
+    across = L * math.sin(engagement.half_step) - width - size.horn_tip_mm
+    beyond = L * abs(math.cos(engagement.half_step) - float(axis.anchor.along))
+    out = []
+    for side in (1.0, -1.0):
+        depth = across + side * L * engagement.slot.offset
+        lost = math.sqrt(max(recess_mm**2 - depth * depth, 0.0)) - beyond
+        out.append(max(lost, 0.0) / L)
+    return out[0], out[1]
+
+
+def mouth_jumps_worst(mechanism: Mechanism, recess_mm: float = 0.0) -> Array:
+    """Sizes of the worst jumps on a mouth's corner, (m,); 0 if no roller touches a corner.
+
+    ``recess_mm`` is the radius of the recesses, to which blunt horns reach; only for one design.
+    """
+    every = [
+        on for one in mechanism.engagements for on in _on_mouth(mechanism, one, 1.0, recess_mm)
+    ]
     sizes = [np.nan_to_num(abs(one.jump)) for one in every if one is not None]
     worst: Array = np.max(np.broadcast_arrays(np.zeros(1), *sizes), axis=0)
     return worst

@@ -14,7 +14,7 @@ results are (m,).
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -155,6 +155,19 @@ def first_roots(
     return out
 
 
+class Mouth(NamedTuple):
+    """How a mouth is cut, lengths over L: the radius of its corners, and what its walls have lost.
+
+    Blunt horns shorten the wall on the side to which the wheel turns, and the other.
+    """
+
+    rounding: float = 0.0
+    lost: tuple[float, float] = (0.0, 0.0)
+
+
+SHARP = Mouth()
+
+
 class MouthCorner(NamedTuple):
     """A corner of the mouth, and the roller that meets it with errors of R and L.
 
@@ -259,14 +272,13 @@ def mouth_contacts(
     center: float,
     roller: float,
     clearance: float,
-    rounding: float = 0.0,
+    mouth: Mouth = SHARP,
 ) -> FirstContacts | None:
     """First contacts with the mouth's corners; NaN if the roller touches none.
 
     ``crank`` and ``center`` are relative errors, as in ``shock.first_contacts``. ``roller`` is the
-    roller's radius, ``clearance`` that of the slot per side, and ``rounding`` the radius of the
-    corners, all over L. They are floats, or (m, 1) for m designs. None for slots that are solved
-    for. A negative jump is backwards.
+    roller's radius and ``clearance`` that of the slot per side, both over L. They are floats, or
+    (m, 1) for m designs. None for slots that are solved for. A negative jump is backwards.
 
         >>> from geneva_cli import Design, External
         >>> [engagement] = Design(External(6)).mechanism.engagements
@@ -274,19 +286,24 @@ def mouth_contacts(
         >>> round(float(contact.jump[0]), 6)  # tan(30 deg) sqrt(2e-4) sqrt(9) is 0.024495
         0.024448
     """
-    axis = RestingAxis.of(engagement)
+    axis, (rounding, cut) = RestingAxis.of(engagement), mouth
     if axis is None:
         return None
-    far, wide, back = axis.anchor.along, roller + clearance, 0.0
-    if np.any(rounding):  # its circle touches wall and rim
+    far, wide = axis.anchor.along, roller + clearance
+    sign: Any = 1.0  # floats, or (m, 1)
+    back: Any = 0.0
+    if np.any(rounding) or any(cut):
         x, y = engagement.slot(0.0, 0)
-        deep = np.hypot(x.c[0], y.c[0])
-        sign = np.where(deep < far, 1.0, -1.0)
+        sign = np.where(np.hypot(x.c[0], y.c[0]) < far, 1.0, -1.0)
+        # its circle touches wall and rim, or the flat of a blunt horn, which is square to the wall
         rim = np.hypot(far, wide)
         back = far - np.sqrt(far * far - 2.0 * sign * rounding * (rim + sign * wide))
     corners = [
-        MouthCorner(axis, crank, center, roller + rounding, wide + rounding, side, back)
-        for side in (1.0, -1.0)
+        MouthCorner(
+            *(axis, crank, center, roller + rounding, wide + rounding, side),
+            back=sign * (lost + rounding) if lost else back,
+        )
+        for side, lost in zip((1.0, -1.0), cut, strict=True)
     ]
     with np.errstate(all="ignore"):
         one, other = (corner.contact() for corner in corners)

@@ -39,7 +39,7 @@ def moves(data: str) -> Iterator[Move]:
     """Yield the pieces of path data. Raises GenevaError, with the place, for what it cannot read.
 
     >>> [move.kind for move in moves("M0 0H4a2 2 0 0 1-4 0z")]
-    ['L', 'A', 'L']
+    ['L', 'A']
     """
     at = first = 0j
     before = ("", 0j)  # the last letter, and the last pole of its curve

@@ -20,6 +20,9 @@ UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72.0, "pc": 25.4 / 6.0,
 HIDDEN = {"defs", "symbol", "clipPath", "mask", "marker", "pattern", "metadata", "title", "style"}
 LAYERS = {"center", "pitch", "dimension", "text", "engrave", "hidden"}  # ids of what bounds no part
 
+DEEPEST = 16  # <use> of <use>
+SHAPES_MAX = 100_000  # that <use> may make of a short file
+
 Pieces = list[Line | Arc]
 
 
@@ -67,7 +70,10 @@ def read_svg(data: bytes) -> Drawn:
     up = Affine(unit, 0.0, 0.0, -unit)  # its y axis points down
     pieces: Pieces = []
     is_exact = True
-    for element, frame in _shapes(root, up):
+    named = {element.get("id", ""): element for element in root.iter()}
+    for count, (element, frame) in enumerate(_shapes(root, up, named)):
+        if count > SHAPES_MAX:
+            raise GenevaError(f"it shows more than {SHAPES_MAX} shapes, with those of <use>")
         for move in _moves(element):
             pieces += _pieces(move, frame)
             is_exact &= move.kind != "C"
@@ -94,19 +100,43 @@ def _unit(root: ElementTree.Element) -> tuple[float, str]:
 
 
 def _shapes(
-    element: ElementTree.Element, frame: Affine
+    element: ElementTree.Element,
+    frame: Affine,
+    named: dict[str, ElementTree.Element],
+    depth: int = 0,
 ) -> Iterator[tuple[ElementTree.Element, Affine]]:
-    """Yield the shapes that are shown, with the transforms of their groups."""
+    """Yield the shapes that are shown, with the transforms of their groups and of <use>."""
     style = element.get("style", "").replace(" ", "") + ";"
     hidden = element.get("display") == "none" or "display:none" in style
     name, layer = _name(element), element.get("id", "").lower()
-    if hidden or name in HIDDEN or layer in LAYERS or element.get("class", "").lower() in LAYERS:
+    if hidden or layer in LAYERS or element.get("class", "").lower() in LAYERS:
+        return
+    if name in HIDDEN and not (name == "symbol" and depth):  # a symbol is shown by <use>
         return
     frame = frame.after(_transform(element.get("transform", "")))
+    if name == "use":
+        if depth >= DEEPEST:
+            raise GenevaError(f"<use> is nested more than {DEEPEST} deep")
+        x, y = _sizes(element, "x y")
+        yield from _shapes(_used(element, named), frame.after(Affine(e=x, f=y)), named, depth + 1)
+        return
     yield element, frame
     for child in element:
         if isinstance(child.tag, str):
-            yield from _shapes(child, frame)
+            yield from _shapes(child, frame, named, depth)
+
+
+def _used(
+    element: ElementTree.Element, named: dict[str, ElementTree.Element]
+) -> ElementTree.Element:
+    """Return the element that a <use> shows."""
+    link = element.get("href") or element.get("{http://www.w3.org/1999/xlink}href") or ""
+    target = named.get(link.removeprefix("#")) if link.startswith("#") else None
+    if target is None:
+        raise GenevaError(f'<use href="{cut(link, 40)}"> names nothing in the file')
+    if target.get("viewBox"):
+        raise GenevaError(f'<use href="{cut(link, 40)}"> has a viewBox of its own: convert it')
+    return target
 
 
 def _transform(text: str) -> Affine:
@@ -158,13 +188,38 @@ def _moves(element: ElementTree.Element) -> Iterator[Move]:
         yield from (Move("L", pair) for pair in pairwise(ends))
     elif name == "rect":
         x, y, w, h = _sizes(element, "x y width height")
-        if any(_sizes(element, "rx ry")):
-            raise GenevaError("<rect> with rounded corners: convert it to a path")
-        a, b = complex(x, y), complex(x + w, y + h)
-        corners = (a, complex(b.real, a.imag), b, complex(a.real, b.imag), a)
-        yield from (Move("L", pair) for pair in pairwise(corners))
-    elif name in ("use", "image"):
-        raise GenevaError(f"<{name}> is no outline: convert it to a path")
+        yield from _rectangle(complex(x, y), w, h, _rounding(element, w, h))
+    elif name == "image":
+        raise GenevaError("<image> is no outline: convert it to a path")
+
+
+def _rounding(element: ElementTree.Element, w: float, h: float) -> tuple[float, float]:
+    """Return the half axes of a rectangle's corners; one that is not given is as the other."""
+    given = [key for key in ("rx", "ry") if element.get(key, "auto") != "auto"]
+    if not given:
+        return 0.0, 0.0
+    rx, ry = _length(element, given[0]), _length(element, given[-1])
+    return min(rx, 0.5 * w), min(ry, 0.5 * h)
+
+
+def _rectangle(first: complex, w: float, h: float, round_: tuple[float, float]) -> Iterator[Move]:
+    """Yield the edges of a rectangle, and its corners: quarters of ellipses, if any."""
+    rx, ry = round_
+    if not (rx > 0.0 and ry > 0.0):
+        rx = ry = 0.0
+    middle, inner = first + complex(0.5 * w, 0.5 * h), complex(0.5 * w - rx, 0.5 * h - ry)
+    for k in range(4):
+        # corners from that at x + w, y on, each with the edge before it
+        sx, sy = ((1, -1), (1, 1), (-1, 1), (-1, -1))[k]
+        centre = middle + complex(sx * inner.real, sy * inner.imag)
+        start = math.pi * (0.5 * k - 0.5)
+        along = 2.0 * inner.real if k % 2 == 0 else 2.0 * inner.imag
+        begin = centre + complex(rx * math.cos(start), ry * math.sin(start))
+        back = -along * 1j**k
+        if along > 0.0:
+            yield Move("L", (begin + back, begin))
+        if rx > 0.0:
+            yield Move("A", (centre, rx + 0j, ry * 1j), (start, 0.5 * math.pi))
 
 
 def _sizes(element: ElementTree.Element, keys: str) -> list[float]:

@@ -76,6 +76,8 @@ def _data(scene: Scene) -> dict[str, Any]:
         "turn": scene.turn_deg,
         "stops": scene.stops,
         "seconds": scene.seconds,
+        "pauses": scene.pauses,
+        "stop_s": scene.stop_s,
         "size": max(x1 - x0, y1 - y0),
         "bodies": [
             {

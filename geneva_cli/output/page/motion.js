@@ -31,6 +31,14 @@ function between(stops, degrees, sense) {
   return [degrees, sense];
 }
 
+// Where an input that would run on from one angle to another stands still first, or nothing.
+function pauseBetween(pauses, turn, from, to) {
+  const least = from + 1e-9 * turn; // it has stood at the angle where it is
+  const next = pauses.map((p) => p + turn * Math.ceil((least - p) / turn));
+  const first = Math.min(...next);
+  return first <= to ? first : null;
+}
+
 // Contact and force of a push at t, or nothing: [x, y, fx, fy].
 function pushAt(push, t) {
   const a = push[0], last = a.length - 1;

@@ -143,7 +143,8 @@
       : `wheel ${(afterTurns(angle, t, 0) * degrees).toFixed(2)} degrees`;
     const shown = shownDeg(scene, t).toFixed(2);
     const more = moves && force > 1e-9 ? `, with ${Number(force.toPrecision(3))} N` : "";
-    const text = words[0].toUpperCase() + words.slice(1) + more + ".";
+    const still = stands > 0 ? "; the input stands still" : "";
+    const text = words[0].toUpperCase() + words.slice(1) + more + still + ".";
     if (text !== said) by("state").textContent = said = text;
     by("angle").textContent = `${shown}\u00b0`;
     by("input").value = t;
@@ -155,6 +156,7 @@
     show();
   }
   let playing = false, before = 0;
+  let stands = 0; // seconds that the input still stands in a dwell
   const speed = by("speed");
   for (const fraction of [0.02, 0.05, 0.1, 0.2, 0.5, 1, 2]) {
     speed.append(new Option(fraction === 1 ? "real time" : `${fraction} of real time`, fraction));
@@ -164,17 +166,28 @@
   [...speed.options].reduce((a, b) => (near(b) < near(a) ? b : a)).selected = true;
   function frame(now) {
     if (!playing) return;
-    const seconds = Math.min(0.1, (now - before) / 1000);
+    const seconds = Math.min(0.1, (now - before) / 1000) * speed.value; // of the machine
     before = now;
-    const run = (sense * scene.turn * seconds * speed.value) / scene.seconds;
+    if (stands > 0) {
+      stands -= seconds;
+      requestAnimationFrame(frame);
+      return;
+    }
+    const run = (sense * scene.turn * seconds) / scene.seconds, here = turns * scene.turn + t;
     let next;
-    [next, sense] = between(scene.stops, turns * scene.turn + t + run, sense);
+    [next, sense] = between(scene.stops, here + run, sense);
+    const pause = pauseBetween(scene.pauses, scene.turn, here, next);
+    if (pause !== null) {
+      next = pause;
+      stands = scene.stop_s;
+    }
     turns = Math.floor(next / scene.turn);
     go(next - turns * scene.turn);
     requestAnimationFrame(frame);
   }
   function play(on) {
     playing = on;
+    stands = 0;
     set(by("play"), { "aria-pressed": on });
     by("play").textContent = on ? "Stop" : "Play";
     if (on) { before = performance.now(); requestAnimationFrame(frame); }

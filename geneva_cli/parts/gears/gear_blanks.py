@@ -30,7 +30,7 @@ from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.gears.gear_mesh import ToothedGear
 from geneva_cli.parts.links.link_sizes import LinkSizes
 from geneva_cli.parts.shafts.hub_and_shafts import ShaftBore
-from geneva_cli.parts.shafts.screws import bolt_circle
+from geneva_cli.parts.shafts.screws import BoltCircle, bolt_circle
 
 
 class Gear(NamedTuple):
@@ -45,6 +45,7 @@ class Gear(NamedTuple):
     teeth: Teeth
     plate: Plate
     cut: ToothedGear | None = None
+    screws: BoltCircle | None = None  # between a gear that stands still and the frame
 
     @property
     def name(self) -> str:
@@ -59,8 +60,7 @@ class Gear(NamedTuple):
     @property
     def bolts(self) -> list[Circle]:
         """The holes by which the gear is screwed to the frame."""
-        holes = [hole for hole in self.plate.holes if isinstance(hole, Circle)]
-        return [hole for hole in holes if hole.layer == "BORE" and hole.centre != ORIGIN]
+        return self.screws.holes if self.screws else []
 
     @property
     def outer(self) -> float:
@@ -119,12 +119,15 @@ def link_gear(
             _refuse(link.name, radius - hub, "hub", shaft)
             outline = _sectors(radius, hub, teeth)
     _refuse(link.name, outer - inner, "bore", shaft)
+    screws = None
     if teeth.fixed:
         # the first at 45 degrees, off the line on which the shafts lie
-        holes += bolt_circle(size, "gear", L, (inner, outer), 0.25 * math.pi).holes
+        screws = bolt_circle(size, "gear", L, (inner, outer), 0.25 * math.pi)
+        holes += screws.holes
     plate = Plate(link.name, "PITCH", outline, tuple(holes), *sizes.span(link.plane))
     _refuse(link.name, plate_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
-    return Gear(at, link.radius_mm, ShaftBore() if teeth.inside else on, teeth, plate, cut)
+    bored = ShaftBore() if teeth.inside else on
+    return Gear(at, link.radius_mm, bored, teeth, plate, cut, screws)
 
 
 def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:

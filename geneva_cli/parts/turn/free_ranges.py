@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array, Mask, Whole
 from geneva_cli.parts.turn.stops import Meetings, TurningStops
 
 SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
@@ -63,6 +63,12 @@ class FreeRanges:
     def _meets(self, wheel: Polyarc) -> None:
         self.stops = TurningStops(wheel, self.period, self.crank, self.L, 0.0)
         self.own = self.stops.wheel(0.0)
+
+    def with_slack(self, slack: float) -> FreeRanges:
+        """Return the ranges in which parts may overlap by another ``slack``, mm."""
+        out = copy(self)
+        out.slack = slack
+        return out
 
     def near(self, low: float, high: float, wheel: float, most: float) -> FreeRanges:
         """Return the ranges of the pieces that may touch between two crank angles, radians.
@@ -138,6 +144,7 @@ class Ranges:
         row = np.concatenate((row, row, row))
         start, end = (np.concatenate((each, each, each)) + copy for each in (start, end))
         row, start, end = union(row, start, end)
+        self.intervals = row, start, end
         self.ends = np.searchsorted(row, np.arange(count + 1)).tolist()
         self.low, self.high = start.tolist(), end.tolist()
 
@@ -154,6 +161,14 @@ class Ranges:
         if angle < before:
             return Range(False, self.low[k - 1] + shift, before)
         return Range(True, before, after)
+
+    def are_blocked(self, angle: float) -> Mask:
+        """Return in which poses an angle of the wheel, radians, is not free: (n,)."""
+        row, start, end = self.intervals
+        at = angle - self.period * math.floor(angle / self.period)
+        out = np.zeros(len(self.ends) - 1, dtype=bool)
+        out[row[(start < at) & (at < end)]] = True
+        return out
 
 
 def union(row: Whole, start: Array, end: Array) -> Intervals:
@@ -197,8 +212,9 @@ def one_sector(outline: Polyarc, pitch: float, near: float) -> Whole | None:
     block = max(1, (1 << 22) // len(outline))
     for first in range(0, len(outline), block):
         some = turned[first : first + block]
-        away = np.abs(some[:, :1] - sides[:, 0]) + np.abs(some[:, 1:] - sides[:, 1])
-        after[first : first + block] = np.argmin(away, axis=1)
+        # each piece starts at another place, and squares take a tenth of the time of distances
+        x, y = some[:, :1].real - outline.x0, some[:, :1].imag - outline.y0
+        after[first : first + block] = np.argmin(x * x + y * y, axis=1)
     moved = np.abs(turned - sides[after]).max()
     if moved > near or np.abs(bend - bend[after]).max() > 1e-9:
         return None

@@ -84,13 +84,13 @@ class _Stuck(Exception):
 class Turner:
     """Turns a wheel by its crank, from one position and one sense to the next.
 
-    The free ranges of a whole turn of the crank are computed once.
+    The free ranges of a whole turn of the crank are computed once, at ``steps`` positions.
     """
 
-    def __init__(self, free: FreeRanges, start: float) -> None:
+    def __init__(self, free: FreeRanges, start: float, steps: int = STEPS) -> None:
         self.free, self.start = free, start
         many = len(free.crank) * len(free.stops.outline) > MANY
-        self.steps = STEPS // 2 if many else STEPS
+        self.steps = min(steps, STEPS // 2) if many else steps
         self.ranges = free.at(start + math.tau * np.arange(self.steps) / self.steps)
 
     def rest(self, wheel: float) -> Range:
@@ -100,17 +100,34 @@ class Turner:
     def turn(self, wheel: float, turns: int = 1, way: int = 1, exact: bool = True) -> LazyTurn:
         """Return the motion over so many turns of the crank, forwards or (``way`` = -1) backwards.
 
-        Without ``exact`` the angles at which pushes begin and end are those of the grid.
+        Without ``exact`` the angles at which pushes begin and end are those of the grid, and the
+        positions at which the wheel rests are left out.
         """
         path = _Path(self.free, way, exact)
+        last = turns * self.steps
         try:
             path.begin(self.start, self.rest(wheel), wheel)
-            for k in range(1, turns * self.steps + 1):
-                around = _looker(self.ranges, way * k % self.steps)
-                path.to(self.start + way * math.tau * k / self.steps, around)
+            k = 1
+            while k <= last:
+                if not exact and path.begun is None:
+                    k = self._first_blocked(path.wheel, k, last, way)
+                    path.rest_until(self._crank(k - 1, way))
+                    if k > last:
+                        break
+                path.to(self._crank(k, way), _looker(self.ranges, way * k % self.steps))
+                k += 1
         except _Stuck as stuck:
             return path.done(stuck.jam)
         return path.done(None)
+
+    def _crank(self, k: int, way: int) -> float:
+        return self.start + way * math.tau * k / self.steps
+
+    def _first_blocked(self, wheel: float, k: int, last: int, way: int) -> int:
+        """Return the first position from k on at which a resting wheel is not free, or last + 1."""
+        places = way * np.arange(k, min(k + self.steps, last + 1)) % self.steps
+        hit = np.flatnonzero(self.ranges.are_blocked(wheel)[places])
+        return k + int(hit[0]) if len(hit) else last + 1
 
 
 def _looker(ranges: Ranges, i: int) -> Callable[[float], Range]:
@@ -135,6 +152,15 @@ class _Path:
             wheel = near
             rest = Range(True, near, near)
         self.rows.append((crank, wheel, rest.low, rest.high))
+
+    @property
+    def wheel(self) -> float:
+        """The angle of the wheel now."""
+        return self.rows[-1][1]
+
+    def rest_until(self, crank: float) -> None:
+        """Go on to a crank angle up to which nothing pushes the wheel."""
+        self.rows.append((crank, self.wheel, math.nan, math.nan))
 
     def done(self, jam: Jam | None) -> LazyTurn:
         """Return the motion."""
@@ -200,7 +226,7 @@ class _Path:
 
         The ranges of pieces that are near do not know it.
         """
-        if is_near:
+        if is_near or not self.exact:
             self.rows.append((crank, wheel, math.nan, math.nan))
             return
         sides = [around(wheel), around(wheel - SAME), around(wheel + SAME)]

@@ -87,8 +87,17 @@ def scene(design: Design) -> Scene:
         figure=design.figure(("velocity", "acceleration", *loads)),
         box=wheels.view(parts[0], box, turn),
         stops=wheels.stops(outlines, turn),
+        pauses=tuple(_pauses(turn)) if spec.drive.stop_s else (),
+        stop_s=spec.drive.stop_s,
         frame=frame,
     )
+
+
+def _pauses(turn: MachineTurn) -> Iterator[float]:
+    """Yield the middle of each dwell, also of one without length, degrees from the start."""
+    entries = [*(one.entry for one in turn.passages[1:]), turn.end]
+    for one, after in zip(turn.passages, entries, strict=True):
+        yield 0.5 * (one.exit + after) - turn.start
 
 
 def _bars(turn: MachineTurn, outlines: Outlines | None, teeth: DrawnTeeth) -> tuple[Bar, ...]:
@@ -104,9 +113,13 @@ def _bars(turn: MachineTurn, outlines: Outlines | None, teeth: DrawnTeeth) -> tu
 
 
 def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
+    stop_s, out = design.spec.drive.stop_s, ""
+    if stop_s:
+        out = f" The input stands still for {stop_s:g} s in the middle of each dwell."
     if not design.mechanism.axes:
-        return " Seen along the wheel's shaft."
-    out = " Gears are shown by their pitch circles." if any(bar.radius for bar in bars) else ""
+        return f"{out} Seen along the wheel's shaft."
+    if any(bar.radius for bar in bars):
+        out += " Gears are shown by their pitch circles."
     if teeth.why:
         out += f" Their teeth are not drawn: {teeth.why}."
     if design.cycle.mechanism.period_deg > 360.0 * design.spec.turns:

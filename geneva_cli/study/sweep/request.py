@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError, below, cut
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.parts.chosen import ByLoad, by_load
+from geneva_cli.parts.chosen import OF_SIZES, ByLoad, by_load
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.fields import Pick
@@ -241,8 +241,6 @@ class Outcome:
                 )
 
 
-# Tables of quantities that depend on the sizes of the parts.
-OF_SIZES = ("parts", "strength", "life", "checks", "tolerance")
 ROWS = 5  # the first rows, and as many of the best; up to twice as many are all shown
 
 Numbered = tuple[Cell, ...]  # a row behind its number, counted from 1

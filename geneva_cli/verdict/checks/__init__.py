@@ -101,7 +101,7 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
     if not turned:
         return
     if mechanism.no_turn:
-        yield pushed_round(mechanism)
+        yield from pushed_round(mechanism)
         return
     from geneva_cli.parts.turn.pairs import WorkLimit
 
@@ -113,16 +113,16 @@ def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterato
     yield from applicable(TURNING, machine, turn)
 
 
-def pushed_round(mechanism: Mechanism) -> Check:
-    """Return whether parts turn that do not follow the formulas, by what touches.
+def pushed_round(mechanism: Mechanism) -> list[Check]:
+    """Return whether parts turn that do not follow the formulas, and how hard they are struck.
 
-    Without that extra the check has no verdict.
+    Without that extra, or where it cannot turn them, there is no verdict.
     """
     try:
-        check: Check = load_extra("outline", "as_built")(mechanism)
+        rows: list[Check] = load_extra("outline", "as_built")(mechanism)
     except GenevaError:
-        return Check("full_turn", None, "proved", None, None, mechanism.no_turn)
-    return check
+        return [Check("full_turn", None, "proved", None, None, mechanism.no_turn)]
+    return rows
 
 
 def _unknown_plays(mechanism: Mechanism) -> Iterator[Check]:
