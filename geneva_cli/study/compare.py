@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.tolerances import same
 from geneva_cli.parts.chosen import OF_SIZES, ByLoad, Chosen, by_load
@@ -40,6 +41,8 @@ def compare(
     """
     texts = spec_texts(paths, settings, vary, ("quantity", "differs"))  # the table's own columns
     designs = designs_of(texts, reverse)
+    for design in designs.values():
+        _refuse_drawings(design.spec)
     picked = pick(picks) if picks else None
     has_sizes = not picks or any(name.startswith(OF_SIZES) for name in picks)
     each: list[dict[str, Cell]] = []
@@ -77,6 +80,14 @@ def _chosen_anew(names: Sequence[str], sizes: Sequence[Mapping[str, Chosen]]) ->
     changes = [ByLoad(own, sizes[0]).changes for own in sizes]
     texts = [f"{name}: {text}" for name, text in zip(names, changes, strict=True) if text]
     return f"sizes chosen anew, against {names[0]}: {'; '.join(texts)}" if texts else ""
+
+
+def _refuse_drawings(spec: Spec) -> None:
+    if spec.outline.is_given:
+        raise GenevaError(
+            f"{spec.path}: [outline]: a comparison is of formulas, and turns no drawings; "
+            "`geneva check` and `geneva peaks` take each"
+        )
 
 
 def _shape(spec: Spec) -> dict[str, Cell]:

@@ -285,6 +285,12 @@ def test_four_bars_carry_their_rollers_round_no_crank(tmp_path):
         _ = design.checks
 
 
+def test_only_flat_wheels_have_outlines(tmp_path):
+    setting = f"outline.wheel={tmp_path}/w.dxf"
+    with pytest.raises(GenevaError, match=r'"spherical": an outline is turned in one plane'):
+        _ = load(str(repo.DESIGNS / "spherical-z6.toml"), [setting]).checks
+
+
 def test_rounded_arcs_get_the_slack_that_their_gaps_tell(tmp_path):
     """Numbers with four decimals: walls overlap by half of the last, and ends of arcs miss."""
     document, z, r = ezdxf.new("R2000", units=4), 6, 3.0
@@ -306,12 +312,6 @@ def test_rounded_arcs_get_the_slack_that_their_gaps_tell(tmp_path):
     assert 1e-5 < turned(design.mechanism).machine.free.slack < 5e-4
     assert "turns" not in failing(design)
     assert "turns" in failing(design.with_("outline.slack_mm", 1e-6))
-
-
-def test_only_flat_wheels_have_outlines(tmp_path):
-    setting = f"outline.wheel={tmp_path}/w.dxf"
-    with pytest.raises(GenevaError, match=r'"spherical": an outline is turned in one plane'):
-        _ = load(str(repo.DESIGNS / "spherical-z6.toml"), [setting]).checks
 
 
 @pytest.mark.long
