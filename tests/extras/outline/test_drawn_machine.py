@@ -452,9 +452,7 @@ def test_what_takes_the_ideal_machine_says_so(tmp_path):
             ask()
 
 
-@pytest.mark.parametrize(
-    ("command", "status"), [("compare", 0), ("plot", 0), ("export", 2), ("tolerance", 2)]
-)
+@pytest.mark.parametrize(("command", "status"), [("plot", 0), ("export", 2), ("tolerance", 2)])
 def test_commands_say_what_they_do_with_drawings(command, status, tmp_path):
     spec(tmp_path, written(tmp_path, drawn_wheel(6, 30.0, 3.25, 45.0)))
     options = {"export": ["-o", str(tmp_path / "out")], "plot": ["--pick", "velocity"]}
