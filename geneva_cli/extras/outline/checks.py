@@ -36,6 +36,7 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 ROUNDING_DEG = 1e-3  # a smaller play comes from the slack
 POINTS = 9  # of each piece, where parts overlap
+TURNED_WRONG = 0.25  # of the index: no slot is so loose
 ENTRY_VELOCITY = 0.01  # default of ``entry_velocity_max``
 
 
@@ -176,6 +177,8 @@ def _summary(result: Turned, mechanism: Mechanism) -> str:
     lag = lag_deg(result)
     if lag > ROUNDING_DEG:
         text += f"; it lags up to {lag:.3g}° behind the ideal motion"
+    if lag > TURNED_WRONG * index:
+        text += ": are wheel_turn_deg and crank_turn_deg in [outline] right?"
     return text
 
 

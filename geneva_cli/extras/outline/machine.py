@@ -11,8 +11,9 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, below, cut
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.loops import Loop, greatest_gap, loops
+from geneva_cli.geometry.loops import Loop, greatest_gap, loops, shown
 from geneva_cli.geometry.measure import turned_pieces
+from geneva_cli.geometry.moments import moments, total
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Point, closed, two_arcs
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -24,6 +25,8 @@ from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_ranges import FreeRanges, levels
 
 EXACT_MM, MOST_MM = 1e-6, 1e-3  # overlaps that count as touching: of exact arcs, of short lines
+
+OFF_AXIS = 0.05  # of L: farther from the origin is no wheel with a bolt or a slot less
 
 
 class Roller(NamedTuple):
@@ -89,6 +92,8 @@ def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
     L, z = place.L, spec.wheel.z
     both = Polyarc(theirs), Polyarc(ours)
     _require_reach(*both, L)
+    if wheel and len(place.kinds) == 1:
+        _require_centre(theirs, L)
     free = FreeRanges(*both, L, place.sign, math.tau / z, slack)
     first = place.motions[0]
     dwell = _dwell_deg(place)
@@ -109,6 +114,17 @@ def crank_jet(mechanism: Mechanism, input_deg: Array) -> tuple[Jet, Array]:
     out = atan2(y, 1.0 - x) if mechanism.spec.wheel.SIGN > 0.0 else atan2(y, x - 1.0)
     size = np.zeros(len(input_deg))
     return Jet([c + size for c in out.c]), whole
+
+
+def _require_centre(wheel: tuple[Contour, ...], L: float) -> None:
+    """Refuse a drawing of equal steps that does not lie about its origin, the wheel's axis."""
+    x, y = total(map(moments, wheel)).centroid
+    if math.hypot(x, y) > OFF_AXIS * L:
+        raise GenevaError(
+            f"the drawn wheel's centre is at {shown((x, y))}, but its axis is the drawing's "
+            "origin: move the drawing there",
+            ("outline", "wheel"),
+        )
 
 
 def _dwell_deg(place: Assembly) -> float:

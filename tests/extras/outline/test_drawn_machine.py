@@ -20,6 +20,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.checks import lag_deg
 from geneva_cli.extras.outline.pictures import drawn_scene
 from geneva_cli.extras.outline.turning import impacts, turned
+from geneva_cli.geometry.measure import mapped
 from geneva_cli.geometry.shapes import Arc, Line, closed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.loads.strength.pin import stiffness_N_mm
@@ -170,6 +171,25 @@ def test_a_burr_in_a_slot_is_not_missed_between_two_steps(at_mm, tmp_path):
     assert turned(design.mechanism).machine.free.slack == 1e-6
     assert not turned(design.mechanism).turns
     assert turned(design.with_("outline.slack_mm", 0.002).mechanism).turns
+
+
+def test_a_wheel_off_its_axis_says_where_its_centre_is(tmp_path):
+    moved = mapped(drawn_wheel(6, 30.0, 3.25, 45.0), lambda p: (p[0] + 12.0, p[1] - 7.0))
+    design = spec(tmp_path, written(tmp_path, moved), 'held_by = "pin"')
+    said = r"centre is at \(12, -7\), but its axis is the drawing's origin"
+    with pytest.raises(GenevaError, match=said):
+        _ = design.checks
+
+
+def test_a_crank_drawn_in_another_direction_is_asked_about(tmp_path):
+    """A roller a quarter of a turn behind: the wheel turns, and all of it comes that much later."""
+    crank = written(tmp_path, disc(0.0, 30.0, 3.0), "crank.dxf")
+    wheel = drawn_wheel(6, 30.0, 3.0, math.hypot(60.0 * math.sqrt(0.75), 3.0))
+    design = spec(tmp_path, written(tmp_path, wheel), 'held_by = "pin"')
+    asked = "are wheel_turn_deg and crank_turn_deg"
+    turned_wrong = design.with_("outline.crank", str(crank))
+    assert asked in turned_wrong.checks[0].why
+    assert asked not in turned_wrong.with_("outline.crank_turn_deg", -90.0).checks[0].why
 
 
 def test_a_rim_that_is_too_short_needs_more_than_slack(tmp_path):
