@@ -145,8 +145,10 @@ def turning(result: Turned) -> tuple[float, float] | None:
         return True
 
     middle = min(max(machine.rest, low), high)
-    # a lock leaves a short range; where nothing holds the wheel it may stand anywhere
-    trials = TRIALS if high - low > 0.1 * machine.step else FEW_TRIALS
+    # a lock leaves a short range, and a detent puts the wheel back; else it may stand anywhere
+    is_put_back = machine.assembly.mechanism.spec.wheel.held_by in HELD_MIDDLE
+    is_loose = high - low > 0.1 * machine.step and not is_put_back
+    trials = TRIALS if is_loose else FEW_TRIALS
     places = np.linspace(low, high, trials + 1)
     places[0], places[-1] = low + 1e-9 * (high - low), high - 1e-9 * (high - low)
     if high - low < 1e-5:
