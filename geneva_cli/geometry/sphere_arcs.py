@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.geometry.sphere import Region, SphereArc
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array, Whole, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 
@@ -153,7 +153,7 @@ def from_circle(boundary: SphereArcs, circle: Circle, middle: Array, half: Array
     every = np.arange(len(boundary))
     _, facing = boundary.facing(every, np.tile(circle.axis, (len(every), 1)))
     polar, azimuth = circle.seen(np.concatenate((boundary.start, facing)))
-    away = np.remainder(azimuth - middle[:, None] + math.pi, math.tau) - math.pi
+    away = within_half_turn(azimuth - middle[:, None])
     beyond = np.maximum(np.abs(away) - half[:, None], 0.0)
     across = math.sin(circle.angle) * np.sin(polar)
     from_points = _distances(polar - circle.angle, across, beyond).min(axis=1)

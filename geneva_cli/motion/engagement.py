@@ -32,6 +32,7 @@ from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 K = TypeVar("K", float, "Array")
 
 BLOCK = 12288  # angles: their jets stay in the processor's cache
+LONG = 8192  # angles a seam, from which polynomials pay
 
 Vector: TypeAlias = tuple[Jet, Jet]
 # A force at the pin's centre and a couple, both on the roller's body; the couple in that unit x L.
@@ -291,12 +292,12 @@ class WheelMotion(Batchable, ABC):
         """
         import numpy as np
 
-        from geneva_cli.numerics.fitted import fitted
-
         count = len(input_deg)
         mirrored = self.symmetric and bool((input_deg == -input_deg[::-1]).all())
         own = input_deg[: (count + 1) // 2] if mirrored else input_deg
         if self._are_very_many(own):
+            from geneva_cli.numerics.fitted import fitted
+
             seams = {0.0, *self.seams_deg}  # where the acceleration may vanish, and be small
             values = fitted(lambda x: self._in_blocks(x, orders), own, sorted(seams))
         else:
@@ -312,8 +313,6 @@ class WheelMotion(Batchable, ABC):
 
     def _are_very_many(self, input_deg: Array) -> bool:
         """True for so many angles of one design that polynomials are quicker than formulas."""
-        from geneva_cli.numerics.fitted import LONG
-
         count = len(input_deg)
         if count < 4 * LONG or self.is_closed or self._requested(input_deg[:1], (1,))[0].ndim > 1:
             return False

@@ -258,6 +258,19 @@ def blocks(count: int, size: int) -> list[slice]:
     return [slice(i, min(i + size, count)) for i in range(0, count, size)] or [slice(0, 0)]
 
 
+def within_half_turn(angle: Array) -> Array:
+    """Angles in radians, at least -pi and below pi.
+
+    >>> import numpy as np
+    >>> within_half_turn(np.array([0.5, np.pi])).tolist()
+    [0.5, -3.141592653589793]
+    """
+    import numpy as np
+
+    out: Array = np.remainder(angle + np.pi, 2.0 * np.pi) - np.pi
+    return out
+
+
 def all_true(condition: Truth) -> bool:
     """Return True if a condition, or each element of it, is true."""
     return condition if isinstance(condition, bool) else bool(condition.all())

@@ -17,7 +17,6 @@ import numpy as np
 
 from geneva_cli.numerics.arrays import Array, blocks, matrix_product
 
-LONG = 8192  # places a seam, from which polynomials pay
 FEW = 192  # places of an interval that are evaluated themselves: few more than a fit takes
 BLOCK = 8192  # places whose powers stay in the processor's cache
 DEGREE = 10

@@ -703,7 +703,7 @@ class Outline(SpecTable):
     @property
     def is_given(self) -> bool:
         """True if a drawing replaces an outline."""
-        return bool(self.files)
+        return self.wheel is not None or self.crank is not None
 
 
 class Limits(SpecTable):

@@ -23,6 +23,7 @@ from geneva_cli.verdict.checks.all_checks import (
     LIMITS,
     MOTION,
     OF_TURN,
+    PUSHED,
     TURNING,
     check_named,
     standing,
@@ -41,7 +42,6 @@ SLOW = 20  # trials for which one counts whose turn takes too long
 # Fractions of the way to a remedy's end that are tried: the first step, the end, and between them.
 PLACES = (1.0 / 12.0, 1.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0)
 QUICK = {*MOTION, *LIMITS}  # which need no parts
-PUSHED = ("turns", "strike_velocity")  # of machines as built, by what touches
 # Keys that change no outline: the parts need not be turned again.
 APART = (
     *("drive.n_rpm", "size.face_width_mm", "size.pin_held", "size.lock_edge_mm"),

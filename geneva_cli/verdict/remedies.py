@@ -23,7 +23,7 @@ from typing import NamedTuple, TypeAlias
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import KINDS
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, TOLERANCES
+from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, PUSHED, TOLERANCES
 from geneva_cli.verdict.checks.check import Check
 
 NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
@@ -202,11 +202,7 @@ def rounded(good: float, far: float, bad: float) -> float:
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     """Changes of the spec that may make a failing check pass, the likeliest first."""
     spec, name = mechanism.spec, check.name
-    own = (
-        {}
-        if name in (*MOTION, *LIMITS, *TOLERANCES, "turns", "strike_velocity")
-        else _own_sizes(spec.size)
-    )
+    own = {} if name in (*MOTION, *LIMITS, *TOLERANCES, *PUSHED) else _own_sizes(spec.size)
     # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
     words = [words for key, words in own.items() if key in check.why]
     words += [_table().get(name, _table()["OTHERS"]), *own.values()]

@@ -29,6 +29,16 @@ def _turning(x: Any, y: Any, x1: Any, y1: Any, x2: Any, y2: Any) -> tuple[Any, A
     return rate, (x * y2 - y * x2 - 2.0 * rate * (x * x1 + y * y1)) / square
 
 
+@jit
+def _driven(l: Any, f: Any, f1: Any, f2: Any) -> tuple[Any, Any]:
+    """Velocity and acceleration of a wheel, l = sin b, whose crank is at f with two derivatives."""
+    sine, cosine = np.sin(f), np.cos(f)
+    below = 1.0 - 2.0 * l * cosine + l * l
+    g1 = l * (cosine - l) / below
+    g2 = -l * (1.0 - l * l) * sine / (below * below)
+    return g1 * f1, g2 * f1 * f1 + g1 * f2
+
+
 def offset_slots(offset_mm: Any, x: Any) -> tuple[Any, Any]:
     """Six slots whose axes pass the wheel's at a distance, on a centre distance of 100 mm.
 
@@ -66,12 +76,7 @@ def elliptical_gears(e: Any, x: Any) -> tuple[Any, Any]:
     square = 1.0 + e * e + 2.0 * e * np.cos(x)
     f = 2.0 * np.arctan2((1.0 - e) * np.sin(0.5 * x), (1.0 + e) * np.cos(0.5 * x))
     f1 = (1.0 - e * e) / square
-    f2 = f1 * 2.0 * e * np.sin(x) / square
-    sine, cosine = np.sin(f), np.cos(f)
-    below = 1.0 - 2.0 * l * cosine + l * l
-    g1 = l * (cosine - l) / below
-    g2 = -l * (1.0 - l * l) * sine / (below * below)
-    return g1 * f1, g2 * f1 * f1 + g1 * f2
+    return _driven(l, f, f1, f1 * 2.0 * e * np.sin(x) / square)
 
 
 def epicyclic(planet_ratio: Any, x: Any) -> tuple[Any, Any]:
@@ -120,12 +125,7 @@ def geneva_pair(z: Any, x: Any) -> tuple[Any, Any]:
     below = 1.0 - 2.0 * k * cosine + k * k
     f = np.arctan2(k * sine, 1.0 - k * cosine)
     f1 = k * (cosine - k) / below
-    f2 = -k * (1.0 - k * k) * sine / (below * below)
-    sine, cosine = np.sin(f), np.cos(f)
-    below = 1.0 - 2.0 * l * cosine + l * l
-    g1 = l * (cosine - l) / below
-    g2 = -l * (1.0 - l * l) * sine / (below * below)
-    return g1 * f1, g2 * f1 * f1 + g1 * f2
+    return _driven(l, f, f1, -k * (1.0 - k * k) * sine / (below * below))
 
 
 def four_bar(place: Any, x: Any) -> tuple[Any, Any]:

@@ -10,16 +10,17 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.extras.outline.contact import contacts
-from geneva_cli.extras.outline.impact_force import hardest, strike_text
+from geneva_cli.extras.outline.impact_force import strike_text, struck_by
 from geneva_cli.extras.outline.machine import DrawnMachine
 from geneva_cli.extras.outline.slack import least_slack_mm, most_mm
 from geneva_cli.extras.outline.turning import (
-    HELD_MIDDLE,
     LOOSE,
     Impact,
     SenseResult,
     Turned,
     hardest_impact,
+    moving,
+    put_back,
     turned,
     turning,
 )
@@ -33,11 +34,11 @@ from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_ranges import one_sector
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.checks.motion_checks import entry_velocity_limit
 
 ROUNDING_DEG = 1e-3  # a smaller play comes from the slack
 POINTS = 9  # of each piece, where parts overlap
 TURNED_WRONG = 0.25  # of the index: no slot is so loose
-ENTRY_VELOCITY = 0.01  # default of ``entry_velocity_max``
 
 
 def checks(mechanism: Mechanism) -> list[Check]:
@@ -58,10 +59,11 @@ def as_built(mechanism: Mechanism) -> list[Check]:
     """
     result = turned(mechanism)
     check = _turns(result, mechanism)
-    struck = hardest(mechanism, result)
-    if not (check.passes and struck):
+    worst = hardest_impact(result)
+    if not check.passes or worst is None:
         return [check]
-    limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
+    struck = struck_by(mechanism, result, worst)
+    limit = entry_velocity_limit(mechanism)
     row = compared("strike_velocity", abs(struck.jump), "at most", limit, struck.at_deg)
     text = f"roller, clearance and disc strike the wheel{strike_text(struck)}"
     return [check, row if row.passes else row._replace(why=text)]
@@ -159,19 +161,19 @@ def _summary(result: Turned, mechanism: Mechanism) -> str:
     """What the turn gives, in words."""
     machine, turn = result.machine, result.senses[0].first
     index = math.degrees(turn.gained) / machine.slots_a_turn
-    moving = turn.is_moving
+    is_moving = turn.is_moving
     free = np.nan_to_num(np.degrees(turn.high - turn.low))
     rest = math.degrees(result.rest.high - result.rest.low)
     first = turn.pushes[0]
-    last = max((p for p in turn.pushes if abs(p.end_wheel - p.begin_wheel) > 1e-3), default=first)
+    last = max(moving(turn), default=first)
     begin, end = (_shown_deg(machine, x) for x in (first.begin, last.end))
     text = (
         f"turns both ways through every slot: index {index:.7g}°, moved from {begin:.5g} to "
         f"{end:.5g}° of the input, "
     )
     held = f"{_play(rest)} in the dwell" if result.is_held else "nothing holds it in the dwell"
-    text += f"{held}, {_play(float(free[moving].max(initial=0.0)))} in motion"
-    widest = float(free[~moving].max(initial=0.0))
+    text += f"{held}, {_play(float(free[is_moving].max(initial=0.0)))} in motion"
+    widest = float(free[~is_moving].max(initial=0.0))
     if result.is_held and widest > rest + ROUNDING_DEG:
         text += f", at most {widest:.4g}° while it rests"
     lag = lag_deg(result)
@@ -212,18 +214,18 @@ def _rests(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     if high - low < LOOSE or not result.rest.is_free:
         return
     begin, end = turning(result) or (result.machine.rest, result.machine.rest)
-    put_back = mechanism.spec.wheel.held_by in HELD_MIDDLE
-    limit = 0.0 if put_back else math.degrees(high - low)
+    is_put_back = put_back(result.machine, result.rest)
+    limit = 0.0 if is_put_back else math.degrees(high - low)
     value = math.degrees(end - begin)
     if end - begin > (high - low) * (1.0 - 1e-6):
         value = math.degrees(high - low)
-    ok = value > 0.0 if put_back else value >= limit
+    ok = value > 0.0 if is_put_back else value >= limit
     text = "from no place of rest it turns"
     if value:
         a, b = math.degrees(begin), math.degrees(end)
         text = f"turns if it rests between {a:.5g} and {b:.5g}°"
         text += f", and may stand between {math.degrees(low):.5g} and {math.degrees(high):.5g}°"
-    must_be = "above" if put_back else "at least"
+    must_be = "above" if is_put_back else "at least"
     yield Check("turning_rests_deg", value, must_be, limit, ok, "" if ok else text)
 
 
@@ -249,11 +251,10 @@ def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     worst = hardest_impact(result)
     if worst is None or not result.rest.is_free:
         return
-    limit = mechanism.spec.limits.entry_velocity_max or ENTRY_VELOCITY
+    limit = entry_velocity_limit(mechanism)
     at = _shown_deg(result.machine, worst.crank)
     row = compared("entry_velocity_max", abs(worst.velocity), "at most", limit, at)
-    struck = hardest(mechanism, result)
-    assert struck is not None
+    struck = struck_by(mechanism, result, worst)
     text = f"{_ideal_text(result, mechanism, worst)}{strike_text(struck)}"
     yield row if row.passes else row._replace(why=text)
 
@@ -278,7 +279,7 @@ def _ideal_text(result: Turned, mechanism: Mechanism, worst: Impact) -> str:
 def _drift(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
     """Check that a wheel which keeps its place rests at the same place after each index."""
     play = result.rest.high - result.rest.low
-    if mechanism.spec.wheel.held_by in HELD_MIDDLE or play < LOOSE or not result.turns:
+    if put_back(result.machine, result.rest) or not result.turns:
         return
     drift = max(abs(sense.drift) for sense in result.senses)
     drift_deg, limit = math.degrees(drift), math.degrees(play)

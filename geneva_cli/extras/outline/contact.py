@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Mask
+from geneva_cli.numerics.arrays import Array, Mask, within_half_turn
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 from geneva_cli.parts.turn.free_ranges import FreeRanges
 from geneva_cli.parts.turn.lazy_turn import STEEPEST
@@ -91,7 +91,7 @@ class Contact(NamedTuple):
         """Return the motion with two points at a constant distance."""
         x, y = self._crank_point(theta)
         w = np.maximum(self.wheel.far, 1e-300)
-        between = np.remainder(self.crank.ahead - self.wheel.ahead + np.pi, 2.0 * np.pi) - np.pi
+        between = within_half_turn(self.crank.ahead - self.wheel.ahead)
         square = x * x + y * y
         # the angle between both points, seen from the wheel's axis, from the triangle's sides
         d2 = self.crank.far**2 + w * w - 2.0 * self.crank.far * w * np.cos(between)
@@ -102,7 +102,7 @@ class Contact(NamedTuple):
     def _on_wheel(self, theta: Jet) -> tuple[Array, ...]:
         """Return the motion with a point of the crank at a constant distance from an edge."""
         x, y = self._crank_point(theta)
-        between = np.remainder(self.crank.ahead - self.wheel.ahead + np.pi, 2.0 * np.pi) - np.pi
+        between = within_half_turn(self.crank.ahead - self.wheel.ahead)
         h = self.crank.far * np.cos(between)
         along = (x * 0.0) + h
         across = x * x + y * y - h * h
@@ -119,7 +119,7 @@ class Contact(NamedTuple):
         """Return the motion with a point of the wheel at a constant distance from an edge."""
         # the edge's normal through the wheel's axis points to its foot
         normal = (theta - theta.c[0]) * -self.sense + self.crank.ahead
-        between = np.remainder(self.wheel.ahead - self.crank.ahead + np.pi, 2.0 * np.pi) - np.pi
+        between = within_half_turn(self.wheel.ahead - self.crank.ahead)
         w = np.maximum(self.wheel.far, 1e-300)
         # the distance of the edge from the crank's axis stays as it is
         cosine = sin_cos(normal)[1]

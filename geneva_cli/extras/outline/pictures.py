@@ -11,7 +11,7 @@ from geneva_cli.design import Design
 from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import drawn_machine
 from geneva_cli.extras.outline.real_motion import at_crank, inside, motion, steady_turn
-from geneva_cli.extras.outline.turning import LATE, Turned, turned
+from geneva_cli.extras.outline.turning import Turned, moving, turned
 from geneva_cli.figure import Curve, Figure
 from geneva_cli.geometry.plates import placed
 from geneva_cli.geometry.shapes import Contour, Layer, Shape
@@ -88,9 +88,7 @@ def _layered(contours: tuple[Contour, ...], layer: Layer) -> tuple[Shape, ...]:
 
 def _contacts(result: Turned, turn: LazyTurn, time: _Time) -> Iterator[Push]:
     """Yield the contact points of each push, with the direction in which the wheel's point goes."""
-    for push in turn.pushes:
-        if abs(push.end_wheel - push.begin_wheel) < LATE:
-            continue
+    for push in moving(turn):
         crank = np.linspace(push.begin + 1e-9, push.end - 1e-6, PLACES)
         wheel, _ = at_crank(result, turn, crank)
         found = contacts(result.machine.free, crank, wheel)
@@ -104,8 +102,7 @@ def _contacts(result: Turned, turn: LazyTurn, time: _Time) -> Iterator[Push]:
 
 def _states(turn: LazyTurn, time: _Time, whole: float) -> Iterator[Phase]:
     """Yield the stretches of a turn in which the wheel rests or is pushed."""
-    pushed = [p for p in turn.pushes if abs(p.end_wheel - p.begin_wheel) > LATE]
-    stretches = sorted((time.at(p.begin), time.at(p.end)) for p in pushed)
+    stretches = sorted((time.at(p.begin), time.at(p.end)) for p in moving(turn))
     last = 0.0
     for begin, end in stretches:
         if begin > end:  # it goes on beyond the end of the turn

@@ -14,9 +14,9 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.contact import contacts
-from geneva_cli.extras.outline.impact_force import Struck, hardest
+from geneva_cli.extras.outline.impact_force import Struck, struck_by
 from geneva_cli.extras.outline.machine import crank_jet
-from geneva_cli.extras.outline.turning import LATE, LOOSE, Turned, turned
+from geneva_cli.extras.outline.turning import LOOSE, Turned, hardest_impact, moving, turned
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import (
     check_samples,
@@ -32,6 +32,7 @@ from geneva_cli.parts.turn.lazy_turn import LazyTurn, Push
 from geneva_cli.table import Table, record_table
 
 FINE = 33  # places about a peak, in each round of the search
+ROUNDS = 6
 FIELDS = ("max", "at_deg", "entry", "exit")
 QUANTITIES = ("velocity", "acceleration", "jerk", "power")
 
@@ -75,8 +76,7 @@ def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = 
     theta, whole = crank_jet(mechanism, input_deg)
     laps = np.floor((theta.c[0] - turn.crank[0]) / math.tau)
     wheel, rates = at_crank(result, turn, theta.c[0] - math.tau * laps)
-    outer = Jet((wheel, rates[0], rates[1] / 2.0, rates[2] / 6.0))
-    _, velocity, acceleration, jerk = composed(outer, theta).arrays()
+    velocity, acceleration, jerk = by_input(wheel, rates, theta)
     shown = np.degrees(wheel + (whole + laps) * turn.gained)
     columns = [times_s(mechanism, input_deg), input_deg, shown, velocity, acceleration, jerk]
     of_velocity, of_acceleration = rates_at_speed(mechanism).values()
@@ -108,6 +108,12 @@ def at_crank(result: Turned, turn: LazyTurn, crank: Array) -> tuple[Array, list[
     return wheel, rates
 
 
+def by_input(wheel: Array, rates: Sequence[Array], crank: Jet) -> tuple[Array, ...]:
+    """Return velocity, acceleration and jerk by the input's angle, from those by the crank's."""
+    outer = Jet((wheel, rates[0], rates[1] / 2.0, rates[2] / 6.0))
+    return composed(outer, crank).arrays()[1:]
+
+
 def peaks(mechanism: Mechanism) -> Table:
     """Return the greatest velocity, acceleration, jerk and power, as ``geneva peaks`` prints them.
 
@@ -116,28 +122,31 @@ def peaks(mechanism: Mechanism) -> Table:
     result = turned(mechanism)
     turn = steady_turn(result)
     values: dict[str, object] = {"spec": mechanism.spec.path, "title": mechanism.spec.title or None}
-    pushes = [p for p in turn.pushes if abs(p.end_wheel - p.begin_wheel) > LATE]
+    pushes = moving(turn)
     ends = np.array((inside(pushes[0])[0], inside(pushes[-1])[1]))
     best: dict[str, tuple[float, float]] = dict.fromkeys(QUANTITIES, (0.0, math.nan))
     for push in pushes:
         rows = turn.crank[(turn.crank >= push.begin) & (turn.crank <= push.end)]
         grid = np.unique(np.concatenate((rows, (push.begin, push.end))))
         grid[[0, -1]] = inside(push)
+        known = _quantities(result, turn, mechanism, grid)
         for name in QUANTITIES:
-            found = _peak(result, turn, mechanism, name, grid)
+            found = _peak(result, turn, mechanism, name, (grid, known[name]))
             if found[0] > best[name][0]:
                 best[name] = found
+    at_ends = _quantities(result, turn, mechanism, ends)
     for name, (size, at) in best.items():
         values[f"{name}.max"] = size
         values[f"{name}.at_deg"] = result.machine.assembly.shown_deg(math.degrees(at))
-        first, last = _quantity(result, turn, mechanism, name, ends)
+        first, last = at_ends[name]
         values[f"{name}.entry"] = abs(float(first))
         values[f"{name}.exit"] = abs(float(last))
     begin, end = (_input_deg(result, x) for x in (pushes[0].begin, pushes[-1].end))
     values["motion_deg"] = end - begin
     values["dwell_deg"] = mechanism.whole_deg - (end - begin)
     values["stations"] = None
-    struck = hardest(mechanism, result)
+    worst = hardest_impact(result)
+    struck = None if worst is None else struck_by(mechanism, result, worst)
     for name in Struck._fields:
         values[f"impact.{name}"] = None if struck is None else getattr(struck, name)
     fields = {**dict.fromkeys(QUANTITIES, FIELDS), "power": FIELDS[:2]}
@@ -157,35 +166,38 @@ def _input_deg(result: Turned, crank: float) -> float:
     return result.machine.assembly.to_input(math.degrees(crank))
 
 
-def _quantity(
-    result: Turned, turn: LazyTurn, mechanism: Mechanism, name: str, crank: Array
-) -> Array:
-    """A quantity at crank angles in pushes, by the input's angle."""
+def _quantities(
+    result: Turned, turn: LazyTurn, mechanism: Mechanism, crank: Array
+) -> dict[str, Array]:
+    """The quantities at crank angles in pushes, by the input's angle."""
     wheel, rates = at_crank(result, turn, crank)
     input_deg = np.array([_input_deg(result, float(x)) for x in crank])
     inner, _ = crank_jet(mechanism, input_deg)
-    outer = Jet((wheel, rates[0], rates[1] / 2.0, rates[2] / 6.0))
-    _, velocity, acceleration, jerk = composed(outer, inner).arrays()
-    known = {
-        "velocity": velocity,
-        "acceleration": acceleration,
-        "jerk": jerk,
-        "power": velocity * acceleration,
-    }
-    return known[name]
+    velocity, acceleration, jerk = by_input(wheel, rates, inner)
+    power = velocity * acceleration
+    return dict(zip(QUANTITIES, (velocity, acceleration, jerk, power), strict=True))
 
 
 def _peak(
-    result: Turned, turn: LazyTurn, mechanism: Mechanism, name: str, grid: Array
+    result: Turned,
+    turn: LazyTurn,
+    mechanism: Mechanism,
+    name: str,
+    known: tuple[Array, Array],
 ) -> tuple[float, float]:
-    """Return the greatest size of a quantity over a push, and its crank angle."""
+    """Return the greatest size of a quantity over a push, and its crank angle.
+
+    ``known`` are its values over the push, with their crank angles before them.
+    """
+    grid, values = known
     best = (0.0, float(grid[0]))
-    low, high = grid[0], grid[-1]
-    for _ in range(6):
-        size = np.abs(_quantity(result, turn, mechanism, name, grid))
-        k = int(np.argmax(size))
-        if size[k] > best[0]:
-            best = float(size[k]), float(grid[k])
-        low, high = grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
+    for k in range(ROUNDS):
+        if k:
+            values = _quantities(result, turn, mechanism, grid)[name]
+        size = np.abs(values)
+        top = int(np.argmax(size))
+        if size[top] > best[0]:
+            best = float(size[top]), float(grid[top])
+        low, high = grid[max(top - 1, 0)], grid[min(top + 1, len(grid) - 1)]
         grid = np.linspace(low, high, FINE)
     return best

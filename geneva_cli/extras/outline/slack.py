@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from geneva_cli.extras.outline.machine import DrawnMachine
-from geneva_cli.extras.outline.turning import SENSES, Turned, one_sense, put_back
+from geneva_cli.extras.outline.turning import SENSES, Turned, goes_on, one_sense, put_back
 from geneva_cli.parts.turn.lazy_turn import STEPS, Turner
 
 MOST = 0.02  # of L, and at most half a roller's radius: with more it is another wheel
@@ -49,6 +49,6 @@ def _turns(machine: DrawnMachine, slack: float) -> bool:
         return False
     for way in SENSES:
         sense = one_sense(turner, machine, way, put_back(machine, rest), exact=False)
-        if sense.jam is not None or way * sense.first.gained < 0.5 * machine.step:
+        if sense.jam is not None or not goes_on(machine, sense.first, way):
             return False
     return True

@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.extras.outline.contact import Contact, contacts
+from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import DrawnMachine, drawn_machine
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.turn.free_ranges import Range
 from geneva_cli.parts.turn.lazy_turn import Jam, LazyTurn, Push, Turner
 
@@ -71,8 +72,7 @@ class Turned(NamedTuple):
     @property
     def has_indexed(self) -> bool:
         """True if the wheel has gone on by more than half of a step in each sense."""
-        step = self.machine.step
-        return all(sense.way * sense.first.gained > 0.5 * step for sense in self.senses)
+        return all(goes_on(self.machine, sense.first, sense.way) for sense in self.senses)
 
 
 @lru_cache(maxsize=4)
@@ -92,6 +92,11 @@ def turned(mechanism: Mechanism) -> Turned:
     senses = tuple(one_sense(turner, machine, way, is_put_back) for way in SENSES)
     limited = Range(rest.is_free, low, high)
     return Turned(machine, turner, (senses[0], senses[1]), limited, is_held)
+
+
+def goes_on(machine: DrawnMachine, turn: LazyTurn, way: int) -> bool:
+    """Return whether a turn of the crank brings the wheel on by more than half of its step."""
+    return turn.jam is None and way * turn.gained > 0.5 * machine.step
 
 
 def put_back(machine: DrawnMachine, rest: Range) -> bool:
@@ -138,20 +143,16 @@ def turning(result: Turned) -> tuple[float, float] | None:
         return None
 
     def goes(rest: float) -> bool:
-        for way in SENSES:
-            turn = turner.turn(rest, 1, way, exact=False)
-            if turn.jam is not None or way * turn.gained < 0.5 * machine.step:
-                return False
-        return True
+        turns = ((turner.turn(rest, 1, way, exact=False), way) for way in SENSES)
+        return all(goes_on(machine, *turn) for turn in turns)
 
     middle = min(max(machine.rest, low), high)
     # a lock leaves a short range, and a detent puts the wheel back; else it may stand anywhere
-    is_put_back = machine.assembly.mechanism.spec.wheel.held_by in HELD_MIDDLE
-    is_loose = high - low > 0.1 * machine.step and not is_put_back
+    is_loose = high - low > 0.1 * machine.step and not put_back(machine, result.rest)
     trials = TRIALS if is_loose else FEW_TRIALS
     places = np.linspace(low, high, trials + 1)
     places[0], places[-1] = low + 1e-9 * (high - low), high - 1e-9 * (high - low)
-    if high - low < 1e-5:
+    if high - low < LOOSE:
         return (low, high) if goes(middle) else None
     good = [goes(float(place)) for place in places]
     if not any(good):
@@ -170,15 +171,17 @@ def turning(result: Turned) -> tuple[float, float] | None:
     return ends[0], ends[1]
 
 
+def moving(turn: LazyTurn) -> list[Push]:
+    """Return the pushes of a turn that move the wheel, not those within its play."""
+    return [push for push in turn.pushes if push.moved > LATE]
+
+
 def impacts(result: Turned) -> list[Impact]:
     """Return the impacts of both senses: the velocities at which pushes begin."""
-    out = []
+    out: list[Impact] = []
     for sense in result.senses:
         for turn in sense.turns:
-            for push in turn.pushes:
-                if abs(push.end_wheel - push.begin_wheel) < LATE:
-                    continue
-                out.append(_impact(result.machine, push, sense.way))
+            out += [_impact(result.machine, push, sense.way) for push in moving(turn)]
     return out
 
 
@@ -189,17 +192,12 @@ def hardest_impact(result: Turned) -> Impact | None:
 
 
 def _impact(machine: DrawnMachine, push: Push, way: int) -> Impact:
-    at = after(push, way)
-    return Impact(float(rates(machine, at)[1][0]), push.begin, push.begin_wheel, way)
+    impact = Impact(math.nan, push.begin, push.begin_wheel, way)
+    crank, wheel = after(impact)
+    _, velocity, *_ = contacts(machine.free, crank, wheel).motion(crank)
+    return impact._replace(velocity=float(velocity[0]))
 
 
-def after(push: Push, way: int) -> tuple[float, float]:
-    """Return crank and wheel angles just after a push begins."""
-    return push.begin + way * JUST, push.begin_wheel
-
-
-def rates(machine: DrawnMachine, at: tuple[float, float]) -> tuple[np.ndarray, ...]:
-    """Return the wheel's angle and its derivatives by the crank's at one position that touches."""
-    crank, wheel = np.array([at[0]]), np.array([at[1]])
-    found: Contact = contacts(machine.free, crank, wheel)
-    return found.motion(crank)
+def after(impact: Impact) -> tuple[Array, Array]:
+    """Return crank and wheel angles just after an impact, radians, (1,) each."""
+    return np.array([impact.crank + impact.way * JUST]), np.array([impact.wheel])

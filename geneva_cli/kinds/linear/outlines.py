@@ -11,7 +11,7 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear.rack import RackSizes, locking_sector, rack_contour
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array, Whole, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.gaps import Gaps
@@ -62,7 +62,7 @@ class SlidingStops(TurningStops):
         extremes = np.array(((cx - radius, zero), (cx + radius, zero)))
         trims = np.where(left, ends.trims[:, bent], ends.trims[::-1, bent]) / radius
         towards = np.arctan2(outline.my, outline.mx)[bent] + angle[:, None]
-        middle = np.remainder(towards + np.pi, 2.0 * np.pi) - np.pi
+        middle = within_half_turn(towards)
         half = np.arctan2(outline.sin_half[bent], outline.cos_half[bent])
         span = middle - half + trims[0], middle + half - trims[1]
         parts = []

@@ -25,7 +25,7 @@ from geneva_cli.geometry.sphere import (
     place,
 )
 from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.outlines.crank_outline import widest
 
@@ -132,7 +132,7 @@ def sectors(ball: Ball) -> list[Region]:
     def sector(start: float, end: float) -> Region:
         middle = 0.5 * (start + end)
         ahead = np.stack([azimuth + turn - middle for turn in ball.rollers])
-        off = np.abs(np.remainder(ahead + math.pi, math.tau) - math.pi)
+        off = np.abs(within_half_turn(ahead))
 
         @cache
         def nearest(half: float) -> float:

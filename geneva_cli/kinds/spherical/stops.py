@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from geneva_cli.geometry.sphere_arcs import SphereArcs
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.turn.stops import CONCENTRIC, Branches, Stops, cut, masked, merged
 
@@ -98,7 +98,7 @@ def _branches(arcs: SphereArcs, inset: float, placed: Placed) -> Branches:
     known = []
     for turn in (trims[0], trims[0] + sweep):
         point = _point(axis, x, y, size, turn)
-        off = np.remainder(azimuth(point) - ahead + np.pi, 2.0 * np.pi) - np.pi
+        off = within_half_turn(azimuth(point) - ahead)
         known.append((polar(point), np.abs(off)))
     levels = np.array(known).swapaxes(0, 1)
     for there, low, high, sign in cut(start, start + sweep, levels, _extremes(far, size)):

@@ -20,7 +20,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Segment, Shape, about, closed
 from geneva_cli.loads.tolerance.locking import Lock, loosest
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import Array
+from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of
@@ -122,7 +122,7 @@ def _widened(assembly: Assembly, sizes: Sizes, one: Relief, mouths: Mouths) -> R
         corner = side * (half_step - rests) + np.append(turned, last)
         x, y = p * np.cos(corner) - L, p * np.sin(corner)
         crank = assembly.crank(behind + np.append(at, np.interp(last, turned, at)))
-        off = np.remainder(np.arctan2(y, x) - crank - middle + math.pi, math.tau) - math.pi
+        off = within_half_turn(np.arctan2(y, x) - crank - middle)
         off = off[np.hypot(x, y) < sizes.lock * (1.0 + SAME_LENGTH)]
         if off.min(initial=0.0) < -one.half - SAME_ANGLE:
             start = min(start, middle + off.min() - spare)
@@ -277,7 +277,7 @@ def _rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list
         # only points about the sector's direction: this takes less time than all their directions
         along = x * math.cos(middle) + y * math.sin(middle)
         near = np.flatnonzero(along >= (math.cos(whole) - SAME_ANGLE) * away)
-        off = np.remainder(np.arctan2(y[near], x[near]) - middle + math.pi, math.tau) - math.pi
+        off = within_half_turn(np.arctan2(y[near], x[near]) - middle)
         inner = cache(partial(_inner, sizes, (np.hypot(x[near], y[near]), off), spare))
         # the least thickness of a sector is a tenth of the disc's radius
         half = widest(whole, lambda half: max(inner(half)) < 0.9 * sizes.lock)

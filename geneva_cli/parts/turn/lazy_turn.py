@@ -35,6 +35,11 @@ class Push(NamedTuple):
     end: float
     end_wheel: float
 
+    @property
+    def moved(self) -> float:
+        """How far it moves the wheel, radians."""
+        return abs(self.end_wheel - self.begin_wheel)
+
 
 class Jam(NamedTuple):
     """The angles of crank and wheel at which the wheel is stuck, and what is blocked then."""

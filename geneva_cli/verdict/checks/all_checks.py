@@ -143,6 +143,8 @@ JAMS = _of(
     hand_over_pressure="hand_over_pressure_deg",
     hand_over_offset="hand_over_offset_mm",
 )
+# Of machines as built, by what touches.
+PUSHED = ("turns", "strike_velocity")
 # Plays that the spec limits; a machine whose parts cannot be turned has no value of them.
 PLAYS = _of(
     "play_checks",

@@ -43,17 +43,25 @@ def limited_peak(name: str, mechanism: Mechanism) -> Check | None:
 ENTRY_VELOCITY = 0.01
 
 
+def entry_velocity_limit(mechanism: Mechanism) -> float:
+    """Return the greatest jump of velocity at entry, over the input's speed, or its default.
+
+    >>> entry_velocity_limit(Design(External(6)).mechanism)
+    0.01
+    """
+    return value_or(mechanism.spec.limits.entry_velocity_max, ENTRY_VELOCITY)
+
+
 def entry_velocity(name: str, mechanism: Mechanism) -> Check | None:
     """The greatest jump of the wheel's velocity at entry and exit, over the input's speed.
 
     A crank as built has a limit without one in the spec. It fails where the roller never crosses
     the axis of the slot at rest.
     """
-    limit, own = mechanism.spec.limits.entry_velocity_max, mechanism.engagements
-    if limit is None and not own[0].built:
+    own = mechanism.engagements
+    if mechanism.spec.limits.entry_velocity_max is None and not own[0].built:
         return None
-    limit = value_or(limit, ENTRY_VELOCITY)
-    jumps = greatest_jumps(own)
+    limit, jumps = entry_velocity_limit(mechanism), greatest_jumps(own)
     sizes = [abs(jump) for jump in jumps if jump is not None]
     if len(sizes) < len(jumps):
         why = (
