@@ -247,14 +247,12 @@ def _walls(machine: DrawnMachine) -> Iterator[Check]:
 
 
 def _entry(result: Turned, mechanism: Mechanism) -> Iterator[Check]:
-    """Check the velocity with which the wheel is set in motion."""
+    """Check the velocity, over the input's, with which the wheel is set in motion."""
     worst = hardest_impact(result)
     if worst is None or not result.rest.is_free:
         return
-    limit = entry_velocity_limit(mechanism)
-    at = _shown_deg(result.machine, worst.crank)
-    row = compared("entry_velocity_max", abs(worst.velocity), "at most", limit, at)
-    struck = struck_by(mechanism, result, worst)
+    struck, limit = struck_by(mechanism, result, worst), entry_velocity_limit(mechanism)
+    row = compared("entry_velocity_max", abs(struck.jump), "at most", limit, struck.at_deg)
     text = f"{_ideal_text(result, mechanism, worst)}{strike_text(struck)}"
     yield row if row.passes else row._replace(why=text)
 

@@ -110,6 +110,18 @@ def test_a_clearance_makes_the_wheel_lag(name, exported):
     assert 0.5 * rest == pytest.approx(plays["dwell_play_deg"], abs=1e-3)
 
 
+def test_an_entry_is_over_the_speed_of_the_input(exported):
+    """A side-crank turns the crank at another rate: here by differences of its own formula."""
+    design = exported("side-crank-z6", 0.05)
+    impact = max(impacts(turned(design.mechanism)), key=lambda one: (abs(one.velocity), one.way))
+    at, step = math.degrees(impact.crank), 1e-4
+    to_input = turned(design.mechanism).machine.assembly.to_input
+    rate = 2.0 * step / (to_input(at + step) - to_input(at - step))
+    (row,) = [check for check in design.checks if check.name == "entry_velocity_max"]
+    assert abs(rate - 1.0) > 0.2
+    assert row.value == pytest.approx(abs(impact.velocity) * rate, rel=1e-4)
+
+
 @pytest.mark.parametrize("name", designs("side-crank-z6", "turret"))
 def test_peaks_of_our_own_drawings_are_those_of_the_formulas(name, exported):
     own, ideal = (
