@@ -11,6 +11,7 @@ from functools import partial
 from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
+from geneva_cli.drawings.catalogue import without_sheet
 from geneva_cli.drawings.coupon import single_parts
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
@@ -96,7 +97,10 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
                 content, work = f"{one.name}: {SINGLE[format]}", partial(draw, one.drawing)
                 files.append(ExportFile(f"{stem}{more}.{format}", content, work))
     # shells do not lie on a bed
-    names = [name for name in trade.whole if not (bent and name.startswith("plate."))]
+    left_out = ("plate.3mf",) if bent else ()
+    if without_sheet(design.mechanism):
+        left_out += ("sheet.pdf",)
+    names = [name for name in trade.whole if name not in left_out]
     files += [ExportFile(name, CONTENTS[name], partial(_write, design, name)) for name in names]
     parts_list = partial(show, design.part_table("parts"))
     files.append(ExportFile("parts.csv", "list of parts", parts_list))
