@@ -686,26 +686,20 @@ class Design:
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
         kerf_mm: float | None = None,
-        dog_bones_mm: float | None = None,
         centre_marks: bool = False,
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics, for DXF or SVG.
 
         Parts are ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove``,
-        ``gears`` or ``coupon``; lengths in millimetres. ``kerf_mm`` gives the paths of a cut of
-        that width. ``dog_bones_mm`` gives reliefs in inner corners for a cutter of that diameter.
-        ``centre_marks`` adds crosses in circles. Raises GenevaError if kerf or reliefs do not fit.
+        ``gears`` or ``plate``; lengths in millimetres. ``kerf_mm`` gives the paths of a cut of that
+        width, ``centre_marks`` crosses in circles. Raises GenevaError if the kerf does not fit.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
         """
-        from geneva_cli.drawings.catalogue import part_drawing, parts_having
+        from geneva_cli.drawings.catalogue import part_drawing
 
         picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
-        if dog_bones_mm is not None:
-            from geneva_cli.drawings.milling import with_dog_bones
-
-            picture = with_dog_bones(picture, parts_having(self.parts, part), dog_bones_mm)
         if centre_marks:
             from geneva_cli.parts.projection import with_centre_marks
 
@@ -719,23 +713,19 @@ class Design:
         return paths(picture, kerf_mm)
 
     @question
-    def cutter(self, part: str, cutter_mm: float, dog_bones: bool = False) -> tuple[str, list[str]]:
+    def cutter(self, part: str, cutter_mm: float) -> tuple[str, list[str]]:
         """The reason why a milling cutter cannot cut a part, empty if it can; and warnings.
 
-        Warnings are about corners that it leaves round, unless there are dog bones, and narrow
-        holes.
+        Warnings are about corners that it leaves round, and narrow holes.
 
         >>> Design(External(6)).cutter("wheel", 12.0)[0].partition(": an ")[2]
         'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
         """
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.drawings.milling import judged
+        from geneva_cli.geometry.cutter import judged
 
         require_cut(part, "--cutter")
-        refused, left = judged(self.drawing(part), cutter_mm)
-        if refused or not dog_bones:
-            return refused, left
-        return judged(self.drawing(part, dog_bones_mm=cutter_mm), cutter_mm)
+        return judged(self.drawing(part), cutter_mm)
 
     @question
     def sheet(

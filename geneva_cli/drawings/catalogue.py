@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 _NAMES = (
     *("slot", "wheel", "crank", "arm", "links", "first-wheel", "first-crank", "frame", "guide"),
-    *("parts", "assembly", "gears", "groove", "groove-plate", "coupon", "plate", "sheet"),
+    *("parts", "assembly", "gears", "groove", "groove-plate", "plate", "sheet"),
 )
 SHEET = "sheet"  # a drawing sheet with dimensions
 # the function of a table that every machine has, and no drawing

@@ -29,8 +29,7 @@ _DRAWINGS = {
     "gears": "drawings.part_drawings:gears",
     "groove": "drawings.part_drawings:groove",
     "groove-plate": "drawings.part_drawings:groove_plate",
-    "coupon": "drawings.coupon:coupon",
-    "plate": "drawings.coupon:plate",
+    "plate": "drawings.single_parts:plate",
 }
 _TABLES = {
     "slot": "parts.slots.slot_profile:profile_table",

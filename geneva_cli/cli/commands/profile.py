@@ -59,9 +59,6 @@ def run(
     cutter: Annotated[
         float | None, option("MM", "Diameter of a milling cutter that must fit.", CUT)
     ] = None,
-    dog_bones: Annotated[
-        bool, flag("--dog-bones", "Free the corners that this cutter leaves round.", CUT)
-    ] = False,
     center_marks: Annotated[
         bool, flag("--center-marks", "A cross in every circle, on layer CENTER.", DRAWING)
     ] = False,
@@ -93,7 +90,7 @@ def run(
 
     curves = curves or usual_curves(output, format)
     tolerance = curve_tolerance(tolerance, output, format)
-    _require(curves, units, dog_bones, cutter)
+    _require(curves, units)
     sheet = is_sheet(part)
     drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
     design = load(spec, settings or ())
@@ -124,15 +121,14 @@ def run(
         draw_sheet(design.sheet(tolerance, curves, part, units), output, format, files, **own)
     else:
         if cutter is not None:
-            require_written(design, design.cutter(part, cutter, dog_bones), force)
-        bones = cutter if dog_bones else None
-        drawing = design.drawing(part, tolerance, curves, kerf, bones, center_marks)
+            require_written(design, design.cutter(part, cutter), force)
+        drawing = design.drawing(part, tolerance, curves, kerf, center_marks)
         shown = drawing if kerf is not None else design.drawing_over(drawing)
         draw(shown, output, format, units, files, **own)
     warn(design)
 
 
-def _require(curves: str, units: str, dog_bones: bool, cutter: float | None) -> None:
+def _require(curves: str, units: str) -> None:
     """Raise GenevaError for values with which no drawing can be written."""
     from geneva_cli.geometry.pieces import UNITS
 
@@ -140,8 +136,6 @@ def _require(curves: str, units: str, dog_bones: bool, cutter: float | None) -> 
         raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
-    if dog_bones and cutter is None:
-        raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
 
 
 def _refuse(kerf: float | None, cutter: float | None, marks: bool) -> None:
