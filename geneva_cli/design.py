@@ -733,23 +733,18 @@ class Design:
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
         part: str = "sheet",
-        units: str = "mm",
     ) -> Sheet:
         """A drawing sheet of the parts with dimensions, to a standard scale on A4 to A1.
 
         ``geneva_cli.output.draw_sheet`` writes it as DXF, SVG or PDF. Millimetres on paper.
-        ``units`` of the dimensions are mm or inch.
 
         >>> small = Design(External(4), size=Size(center_distance_mm=30)).sheet(0.01)
         >>> small.scale, small.width, small.height
         (2.0, 420.0, 297.0)
         """
         from geneva_cli.drawings.catalogue import part_sheet
-        from geneva_cli.spec.written import writing_in
 
-        form = _form(curves)
-        with writing_in(units):
-            return part_sheet(self.parts, part, tolerance_mm, form)
+        return part_sheet(self.parts, part, tolerance_mm, _form(curves))
 
     @question
     def save(

@@ -42,7 +42,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.parts.shafts.held_hubs import hub_note
-from geneva_cli.spec.written import degrees, length, quantity
+from geneva_cli.spec.written import degrees, length, number
 
 
 def sheet(parts: SphereParts) -> Sheet:
@@ -52,7 +52,7 @@ def sheet(parts: SphereParts) -> Sheet:
     arm = arm_flat(parts, parts.arm) if parts.arm else []
     # 4 decimals of a degree are 0.2 um on 100 mm
     rows = [
-        (d.name, *quantity(d.value, d.unit, 4))
+        (d.name, number(d.value, 4), d.unit)
         for d in dimensions(parts)
         if isinstance(d, Dimension) and isinstance(d.value, (int, float))
     ]
