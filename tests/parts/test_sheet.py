@@ -62,7 +62,7 @@ def test_no_text_of_a_design_stands_on_anything(path, sheets):
 
 @pytest.mark.parametrize("name", NO_SHEET[:2])
 def test_racks_and_spheres_have_no_sheet(name):
-    with pytest.raises(GenevaError, match="no sheet for a .* machine"):
+    with pytest.raises(GenevaError, match="no sheet for a"):
         load(str(repo.DESIGNS / f"{name}.toml")).sheet()
 
 
