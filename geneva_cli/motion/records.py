@@ -31,6 +31,7 @@ _DRAWINGS = {
     "groove-plate": "drawings.part_drawings:groove_plate",
     "plate": "drawings.single_parts:plate",
 }
+_SHEET = {"sheet": "drawings.sheet.machine_sheet:sheet"}
 _TABLES = {
     "slot": "parts.slots.slot_profile:profile_table",
     "gears": "parts.gears.gear_curves:gears_table",
@@ -42,7 +43,7 @@ _FLAT = Kind(
     "",
     parts="parts.flat_parts:FlatParts",
     frame="parts.frame:framed",
-    drawings={**_DRAWINGS, "sheet": "drawings.sheet.machine_sheet:sheet"},
+    drawings=_DRAWINGS | _SHEET,
     tables=_TABLES,
 )
 # The kinds of the core; those in ``kinds`` follow.

@@ -18,7 +18,6 @@ KINDS = (
             "guide": "kinds.linear.drawings:guide",
             "assembly": "kinds.linear.drawings:assembly",
             "plate": "drawings.single_parts:plate",
-            "sheet": "kinds.linear.sheet:sheet",
         },
         tables={"slot": "parts.slots.slot_profile:profile_table"},
         dimensions="kinds.linear.drawings:dimensions",
