@@ -782,19 +782,6 @@ class Design:
         else:
             draw(self.drawing(part, tolerance_mm, curves), path, inputs=files)
 
-    def _repr_html_(self) -> str:
-        """HTML for a notebook: description and verdict, the machine, its curves, the report."""
-        from contextlib import suppress
-
-        from geneva_cli.output.notebook import design_html
-        from geneva_cli.verdict.headline import headline
-
-        drawing = None
-        with suppress(GenevaError):  # wheels with very many slots are not drawn
-            drawing = self.drawing("assembly")
-        _, verdict = headline(self.checks, self.warnings)
-        return design_html(self.report.table, verdict, drawing, self.figure())
-
     @answer
     def checks(self) -> list[Check]:
         """Every check: its value, its limit and, if it fails, the nearest change that passes.

@@ -82,12 +82,6 @@ def require_drawn(mechanism: Mechanism, part: str) -> None:
     kinds = of_wheel(mechanism.spec.wheel.NAME)
     drawn = {name for kind in kinds for name in (*kind.drawings, *kind.tables)}
     known = [name for name, table in PARTS.items() if table or name in drawn]
-    if part == SHEET and part not in drawn:
-        raise GenevaError(
-            f"--part {SHEET}: no sheet for a {kinds[0].name} machine: use -o FILE.step or a dxf of "
-            "each part",
-            ("wheel", "gearing"),
-        )
     if part not in known:
         raise GenevaError(
             f"--part {part}: a machine of this kind has none; it may have {', '.join(known)}",

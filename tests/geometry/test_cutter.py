@@ -52,7 +52,12 @@ def missed(plate, radius):
 
 @pytest.mark.parametrize(
     ("plate", "cutter", "corners"),
-    [(notched(90.0), 2.0, 2), (notched(120.0), 4.0, 2), (keyed(4.0), 2.0, 2), (keyed(8.0), 2e-4, 0)],
+    [
+        (notched(90.0), 2.0, 2),
+        (notched(120.0), 4.0, 2),
+        (keyed(4.0), 2.0, 2),
+        (keyed(8.0), 2e-4, 0),
+    ],
 )
 def test_corners_that_stay_round_are_named(plate, cutter, corners):
     refused, left = judged(Drawing("", (), solid=plate), cutter)

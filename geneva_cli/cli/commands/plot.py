@@ -39,7 +39,7 @@ def run(
 ) -> None:
     """Plot curves over a cycle, exact at peaks and jumps; or columns of a csv, such as a sweep's.
 
-    Without -o it prints the points. png needs the extra geneva-cli[plot]. More: `geneva help plots`.
+    Without -o it prints points. png needs the extra geneva-cli[plot]. `geneva help plots`.
     """
     from geneva_cli.output import show_figure
     from geneva_cli.output.formats import plotted_as

@@ -49,7 +49,7 @@ class Frame(NamedTuple):
         return self.top + (top - value) / (top - low) * self.high
 
 
-class Pen(Protocol):
+class _Pen(Protocol):
     """A surface to draw on; ``number`` is a curve's, and determines its look.
 
     A panel begins and ends; ``rest`` shades a stretch at rest, ``dot`` marks a peak. Paths of
@@ -68,7 +68,7 @@ class FigureBlock(NamedTuple):
     """An unbreakable part of a figure: its height, and ``draw(pen, top)``."""
 
     high: float
-    draw: Callable[[Pen, float], None]
+    draw: Callable[[_Pen, float], None]
 
 
 def blocks(figure: Figure) -> Iterator[FigureBlock]:
@@ -86,7 +86,7 @@ def blocks(figure: Figure) -> Iterator[FigureBlock]:
             x += needs
         high = y
 
-    def head(pen: Pen, top: float) -> None:
+    def head(pen: _Pen, top: float) -> None:
         most = int((PAGE - 2.0 * RIGHT) / (LETTER * TITLE))
         pen.text((RIGHT, TITLE + 8.0), cut(clean(figure.title).strip(), most), TITLE, "bold")
         for curve, x, y, name in legend:
@@ -106,7 +106,7 @@ def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool
     """A panel of one curve or ``several``; the first names a dwell, the last has the axis."""
     is_first, is_last = panel is figure.panels[0], panel is figure.panels[-1]
 
-    def draw(pen: Pen, top: float) -> None:
+    def draw(pen: _Pen, top: float) -> None:
         frame = Frame(top + ABOVE, wide, high, figure.window, padded(panel))
         across = ticks(*figure.window, int(wide / 70.0), figure.x.unit)
         pen.begin(panel.y.name, frame)
@@ -137,7 +137,7 @@ def padded(panel: Panel) -> tuple[float, float]:
     return low - space, high + space
 
 
-def _sample(curve: Curve, x: float, y: float, long: float, pen: Pen) -> None:
+def _sample(curve: Curve, x: float, y: float, long: float, pen: _Pen) -> None:
     middle = y - 0.35 * TEXT
     if curve.style != POINTS:
         pen.draw("sample", [[(x, middle), (x + long, middle)]], curve.number)
@@ -145,7 +145,7 @@ def _sample(curve: Curve, x: float, y: float, long: float, pen: Pen) -> None:
         pen.draw("points", [[(x + 0.5 * long, middle)]], curve.number)
 
 
-def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: Pen) -> None:
+def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: _Pen) -> None:
     """Draw the grid, the axes with numbers and name, and the curves."""
     up = ticks(*frame.span, int(frame.high / 24.0), panel.y.unit)
     right, bottom = LEFT + frame.wide, frame.top + frame.high
@@ -174,7 +174,7 @@ def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen:
             pen.draw("jump", visible, curve.number)
 
 
-def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) -> None:
+def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: _Pen) -> None:
     """Draw a dot at each peak; write its value and place to the right of the panel."""
     x, y = LEFT + frame.wide + 12.0, frame.top + 0.8 * TEXT
     for curve in panel.curves:
