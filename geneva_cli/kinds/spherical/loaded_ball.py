@@ -14,7 +14,7 @@ from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
 from geneva_cli.loads.strength.horn_search import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
-from geneva_cli.loads.strength.part_loads import PartLoads, greatest, single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.shaft_stress import (
     LoadedShaft,
     ShaftForces,
@@ -55,11 +55,8 @@ def horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float | None:
     least = usual.span_mm[1] - usual.span_mm[0]
 
     def holds(thick: float) -> bool:
-        def bent_MPa(way: Mechanism) -> float:
-            horn = single_stress(sphere_horns, way, angles, thick).single
-            return horn.stress_MPa if horn else 0.0
-
-        return keeps(greatest(bent_MPa, mechanism), "at most", allowed)
+        horn = single_stress(sphere_horns, mechanism, angles, thick).single
+        return keeps(horn.stress_MPa if horn else 0.0, "at most", allowed)
 
     # a thicker wheel bends its pins more than its horns
     return first_that(rounded_from(least, 2.0 * least), holds)
@@ -163,13 +160,8 @@ def _hub_fits(spec: Spec, ball: Ball) -> bool:
 @lru_cache(maxsize=64)
 def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
-    shaft = LoadedShaft(forces, overhang_mm)
-
-    def moment_Nm(way: Mechanism) -> float:
-        (one,) = shafts_under_load(way, [shaft])
-        return one["moment_Nm"].item() if one else 0.0
-
-    return greatest(moment_Nm, mechanism)
+    (one,) = shafts_under_load(mechanism, [LoadedShaft(forces, overhang_mm)])
+    return one["moment_Nm"].item() if one else 0.0
 
 
 def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
