@@ -84,7 +84,7 @@ class Parts(TurnedParts):
 
     @property
     def turn(self) -> FullTurn:
-        """The full turn; raises WorkLimit where it takes too long."""
+        """The full turn; raises WorkLimit where it takes too many positions."""
         if isinstance(self._turn, WorkLimit):
             raise self._turn
         return self._turn
