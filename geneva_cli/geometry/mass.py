@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import reduce
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.geometry.moments import Moments, moments, oriented, total
 from geneva_cli.geometry.plates import Plate, Stack
-from geneva_cli.geometry.shapes import Point, Shape
+from geneva_cli.geometry.shapes import Point
 from geneva_cli.geometry.stacks import require_faces
-
-if TYPE_CHECKING:
-    from geneva_cli.geometry.round_holes import CrossHole
 
 MM = 1e-3  # metres
 
@@ -38,11 +34,6 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     rows = [face(plate).times(plate.thickness - 2.0 * plate.edge.size)]
     if plate.edge.size:
         rows.append(_between(plate).times(2.0))
-    if plate.cross:
-        from geneva_cli.geometry.round_holes import drilled
-
-        contours = drilled((plate.outline, *plate.holes), plate.cross)
-        rows += [_removed(hole, contours).times(-1.0) for hole in plate.cross]
     whole, per = total(rows), density_kgm3 * MM**3
     return MassProperties(per * whole.area, whole.centroid, per * MM**2 * whole.polar)
 
@@ -88,23 +79,3 @@ def _between(plate: Plate) -> Moments:
         for depth, thickness in plate.edge.layers()
         for one in pieces
     )
-
-
-def _removed(hole: CrossHole, shapes: Sequence[Shape]) -> Moments:
-    """Return the moments of the material that the hole takes, added up along the plate's axis."""
-    # with y = r sin t the integrals over the width are means of smooth periodic functions
-    entry, exit_ = hole.openings(shapes)
-    ax, ay = hole.seen((0.0, 0.0))  # the axis in the hole's frame
-    count, r = 128, hole.radius  # to rounding, up to a hole of 0.97 of its wall's width
-    volume = first_x = first_y = polar = 0.0
-    for k in range(count):
-        t = math.tau * (k + 0.5) / count
-        y, weight = r * math.sin(t), r * r * math.cos(t) ** 2 * math.tau / count
-        low, high = entry.x(y), exit_.x(y)
-        volume += weight * (high - low)
-        first_x += weight * 0.5 * (high * high - low * low)
-        first_y += weight * y * (high - low)
-        cubes = ((high - ax) ** 3 - (low - ax) ** 3) / 3.0
-        polar += weight * (cubes + (y - ay) ** 2 * (high - low))
-    x, y = hole.placed(first_x / volume, first_y / volume)
-    return Moments(volume, volume * x, volume * y, polar)

@@ -16,7 +16,7 @@ from geneva_cli.geometry.measure import GAUSS, S, mapped, turned
 from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.round_holes import CrossHole, RoundHole
+    from geneva_cli.geometry.round_holes import RoundHole
     from geneva_cli.geometry.sphere import Region, Rotation, Vector
 
 
@@ -65,7 +65,7 @@ class Edge(NamedTuple):
 class Plate(NamedTuple):
     """A flat part: the inside of an outline without its holes, from ``low`` to ``high``.
 
-    Cross holes go across its axis. The edge is around both faces.
+    The edge is around both faces.
     """
 
     name: str
@@ -74,7 +74,6 @@ class Plate(NamedTuple):
     holes: tuple[Contour | Circle, ...]
     low: float
     high: float
-    cross: tuple[CrossHole, ...] = ()
     edge: Edge = Edge()
 
     @property
@@ -246,12 +245,7 @@ def lowered(part: Plate | Stack) -> Plate | Stack:
     """A flat or turned part with its lower face at z = 0."""
     down = part.low
     return part.of_plates(
-        one._replace(
-            low=one.low - down,
-            high=one.high - down,
-            cross=tuple(hole._replace(height=hole.height - down) for hole in one.cross),
-        )
-        for one in part.plates
+        one._replace(low=one.low - down, high=one.high - down) for one in part.plates
     )
 
 

@@ -6,7 +6,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.inset import lines_and_arcs
 from geneva_cli.geometry.pieces import prepared
 from geneva_cli.geometry.plates import Part, Plate, Shell
-from geneva_cli.geometry.round_holes import drilled
 from geneva_cli.geometry.shapes import Circle, Contour, closed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.stacks import require_faces
@@ -44,7 +43,6 @@ def plate_contours(plate: Plate) -> tuple[Contour | Circle, ...]:
             ("size", plate.edge.key),
         )
     shapes = prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
-    shapes = drilled(shapes, plate.cross) if plate.cross else shapes
     if not plate.edge.size:
         return shapes
     outline, *holes = shapes

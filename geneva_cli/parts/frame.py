@@ -115,7 +115,7 @@ def framed(
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
         plate = mounted_plate(holes, within, eye, (bottom, top))
     whole = {name for axis in bars.axes for name in axis.one_piece}
-    to_fix = (name for one in own for name in one.to_fix(size) if name not in whole)
+    to_fix = (name for one in own for name in one.to_fix if name not in whole)
     return FrameAndShafts(
         plate,
         tuple(outside_links(axles, bars, L)),

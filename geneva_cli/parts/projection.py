@@ -30,7 +30,7 @@ def _kind(solid: Solid) -> Kind:
     if isinstance(solid, Shell):
         # shells of one kind lie at different places, and may differ by rounding
         return solid.name, f"{solid.volume:.9g}"
-    if isinstance(solid, Plate) and not solid.cross:
+    if isinstance(solid, Plate):
         # thicknesses are differences of heights: to a nanometre
         return solid._replace(low=0.0, high=0.0), round(solid.thickness, 6)
     return solid

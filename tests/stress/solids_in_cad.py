@@ -55,8 +55,8 @@ NEARLY = 1e-5
 SPLINED = 1e-7
 # Along a cone the kernel's steps end early, too: its volume is exact, its inertia is 1e-4 off.
 EDGED = 2e-4
-# The edge of a hole across the axis is a spline, 1e-8 mm off; so is that between two roundings.
-BORED = 1e-9
+# The edge between two roundings is a spline, 1e-8 mm off.
+ROUNDED = 1e-9
 
 
 def placed(part, at=(0.0, 0.0, 0.0), turn=((1, 0, 0), (0, 1, 0), (0, 0, 1))):
@@ -150,12 +150,7 @@ def properties(one):
     if not isinstance(one, Plate):
         return one.volume, one.centroid, one.inertia((0.0, 0.0, 1.0)), one.outer
     body = mass.mass_properties(one, 1e9)  # mm³ and, by 1e6, mm⁵
-    whole = mass.mass_properties(one._replace(cross=()), 1e9).mass_kg
-    middle = whole * 0.5 * (one.low + one.high)
-    for hole in one.cross:
-        taken = mass.mass_properties(one._replace(cross=(hole,)), 1e9).mass_kg - whole
-        middle += taken * hole.height
-    centre = (*body.centroid_mm, middle / body.mass_kg)
+    centre = (*body.centroid_mm, 0.5 * (one.low + one.high))
     reach = max(map(abs, (*bounds(one.outline), one.low, one.high)))
     return body.mass_kg, centre, 1e6 * body.inertia_kgm2, reach
 
@@ -234,7 +229,7 @@ def one(design, name, part, curves):
     splined = curves == "spline" or any(has_cubics(plate) for plate, *_ in wanted)
     beside = SPLINED if splined else SAME  # of centroid and inertia
     flat = [p for p, *_ in wanted if isinstance(p, Plate)]
-    exact = BORED if any(p.cross or (p.edge.rounded and p.edge.size) for p in flat) else SAME
+    exact = ROUNDED if any(p.edge.rounded and p.edge.size for p in flat) else SAME
     edges = any(p.edge.size for p in flat)
     beside = max(beside, exact, EDGED if edges else 0.0)
     limits = 3 * (NEARLY,) if drawing.shells else (exact, beside, beside)

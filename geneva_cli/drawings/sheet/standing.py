@@ -83,13 +83,11 @@ def draw_groove(
     bolted(view, mounts)
 
 
-def draw_hub(view: View, hub: Plate, screw: str) -> None:
-    """Draw the diameter of a hub that is already drawn, and note its screw, if it has one."""
+def draw_hub(view: View, hub: Plate) -> None:
+    """Draw the diameter of a hub that is already drawn."""
     radius = around(hub.outline)
     whole = Circle(hub.layer, ORIGIN, radius)
     view.diameter([whole], f"{hub.name} {sized.plain(2.0 * radius, 'Ø ')}")
-    if screw:
-        view.remark(screw)
 
 
 def draw_shaft(view: View, shaft: Plate | Stack) -> None:

@@ -19,7 +19,6 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.slot_ends import cut_walls
 from geneva_cli.parts.projection import outlines_of
-from geneva_cli.parts.shafts.held_hubs import hub_note
 from geneva_cli.spec.written import degrees, length
 
 
@@ -59,7 +58,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     if sizes.arm - sizes.half_width - sizes.recess < sizes.horn_tip:
         view.remark(f"horns cut square to the slots where they are {length(sizes.horn_tip)} wide")
     for hub in hubs:
-        draw_hub(view, hub, hub_note(assembly.mechanism.spec.size, "wheel"))
+        draw_hub(view, hub)
     bored(view, bores, assembly.mechanism.spec.size, "wheel")
     bolted(view, screwed)
 

@@ -29,8 +29,6 @@ KINDS = (
             "horn_mm": "kinds.spherical.checks:horn",
             "wheel_bore_wall_mm": "kinds.spherical.checks:wheel_bore",
             "crank_shaft_mm": "kinds.spherical.checks:crank_shaft",
-            "wheel_clamp_Nm": "verdict.checks.clearances:held_torque",
-            "crank_clamp_Nm": "verdict.checks.clearances:held_torque",
             "dial_wall_mm": "kinds.spherical.checks:dial",
             "crank_bore_wall_mm": "kinds.spherical.checks:crank_bore",
             "beside_shafts_mm": "kinds.spherical.checks:passing_parts",

@@ -30,7 +30,6 @@ from geneva_cli.parts.assembly import Assembly, assembled
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.shafts.held_hubs import held_hub
 from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends, shoulder_length, turned_shaft
 from geneva_cli.parts.sizes import refuse_thin_hub
 from geneva_cli.spec.least_wall import wall_min
@@ -140,8 +139,7 @@ class SphereParts(Parts):
         for azimuth in ball.rollers:
             frame = axis_frame(place(ball.arm, azimuth))
             members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
-        hub = held_hub(size, "crank", self._inner_hub, arm.keyway if arm else 0.0)
-        members += [Member(hub)] if hub else []
+        members += [Member(self._inner_hub)] if self._inner_hub else []
         return Member(Group("crank", tuple(members)), frame=at_mid_motion(ball))
 
     @property
@@ -201,10 +199,10 @@ class SphereParts(Parts):
     @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        size, ball = self.mechanism.spec.size, self.ball
+        ball = self.ball
         wheel = "wheel's hub" if ball.hub_mm > ball.bore_mm else "wheel"
         names = {"wheel": wheel, "crank": "arm's hub"}
-        return tuple(names[name] for shaft, _ in self._axles(0.0) for name in shaft.to_fix(size))
+        return tuple(names[name] for shaft, _ in self._axles(0.0) for name in shaft.to_fix)
 
     @property
     def outside_mm(self) -> float | None:
@@ -262,16 +260,15 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
             f"wheel_bore_mm and wheel_hub_mm, or remove {name}",
             ("size", name),
         )
-    hub = None
-    if wide:
-        inside, outside = ball.span_mm
-        refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
-        form = bore_of(size, "wheel", ball.bore_mm)
-        refuse_thin_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
-        bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
-        span = inside, inside + ball.hub_length_mm(size)
-        hub = Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, *span)
-    return held_hub(size, "wheel", hub, ball.half_step)
+    if not wide:
+        return None
+    inside, outside = ball.span_mm
+    refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
+    form = bore_of(size, "wheel", ball.bore_mm)
+    refuse_thin_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
+    bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
+    span = inside, inside + ball.hub_length_mm(size)
+    return Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, *span)
 
 
 def shell_body(mechanism: Mechanism) -> MassProperties:

@@ -41,7 +41,6 @@ from geneva_cli.motion.pivots import Dimension
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
 from geneva_cli.parts.shafts.fits import Fits
-from geneva_cli.parts.shafts.held_hubs import hub_note
 from geneva_cli.spec.written import degrees, length, quantity
 
 
@@ -109,7 +108,7 @@ def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
             view.draw_plate(hub)
             bored(view, hub.holes, size, whose)
             view.to_fix(hub.name, parts.to_fix)
-            draw_hub(view, hub, hub_note(size, whose) if hub.layer == "HUB" else "")
+            draw_hub(view, hub)
             view.remark(f"{length(hub.thickness)} long")
             yield view
     yield from shafted(begin, parts.shafts)

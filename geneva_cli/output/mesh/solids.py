@@ -16,8 +16,7 @@ from geneva_cli.geometry.inset import inset, lines_and_arcs
 from geneva_cli.geometry.measure import STRAIGHT, points
 from geneva_cli.geometry.moments import oriented
 from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid
-from geneva_cli.geometry.round_holes import CrossHole
-from geneva_cli.geometry.shapes import Arc, Contour, Cubic, Layer, Segment
+from geneva_cli.geometry.shapes import Arc, Cubic, Layer, Segment
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere import Vector, cross, square_to, unit
 from geneva_cli.numerics.arrays import Array
@@ -141,10 +140,7 @@ def _plate(plate: Plate, tolerance: float) -> m3.Manifold:
     for level in range(len(levels) - 1):
         for loop in loops:
             triangles += _strips(loop + level * around, around)
-    body = _manifold(corners, triangles)
-    for hole in plate.cross:
-        body -= _drill(hole, contours, tolerance)
-    return body
+    return _manifold(corners, triangles)
 
 
 def _manifold(corners: Array, triangles: list[Numbers]) -> m3.Manifold:
@@ -168,17 +164,6 @@ def _triangles(loops: list[Array], name: str) -> Numbers:
     if not len(triangles) or twice.min() < -1e-6 * twice.sum():
         raise _no_wall(name)
     return triangles
-
-
-def _drill(hole: CrossHole, contours: list[Contour], tolerance: float) -> m3.Manifold:
-    low, high = hole.openings(contours)
-    over = -hole.radius, 0.0, hole.radius
-    start = min(low.x(y) for y in over) - hole.radius
-    end = max(high.x(y) for y in over) + hole.radius
-    chords = arc_chords(hole.radius, math.tau, tolerance)
-    drill = m3.Manifold.cylinder(end - start, hole.radius, circular_segments=chords)
-    drill = drill.rotate((0, 90, 0)).translate((start, 0, 0))
-    return drill.rotate((0, 0, math.degrees(hole.turn))).translate((*hole.at, hole.height))
 
 
 def _shell(shell: Shell, tolerance: float) -> m3.Manifold:

@@ -31,7 +31,7 @@ from geneva_cli.output.step.entities import (
     real,
     unit_of,
 )
-from geneva_cli.output.step.step_edges import bored_walls, edge_faces
+from geneva_cli.output.step.step_edges import edge_faces
 
 
 def solid(file: Entities, plate: Plate) -> str:
@@ -42,7 +42,6 @@ def solid(file: Entities, plate: Plate) -> str:
     faces, lower, upper = [], [], []
     outside = True
     shapes = plate_contours(plate)
-    bored, openings = bored_walls(file, plate, shapes)
     taken = plate.edge.size
     walled = plate._replace(low=plate.low + taken, high=plate.high - taken)
     for shape in shapes:
@@ -53,7 +52,7 @@ def solid(file: Entities, plate: Plate) -> str:
             own = pieces(contour.segments)
             ends = [_place(file, walled, piece.start) for piece in own]
             walls = [
-                _wall(file, walled, piece, pair, openings.get(piece, []))
+                _wall(file, walled, piece, pair)
                 for piece, pair in zip(own, pairwise([*ends, ends[0]]), strict=True)
             ]
             if taken:
@@ -67,7 +66,6 @@ def solid(file: Entities, plate: Plate) -> str:
         lower.append(loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
         upper.append(loop(file, [(wall.high, wall.along) for wall in walls]))
         outside = False
-    faces += bored
     faces.append(face(file, lower, level(file, plate.low), False))
     faces.append(face(file, upper, level(file, plate.high), True))
     return closed_solid(file, faces)
@@ -84,7 +82,6 @@ def _wall(
     plate: Plate,
     piece: Piece,
     ends: tuple[SolidCorner, SolidCorner],
-    holes: list[str],
 ) -> WallFace:
     start, end = ends
     curves = [curve(file, piece, z) for z in (plate.low, plate.high)]
@@ -93,7 +90,7 @@ def _wall(
     high = edge(file, start.high, end.high, curves[1], along)
     sides = loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
     # a cylinder's own normal points away from its axis, that of the others to the right
-    wall = face(file, [sides, *holes], surface(file, piece, plate), along)
+    wall = face(file, [sides], surface(file, piece, plate), along)
     return WallFace(wall, low, high, True)
 
 

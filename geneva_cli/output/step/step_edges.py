@@ -9,15 +9,11 @@ a spline with the exact ends and tangents.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.geometry.inset import corner, corner_slope, inset, lines_and_arcs
-from geneva_cli.geometry.moments import with_material_left
 from geneva_cli.geometry.plates import Edge, Plate
-from geneva_cli.geometry.round_holes import CrossHole, Opening
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape
-from geneva_cli.output.splines import Piece
+from geneva_cli.geometry.shapes import Arc, Contour, Line
 from geneva_cli.output.step.entities import (
     DIRECTION,
     Entities,
@@ -146,56 +142,3 @@ def _rise(file: Entities, pieces: tuple[Line | Arc, Line | Arc], side: Side, own
         places.append((x, y, side.wall + side.up * height))
         slopes.append((deeper * u / CUBICS, deeper * v / CUBICS, side.up * rise / CUBICS))
     return smooth_curve(file, places, slopes)
-
-
-CUBICS = 128  # of an edge: their error is 5e-9 of the hole's radius, a hundredth of the file's
-
-
-def bored_walls(
-    file: Entities, plate: Plate, shapes: Sequence[Shape]
-) -> tuple[list[str], dict[Piece, list[str]]]:
-    """Write the cross holes of a plate with these contours.
-
-    Return their faces, and the loops that they cut into walls, by the wall's piece.
-    """
-    oriented = [
-        shape if isinstance(shape, Circle) else with_material_left(shape, i == 0)
-        for i, shape in enumerate(shapes)
-    ]
-    faces: list[str] = []
-    loops: dict[Piece, list[str]] = {}
-    for hole in plate.cross:
-        ends = hole.openings(oriented)
-        low, high = (_rim(file, hole, opening) for opening in ends)
-        vector = file.shared(f"VECTOR('',{_ahead(file, hole)},1.)")
-        rise = edge(file, low[0], high[0], f"LINE('',{low[1]},{vector})", True)
-        sides = [(low[2], False), (rise, True), (high[2], True), (rise, False)]
-        place = file.placement(hole.at, hole.height, _ahead(file, hole), file.up)
-        cylinder = file.add(f"CYLINDRICAL_SURFACE('',{place},{real(hole.radius)})")
-        faces.append(face(file, [loop(file, sides)], cylinder, False))
-        for opening, rim, along in zip(ends, (low[2], high[2]), (True, False), strict=True):
-            loops.setdefault(opening.piece, []).append(loop(file, [(rim, along)]))
-    return faces, loops
-
-
-def _ahead(file: Entities, hole: CrossHole) -> str:
-    return file.direction(math.cos(hole.turn), math.sin(hole.turn))
-
-
-def _rim(file: Entities, hole: CrossHole, opening: Opening) -> tuple[str, str, str]:
-    """Write the edge of a hole in a wall; return the vertex at its top, its point, and it."""
-    r, step = hole.radius, math.tau / CUBICS
-    c, s = math.cos(hole.turn), math.sin(hole.turn)
-    places, slopes = [], []
-    for k in range(CUBICS):
-        # quarter turns at once, so that the last pole is the first one
-        y, up = -r * math.sin(step * k), r * math.cos(step * k)
-        x, y1, up1 = opening.x(y), -up, y
-        places.append((*hole.placed(x, y), hole.height + up))
-        x1 = opening.slope(y) * y1
-        slopes.append((step * (c * x1 - s * y1), step * (s * x1 + c * y1), step * up1))
-    curve = smooth_curve(file, [*places, places[0]], [*slopes, slopes[0]])
-    x, y, z = places[0]
-    point = file.point((x, y), z)
-    vertex = file.add(f"VERTEX_POINT('',{point})")
-    return vertex, point, edge(file, vertex, vertex, curve, True)
