@@ -6,10 +6,9 @@ import math
 from functools import reduce
 from typing import NamedTuple
 
-from geneva_cli.geometry.moments import Moments, moments, oriented, total
+from geneva_cli.geometry.moments import Moments, moments, total
 from geneva_cli.geometry.plates import Plate, Stack
 from geneva_cli.geometry.shapes import Point
-from geneva_cli.geometry.stacks import require_faces
 
 MM = 1e-3  # metres
 
@@ -31,10 +30,7 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
     0.5
     """
-    rows = [face(plate).times(plate.thickness - 2.0 * plate.edge.size)]
-    if plate.edge.size:
-        rows.append(_between(plate).times(2.0))
-    whole, per = total(rows), density_kgm3 * MM**3
+    whole, per = face(plate).times(plate.thickness), density_kgm3 * MM**3
     return MassProperties(per * whole.area, whole.centroid, per * MM**2 * whole.polar)
 
 
@@ -66,16 +62,3 @@ def face(plate: Plate) -> Moments:
     out, *holes = (moments(shape) for shape in (plate.outline, *plate.holes))
     cut = (hole.times(-math.copysign(1.0, hole.area)) for hole in holes)
     return total((out.times(math.copysign(1.0, out.area)), *cut))
-
-
-def _between(plate: Plate) -> Moments:
-    """Return the moments of the layer in one edge, added up along the axis."""
-    from geneva_cli.geometry.inset import inset, lines_and_arcs
-
-    require_faces(plate)
-    pieces = [lines_and_arcs(one) for one in oriented(plate.outline, plate.holes)]
-    return total(
-        moments(inset(one, "", depth)).times(thickness)
-        for depth, thickness in plate.edge.layers()
-        for one in pieces
-    )

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.geometry.measure import GAUSS, S, mapped, turned
+from geneva_cli.geometry.measure import S, mapped, turned
 from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point
 
 if TYPE_CHECKING:
@@ -20,53 +20,8 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.sphere import Region, Rotation, Vector
 
 
-class Edge(NamedTuple):
-    """The edge of a face: its size, mm, 0 for a sharp one, and whether it is rounded.
-
-    An edge takes as much of the face as of the wall. A section at a height above the wall is the
-    outline at a depth inside the material (``inset``): as deep as high for a chamfer of 45 degrees,
-    and on a quarter of a circle for a rounding.
-    """
-
-    size: float = 0.0
-    rounded: bool = False
-
-    @property
-    def key(self) -> str:
-        """The key of ``[size]`` that sets it."""
-        return "edge_fillet_mm" if self.rounded else "edge_chamfer_mm"
-
-    def at(self, fraction: float) -> tuple[float, float]:
-        """Return depth and height at a fraction of the way from the wall to the face.
-
-        >>> [round(x, 12) for x in Edge(2.0, rounded=True).at(1.0 / 3.0)]  # 30 degrees
-        [0.267949192431, 1.0]
-        """
-        if not self.rounded:
-            return self.size * fraction, self.size * fraction
-        angle = 0.5 * math.pi * fraction
-        # 1 - cos, without losing digits
-        return 2.0 * self.size * math.sin(0.5 * angle) ** 2, self.size * math.sin(angle)
-
-    def slope(self, fraction: float) -> tuple[float, float]:
-        """Return the derivatives of depth and height by the fraction."""
-        if not self.rounded:
-            return self.size, self.size
-        angle = 0.5 * math.pi * fraction
-        speed = 0.5 * math.pi * self.size
-        return speed * math.sin(angle), speed * math.cos(angle)
-
-    def layers(self) -> Iterator[tuple[float, float]]:
-        """Yield depths and thicknesses of layers that stand for the edge, at Gauss's points."""
-        for fraction, weight in GAUSS:
-            yield self.at(fraction)[0], weight * self.slope(fraction)[1]
-
-
 class Plate(NamedTuple):
-    """A flat part: the inside of an outline without its holes, from ``low`` to ``high``.
-
-    The edge is around both faces.
-    """
+    """A flat part: the inside of an outline without its holes, from ``low`` to ``high``."""
 
     name: str
     layer: Layer
@@ -74,7 +29,6 @@ class Plate(NamedTuple):
     holes: tuple[Contour | Circle, ...]
     low: float
     high: float
-    edge: Edge = Edge()
 
     @property
     def thickness(self) -> float:
@@ -195,16 +149,6 @@ class Member(NamedTuple):
 
 Solid: TypeAlias = Plate | Stack | Shell
 Part: TypeAlias = Solid | Group
-
-
-def edged(member: Member, edge: Edge) -> Member:
-    """A member with an edge around the faces of all its flat solids."""
-    part = member.part
-    if isinstance(part, Plate):
-        part = part._replace(edge=edge)
-    elif isinstance(part, Group):
-        part = part._replace(members=tuple(edged(one, edge) for one in part.members))
-    return member._replace(part=part)
 
 
 def solids(part: Part) -> list[Solid]:
