@@ -37,9 +37,8 @@ from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry import mass
 from geneva_cli.geometry.measure import bounds
-from geneva_cli.geometry.plates import Group, Plate, Stack
+from geneva_cli.geometry.plates import Group, Plate, Stack, mass_properties
 from geneva_cli.geometry.shapes import Contour, Cubic
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.step import chunks
@@ -145,7 +144,7 @@ def properties(one):
         return volume, centre, sum(step[2] for step in steps), max(step[3] for step in steps)
     if not isinstance(one, Plate):
         return one.volume, one.centroid, one.inertia((0.0, 0.0, 1.0)), one.outer
-    body = mass.mass_properties(one, 1e9)  # mm³ and, by 1e6, mm⁵
+    body = mass_properties(one, 1e9)  # mm³ and, by 1e6, mm⁵
     centre = (*body.centroid_mm, 0.5 * (one.low + one.high))
     reach = max(map(abs, (*bounds(one.outline), one.low, one.high)))
     return body.mass_kg, centre, 1e6 * body.inertia_kgm2, reach
