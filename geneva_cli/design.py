@@ -48,7 +48,7 @@ from geneva_cli.spec.tables import (
 if TYPE_CHECKING:
     from geneva_cli.extras.certify.certificate import Certificate
     from geneva_cli.figure import Figure
-    from geneva_cli.geometry.mass import MassProperties
+    from geneva_cli.geometry.plates import MassProperties
     from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.loads.cycle import Cycle
     from geneva_cli.loads.load_peaks import LoadSummary

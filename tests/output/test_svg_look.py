@@ -11,8 +11,7 @@ from words import Drive, Spec, Wheel
 
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.mass import face
-from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.plates import face, plates
 from geneva_cli.output import draw
 from geneva_cli.output.formats import FILLS
 from geneva_cli.output.svg.drawing_svg import chunks

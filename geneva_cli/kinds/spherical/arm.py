@@ -14,8 +14,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.round_holes import RoundHole, least_wall
 from geneva_cli.geometry.sphere import POLE, Cap, Region, convex_hull, dot, place
+from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
 from geneva_cli.kinds.spherical.regions import locked, web_angle
 from geneva_cli.parts.shafts.bores import Bore, bore_of

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.geometry.plates import Plate, plates, steps_of
-from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.geometry.sphere import POLE
+from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kinds.spherical.arm import dial_wall
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.numerics.arrays import Array

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.geometry.round_holes import RoundHole
+from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kinds.spherical.arm import dial_holes
 from geneva_cli.kinds.spherical.drawings import crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts

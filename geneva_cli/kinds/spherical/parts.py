@@ -12,11 +12,20 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.mass import MM, MassProperties, added, mass_properties
-from geneva_cli.geometry.plates import Group, Member, Plate, Shell, inwards
-from geneva_cli.geometry.round_holes import RoundHole
+from geneva_cli.geometry.plates import (
+    MM,
+    Group,
+    MassProperties,
+    Member,
+    Plate,
+    Shell,
+    added,
+    inwards,
+    mass_properties,
+)
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour
 from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, axis_frame, place
+from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, dial_holes
 from geneva_cli.kinds.spherical.ball import Ball, crank_hub, refuse_wide
