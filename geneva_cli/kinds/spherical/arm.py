@@ -44,11 +44,6 @@ class CapArm(NamedTuple):
         """All round holes: for the hub, the pins and the bolts."""
         return (RoundHole(POLE, self.hub), *self.pins, *self.bolts)
 
-    def bolts_of(self, sector: int, sectors: int) -> tuple[RoundHole, ...]:
-        """Return the bolts of one of ``sectors`` locking sectors."""
-        each = len(self.bolts) // sectors
-        return self.bolts[sector * each : (sector + 1) * each]
-
 
 def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
     """Return the arm of a machine, with the locking sectors that it carries.

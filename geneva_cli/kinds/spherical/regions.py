@@ -114,18 +114,9 @@ def sectors(ball: Ball) -> list[Region]:
     where nothing is left of one.
     """
     spare = min(0.25 * (ball.recess - ball.lock) + 0.1 * ball.roller, 0.1 * ball.lock)
-    # shaft and hub fill a cone about the axis, up to their end
-    about = math.asin(min(1.0, ball.about_crank_mm / ball.lock_span_mm[0]))
     # A sector's inner edge is a fifth of its outer one, or farther out where the wheel needs that.
-    least = max(0.2 * ball.lock, about)
+    least = 0.2 * ball.lock
     spans, most = locked(ball), (1.0 - 0.05) * ball.lock  # a thinner ring would hold nothing
-    if spans and about > most:
-        wide = 2.0 * ball.lock_span_mm[0] * math.sin(most)
-        raise PartDoesNotFit(
-            "the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm and "
-            f"crank_hub_mm must be below {wide:.4g}, or lock_radius_mm greater, or 0 for none",
-            ("size", "crank_bore_mm"),
-        )
     polar, azimuth = swept(ball) if spans else (np.zeros((1, 1)), np.zeros((1, 1)))
     near = polar < ball.lock * (1.0 - SAME_ANGLE)
 
