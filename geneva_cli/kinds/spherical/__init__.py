@@ -27,7 +27,6 @@ KINDS = (
             "wall_between_slots_mm": "kinds.spherical.checks:between_slots",
             "horn_mm": "kinds.spherical.checks:horn",
             "wheel_bore_wall_mm": "kinds.spherical.checks:wheel_bore",
-            "dial_wall_mm": "kinds.spherical.checks:dial",
             "beside_shafts_mm": "kinds.spherical.checks:passing_parts",
             "arm_wall_mm": "kinds.spherical.checks:arm_wall",
             "cut_plate_mm": "kinds.spherical.checks:thickest",

@@ -141,11 +141,11 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     size, z, allowed = spec.size, spec.wheel.z, spec.size.allowances
     if z > Z_DRAWN:
         raise GenevaError(f"z = {z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z"))
-    for key in ("crank_bore_mm", "crank_hub_mm", "crank_hub_length_mm"):
+    for key in ("crank_bore_mm", "crank_hub_mm", "crank_hub_length_mm", "dial_bolts"):
         if vars(size)[key]:
             raise GenevaError(
-                f"{key}: on a sphere the crank's shaft ends in the arm; set arm_bore_mm or "
-                f"arm_hub_mm, and remove {key}",
+                f"{key}: a sphere's crank has its bore and hub in the arm (arm_bore_mm, "
+                f"arm_hub_mm), and its wheel no dial; remove {key}",
                 ("size", key),
             )
     first, *others = places(spec.wheel, spec.drive, spec.given_distance_mm)

@@ -12,7 +12,6 @@ import numpy as np
 from geneva_cli.geometry.plates import Plate, plates, steps_of
 from geneva_cli.geometry.sphere import POLE
 from geneva_cli.geometry.sphere_arcs import RoundHole
-from geneva_cli.kinds.spherical.arm import dial_wall
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -56,14 +55,6 @@ def wheel_bore(name: str, parts: SphereParts) -> Check | None:
     return at_least(name, least, parts.shells.sizes.wall_min)
 
 
-def dial(name: str, parts: SphereParts) -> Check | None:
-    """The least wall around the holes for a dial."""
-    size = parts.mechanism.spec.size
-    if not size.dial_bolts:
-        return None
-    return at_least(name, lambda: dial_wall(size, parts.ball), parts.shells.sizes.wall_min)
-
-
 def arm_wall(name: str, parts: SphereParts) -> Check | None:
     """The least wall around the holes of the crank arm, and of bolts in the locking sectors."""
     wall_min = parts.shells.sizes.wall_min
@@ -73,10 +64,10 @@ def arm_wall(name: str, parts: SphereParts) -> Check | None:
 def passing_parts(name: str, parts: SphereParts) -> Check | None:
     """The gap between hubs or shafts and parts that turn about the other axis.
 
-    The checks of walls report a missing arm, or a dial's bolts without a place.
+    The check of the arm's wall reports a missing arm.
     """
-    walls = [check(name, parts) for check in (arm_wall, dial)]
-    if any(row and row.value is None for row in walls):
+    row = arm_wall(name, parts)
+    if row and row.value is None:
         return None
     return gap(name, lambda: _shaft_gaps(parts), parts.ball.radius_mm)
 

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 
 from geneva_cli.geometry.sphere_arcs import RoundHole
-from geneva_cli.kinds.spherical.arm import dial_holes
 from geneva_cli.kinds.spherical.drawings import crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.motion.mechanism import Mechanism
@@ -21,7 +20,7 @@ def dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
 
 
 def _dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
-    ball, size = parts.ball, parts.mechanism.spec.size
+    ball = parts.ball
     yield from _lengths("shells'", ball.span_mm)
     yield _angle("roller's cone, half angle", ball.roller)
     yield _angle("slot, between its walls", 2.0 * ball.half_width)
@@ -29,7 +28,6 @@ def _dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
     yield _angle("rim, from the wheel's axis", ball.rim)
     yield _angle("slotted ring's inner edge, from its axis", ball.inner)
     yield from _axle("wheel", ball.bore_mm, ball.hub_mm)
-    yield from or_missing("dial's bolts", lambda: _bolts("dial's bolt", dial_holes(size, ball)))
     if ball.lock:
         yield _angle("lock, from the crank's axis", ball.lock)
         yield _angle("recess, from the crank's axis", ball.recess)

@@ -27,11 +27,11 @@ from geneva_cli.geometry.shapes import ORIGIN, Circle
 from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, axis_frame, place
 from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, dial_holes
+from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
 from geneva_cli.kinds.spherical.gap_bounds import SpherePairs
 from geneva_cli.kinds.spherical.gaps import BallGaps
-from geneva_cli.kinds.spherical.regions import at_mid_motion, web_angle, web_region, wheel_regions
+from geneva_cli.kinds.spherical.regions import at_mid_motion, wheel_regions
 from geneva_cli.kinds.spherical.sizes import ball, fitted
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
@@ -126,7 +126,7 @@ class SphereParts(Parts):
     def wheel(self) -> Member:
         """The wheel's shell with its hub. Raises GenevaError for one that cannot be made."""
         size, ball = self.mechanism.spec.size, self.ball
-        hub, shell = wheel_hub(size, ball), wheel_shell(size, ball)
+        hub, shell = wheel_hub(size, ball), wheel_shell(ball)
         return Member(Group("wheel", (Member(shell), *([Member(hub)] if hub else []))))
 
     @cached_property
@@ -196,10 +196,9 @@ class SphereParts(Parts):
     @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        size, ball = self.mechanism.spec.size, self.ball
-        wheel = "wheel's hub" if ball.hub_mm > ball.bore_mm else "wheel"
+        wheel = "wheel's hub" if self.ball.hub_mm > self.ball.bore_mm else "wheel"
         names = {"wheel": wheel, "crank": "arm's hub"}
-        return tuple(names[name] for shaft, _ in self._axles(0.0) for name in shaft.to_fix(size))
+        return tuple(names[name] for shaft, _ in self._axles(0.0) for name in shaft.to_fix)
 
     @property
     def members(self) -> tuple[Member, ...]:
@@ -213,18 +212,10 @@ class SphereParts(Parts):
         yield "shafts", lambda: [one.part for one in self.shafts]
 
 
-def wheel_shell(size: Size, ball: Ball) -> Shell:
-    """Return the wheel's shell, down to the round hole about its axis, if there is one.
-
-    Raises GenevaError where a dial's bolts do not fit.
-    """
-    screwed = dial_holes(size, ball)
-    if not screwed and not ball.opening_mm:
-        return Shell("wheel", "WHEEL", tuple(wheel_regions(ball, ball.inner)), *ball.span_mm)
-    inner = web_angle(ball)
-    regions = *wheel_regions(ball, inner), web_region(ball, inner)
-    holes = RoundHole(POLE, ball.opening_mm), *screwed
-    return Shell("wheel", "WHEEL", regions, *ball.span_mm, holes)
+def wheel_shell(ball: Ball) -> Shell:
+    """Return the wheel's shell, down to the round hole about its axis, if there is one."""
+    holes = (RoundHole(POLE, ball.opening_mm),) if ball.opening_mm else ()
+    return Shell("wheel", "WHEEL", tuple(wheel_regions(ball)), *ball.span_mm, holes)
 
 
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:
@@ -258,7 +249,7 @@ def shell_body(mechanism: Mechanism) -> MassProperties:
     """
     size, sizes = mechanism.spec.size, ball(mechanism)
     density = wheel_material(mechanism.spec).density_kgm3
-    shell, hub = wheel_shell(size, sizes), wheel_hub(size, sizes)
+    shell, hub = wheel_shell(sizes), wheel_hub(size, sizes)
     mass = density * shell.volume * MM**3
     rim = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * MM**5)
     return added(rim, mass_properties(hub, density)) if hub else rim
@@ -272,15 +263,13 @@ def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
 
 
 def screw_sizes(mechanism: Mechanism) -> dict[str, float]:
-    """Return the screws of locking sectors and dial by keys of ``[size]``: numbers, and holes, mm.
+    """Return the screws of locking sectors by keys of ``[size]``: their number, and holes, mm.
 
     Raises GenevaError where the sizes leave no arm, or no place for them.
     """
     parts = SphereParts(mechanism)
     arm, sectors = parts.arm, len(parts.shells.crank)
-    dial = dial_holes(mechanism.spec.size, parts.ball)
-    out = {"dial_bolt_mm": 2.0 * dial[0].radius} if dial else {}
-    if arm and sectors:
-        out["lock_bolts"] = len(arm.bolts) // sectors
-        out |= {"lock_bolt_mm": 2.0 * arm.bolts[0].radius} if arm.bolts else {}
-    return out
+    if not (arm and sectors):
+        return {}
+    holes = {"lock_bolt_mm": 2.0 * arm.bolts[0].radius} if arm.bolts else {}
+    return {"lock_bolts": len(arm.bolts) // sectors, **holes}
