@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from functools import wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
@@ -48,7 +48,7 @@ from geneva_cli.spec.tables import (
 if TYPE_CHECKING:
     from geneva_cli.extras.certify.certificate import Certificate
     from geneva_cli.figure import Figure
-    from geneva_cli.geometry.mass import MassProperties
+    from geneva_cli.geometry.plates import MassProperties
     from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.loads.cycle import Cycle
     from geneva_cli.loads.load_peaks import LoadSummary
@@ -249,20 +249,37 @@ class Design:
     def backwards(self) -> Design:
         """The same machine turning the other way, as one that turns forwards seen from behind.
 
-        Entry and exit change places. Sizes that the spec leaves out hold the loads of both
-        directions; warnings are those of this one.
+        In a mirror about the line of centres psi at theta is -psi at -theta: entry and exit change
+        places, slots are offset to the other side, and a law s(u) becomes 1 - s(1 - u). Sizes that
+        the load chose stay. What resists the motion resists it in both directions.
 
         >>> offset = Design(External(6, offset_mm=12.0))
         >>> [round(d.peaks.ends.acceleration_entry, 4) for d in (offset, offset.backwards)]
         [0.5342, 0.6281]
         """
-        from geneva_cli.motion.both_ways import backwards
-
-        both = self.spec.with_("drive.both_ways", True)
-        title = ", ".join(text for text in (self.spec.title, "backwards") if text)
-        turned = Design.of(backwards(build(both)).spec.replace(title=title), self._text)
-        turned.is_backwards = True
-        return turned
+        spec, plan = self.spec, self.mechanism.plan
+        on_crank = spec.drive.ONE_ARM and spec.drive.round_gears  # and so in sectors
+        if on_crank and spec.size.gear_module_mm is not None:
+            raise GenevaError(
+                "the last tooth of a sector is lower, so that it drives one way only: leave out "
+                "gear_module_mm or --reverse",
+                ("size", "gear_module_mm"),
+            )
+        loaded = {}
+        with suppress(GenevaError):  # sizes that leave no parts: the checks say why
+            loaded = {k.partition(".")[2]: c.value for k, c in self.chosen_by_load.sizes.items()}
+        turned = spec.replace(
+            wheel=spec.wheel.backwards,
+            drive=spec.drive.backwards(plan),
+            drive_before=spec.drive_before and spec.drive_before.backwards(plan),
+            motion=spec.motion and spec.motion.backwards,
+            mass=tuple(one.backwards for one in spec.mass),
+            size=spec.size.replace(**loaded),
+            title=", ".join(text for text in (spec.title, "backwards") if text),
+        )
+        design = Design.of(turned, self._text)
+        design.is_backwards = True
+        return design
 
     @answer
     def size(self) -> Size:
@@ -931,12 +948,9 @@ class Design:
         >>> [text.name for text in Design(External(30)).warnings]
         ['many-slots']
         """
-        from geneva_cli.verdict.both_directions import all_warnings
         from geneva_cli.verdict.warnings import warnings
 
-        # the other direction's would be called backwards, which this one is
-        every = (warnings if self.is_backwards else all_warnings)(self.parts)
-        own = self.spec.accept.applied(every)
+        own = self.spec.accept.applied(warnings(self.parts))
         return [*self.ideal_notes, *self.check_warnings, *own] if self.is_drawn else own
 
     @answer

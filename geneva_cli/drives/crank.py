@@ -40,11 +40,6 @@ class Crank(Direct, kw_only=True):
         """The places of the spec."""
         return self.crank_steps or super().cranks
 
-    def may_vary(self, table: str, key: str) -> bool:
-        """False for the slots if several cranks turn both ways: their places change with it."""
-        placed = self.crank_steps and self.both_ways
-        return not placed or (table, key) != ("wheel", "z")
-
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
         """Plan of straight slots for a roller's place on a crank as built."""
         return self.straight(wheel, alike(wheel, self, place), L)

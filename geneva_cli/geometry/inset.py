@@ -6,19 +6,15 @@ import math
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import directions, fraction_at
-from geneva_cli.geometry.shapes import Arc, Contour, Layer, Line, Point, Shape, as_contour, closed
+from geneva_cli.geometry.shapes import Arc, Line, Point, Shape, as_contour
 
 
-def lines_and_arcs(shape: Shape, cubics: str = "") -> list[Line | Arc]:
-    """Return the pieces of a closed shape; raises GenevaError for a cubic, by default for edges."""
+def lines_and_arcs(shape: Shape, cubics: str) -> list[Line | Arc]:
+    """Return the pieces of a closed shape; raises GenevaError with a text for a cubic."""
     pieces = as_contour(shape).segments
     plain = [piece for piece in pieces if isinstance(piece, Line | Arc)]
     if len(plain) < len(pieces):
-        raise GenevaError(
-            cubics
-            or "a spline has no parallel spline, so its edges are sharp; use --curves arcs, or "
-            "remove the key"
-        )
+        raise GenevaError(cubics)
     return plain
 
 
@@ -67,26 +63,6 @@ def corner(before: Line | Arc, after: Line | Arc, depth: float, sharpest: float 
         if abs(dx) + abs(dy) < 1e-15 * (1.0 + abs(x) + abs(y)):
             break
     return x, y
-
-
-def corner_slope(before: Line | Arc, after: Line | Arc, at: Point) -> Point:
-    """Return the corner's movement per depth at a point of its path."""
-    (_, (ux, uy)), (_, (vx, vy)) = away(before, at), away(after, at)
-    det = ux * vy - uy * vx
-    return (vy - uy) / det, (ux - vx) / det
-
-
-def inset(pieces: list[Line | Arc], layer: Layer, depth: float) -> Contour:
-    """Return the contour at a depth to the left of some pieces, piece by piece.
-
-    Raises GenevaError where it has a piece no longer.
-    """
-    before = [pieces[-1], *pieces[:-1]]
-    starts = [corner(one, piece, depth) for one, piece in zip(before, pieces, strict=True)]
-    rows = zip(pieces, starts, [*starts[1:], starts[0]], strict=True)
-    return closed(
-        layer, [between(parallel(piece, depth), start, end) for piece, start, end in rows]
-    )
 
 
 def parallel(piece: Line | Arc, depth: float) -> Line | Arc:

@@ -5,19 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.moments import area, oriented, with_material_left
+from geneva_cli.geometry.moments import area, with_material_left
 from geneva_cli.geometry.plates import Plate, Stack
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape, as_contour
-
-if TYPE_CHECKING:
-    from geneva_cli.geometry.plates import Edge
-
 
 Side: TypeAlias = Line | Arc
 
@@ -138,27 +133,3 @@ def _points(hole: Shape) -> np.ndarray:
 
 def _boundary(shapes: Iterable[Shape]) -> Polyarc:
     return Polyarc([with_material_left(as_contour(shape), True) for shape in shapes])
-
-
-def require_faces(plate: Plate) -> None:
-    """Raise GenevaError, naming the key, where the plate's edge cuts off a piece of a face."""
-    edge = plate.edge
-    if not edge.size:
-        return
-    from geneva_cli.geometry.inset import inset, lines_and_arcs
-
-    try:
-        for contour in oriented(plate.outline, plate.holes):
-            inset(lines_and_arcs(contour), "", edge.size)
-    except GenevaError as error:
-        raise _no_edge(edge, str(error)) from None
-    wall = plate_wall(plate)
-    if wall <= 0.0:
-        raise _no_edge(edge, f"holes of the {plate.name} leave no wall to round or chamfer")
-    if wall <= 2.0 * edge.size:
-        says = f"the {plate.name} has a wall of {wall:.4g} mm; it must be below {0.5 * wall:.4g}"
-        raise _no_edge(edge, says)
-
-
-def _no_edge(edge: Edge, says: str) -> GenevaError:
-    return GenevaError(f"{edge.key} = {edge.size:g}: {says}", ("size", edge.key))

@@ -18,7 +18,6 @@ GROUPS: dict[str, dict[str, str]] = {
         "compare-designs": "compare designs in one table",
         "reduce-acceleration": "reduce the acceleration",
         "reversal": "get rid of the reversal",
-        "both-ways": "drive both ways",
         "law-from-csv": "use a curve from a CSV",
         "size-motor": "size the motor and the flywheel",
         "shafts": "size pins, shafts and bearings",

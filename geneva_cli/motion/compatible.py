@@ -106,7 +106,7 @@ def _of_drive_before(spec: Spec) -> Iterator[Conflict]:
     yield Conflict(
         is_set(before, Drive),
         ("drive", "before"),
-        "n_rpm, rollers, roller_angles_deg and both_ways belong to the machine: set them in "
+        "n_rpm, rollers and roller_angles_deg belong to the machine: set them in "
         "[drive], not in [drive.before]",
     )
     yield Conflict(

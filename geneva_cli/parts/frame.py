@@ -14,9 +14,8 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, farthest
-from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH

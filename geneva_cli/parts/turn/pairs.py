@@ -24,7 +24,7 @@ class WorkLimit(GenevaError):
 
 
 class Window(NamedTuple):
-    """A motion, or the dwell after it: the input angles at its ends, and the motion's number."""
+    """A motion, or the dwell after it: input angles at its ends, and the motion's number."""
 
     start: float
     end: float
@@ -129,9 +129,6 @@ class Clearances(Protocol):
     def near(self) -> float:
         """The widest clearance that is distinguished from wider ones, mm."""
 
-    def begin(self) -> None:
-        """Count work from here on; raise WorkLimit when it exceeds the limit."""
-
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
 
@@ -145,10 +142,9 @@ class Clearances(Protocol):
         """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
-        """Return the stops of the wheel, turned back and turned on from n poses.
+        """Return the stops of the wheel, turned back and on until parts overlap by ``close`` mm.
 
-        The parts overlap nowhere by ``close`` mm at first. The wheel turns until some do, or by
-        ``most`` radians.
+        Parts that overlap nowhere by more at first turn by at most ``most`` radians.
         """
 
 
@@ -184,8 +180,7 @@ class Shape(Protocol):
     def crank(self) -> Sized:
         """The locking surfaces of the crank; empty if there are none."""
 
-    def _replace(self, *, assembly: Assembly) -> Self:
-        """Return these parts with another assembly."""
+    def _replace(self, *, assembly: Assembly) -> Self: ...
 
 
 class TurnedParts(ABC):

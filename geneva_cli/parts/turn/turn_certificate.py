@@ -18,6 +18,7 @@ from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, TurnedPar
 from geneva_cli.parts.turn.play import windows
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
+Parts = TypeVar("Parts", bound=TurnedParts)
 
 
 class Open(NamedTuple):
@@ -58,16 +59,25 @@ def tolerance_mm(parts: TurnedParts) -> float:
 def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
     """Return the certificate that no gap in a full turn is smaller than the smallest by ``to_mm``.
 
-    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. Raises
-    WorkLimit.
+    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0.
     """
     parts = one_motion(parts)
-    parts.gaps.begin()
     # the greatest rounding of a distance; doubles carry 2e-16
     spare = 1e-11 * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
-    least, count = math.inf, 0
-    for between, pair, ends in _pairs(parts, target):
+    pairs, least, count = parts.pairs(target), math.inf, 0
+    todo: list[tuple[str, Callable[[Intervals], Bounds], tuple[float, float]]] = []
+    for window in windows(parts):
+        if parts.locked:
+            ends = window.start, window.end
+            todo.append(("locking disc and wheel", partial(pairs.lock, window), ends))
+        for span, driver in spans(parts, window):
+            for roller in range(len(parts.assembly.rollers)):
+                if roller == driver:
+                    todo.append(("roller and slot", partial(pairs.driving, roller, span), span))
+                else:
+                    todo.append(("roller and wheel", partial(pairs.free, roller, window), span))
+    for between, pair, ends in todo:
         bound = _halved(parts.gaps, pair, ends, target)
         least, count = min(least, bound.least_mm - spare), count + bound.intervals
         if bound.open:
@@ -75,23 +85,6 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
             shown = bound.open._replace(start_deg=start, end_deg=end)
             return Certificate(least, count, shown, between)
     return Certificate(least, count)
-
-
-def _pairs(
-    parts: TurnedParts, target: float
-) -> Iterator[tuple[str, Callable[[Intervals], Bounds], tuple[float, float]]]:
-    """Yield each pair of parts in each motion and dwell: names, bounds, and its input angles."""
-    pairs = parts.pairs(target)
-    for window in windows(parts):
-        if parts.locked:
-            ends = window.start, window.end
-            yield "locking disc and wheel", partial(pairs.lock, window), ends
-        for span, driver in spans(parts, window):
-            for roller in range(len(parts.assembly.rollers)):
-                if roller == driver:
-                    yield "roller and slot", partial(pairs.driving, roller, span), span
-                else:
-                    yield "roller and wheel", partial(pairs.free, roller, window), span
 
 
 def _halved(
@@ -141,8 +134,8 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
 def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
     """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
 
-    Where gears drive between two rollers, each of them is in its slot up to its deepest position,
-    or from there.
+    Where gears drive between two rollers, each is in its slot up to its deepest position, or from
+    there.
     """
     start, end, motion, rests = window
     assembly = parts.assembly
@@ -158,14 +151,11 @@ def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, flo
     yield (meets, end), last
 
 
-Parts = TypeVar("Parts", bound=TurnedParts)
-
-
 def one_motion(parts: Parts) -> Parts:
     """Return the parts, checked over one motion and its dwell if all rollers move alike.
 
-    Otherwise the parts are returned unchanged. This is for pass or fail: input angles refer to the
-    first motion, and values may differ from those of the whole turn by rounding.
+    This is for pass or fail: input angles refer to the first motion, and values may differ from
+    those of the whole turn by rounding.
     """
     assembly = parts.assembly
     motions, m = assembly.motions, assembly.mechanism.spec.drive.rollers
