@@ -13,10 +13,9 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.inset import between, lines_and_arcs
-from geneva_cli.geometry.kerf import Closed, offset
 from geneva_cli.geometry.measure import at, directions, fraction_at
 from geneva_cli.geometry.moments import with_material_left
+from geneva_cli.geometry.offsets import Closed, between, lines_and_arcs, offset
 from geneva_cli.geometry.pieces import prepared
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import (

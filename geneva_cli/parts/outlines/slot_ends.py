@@ -16,8 +16,8 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.inset import away, between, corner
 from geneva_cli.geometry.measure import fraction_at, segment_length
+from geneva_cli.geometry.offsets import away, between, corner
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 
 
