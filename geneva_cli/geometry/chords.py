@@ -35,12 +35,9 @@ AIM = 1.0 - 5e-4  # fraction of a tolerance
 
 
 def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bool = True) -> Array:
-    """Fewest places whose chords keep the tolerance on every curve.
+    """Fewest places whose chords keep the tolerance on every curve; ends and cusps are among them.
 
-    All ends are nodes, and cusps must be ends. Without ``fewest`` the first sufficient number is
-    used, some ten per cent more, with fewer measurements.
-
-    Raises GenevaError if that takes more than ``ROWS_MAX`` rows.
+    Without ``fewest`` the first sufficient number is used, some ten per cent more.
     """
     if not tolerance_mm > 0.0:
         raise GenevaError(f"--tolerance {tolerance_mm:g}: it must be above 0 mm")

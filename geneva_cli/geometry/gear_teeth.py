@@ -30,10 +30,10 @@ Writer: TypeAlias = "Callable[[Curve, float, float], Sequence[Segment]]"  # fits
 
 
 class Rack(NamedTuple):
-    """The rack that cuts a gear: its module, and the shift of its datum line from the pitch curve.
+    """The rack that cuts a gear: its module, mm, and the shift of its datum from the pitch curve.
 
     Shift, dedendum and rounding are in modules; the profile is type A of ISO 53. A tooth of the
-    rack is straight from its addendum, one module, to the rounded corner. Lengths are in mm.
+    rack is straight from its addendum, one module, to the rounded corner.
     """
 
     module: float
@@ -139,8 +139,8 @@ class SpaceCorner(NamedTuple):
 class RoundTeeth(NamedTuple):
     """The teeth of a round gear about the origin, or the spaces of a ring gear; mm and radians.
 
-    ``tip`` is the radius at which they end outside. A ring's spaces begin at ``opening``, where
-    their neighbours have tips; a gear's teeth begin with the fillets that the rack leaves.
+    They end outside at the radius ``tip``. A ring's spaces begin at ``opening``, where their
+    neighbours have tips; a gear's teeth begin with the fillets that the rack leaves.
     """
 
     rack: Rack
@@ -237,10 +237,7 @@ class RoundTeeth(NamedTuple):
 def teeth_along(
     pitch: Curve, rack: Rack, middles: Array, tip: float, write: Writer
 ) -> Iterator[Segment]:
-    """Yield the outline of a gear whose teeth have their middles at lengths of its pitch curve.
-
-    ``tip`` is the height of the teeth above the curve, mm.
-    """
+    """Yield a gear with the middles of teeth at lengths of a pitch curve, and tips above it, mm."""
     (first, height), last = rack.corner, rack.end
     root = parallel(pitch, height - rack.rounding * rack.module)
     top = parallel(pitch, tip)

@@ -39,8 +39,7 @@ class Loop(NamedTuple):
 def loops(pieces: Sequence[Line | Arc]) -> list[Loop]:
     """Return the closed outlines that pieces in any order make, in mm.
 
-    Raises GenevaError, naming the place, for an outline that is open, branches or crosses itself
-    or another one, and for no piece at all.
+    Raises GenevaError, naming the place, for one that is open, branches or crosses.
     """
     kept = list(_distinct(pieces))
     if not kept:
@@ -75,24 +74,13 @@ def loops(pieces: Sequence[Line | Arc]) -> list[Loop]:
 
 
 def greatest_gap(pieces: Sequence[Line | Arc]) -> float:
-    """Return the greatest distance of ends that ``loops`` joins, mm.
-
-    It is of the size of the rounding of a drawing's numbers. Raises GenevaError as ``loops`` does
-    for open and branching outlines.
-
-    >>> greatest_gap([Line((0.0, 0.0), (1.0, 0.0)), Line((1.0, 1e-4), (0.0, 0.0))])
-    0.0001
-    """
+    """Return the greatest distance of ends that ``loops`` joins, mm: of a drawing's rounding."""
     ends = [point for piece in _distinct(pieces) for point in (piece.start, piece.end)]
     return max(math.dist(ends[i], ends[j]) for i, j in enumerate(_partners(ends)))
 
 
 def shown(point: Point) -> str:
-    """A place in a drawing, for messages.
-
-    >>> shown((12.0, -0.33333))
-    '(12, -0.3333)'
-    """
+    """A place in a drawing, for messages."""
     x, y = (f"{v:.4f}".rstrip("0").rstrip(".") for v in point)
     return f"({x}, {y})".replace("-0,", "0,").replace("-0)", "0)")
 
@@ -112,10 +100,7 @@ def _distinct(pieces: Sequence[Line | Arc]) -> Iterator[Line | Arc]:
 
 
 def _partners(ends: list[Point]) -> list[int]:
-    """Return for each end the other end at the same place.
-
-    Raises GenevaError for an end without another, and for more than two at a place.
-    """
+    """Return for each end the other at the same place; raises GenevaError for none or several."""
     cells: dict[tuple[int, int], list[int]] = defaultdict(list)
     for i, (x, y) in enumerate(ends):
         cells[math.floor(x / JOINED_MM), math.floor(y / JOINED_MM)].append(i)

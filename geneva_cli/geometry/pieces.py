@@ -70,8 +70,7 @@ def _numbers(piece: Segment | Circle, unit: str) -> Iterator[tuple[str, float]]:
 def prepared(drawing: Drawing, units: str = "mm") -> Drawing:
     """Drawing in a unit, without duplicate shapes and pieces shorter than ``SHORTEST_MM``.
 
-    The other pieces stay end to end. Raises GenevaError for another unit, and for a coordinate that
-    is not finite.
+    Raises GenevaError for another unit, and for a coordinate that is not finite.
     """
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
