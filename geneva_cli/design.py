@@ -724,7 +724,7 @@ class Design:
         if kerf_mm is None:
             return picture
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.geometry.kerf import paths
+        from geneva_cli.geometry.offsets import paths
 
         require_cut(part)
         return paths(picture, kerf_mm)

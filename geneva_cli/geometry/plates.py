@@ -54,8 +54,7 @@ class Plate(NamedTuple):
 class Stack(NamedTuple):
     """A turned part: plates without holes, each on the one before, as one solid.
 
-    Of two neighbours one lies within the other. Where their outlines coincide, they have the same
-    pieces.
+    Of two neighbours one lies within the other, with the same pieces where they coincide.
     """
 
     name: str
@@ -122,15 +121,7 @@ class Shell(NamedTuple):
         return most * (self.outer if most > 0.0 else self.inner)
 
     def inertia(self, axis: Vector) -> float:
-        """The volume's moment of inertia about an axis through the centre, mm⁵.
-
-        >>> from geneva_cli.geometry.sphere import Region, SphereArc, place
-        >>> half = place(math.pi / 2.0, 0.0)
-        >>> dome = Region((SphereArc((0.0, 0.0, 1.0), math.pi / 2.0, half, half),), (0.0, 0.0, 1.0))
-        >>> ball = Shell("", "WHEEL", (dome,), 0.0, 10.0)
-        >>> round(ball.inertia((0.0, 0.0, 1.0)) / ball.volume, 12)  # 2/5 r²
-        40.0
-        """
+        """The volume's moment of inertia about an axis through the centre, mm⁵."""
         covered = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
         bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
         return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
@@ -228,13 +219,7 @@ class MassProperties(NamedTuple):
 
 
 def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
-    """Mass, centroid and inertia J = rho h Ip of a plate.
-
-    >>> disc = Plate("disc", "CRANK", Circle("", (0, 0), 50.0), (), 0.0, 10.0)
-    >>> steel = mass_properties(disc, 7850.0)
-    >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
-    0.5
-    """
+    """Mass, centroid and inertia J = rho h Ip of a plate."""
     whole, per = face(plate).times(plate.thickness), density_kgm3 * MM**3
     return MassProperties(per * whole.area, whole.centroid, per * MM**2 * whole.polar)
 
@@ -255,14 +240,7 @@ def added(one: MassProperties, other: MassProperties) -> MassProperties:
 
 
 def face(plate: Plate) -> Moments:
-    """Area, first moments and polar moment of a plate's face about the origin.
-
-    >>> washer = Plate(
-    ...     "washer", "CRANK", Circle("", (0, 0), 5.0), (Circle("", (0, 0), 3.0),), 0.0, 2.0
-    ... )
-    >>> face(washer).area / 3.141592653589793
-    16.0
-    """
+    """Area, first moments and polar moment of a plate's face about the origin."""
     out, *holes = (moments(shape) for shape in (plate.outline, *plate.holes))
     cut = (hole.times(-math.copysign(1.0, hole.area)) for hole in holes)
     return total((out.times(math.copysign(1.0, out.area)), *cut))

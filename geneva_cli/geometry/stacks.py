@@ -33,10 +33,7 @@ class Run(NamedTuple):
 
 
 class Level(NamedTuple):
-    """A face across the axis: its loops of edges, the outer one first.
-
-    Seen against its normal, the face lies to the left of its edges.
-    """
+    """A face across the axis, to the left of its loops of edges; the outer one is the first."""
 
     z: float
     loops: tuple[tuple[Run, ...], ...]
@@ -54,14 +51,7 @@ def sides(contour: Contour) -> tuple[Side, ...]:
 
 
 def levels(stack: Stack) -> list[Level]:
-    """Return the faces across the axis of a turned part, from the lowest up.
-
-    >>> from geneva_cli.geometry.shapes import Circle
-    >>> wide, thin = Circle("", (0.0, 0.0), 5.0), Circle("", (0.0, 0.0), 4.0)
-    >>> plates = Plate("", "", wide, (), 0.0, 3.0), Plate("", "", thin, (), 3.0, 9.0)
-    >>> [(level.z, len(level.loops), level.up) for level in levels(Stack("", "", plates))]
-    [(0.0, 1, False), (3.0, 2, True), (9.0, 1, True)]
-    """
+    """Return the faces across the axis of a turned part, from the lowest up."""
     outlines = [outline_of(plate) for plate in stack.plates]
     heights = [stack.low, *(plate.high for plate in stack.plates)]
     pairs = zip([None, *outlines], [*outlines, None], heights, strict=True)
@@ -91,11 +81,7 @@ FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is
 
 
 def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
-    """Return the least wall between holes, and to an outline; negative where they overlap.
-
-    >>> least_wall([Circle("", (0.0, 0.0), 2.0), Circle("", (9.0, 0.0), 3.0)])
-    4.0
-    """
+    """Return the least wall between holes, and to an outline; negative where they overlap."""
     least = [apart(one, two) for one, two in combinations(holes, 2)]
     if outline:
         whole = _boundary(outline)
