@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from functools import reduce
 from typing import NamedTuple
 
 from geneva_cli.geometry.moments import Moments, moments, oriented, total
-from geneva_cli.geometry.plates import Plate, Stack
+from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.geometry.stacks import require_faces
 
@@ -36,11 +35,6 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
         rows.append(_between(plate).times(2.0))
     whole, per = total(rows), density_kgm3 * MM**3
     return MassProperties(per * whole.area, whole.centroid, per * MM**2 * whole.polar)
-
-
-def solid_properties(solid: Plate | Stack, density_kgm3: float) -> MassProperties:
-    """Mass, centroid and inertia of a flat or a turned part."""
-    return reduce(added, (mass_properties(one, density_kgm3) for one in solid.plates))
 
 
 def added(one: MassProperties, other: MassProperties) -> MassProperties:

@@ -32,7 +32,6 @@ from geneva_cli.parts.mounted_plate import (
     corner_radius,
     hole_without_shaft,
     mounted_plate,
-    require_walls,
     shaft_holes,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
@@ -43,10 +42,7 @@ from geneva_cli.parts.shafts.shaft import (
     Ends,
     Seat,
     Shaft,
-    built_shafts,
     seat_of,
-    shoulder_length,
-    shoulder_mm,
 )
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.least_wall import wall_min
@@ -74,8 +70,7 @@ def framed(
         lows[0] -= outlines.sizes.arm_thickness if outlines.has_arm else 0.0
         hub = wheel_hub(outlines.assembly, outlines.sizes)
         lows += [hub.low] if hub else []
-    free = min(lows) - size.washer_mm
-    top = free - shoulder_length(size, L)
+    top = min(lows) - size.washer_mm
     thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
     own = list(_all_shafts(mechanism, outlines, bars, top - thick, first))
     hanging = [one for one in own if one.turns and one.low >= top]
@@ -86,12 +81,9 @@ def framed(
     if bridge and crank:
         own[own.index(crank)] = crank._replace(high=bridge.high)
         hanging.remove(crank)
-    if size.shafts == "turned" and outlines:
-        adjacent += _passing_arm(outlines, own)
-    axles, bottom = built_shafts(size, own, adjacent, (top - thick, top, free))
+    axles = [one.member for one in own]
     standing = list(_standing(mechanism, bars))
     drilled = list(_drilled(mechanism, axles, standing, top))
-    require_walls(drilled, wall_min(size, L), axles)
     fixed = list(_fixed(bars))
     for plate in (base, bridge):
         if plate:  # about the crank's axis
@@ -109,11 +101,13 @@ def framed(
     if mechanism.frame > 0.0:
         reach = max((c.radius for c in holes), default=0.0) + eye
         eyes = [Circle("FRAME", at, reach) for at in standing]
-        plate = Plate("carrier", "FRAME", convex_hull("FRAME", eyes), tuple(holes), bottom, top)
+        plate = Plate(
+            "carrier", "FRAME", convex_hull("FRAME", eyes), tuple(holes), top - thick, top
+        )
     else:
         # a frame contains every axis, drilled or not
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
-        plate = mounted_plate(holes, within, eye, (bottom, top))
+        plate = mounted_plate(holes, within, eye, (top - thick, top))
     whole = {name for axis in bars.axes for name in axis.one_piece}
     to_fix = (name for one in own for name in one.to_fix if name not in whole)
     return FrameAndShafts(
@@ -276,15 +270,3 @@ def _passing(
         from geneva_cli.parts.gears.gear_pair import gear_seats
 
         yield from gear_seats(mechanism, outlines)
-
-
-def _passing_arm(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
-    """Yield the faces of an arm whose end passes a wheel's shaft nearer than its shoulder."""
-    if not outlines.has_arm:
-        return
-    arm, L = crank_arm(outlines), outlines.assembly.L
-    away = L - max(math.hypot(*pin.centre) for pin in arm.pins) - arm.eye
-    high = -outlines.assembly.full.spec.size.allowances.pin_gap_mm
-    for one in own:
-        if one.part == "wheel" and away < 0.5 * shoulder_mm(one):
-            yield Seat("arm", high - outlines.sizes.arm_thickness, high)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.plates import Plate, plates, steps_of
+from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.geometry.sphere import POLE
 from geneva_cli.kinds.spherical.arm import dial_wall
@@ -145,7 +145,7 @@ class _Sweep(NamedTuple):
 def _shaft_gaps(parts: SphereParts) -> Iterator[float]:
     """Yield the gaps of hubs and shafts to parts about the other axis, mm along a sphere."""
     ball = parts.ball
-    shafts = [(step, m.frame is not None) for m in parts.shafts for step in steps_of(m.part)]
+    shafts = [(p, m.frame is not None) for m in parts.shafts for p in plates(m.part)]
     on_wheel, on_crank = (
         [p for p in plates(one.part) if p.layer != "ROLLER"]
         + [p for p, of_crank in shafts if of_crank is crank]

@@ -176,7 +176,7 @@ def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
     """Return the dimensions of a spherical machine's parts."""
     size = spec.size
     (inside, outside), (under, over) = ball.span_mm, ball.arm_span_mm
-    end = (ball.shafts_end_mm(size) - ball.radius_mm, over - under, ball.radius_mm)
+    end = (ball.shafts_end_mm(size) - ball.radius_mm, over - under)
     return Stressed(
         value_or(size.face_width_mm, outside - inside),
         2.0 * ball.pin_mm,

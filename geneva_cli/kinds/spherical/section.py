@@ -12,7 +12,7 @@ from typing import TypeAlias
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.geometry.measure import at
-from geneva_cli.geometry.plates import Plate, plates, steps_of
+from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Line, about, closed, polygon
 from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE, polar
 from geneva_cli.kinds.spherical.arm import CapArm
@@ -50,7 +50,7 @@ def section(parts: SphereParts, scale: float, items: Mapping[str, int]) -> View:
         view.draw(face, OUTLINE)
     view.draw(_ring(inner, outer, radial(end), radial(ball.rim)), HIDDEN)  # the slot's wall, beyond
     middle = ball.axes - ball.arm
-    far = max([outer, *(step.high for one in parts.shafts for step in steps_of(one.part))])
+    far = max([outer, *(plate.high for one in parts.shafts for plate in plates(one.part))])
     for angle in (0.0, ball.axes, middle):
         tip = polar(ORIGIN, far + 0.1 * ball.radius_mm, QUARTER - angle)
         view.centre_line(ORIGIN, tip)
@@ -133,7 +133,7 @@ def _plates(parts: SphereParts) -> Iterator[tuple[Plate, float]]:
         angles = _rollers(parts.ball) if plate.layer == "ROLLER" else [axes]
         yield from ((plate, angle) for angle in angles)
     for member in parts.shafts:
-        for step in steps_of(member.part):
+        for step in plates(member.part):
             yield step, axes if member.frame else 0.0
 
 
