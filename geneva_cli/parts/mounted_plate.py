@@ -72,40 +72,26 @@ def hole_without_shaft(diameter_mm: float | None, at: Point, L: float) -> Circle
     return Circle("BORE", at, half_or(diameter_mm, bore_radius(L / 20.0)))
 
 
-class Unborne(NamedTuple):
-    """A shaft that turns and does not reach the frame, and the reason."""
-
-    name: str
-    reason: str
-
-
-class Screwed(NamedTuple):
-    """A screw of a part that is fixed to the frame: its clearance hole, and the part's name."""
-
-    hole: Circle
-    part: str
-
-
 class FrameAndShafts(NamedTuple):
     """The frame, what is on it, and the shafts, whether they reach it or not."""
 
     plate: Plate
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
-    screwed: tuple[Screwed, ...] = ()
+    screwed: tuple[tuple[Circle, str], ...] = ()  # clearance holes of screws, and what they fix
     to_fix: tuple[str, ...] = ()  # names of what the shafts turn, and nothing holds on them
     bridge: Member | None = None  # bears the crank's shaft from above
-    unborne: tuple[Unborne, ...] = ()
+    unborne: tuple[tuple[str, str], ...] = ()  # shafts that do not reach it, and why
 
     @property
     def threads(self) -> tuple[Circle, ...]:
         """The tapped holes of the frame."""
-        return tuple(tapped(one.hole) for one in self.screwed)
+        return tuple(tapped(hole) for hole, _ in self.screwed)
 
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws that fix parts to the frame, and those of its mounting holes."""
-        kinds = Counter((one.part, one.hole.radius) for one in self.screwed)
+        kinds = Counter((part, hole.radius) for hole, part in self.screwed)
         fixed = [Screws(part, n, 2.0 * r, "the frame") for (part, r), n in kinds.items()]
         mounts = mounts_of(self.plate)
         if mounts:

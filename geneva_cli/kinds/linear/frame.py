@@ -29,7 +29,6 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.gears.gear_pair import gear_seats, gear_shafts
 from geneva_cli.parts.mounted_plate import (
     FrameAndShafts,
-    Screwed,
     corner_radius,
     hole_without_shaft,
     mounted_plate,
@@ -85,8 +84,8 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
         diameter = mechanism.spec.shaft.crank_diameter_mm
         bored.insert(0, hole_without_shaft(diameter, mechanism.crank_shaft.at, L))
     rows = zip(("guide rail", "guide wall"), _screws(sizes), strict=True)
-    screwed = tuple(Screwed(hole, name) for name, row in rows for hole in row)
-    within = [*bored, *(tapped(one.hole) for one in screwed)]
+    screwed = tuple((hole, name) for name, row in rows for hole in row)
+    within = [*bored, *(tapped(hole) for hole, _ in screwed)]
     holes, screwed = [one for one in within if one.radius], screwed if _bolt(sizes) else ()
     frame = mounted_plate(holes, within, corner_radius(size, L), (heights.plain, heights.top))
     to_fix = tuple(name for one in own for name in one.to_fix)
