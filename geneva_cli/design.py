@@ -686,26 +686,20 @@ class Design:
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
         kerf_mm: float | None = None,
-        dog_bones_mm: float | None = None,
         centre_marks: bool = False,
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics, for DXF or SVG.
 
         Parts are ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove``,
-        ``gears`` or ``coupon``; lengths in millimetres. ``kerf_mm`` gives the paths of a cut of
-        that width. ``dog_bones_mm`` gives reliefs in inner corners for a cutter of that diameter.
-        ``centre_marks`` adds crosses in circles. Raises GenevaError if kerf or reliefs do not fit.
+        ``gears`` or ``plate``; lengths in millimetres. ``kerf_mm`` gives the paths of a cut of that
+        width, ``centre_marks`` crosses in circles. Raises GenevaError if the kerf does not fit.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
         """
-        from geneva_cli.drawings.catalogue import part_drawing, parts_having
+        from geneva_cli.drawings.catalogue import part_drawing
 
         picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
-        if dog_bones_mm is not None:
-            from geneva_cli.drawings.milling import with_dog_bones
-
-            picture = with_dog_bones(picture, parts_having(self.parts, part), dog_bones_mm)
         if centre_marks:
             from geneva_cli.parts.projection import with_centre_marks
 
@@ -719,23 +713,19 @@ class Design:
         return paths(picture, kerf_mm)
 
     @question
-    def cutter(self, part: str, cutter_mm: float, dog_bones: bool = False) -> tuple[str, list[str]]:
+    def cutter(self, part: str, cutter_mm: float) -> tuple[str, list[str]]:
         """The reason why a milling cutter cannot cut a part, empty if it can; and warnings.
 
-        Warnings are about corners that it leaves round, unless there are dog bones, and narrow
-        holes.
+        Warnings are about corners that it leaves round, and narrow holes.
 
         >>> Design(External(6)).cutter("wheel", 12.0)[0].partition(": an ")[2]
         'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
         """
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.drawings.milling import judged
+        from geneva_cli.geometry.cutter import judged
 
         require_cut(part, "--cutter")
-        refused, left = judged(self.drawing(part), cutter_mm)
-        if refused or not dog_bones:
-            return refused, left
-        return judged(self.drawing(part, dog_bones_mm=cutter_mm), cutter_mm)
+        return judged(self.drawing(part), cutter_mm)
 
     @question
     def sheet(
@@ -743,23 +733,18 @@ class Design:
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
         part: str = "sheet",
-        units: str = "mm",
     ) -> Sheet:
         """A drawing sheet of the parts with dimensions, to a standard scale on A4 to A1.
 
         ``geneva_cli.output.draw_sheet`` writes it as DXF, SVG or PDF. Millimetres on paper.
-        ``units`` of the dimensions are mm or inch.
 
         >>> small = Design(External(4), size=Size(center_distance_mm=30)).sheet(0.01)
         >>> small.scale, small.width, small.height
         (2.0, 420.0, 297.0)
         """
         from geneva_cli.drawings.catalogue import part_sheet
-        from geneva_cli.spec.written import writing_in
 
-        form = _form(curves)
-        with writing_in(units):
-            return part_sheet(self.parts, part, tolerance_mm, form)
+        return part_sheet(self.parts, part, tolerance_mm, _form(curves))
 
     @question
     def save(
@@ -796,19 +781,6 @@ class Design:
             draw_sheet(self.sheet(tolerance_mm, curves, part), path, inputs=files)
         else:
             draw(self.drawing(part, tolerance_mm, curves), path, inputs=files)
-
-    def _repr_html_(self) -> str:
-        """HTML for a notebook: description and verdict, the machine, its curves, the report."""
-        from contextlib import suppress
-
-        from geneva_cli.output.notebook import design_html
-        from geneva_cli.verdict.headline import headline
-
-        drawing = None
-        with suppress(GenevaError):  # wheels with very many slots are not drawn
-            drawing = self.drawing("assembly")
-        _, verdict = headline(self.checks, self.warnings)
-        return design_html(self.report.table, verdict, drawing, self.figure())
 
     @answer
     def checks(self) -> list[Check]:

@@ -31,7 +31,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "drawn-elsewhere": "check a wheel from elsewhere: will a drawing turn?",
         "cad": "hand over a STEP to CAD; go on in build123d or FreeCAD",
         "hand-over": "hand over to a shop",
-        "inches": "work in inches and pounds",
+        "inches": "write values in inches and pounds",
         "electronic-cam": "replay the motion by a servo; Geneva, cam indexer or servo?",
         "sweep-front": "sweep a million designs and plot the front, also on a cluster",
         "ci": "gate a CI job",
@@ -49,7 +49,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "parts": "what is drawn and listed: wheel, crank, arm, links, frame",
         "choices": "what the program recommends, and how",
         "search": "what synth and sweep try, and their rules",
-        "python": "classes and functions; a notebook; a page for browsers",
+        "python": "classes and functions; a page for browsers",
     },
     "explanation": {
         "symbols": "frame, zero and sign; z, L, R, psi and the rest",

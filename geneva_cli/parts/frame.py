@@ -78,7 +78,7 @@ def framed(
         hanging.remove(crank)
     axles = [one.member for one in own]
     standing = list(_standing(mechanism, bars))
-    holes = []
+    holes: list[Circle] = []
     for at in standing:
         here = [one._replace(at=at) for one in axles if same(one.at, at, L)]
         holes += shaft_holes(size, here, top)
@@ -87,7 +87,7 @@ def framed(
             on_crank = at in [one.at for one in mechanism.crank_places]
             diameter = table.crank_diameter_mm if on_crank else table.wheel_diameter_mm
             holes.append(hole_without_shaft(diameter, at, L))
-    fixed = []  # the clearance holes of screws into the frame, and the parts that they fix
+    fixed: list[tuple[Circle, Plate]] = []  # the clearance holes of screws into the frame, and the parts that they fix
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             fixed += [(hole, member.part) for hole in placed_holes(member)]

@@ -46,7 +46,6 @@ profile spec.toml --part wheel -o wheel.svg
 profile spec.toml --part wheel -o wheel.step
 profile spec.toml --part wheel -o wheel.stl
 profile spec.toml --part wheel -o wheel.3mf
-profile spec.toml --part wheel -o wheel.obj
 profile spec.toml --part sheet -o sheet.pdf
 plot spec.toml -o plot.svg
 plot spec.toml -o plot.png

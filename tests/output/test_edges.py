@@ -20,7 +20,7 @@ from geneva_cli.geometry.moments import with_material_left
 from geneva_cli.geometry.plates import Edge, Plate, plates
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, as_contour, closed
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.output.mesh.solids import bodies
+from geneva_cli.output.meshes import bodies
 from geneva_cli.output.step import chunks
 
 CUT = 0.5  # mm
@@ -91,8 +91,8 @@ def test_meshes_are_closed(gearing, tolerance, edge):
     for part in ("wheel", "arm", "crank"):
         for plate in plates(design_of(gearing, edge).drawing(part).solid):
             assert plate.edge == edge
-            (body,) = bodies(drawing(plate, tolerance), "mm", "STL")
-            mesh = trimesh.Trimesh(*body.surface, process=False)
+            (body,) = bodies(drawing(plate, tolerance), "STL")
+            mesh = trimesh.Trimesh(body.corners, body.triangles, process=False)
             assert mesh.is_watertight and mesh.is_winding_consistent
             around = mesh.area * tolerance
             assert mesh.volume == pytest.approx(volume(plate), abs=around)
@@ -106,7 +106,7 @@ def test_meshes_are_closed(gearing, tolerance, edge):
 def test_faces_of_a_step_file():
     """Each piece of a contour has a wall and two chamfers: a plane or a cone, of 45 degrees."""
     (wheel,) = plates(design_of(External(6)).drawing("wheel").solid)
-    file = File("".join(chunks(drawing(wheel), "mm")))
+    file = File("".join(chunks(drawing(wheel))))
     pieces = [piece for shape in (wheel.outline, *wheel.holes) for piece in lines_and_arcs(shape)]
     arcs = [piece for piece in pieces if isinstance(piece, Arc)]
     assert len(file.all("ADVANCED_FACE")) == 3 * len(pieces) + 2
@@ -131,10 +131,10 @@ def test_chamfers_that_do_not_fit():
     ]
     wavy = Plate("", "ARM", closed("ARM", [*sides, bent]), (), 0.0, 5.0, edge=Edge(CUT))
     with pytest.raises(GenevaError, match="a spline has no parallel spline"):
-        "".join(chunks(drawing(wavy), "mm"))
+        "".join(chunks(drawing(wavy)))
     thin = Plate("spacer", "ARM", Circle("", (0.0, 0.0), 9.0), (), 0.0, 1.0, edge=Edge(CUT))
     with pytest.raises(GenevaError, match="the spacer is 1 mm thick"):
-        "".join(chunks(drawing(thin), "mm"))
+        "".join(chunks(drawing(thin)))
 
 
 @pytest.mark.usefixtures("no_advice")
@@ -153,14 +153,14 @@ def test_a_chamfer_wider_than_half_a_wall_fails():
     (failed,) = [check for check in wide.checks if check.passes is False]
     assert failed.name == "parts" and "edge_chamfer_mm = 1.5: the arm has a wall" in failed.why
     with pytest.raises(GenevaError, match="the arm has a wall of"):
-        list(chunks(wide.drawing("arm"), "mm"))
+        list(chunks(wide.drawing("arm")))
 
 
 @pytest.mark.long
 def test_roundings_of_a_step_file():
     """A cylinder over each line and a torus over each arc; the material is inside of their tube."""
     (wheel,) = plates(design_of(External(6), KINDS[1]).drawing("wheel").solid)
-    file = File("".join(chunks(drawing(wheel), "mm")))
+    file = File("".join(chunks(drawing(wheel))))
     pieces = [piece for shape in (wheel.outline, *wheel.holes) for piece in lines_and_arcs(shape)]
     arcs = [piece for piece in pieces if isinstance(piece, Arc)]
     assert len(file.all("ADVANCED_FACE")) == 3 * len(pieces) + 2

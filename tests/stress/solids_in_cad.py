@@ -205,7 +205,7 @@ def one(design, name, part, curves):
     drawing = design.drawing(part, 0.001, curves)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "part.step"
-        path.write_text("".join(chunks(drawing, "mm")), encoding="ascii")
+        path.write_text("".join(chunks(drawing)), encoding="ascii")
         found, size = read(path), os.path.getsize(path)
     wanted = list(placed(drawing.shells or drawing.solid))
     assert len(found) == len(wanted)

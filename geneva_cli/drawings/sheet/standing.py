@@ -64,7 +64,7 @@ def draw_frame(
 def draw_groove(
     view: View, flanks: tuple[Shape, ...], half: float, plate: Plate | None = None
 ) -> None:
-    """Draw a cam's groove, in its plate if there is one; a table has the groove's points."""
+    """Draw a cam's groove, in its plate if there is one."""
     round_ = (plate.outline, *plate.holes) if plate else ()
     mounts = [hole for hole in round_[1:] if isinstance(hole, Circle) and math.hypot(*hole.centre)]
     for shape in (*round_, *flanks):
@@ -76,6 +76,7 @@ def draw_groove(
     outer = max(places, key=lambda p: math.hypot(*p))
     view.cross((0.0, 0.0), math.hypot(*outer))
     view.note(outer, f"groove {sized.fitted(view.fits, 2.0 * half, '', 'H7')} wide")
+    view.remark("flanks as in the groove's dxf")
     for hole in round_:
         if isinstance(hole, Circle) and hole not in mounts:
             text = sized.plain(2.0 * hole.radius, "Ø ")

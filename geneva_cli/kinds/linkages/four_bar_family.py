@@ -28,7 +28,7 @@ from geneva_cli.kinds.linkages.four_bar_search import (
     search_four_bars,
 )
 from geneva_cli.kinds.linkages.path_wheels import driven
-from geneva_cli.kinds.linkages.tangent_pairs import Pairs, newton, points, residual, sampled
+from geneva_cli.kinds.linkages.tangent_pairs import Pairs, points, residual, sampled
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.sweep.constraints import Constraint
@@ -151,8 +151,7 @@ def _spec(target: Target, found: _Found, number: int) -> Spec | None:
         except GenevaError:
             return None
         path, phi = keys.roller_path, np.hstack((entry, entry + wide))
-        at = points(path, phi)
-        phi = phi + newton(at, residual(at, np.array([b]), sense[0]))
+        phi = phi + residual(points(path, phi), np.array([b]), sense[0]).step
         reached = float(np.diff(phi)[0, 0])
         if abs(reached - required) <= 2e-13 * required:  # rounding
             break
@@ -160,7 +159,7 @@ def _spec(target: Target, found: _Found, number: int) -> Spec | None:
     else:
         return None
     pair = Pairs(np.zeros(1, dtype=int), phi, sense[0])
-    wheels = driven(path, [(samples, pair) for samples in sampled(path, 1)])
+    wheels = driven(path, pair, sampled(path, 1))
     return own.replace(drive=keys) if len(wheels.which) else None
 
 

@@ -12,7 +12,6 @@ KINDS = (
             "crank": "kinds.spherical.drawings:crank",
             "arm": "kinds.spherical.drawings:arm",
             "assembly": "kinds.spherical.drawings:assembly",
-            "sheet": "kinds.spherical.sheet:sheet",
         },
         tables={"wheel": "kinds.spherical.dimensions:meridians_table"},
         dimensions="kinds.spherical.dimensions:dimensions",

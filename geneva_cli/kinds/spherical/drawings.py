@@ -40,7 +40,7 @@ from geneva_cli.kinds.spherical.regions import edge, locked, rollers
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.projection import titled
-from geneva_cli.spec.written import length, unit
+from geneva_cli.spec.written import length
 
 
 class Cone(NamedTuple):
@@ -123,12 +123,12 @@ class Cone(NamedTuple):
     def described(self, whose: str) -> str:
         """Return a description of the cone's shape and position for the workshop."""
         polar = math.degrees(self.polar)
-        sphere = f"the {length(self.radius_mm)} {unit()} sphere"
+        sphere = f"the {length(self.radius_mm)} mm sphere"
         at = f"touches {sphere} {polar:.6g} deg from the {whose}'s axis"
         if abs(math.cos(self.polar)) < SAME_ANGLE:
             return f"cylinder that {at}"
         return (
-            f"cone that {at}, {length(abs(self.apex_mm))} {unit()} from its apex; sector "
+            f"cone that {at}, {length(abs(self.apex_mm))} mm from its apex; sector "
             f"{self.sector_deg:.6g} deg"
         )
 

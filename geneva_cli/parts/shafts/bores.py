@@ -66,7 +66,7 @@ class Bore(NamedTuple):
         cut = self.radius + self.loose
         if self.key:
             over = length(cut + self.reach)
-            wide = length(self.key.width, fine=True)
+            wide = length(self.key.width)
             return f"keyway {wide} JS9, {over} over bore ({self.standard})"
         if self.form == "hex":
             return f"hexagon {length(2.0 * cut)} across flats"
@@ -202,7 +202,7 @@ def section_note(section: Shape) -> str:
     far, bottom = min((math.hypot(*at(line, 0.5)), line) for line in lines)
     if len(lines) == 1:
         return Bore(radius, 0.0, "D", radius - far).note
-    wide = length(math.dist(bottom.start, bottom.end), fine=True)
+    wide = length(math.dist(bottom.start, bottom.end))
     return f"keyway {wide} P9, {length(radius - far)} deep"
 
 

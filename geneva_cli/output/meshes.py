@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
@@ -15,7 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.inset import inset, lines_and_arcs
 from geneva_cli.geometry.measure import STRAIGHT, points
 from geneva_cli.geometry.moments import oriented
-from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid
+from geneva_cli.geometry.plates import Group, Part, Plate, Shell, Solid
 from geneva_cli.geometry.shapes import Arc, Cubic, Layer, Segment
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere import Vector, cross, square_to, unit
@@ -31,70 +30,58 @@ DECIMALS = 6  # of coordinates in mm, so that rounding of another processor is n
 CORNERS_MAX = 200_000  # of a solid: a file of about 40 MB
 
 
-class Place(NamedTuple):
-    """A solid's position: p becomes ``turn`` @ p + ``shift``, in mm."""
-
-    turn: Array  # (3, 3)
-    shift: Array  # (3,)
-
-    def __call__(self, corners: Array) -> Array:
-        """Return corners (n, 3) at this position, rounded as those of a surface."""
-        return _rounded(corners @ self.turn.T + self.shift)
-
-
-class Surface(NamedTuple):
-    """Corners in mm (n, 3), and triangles by their numbers (m, 3), counterclockwise from outside.
-
-    Every side of a triangle is a side of one other, in the opposite sense.
-    """
-
-    corners: Array
-    triangles: Numbers
+Place: TypeAlias = tuple[Array, Array]  # a solid's position: p becomes turn @ p + shift, in mm
 
 
 class Body(NamedTuple):
-    """A kind of solid: its name and layer, its surface, and where it stands."""
+    """A kind of solid: its name and layer, its surface, and where it stands.
+
+    The surface has corners in mm (n, 3), and triangles by their numbers (m, 3), counterclockwise
+    from outside. Every side of a triangle is a side of one other, in the opposite sense.
+    """
 
     name: str
     layer: Layer
-    surface: Surface
-    places: tuple[Place, ...]
+    corners: Array
+    triangles: Numbers
+    places: list[Place]
 
 
-def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
+def bodies(drawing: Drawing, format: str) -> list[Body]:
     """Return the kinds of solids of a drawing; their chords keep the drawing's tolerance.
 
-    Raises GenevaError for a drawing without solids, for a unit other than mm, and for a solid that
-    has no closed surface.
+    Raises GenevaError for a drawing without solids, and for a solid that has no closed surface.
     """
     kinds: dict[Solid, list[Place]] = {}
-    here = Place(np.eye(3), np.zeros(3))
-    for solid, place in _placed(solid_part(drawing, units, format), here):
-        kinds.setdefault(solid, []).append(place)
+    rest: list[tuple[Part, Array, Array]] = [
+        (solid_part(drawing, format), np.eye(3), np.zeros(3)),
+    ]
+    while rest:
+        part, turn, shift = rest.pop()
+        if not isinstance(part, Group):
+            kinds.setdefault(part, []).append((turn, shift))
+            continue
+        for member in reversed(part.members):
+            c, s = math.cos(member.turn), math.sin(member.turn)
+            own = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+            if member.frame:
+                own = np.array([member.frame.x, member.frame.y, member.frame.z]).T
+            at = turn @ np.array([*member.at, 0.0]) + shift
+            rest.append((member.part, turn @ own, at))
     return [
-        Body(solid.name, solid.layer, _surface(solid, drawing.tolerance), tuple(places))
+        Body(solid.name, solid.layer, *_surface(solid, drawing.tolerance), places)
         for solid, places in kinds.items()
     ]
 
 
-def _placed(part: Part, at: Place) -> Iterator[tuple[Solid, Place]]:
-    if not isinstance(part, Group):
-        yield part, at
-        return
-    for member in part.members:
-        turn, shift = _turn(member), np.array([*member.at, 0.0])
-        yield from _placed(member.part, Place(at.turn @ turn, at.turn @ shift + at.shift))
-
-
-def _turn(member: Member) -> Array:
-    if member.frame:
-        return np.array([member.frame.x, member.frame.y, member.frame.z]).T
-    c, s = math.cos(member.turn), math.sin(member.turn)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+def placed(corners: Array, place: Place) -> Array:
+    """Return corners (n, 3) at a position, rounded as those of a surface."""
+    turn, shift = place
+    return _rounded(corners @ turn.T + shift)
 
 
 @lru_cache(maxsize=32)  # an export writes each solid by itself, and all of them together
-def _surface(solid: Solid, tolerance: float) -> Surface:
+def _surface(solid: Solid, tolerance: float) -> tuple[Array, Numbers]:
     if not tolerance > 0.0:
         raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
     body = _shell(solid, tolerance) if isinstance(solid, Shell) else _plate(solid, tolerance)
@@ -102,7 +89,7 @@ def _surface(solid: Solid, tolerance: float) -> Surface:
     corners = _rounded(np.asarray(mesh.vert_properties)[:, :3])
     if body.is_empty() or not np.ptp(corners, axis=0).all():  # thinner than the decimals
         raise _no_wall(solid.name)
-    return Surface(corners, np.asarray(mesh.tri_verts).astype(np.int64))
+    return corners, np.asarray(mesh.tri_verts).astype(np.int64)
 
 
 def _plate(plate: Plate, tolerance: float) -> m3.Manifold:
