@@ -128,9 +128,6 @@ class Size(SpecTable):
         NotNegative,
         "diameter by which bores are wider than their shafts and pins; default 0, or by process",
     ] = None
-    shafts: Annotated[
-        str, OneOf(("plain", "turned")), "turned: with bearing seat, shoulder and circlip grooves"
-    ] = "plain"
     arm_bore_mm: Annotated[
         Positive, "diameter of the crank's shaft in the arm; default crank_bore_mm, or by load"
     ] = None

@@ -55,7 +55,6 @@ WORDED = {
     "wheel_keyway": ("DIN 6885-1",),
     "crank_bore": ("round", "D", "hex"),
     "wheel_bore": ("round", "D", "hex"),
-    "shafts": ("plain", "turned"),
 }
 TAKEN = (
     "center_distance_mm",
