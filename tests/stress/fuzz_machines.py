@@ -222,9 +222,6 @@ def motion(rng, kind, gearing):
     lines = [f'law = "{law}"']
     if law == "sine-group" and rng.random() < 0.9:
         lines.append(f"lambda = {rng.choice([0.1, -0.125, 0.08333, rng.uniform(-0.3, 0.3)])!r}")
-    if law == "tuned":
-        lines.append(f"period_ratio = {rng.choice([0.5, 1.0, 2.0, 3.7, rng.uniform(0.1, 30.0)])!r}")
-        lines.append(f'of = "{rng.choice(["4-5-6-7", "sine-group"])}"')
     if law == "scca":
         b, d = rng.choice([(0.25, 0.25), (0.0, 1.0), (1.0, 0.0), (0.001, 0.999), (0.4, 0.125)])
         lines += [f"b = {b!r}", f"c = {1.0 - b - d!r}", f"d = {d!r}"]

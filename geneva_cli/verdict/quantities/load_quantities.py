@@ -103,16 +103,14 @@ def slot(of: Designs) -> Columns:
 
 def vibration(of: Designs) -> Columns:
     """The vibration of a load on its elastic shaft."""
-    from geneva_cli.loads.vibration.vibration import Vibrations, design_vibrations
+    from geneva_cli.loads.vibration.vibration import NAMES, design_vibrations
 
     shaken = design_vibrations(of.machine, of.requested("vibration"))
     if shaken is None:
-        return dict.fromkeys(Vibrations._fields)
+        return dict.fromkeys(NAMES)
     # without damping there is no steady state; without a period ratio the design says why
-    steady = np.where(
-        np.isnan(shaken.steady_share), shaken.period_ratio + np.inf, shaken.steady_share
-    )
-    return shaken._replace(steady_share=steady)._asdict()
+    steady, ratio = shaken["steady_share"], shaken["period_ratio"]
+    return {**shaken, "steady_share": np.where(np.isnan(steady), ratio + np.inf, steady)}
 
 
 def entry(of: Designs) -> Columns:
