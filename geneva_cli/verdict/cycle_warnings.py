@@ -11,7 +11,7 @@ from geneva_cli.loads.carried import weight_kg
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, STRESS
-from geneva_cli.loads.impacts.arrival import arrival
+from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import summaries

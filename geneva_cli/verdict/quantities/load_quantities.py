@@ -7,8 +7,9 @@ import numpy as np
 from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.highest_speed import greatest_pressure, kinetic_power_W
-from geneva_cli.loads.impacts.change_of_sides import lasting_drag_Nm
-from geneva_cli.loads.impacts.impacts import Impacts, entry_impacts, reversal_impacts
+from geneva_cli.loads.impacts.entry import entry_impacts
+from geneva_cli.loads.impacts.reversal import lasting_drag_Nm, reversal_impacts
+from geneva_cli.loads.impacts.shock_force import Impacts
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries, reported_peaks
 from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.motion.many import worst_peaks
