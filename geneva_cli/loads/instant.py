@@ -97,38 +97,14 @@ class Instant(Generic[V]):
         return self.at.acceleration * (w * w)
 
     @cached_property
-    def _centrifugal_Nm(self) -> tuple[V, V] | None:
-        """The unbalance times L w², towards the carrier's axis and across; None without any."""
-        if self.at.heading is None:
-            return None
-        (sine, cosine), case = self.at.heading, self.case
-        towards = cosine * case.along_Nm - sine * case.across_Nm
-        return towards, sine * case.along_Nm + cosine * case.across_Nm
-
-    @cached_property
     def wheel_torque_Nm(self) -> V:
-        """The torque that the wheel needs for inertia and resistance, N m.
-
-        On a carrier, the centrifugal force of a body off the wheel's axis points away from the
-        carrier's axis. Its moment helps the wheel, times the sine of the body's angle from there.
-        """
-        torque = self.at.acceleration * self.case.inertia_Nm + self.case.resists_Nm
-        return torque - self._centrifugal_Nm[1] if self._centrifugal_Nm else torque
+        """The torque that the wheel needs for inertia and resistance, N m."""
+        return self.at.acceleration * self.case.inertia_Nm + self.case.resists_Nm
 
     @cached_property
     def frame_torque_Nm(self) -> V:
-        """The torque on the carrier that does not go through the wheel's slot, N m.
-
-        It speeds the wheel up against the ground. A body off the wheel's axis also moves away from
-        the carrier's axis and back (Coriolis).
-        """
-        at, frame = self.at, self.case.frame
-        torque = at.acceleration * (self.case.inertia_Nm * frame)
-        if self._centrifugal_Nm is None:
-            return torque
-        towards, across = self._centrifugal_Nm
-        turning = at.velocity * (at.velocity * frame + 2.0)
-        return torque + across * turning - towards * at.acceleration * frame
+        """The torque on the carrier that speeds the wheel up against the ground, N m."""
+        return self.at.acceleration * (self.case.inertia_Nm * self.case.frame)
 
     @cached_property
     def slip(self) -> V:

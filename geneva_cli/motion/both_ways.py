@@ -35,7 +35,6 @@ def backwards(mechanism: Mechanism) -> Mechanism:
             drive=spec.drive.backwards(mechanism.plan),
             drive_before=spec.drive_before and spec.drive_before.backwards(mechanism.plan),
             motion=spec.motion and spec.motion.backwards,
-            mass=tuple(one.backwards for one in spec.mass),
         )
         return build(turned)._replace(design=mechanism.design)
 

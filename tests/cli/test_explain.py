@@ -171,8 +171,7 @@ def test_no_entry_names_no_quantity(quantities: set[str]):
 # A command, or lines of a spec, that shows the warning or the failing check, and one that does not.
 EXAMPLES_OF = tomllib.loads((repo.ROOT / "tests/cli/examples.toml").read_text(encoding="utf-8"))
 
-# Shown by points of a file, a value that is null without a word, a body on a carousel, which no
-# design has off its axis, and drawings.
+# Shown by points of a file, a value that is null without a word, and drawings.
 WITHOUT_RUN = {"rounded-points", "not-known", "outline-units", "ideal-machine"}
 WARNINGS = [e for e in entries() if e.group == "warning" and e.names[0] not in WITHOUT_RUN]
 

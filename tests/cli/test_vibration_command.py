@@ -64,20 +64,6 @@ def test_without_an_inertia_all_is_null_and_why():
     assert record(UNLOADED, "--period-ratio", "3")["residual_share"] > 0.0
 
 
-def test_a_body_off_the_axis_of_a_carried_wheel_has_no_values(tmp_path):
-    spec = tmp_path / "carousel.toml"
-    body = '[[mass]]\nshape = "point"\nmass_kg = 2\nradius_mm = 50\n'
-    drive = '[wheel]\nz = 6\n[drive]\nkind = "carousel"\n[shaft]\nstiffness_Nm_rad = 200\n'
-    spec.write_text(drive + body, encoding="utf-8")
-    found = record(str(spec))
-    assert {found[n] for n in NAMES[2:-1]} == {None}
-    assert "balance it by another" in found["warnings"][0]
-    assert run(str(spec), "--format", "csv").exit_code == 2
-    # two of them balance each other
-    spec.write_text(drive + body + "count = 2\n", encoding="utf-8")
-    assert record(str(spec))["residual_share"] > 0.0
-
-
 def test_without_damping_there_is_no_steady_state():
     found = record(PRESS, "--period-ratio", "3")
     assert found["steady_share"] is None

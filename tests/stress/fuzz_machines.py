@@ -359,7 +359,7 @@ def fitting(text):
 
 
 def bodies(rng, L, orbits):
-    """One to three bodies on the wheel, of every shape; of one that orbits with directions."""
+    """One to three bodies on the wheel, of every shape; on one that orbits they are balanced."""
     text = []
     for _ in range(rng.randint(1, 3)):
         shape = rng.choice(["disc", "ring", "block", "point"])
@@ -370,10 +370,8 @@ def bodies(rng, L, orbits):
         radius = rng.choice([0.0, near(rng, 0.5 * L)])
         if radius or shape == "point":
             text.append(f"radius_mm = {radius or near(rng, L)!r}")
-        if rng.random() < 0.3:
-            text.append(f"count = {rng.randint(1, 5)}")
-        if orbits and rng.random() < 0.5:
-            text.append(f"angle_deg = {rng.choice([0, 90, -180, rng.uniform(-360, 360)])!r}")
+        if orbits or rng.random() < 0.3:
+            text.append(f"count = {rng.randint(1 + orbits, 5)}")
     return text
 
 

@@ -206,8 +206,7 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     both = spec.tolerance.roller_diameter_mm + spec.tolerance.slot_width_mm
     play_mm = choose(given == 0.0, workshop(spec.size.process).slot_play_mm, given) + 0.5 * both
     drag = drag_over(mechanism)
-    # a body off a carried wheel's axis drives the wheel where it would coast
-    none = (drag == np.inf) | (play_mm == 0.0) | mechanism.unbalanced
+    none = (drag == np.inf) | (play_mm == 0.0)
     best = np.full((3, 1), np.nan)
     if not all_true(none):
         numbers = mechanism.center_distance_mm, drag, play_mm, case.radius

@@ -47,6 +47,10 @@ from geneva_cli.table import Table, computed_table, rows_table
 
 PERIOD_RATIO = Range(1e-6, 1e5)  # the range that is computed
 STIFFNESS = ("shaft", "stiffness_Nm_rad")
+NO_INERTIA = (
+    "a load without inertia has no natural period; set inertia_kgm2 in [load] or a [[mass]], or "
+    "use --period-ratio"
+)
 SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 20 % of stiffness
 SLOWER, FASTER = 0.5, 2.0  # range of speeds over the design's
 AVOIDED_SHARE = 1e-4  # least share of the step that makes a speed one to avoid
@@ -63,23 +67,10 @@ SPECTRUM_COLUMNS = ("n_rpm", "period_ratio", "residual_share", "residual_deg", "
 AVOID_COLUMNS = ("rpm", "from_rpm", "to_rpm", "residual_share")
 
 
-def why_unknown(mechanism: Mechanism) -> str:
-    """Why there is no oscillator."""
-    if mechanism.unbalanced:
-        return (
-            "a body off the axis of a wheel on a carrier pulls at the shaft as the wheel turns; "
-            "balance it by another"
-        )
-    return (
-        "a load without inertia has no natural period; set inertia_kgm2 in [load] or a [[mass]], "
-        "or use --period-ratio"
-    )
-
-
 def oscillator(
     mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
 ) -> Oscillator | None:
-    """The load from [shaft], or from the arguments; None where it is unknown (``why_unknown``).
+    """The load from [shaft], or from the arguments; None if no inertia is known.
 
     Raises GenevaError without a stiffness, and for values out of range.
     """
@@ -89,8 +80,6 @@ def oscillator(
         raise GenevaError(f"--damping {damping:g}: must be {allowed}: at 1 nothing oscillates")
     if period_ratio is not None and period_ratio not in PERIOD_RATIO:
         raise GenevaError(f"--period-ratio {period_ratio:g}: must be {ratios}")
-    if mechanism.unbalanced:
-        return None
     if period_ratio is None:
         needed = "--period-ratio, the motion's time over the load's natural period"
         if not mechanism.output.turns:
@@ -121,10 +110,10 @@ def oscillator(
 def required_oscillator(
     mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
 ) -> Oscillator:
-    """The load as an oscillator. Raises GenevaError where it is unknown."""
+    """The load as an oscillator. Raises GenevaError if no inertia is known."""
     load = oscillator(mechanism, period_ratio, damping)
     if load is None:
-        raise GenevaError(why_unknown(mechanism), STIFFNESS)
+        raise GenevaError(NO_INERTIA, STIFFNESS)
     return load
 
 
@@ -243,8 +232,7 @@ def design_vibrations(
 ) -> dict[str, Array] | None:
     """The ``NAMES`` of m designs; None without ``stiffness_Nm_rad``.
 
-    They are NaN for a design whose period ratio is out of range, or whose bodies stand off the axis
-    of a wheel on a carrier.
+    They are NaN for a design whose period ratio is out of range.
     """
     stiffness = mechanism.spec.shaft.stiffness_Nm_rad
     if stiffness is None:
@@ -256,8 +244,6 @@ def design_vibrations(
     damping = mechanism.spec.shaft.damping_ratio
     ratio, zeta = (np.broadcast_to(np.ravel(x), mechanism.designs) for x in (periods, damping))
     known = np.flatnonzero(np.isfinite(ratio) & PERIOD_RATIO.holds(ratio))
-    if mechanism.unbalanced:
-        known = known[:0]
     out = np.full((len(NAMES), len(ratio)), np.nan)
     size = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
     for i in range(0, len(known), size):
@@ -305,7 +291,7 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     """Named values of one design, with equal names for every machine; None without a load."""
     names = (*NAMES, "speeds_to_avoid_rpm", "avoid", "stations")
     if load is None:
-        why = Notice("not-known", f"no value is computed: {why_unknown(mechanism)}")
+        why = Notice("not-known", f"no value is computed: {NO_INERTIA}")
         return dict.fromkeys(names) | {"warnings": (why,)}
     own, lacks = Oscillators(mechanism, load), mechanism.output.lacks
     avoid, numbers = speeds_to_avoid(own), vibrations(own)

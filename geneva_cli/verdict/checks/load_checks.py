@@ -88,9 +88,6 @@ def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
     limit, tolerance = spec.limits.pin_force_max_N, spec.tolerance
     if limit is None and tolerance == Tolerance(distribution=tolerance.distribution):
         return None
-    if mechanism.unbalanced:
-        why = "not computed where a body off its axis moves a wheel on a carrier"
-        return Check(name, None, "at most", limit, None, why)
     impact = _reversal(mechanism)
     if impact is None:
         return None
