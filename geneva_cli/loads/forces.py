@@ -77,39 +77,34 @@ class LoadCase(NamedTuple):
         return designs_of(self.design)
 
     def at_speed(self, ratio: float) -> LoadCase:
-        """Return the case at another speed, over its own: inertia grows with the square."""
+        """The case at another speed, over its own: inertia grows with the square."""
         return self._replace(inertia_Nm=self.inertia_Nm * (ratio * ratio))
 
     @property
     def rubs(self) -> bool:
-        """Return True if there is friction along the wall in any of the designs."""
+        """True if there is friction along the wall in any of the designs."""
         return not all_true(self.friction == 0.0)
 
     def is_loaded(self, engagement: Engagement, torque: Number) -> Mask:
-        """Return True where a torque at the wheel is more than rounding."""
+        """True where a torque at the wheel is more than rounding."""
         usual = self.inertia_Nm * engagement.usual_acceleration + self.resists_Nm
         loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
         return loaded
 
     @property
     def frictionless(self) -> LoadCase:
-        """Return the case without friction."""
+        """The case without friction."""
         return self._replace(friction=0.0, guide=None)
 
     @property
     def guided(self) -> bool:
-        """Return True if there is friction in the output's guide in any of the designs."""
-        return not all_true(self.guide_friction == 0.0)
-
-    @property
-    def guide_friction(self) -> float:
-        """The friction in the output's guide; 0 without one."""
-        return self.guide.friction if self.guide else 0.0
+        """True if there is friction in the output's guide in any of the designs."""
+        return self.guide is not None and not all_true(self.guide.friction == 0.0)
 
     @property
     def all_friction(self) -> float:
         """A number that is above 0 for a design with any friction, which may hold the wheel."""
-        return self.friction + self.guide_friction
+        return self.friction + self.guide.friction if self.guide else self.friction
 
 
 def contact_modulus_GPa(one: Stock, other: Stock) -> float:
