@@ -8,7 +8,6 @@ the input angle in radians.
 
 from __future__ import annotations
 
-import copy
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -347,9 +346,8 @@ class Engagement(Batchable):
     or else ``body`` does, which ``reactions`` hold; ``crank_sense`` is then the crank's direction:
     -1 with the wheel, 1 against it. ``groove`` is the path if a fixed groove guides the roller
     along the crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a
-    sphere. ``mid_angle`` is the wheel's angle at mid-motion, radians from the first mid-motion, if
-    the loads depend on it (``Mechanism.unbalanced``). ``built`` describes a crank as built, whose
-    R/L is not what the slots need: the wheel's velocity then jumps at entry and exit.
+    sphere. ``built`` describes a crank as built, whose R/L is not what the slots need: the wheel's
+    velocity then jumps at entry and exit.
     """
 
     mid_deg: float
@@ -361,7 +359,6 @@ class Engagement(Batchable):
     crank_sense: float = 0.0
     groove: Groove | None = None
     hub: float = 1.0
-    mid_angle: float | None = None
     built: AsBuilt | None = None
 
     @property
@@ -421,13 +418,7 @@ class Engagement(Batchable):
     @property
     def mirrored(self) -> bool:
         """True if motion, slot and loads are symmetric about mid-motion."""
-        return self.motion.symmetric and self.slot.mirrored and self.mid_angle is None
-
-    def later(self, mid_deg: float, mid_angle: float) -> Engagement:
-        """The same engagement at a later mid-motion, at another angle of the wheel."""
-        other = copy.copy(self)
-        other.mid_deg, other.mid_angle = mid_deg, mid_angle
-        return other
+        return self.motion.symmetric and self.slot.mirrored
 
     @cached_property
     def entry_reach(self) -> Number:

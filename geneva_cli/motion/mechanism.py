@@ -159,12 +159,7 @@ class Mechanism(NamedTuple):
 
     @property
     def whole_deg(self) -> float:
-        """Input angle after which all is as before: a turn of the crank.
-
-        Under load that of an unbalanced wheel on a carrier is its period.
-        """
-        if self.engagements[0].mid_angle is not None:
-            return self.period_deg
+        """Input angle after which all is as before: a turn of the crank."""
         return 360.0 * self.spec.turns
 
     @property
@@ -205,11 +200,6 @@ class Mechanism(NamedTuple):
         """
         return self.spec.wheel.SIGN if self.spec.drive.wheels_on_carrier else 0.0
 
-    @property
-    def unbalanced(self) -> bool:
-        """True if the loads differ in each motion: a body stands off a carried wheel's axis."""
-        return bool(self.spec.drive.wheels_on_carrier) and self.spec.unbalanced
-
     def absolute_deg(self, input_deg: N, wheel_deg: N) -> N:
         """Angle from the ground of a wheel on a carrier, positive as the carrier turns."""
         return input_deg + self.spec.wheel.SIGN * wheel_deg
@@ -228,28 +218,9 @@ class Mechanism(NamedTuple):
 
     @property
     def under_load(self) -> Mechanism:
-        """The machine with the period of its loads: up to the entry of the next wheel.
-
-        If a body stands off the axis of a wheel on a carrier, it is a whole turn of all wheels, as
-        the body's direction is another one in each motion.
-        """
-        wheels, own = self.spec.drive.wheels_on_carrier, self.engagements
-        if not self.unbalanced:
-            return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
-        if own[0].mid_angle is not None:  # it is under load already
-            return self
-        z, count = self.spec.wheel.z, len(own)
-        angles, angle = [], 0.0  # the wheel's angle at each mid-motion of its turn
-        for i in range(z):
-            angles.append(angle)
-            angle += own[i % count].half_step + own[(i + 1) % count].half_step
-        spacing, each = self.period_deg / wheels, []
-        # each finger meets the wheel in every direction that it can
-        for k in range(math.lcm(z, count, self.spec.drive.rollers) * wheels):
-            number, behind = divmod(k, count)
-            mid_deg = own[behind].mid_deg + number * spacing
-            each.append(own[behind].later(mid_deg, angles[k // wheels % z]))
-        return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / count)
+        """The machine with the period of its loads: up to the entry of the next wheel."""
+        wheels = self.spec.drive.wheels_on_carrier
+        return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
 
     @property
     def no_turn(self) -> str:
