@@ -44,7 +44,6 @@ class Cam(PinPath, kw_only=True):
     )
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
-        """The engagement of each roller. Raises GenevaError for an impossible law or ratio."""
         assert motion is not None  # ``compatible`` refuses a cam without a law
         if motion.ratio is not None:
             raise GenevaError(
@@ -67,10 +66,7 @@ class Cam(PinPath, kw_only=True):
 
 
 def _slide(input_deg: Number, path: Vector, loads: Sequence[Load]) -> list[tuple[Vector, Vector]]:
-    """Forces of each load on the crank's shaft, across its arm, and on the groove's wall.
-
-    The crank also holds a couple.
-    """
+    """Forces of each load on the crank's shaft, across its arm, and on the groove's wall."""
     x, y = path
     wall = y.derivative() * -1.0, x.derivative()
     arm = x.lower - 1.0, y.lower

@@ -60,10 +60,7 @@ class Timing(Batchable):
         return self.before.about(self.rest_deg + own_deg).input_deg - self.within_deg
 
     def inputs_deg(self, own_deg: Array) -> Array:
-        """Machine's input angles at angles of the driven shaft within the motion, degrees.
-
-        They are bisected, as the gears of a ratio file are known about one angle at a time.
-        """
+        """Machine's input angles at angles of the driven shaft within the motion, degrees."""
         first, last = (array(self.at_deg[k]) + 0.0 * own_deg for k in (0, -1))
         return boundary(lambda x: array(self.at(x, 0)[0]) <= own_deg, first, last)
 

@@ -57,15 +57,12 @@ class EllipticalGears(Transmission, kw_only=True):
 
     @property
     def gears(self) -> Gears:
-        """The pair of gears."""
         return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
-        """The shaft of the driver gear, which turns against the driven one."""
         return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Pivots and dimensions: each gear turns about a focus, the driven one with the crank."""
         a = 0.5 * self.gear_distance_mm
         return (
             Pivot("driver gear axis", plan.center_distance_mm + self.gear_distance_mm, 0.0),
@@ -76,18 +73,15 @@ class EllipticalGears(Transmission, kw_only=True):
         )
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
-        """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 
     def exact_advance(
         self, half: tuple[float, float], exact: Callable[[float], float]
     ) -> Displacement:
-        """Rotation of the driven gear about an angle f, from sine and cosine of f/2."""
         e = exact(self.eccentricity)
         return _focal(e if self.phase == "slow" else -e, *half)
 
     def about(self, crank_deg: float) -> LocalTransmission:
-        """Transmission about an angle f of the driven gear in degrees."""
         slow = self.phase == "slow"
         return _about(self.eccentricity if slow else -self.eccentricity, crank_deg)
 

@@ -192,7 +192,6 @@ class _Engagement(Engagement):
 
     @property
     def passages(self) -> tuple[tuple[Engagement, float], ...]:
-        """Each is in its own phase of the drive before, as far ahead in angles of the input."""
         return tuple(self._passage(*one) for one in self._own.passages)
 
     def _passage(self, own: Engagement, ahead_deg: float) -> tuple[Engagement, float]:

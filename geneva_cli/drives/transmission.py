@@ -76,18 +76,15 @@ class Transmission(Drive, kw_only=True):
 
     @property
     def crank(self) -> Drive:
-        """The crank behind the transmission, without it."""
         plain, angles = registry.drive("crank"), self.roller_angles_deg
         return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
 
     @property
     def turned_at_crank(self) -> bool:
-        """True if the input shaft carries the crank."""
         return self.direct
 
     @property
     def motions(self) -> int:
-        """One for each roller."""
         return self.rollers
 
     @property
@@ -100,28 +97,20 @@ class Transmission(Drive, kw_only=True):
         return None
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
-        """Rate of the crank over its input shaft's at crank angles from mid-motion."""
         return self.about(parameter(crank_deg)).advance(0.0, 1)[0].c[1]
 
     def input_deg(self, crank_deg: float) -> float:
-        """Input angle from mid-motion at a crank angle from mid-motion, degrees.
-
-        ``about`` covers one turn of the crank about mid-motion (one step, for a first wheel). The
-        rest repeats it.
-        """
         whole = 2.0 * self.reach_deg
         turns = round(crank_deg / whole)
         return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
 
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
-        """Centre distance L for a crank radius, mm: straight slots fix R/L, or the motion does."""
         if motion is None:
             return wheel.distance_mm(radius_mm)
         motion_deg = 2.0 * self.about(wheel.half_motion_deg(wheel.step)).input_deg
         return radius_mm / self._ratio(wheel, motion, motion_deg - motion.alpha0_deg)
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
-        """Plan of straight slots, which give the motion; or of curved slots, from a law."""
         if motion is not None:
             return self._curved(wheel, motion, L)
         return self.straight(wheel, places(wheel, self, L), L)
@@ -213,11 +202,6 @@ class Transmission(Drive, kw_only=True):
         return self.matched_ratio(wheel, motion.law, motion_deg)
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
-        """R/L at which the pin crosses the line of centres as fast as the wheel's slot does.
-
-        At any other R/L the pressure angle at mid-motion is 90 degrees. NaN if no R/L below 1 has
-        this property.
-        """
         crank = self.about(0.0).advance(0.0, 1)[0].c[1]
         turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
         return wheel.matched_ratio(parameter(turned / crank))
@@ -239,20 +223,16 @@ class Direct(Transmission, kw_only=True):
 
     @property
     def motions(self) -> int:
-        """1: all rollers move the wheel alike."""
         return 1
 
     @property
     def direct(self) -> bool:
-        """Always True: the classic closed forms hold."""
         return True
 
     def exact_advance(
         self, half: tuple[float, float], exact: Callable[[float], float]
     ) -> Displacement:
-        """Rotation of the crank, which is the input's."""
         return same
 
     def about(self, crank_deg: float) -> LocalTransmission:
-        """Transmission about a crank angle in degrees, which is the input angle."""
         return LocalTransmission(crank_deg, same)

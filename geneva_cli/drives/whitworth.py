@@ -104,10 +104,6 @@ class SlidingBlock(PushedCrank):
         self.mid = mid  # input angle of the engagement's mid-motion, radians
 
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """Block position on the coulisse, and the direction across it.
-
-        The coulisse points at the wheel at input angle 0.
-        """
         s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
         x, y = (c + self.A) * (-self.sign * self.r), s * self.r
         return (x, y), (y * -1.0, x)

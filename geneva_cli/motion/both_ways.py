@@ -24,10 +24,7 @@ from geneva_cli.spec.schema import SpecTable
 
 
 def backwards(mechanism: Mechanism) -> Mechanism:
-    """The machine turning backwards, as the machine that turns forwards seen from its other side.
-
-    Angles are counted in the direction of rotation, so that it enters where the first one leaves.
-    """
+    """The machine turning backwards: the one that turns forwards, seen from its other side."""
     spec = mechanism.spec
     with marking():  # what is refused in one direction is refused in both
         turned = spec.replace(
@@ -41,10 +38,7 @@ def backwards(mechanism: Mechanism) -> Mechanism:
 
 
 def every_way(mechanism: Mechanism) -> tuple[Mechanism, ...]:
-    """The machine in each direction in which it must serve, the first of them its own.
-
-    A machine that is its own mirror image is the same both ways, and appears once.
-    """
+    """The machine in each direction in which it must serve, the first of them its own."""
     if not mechanism.spec.drive.both_ways:
         return (mechanism,)
     of = _ways.__wrapped__ if is_array(mechanism.design) else _ways

@@ -100,22 +100,12 @@ class Drive(SpecTable, kw_only=True):
 
     @property
     def stands_s(self) -> float:
-        """Time for which the input stands still in each stop, between braking and starting.
-
-        At constant acceleration it turns half as far as it would have turned meanwhile.
-
-        >>> Crank(stop_s=0.8, start_s=0.2, brake_s=0.1).stands_s
-        0.65
-        """
+        """Time for which the input stands still in each stop, between braking and starting."""
         return larger(self.stop_s - 0.5 * (self.start_s + self.brake_s), 0.0)
 
     @property
     def brake_and_start_deg(self) -> tuple[float, float]:
-        """Angles through which the input turns while it brakes, and while it starts, degrees.
-
-        >>> Crank(n_rpm=30, stop_s=0.8, start_s=0.2, brake_s=0.1).brake_and_start_deg
-        (9.0, 18.0)
-        """
+        """Angles through which the input turns while it brakes, and while it starts, degrees."""
         return 3.0 * self.n_rpm * self.brake_s, 3.0 * self.n_rpm * self.start_s
 
     @property
@@ -127,10 +117,6 @@ class Drive(SpecTable, kw_only=True):
         """The drive that turns the other way, as seen from its other side.
 
         ``plan`` is the plan of the machine that turns forwards.
-
-        >>> crank = Crank(roller_angles_deg=(0.0, 130.0))
-        >>> crank.backwards(Design(External(6), crank).mechanism.plan).roller_angles_deg
-        (0.0, 230.0)
         """
         if not self.roller_angles_deg:
             return self
@@ -144,11 +130,7 @@ class Drive(SpecTable, kw_only=True):
 
     @property
     def turned_at_crank(self) -> bool:
-        """True if its own input shaft turns about the crank's axis, as the crank or another arm.
-
-        >>> Crank().turned_at_crank, SideCrank(A=0.6).turned_at_crank
-        (True, False)
-        """
+        """True if its own input shaft turns about the crank's axis, as the crank or another arm."""
         return True
 
     @property
@@ -215,29 +197,15 @@ class Drive(SpecTable, kw_only=True):
         return crank_deg
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
-        """Its own input shaft; ``sign`` is the wheel's, ``sense`` that of the crank's rotation.
-
-        >>> SideCrank(A=0.6).input_shaft(Design(External(6)).mechanism.plan, 1.0, -1.0)
-        ShaftPlace(x_mm=70.0, sense=-1.0)
-        """
+        """Its own input shaft; ``sign`` is the wheel's, ``sense`` that of the crank's rotation."""
         return ShaftPlace(plan.center_distance_mm, sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Pivots and dimensions of this kind of drive; ``sign`` is the wheel's (-1 inside).
-
-        >>> SideCrank(A=0.6).layout(Design(External(6)).mechanism.plan, 1.0)[0]
-        Pivot(name='input crank axis', x_mm=70.0, y_mm=0.0)
-        """
+        """Pivots and dimensions of this kind of drive; ``sign`` is the wheel's (-1 inside)."""
         return ()
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """Links that turn the crank or carry the roller, at input angles from mid-motion.
-
-        >>> from numpy import array
-        >>> drive, plan = SideCrank(A=0.6), Design(External(6)).mechanism.plan
-        >>> [float(v[0]) for v in drive.links(plan, 1.0, array([0.0]))[0].joints[1]]
-        [20.0, 0.0]
-        """
+        """Links that turn the crank or carry the roller, at input angles from mid-motion."""
         return ()
 
     def exact_advance(
@@ -251,13 +219,7 @@ class Drive(SpecTable, kw_only=True):
         return None
 
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
-        """Centre distance L for a crank radius R, mm, where the kind's shape fixes R/L.
-
-        Raises GenevaError for a drive whose roller does not keep its distance from the crank.
-
-        >>> round(Crank().distance_mm(External(6), None, 30.0), 9)
-        60.0
-        """
+        """Centre distance L for a crank radius R, mm, where the kind's shape fixes R/L."""
         raise GenevaError(
             f'kind = "{self.NAME}" has no crank of one radius: set {self.LENGTH} instead of '
             "crank_radius_mm",
@@ -275,6 +237,5 @@ class Drive(SpecTable, kw_only=True):
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """Engagements and proportions of a machine; without a motion its slots are straight.
 
-        ``L`` is the centre distance, mm, where the drive does not solve for it. Raises GenevaError
-        for impossible values.
+        ``L`` is the centre distance, mm, where the drive does not solve for it.
         """

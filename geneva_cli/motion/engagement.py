@@ -47,10 +47,7 @@ class Path(Protocol):
 
 
 class Displacement(Protocol):
-    """A pin's displacement since a moment, along a ray and across it.
-
-    Or a crank's rotation d since then, as sin d and 1 - cos d.
-    """
+    """A pin's displacement since a moment, along a ray and across it."""
 
     def __call__(self, tau: Number, order: int) -> Vector:
         """Displacement ``tau`` input radians later."""
@@ -209,10 +206,7 @@ class AsBuilt(NamedTuple):
 
 
 class Peak(NamedTuple, Generic[K]):
-    """Greatest size of a quantity, and the signed input angle of its first occurrence, degrees.
-
-    Floats of one design, arrays of a batch.
-    """
+    """Greatest size of a quantity, and the signed input angle of its first occurrence, degrees."""
 
     max: K
     at_deg: K
@@ -265,10 +259,7 @@ class WheelMotion(Batchable, ABC):
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
-        """Entry, every place where another formula takes over, and exit, in degrees.
-
-        Between two of them, in order, the motion is one analytic formula. For one design.
-        """
+        """Entry, every place where another formula takes over, and exit, in degrees."""
         return self.breaks_deg
 
     def closed_peak(self, quantity: str) -> Peak[float] | None:
@@ -411,10 +402,7 @@ class Engagement(Batchable):
 
     @property
     def usual_acceleration(self) -> float:
-        """The step over the square of the motion, of which the greatest acceleration is a multiple.
-
-        It is an invariant, and the measure of what is rounding.
-        """
+        """The step over the square of the motion, of which accelerations are multiples."""
         motion = radians(self.motion_deg)
         return 2.0 * self.half_step / (motion * motion)
 
@@ -477,11 +465,7 @@ class Engagement(Batchable):
 
     @property
     def passages(self) -> tuple[tuple[Engagement, float], ...]:
-        """Passage of each roller through a whole slot, and the input angle by which it leads.
-
-        There is one, this engagement itself, but for gear sectors: if gears drive between them, one
-        roller starts the wheel and another stops it.
-        """
+        """Passage of each roller through a whole slot, and the input angle by which it leads."""
         return ((self, 0.0),)
 
     @property

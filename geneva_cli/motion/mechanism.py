@@ -60,10 +60,7 @@ class Mechanism(NamedTuple):
 
     @property
     def plan(self) -> Plan:
-        """Engagements, period, R/L, roller limit and centre distance, as the drive planned them.
-
-        The engagements are by the angle of the drive's own input shaft.
-        """
+        """Engagements, period, R/L, roller limit and centre distance, as the drive planned them."""
         plan = Plan(*self[1:-1])
         return plan._replace(engagements=tuple(one.own for one in self.engagements))
 
@@ -97,11 +94,7 @@ class Mechanism(NamedTuple):
 
     @property
     def layout(self) -> Layout:
-        """Pivots and dimensions of the drive, and of the one before it about the crank's axis.
-
-        Of several cranks it has the axes behind the first. Pivots have places only in a plane that
-        also has the axes of wheel and crank.
-        """
+        """Pivots and dimensions of the drive, and of the one before it about the crank's axis."""
         spec, plan = self.spec, self.plan
         own = spec.drive.layout(plan, spec.wheel.SIGN)
         _, *others = self.crank_places
@@ -116,10 +109,7 @@ class Mechanism(NamedTuple):
         return own if self.axes else tuple(one for one in own if not isinstance(one, Pivot))
 
     def own_deg(self, input_deg: Array) -> Array:
-        """Angle of the drive's own input shaft at input angles within half a period of mid-motion.
-
-        It is the input angle itself, but behind another drive.
-        """
+        """Angle of the drive's own input shaft at input angles near mid-motion."""
         return self.engagements[0].own_deg(input_deg)
 
     @property
@@ -159,10 +149,7 @@ class Mechanism(NamedTuple):
 
     @property
     def whole_deg(self) -> float:
-        """Input angle after which all is as before: a turn of the crank.
-
-        Under load that of an unbalanced wheel on a carrier is its period.
-        """
+        """Input angle after which all is as before: a turn of the crank."""
         if self.engagements[0].mid_angle is not None:
             return self.period_deg
         return 360.0 * self.spec.turns
@@ -179,10 +166,7 @@ class Mechanism(NamedTuple):
         return self.period_deg + len(self.engagements) * self.stop_deg
 
     def shown_deg(self, input_deg: float) -> float:
-        """Input angle for display: between -180 and 180 degrees from mid-motion.
-
-        Over a period of several turns it is counted from the first engagement's entry.
-        """
+        """Input angle for display: between -180 and 180 degrees from mid-motion."""
         whole = self.whole_deg
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
@@ -199,10 +183,7 @@ class Mechanism(NamedTuple):
 
     @property
     def frame(self) -> float:
-        """Turns of the wheel's frame in one turn of the input, positive as the wheel turns in it.
-
-        It is 0 but for wheels on a carrier.
-        """
+        """Turns of the wheel's frame in a turn of the input, positive as the wheel turns in it."""
         return self.spec.wheel.SIGN if self.spec.drive.wheels_on_carrier else 0.0
 
     @property
@@ -228,11 +209,7 @@ class Mechanism(NamedTuple):
 
     @property
     def under_load(self) -> Mechanism:
-        """The machine with the period of its loads: up to the entry of the next wheel.
-
-        If a body stands off the axis of a wheel on a carrier, it is a whole turn of all wheels, as
-        the body's direction is another one in each motion.
-        """
+        """The machine with the period of its loads: up to the entry of the next wheel."""
         wheels, own = self.spec.drive.wheels_on_carrier, self.engagements
         if not self.unbalanced:
             return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
@@ -278,10 +255,7 @@ class Mechanism(NamedTuple):
 
 
 def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
-    """Build the mechanism of a spec, which takes the engagements of ``like`` if it moves alike.
-
-    Raises GenevaError, naming the key, if the values do not make a machine together.
-    """
+    """Build the mechanism of a spec, which takes the engagements of ``like`` if it moves alike."""
     compatible.refuse_conflicts(spec)
     if like and spec.moving == like.spec.moving:
         plan = Plan(*like[1:-1])
@@ -296,10 +270,7 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
 
 
 def _as_built(spec: Spec) -> Plan | None:
-    """The plan of a crank as built, whose R/L is not what the slots need; None for any other.
-
-    In a batch the designs that have the R/L of their slots are machines as derived.
-    """
+    """The plan of a crank as built, whose R/L is not what the slots need; None for any other."""
     wheel, radius, L = spec.wheel, spec.size.crank_radius_mm, spec.size.center_distance_mm
     if radius is None or L is None or spec.motion is not None:
         return None

@@ -25,10 +25,7 @@ SAMPLES_MAX = 1_000_000  # some seconds of writing, some 80 MB
 
 
 def motion_columns(mechanism: Mechanism) -> tuple[str, ...]:
-    """Names of the columns of a table of motion.
-
-    On a carrier the wheel's motion from the ground follows, positive as the carrier turns.
-    """
+    """Names of the columns of a table of motion."""
     output = mechanism.output.column
     own = (
         "time_s",
@@ -44,10 +41,7 @@ def motion_columns(mechanism: Mechanism) -> tuple[str, ...]:
 
 
 def rates_at_speed(mechanism: Mechanism) -> dict[str, float]:
-    """Names of velocity and acceleration at the spec's speed, and what an invariant becomes there.
-
-    Those of a wheel are of its angle, those of a rack of its travel.
-    """
+    """Names of velocity and acceleration at the spec's speed, with an invariant's unit there."""
     output, omega = mechanism.output, mechanism.spec.drive.n_rpm * math.pi / 30.0
     scale = output.rate_per_radian
     rates = {"omega_rad_s": omega * scale, "alpha_rad_s2": omega * omega * scale}
@@ -62,11 +56,7 @@ def check_samples(samples: int) -> None:
 
 
 def motion_table(mechanism: Mechanism, samples: int) -> Table:
-    """``samples`` rows, evenly spaced in the input angle over one period from the first entry.
-
-    Entry and exit belong to the motion: their rows show the limits from inside. The last row is the
-    end of the last dwell.
-    """
+    """``samples`` rows, evenly spaced in the input angle over one period from the first entry."""
     check_samples(samples)
     return computed_table(
         motion_columns(mechanism),
@@ -106,12 +96,7 @@ def checked_angles(at_deg: Sequence[float]) -> Array:
 
 
 def angles_table(mechanism: Mechanism, at_deg: Sequence[float]) -> Table:
-    """Rows as of ``motion_table`` at input angles from mid-motion, degrees, in their order.
-
-    Time and the wheel's angle count from the first entry; before it they are those of the periods
-    before. An entry and an exit within rounding of an angle belong to it. Raises GenevaError for
-    angles that are no numbers, or more than a thousand turns away.
-    """
+    """Rows as of ``motion_table`` at input angles from mid-motion, degrees, in their order."""
     places = checked_angles(at_deg)
     start, period = first_entry_deg(mechanism), mechanism.period_deg
     count = np.floor((places - start + SAME_INPUT_DEG) / period)
@@ -150,10 +135,7 @@ def times_s(mechanism: Mechanism, input_deg: Array) -> Array:
 
 
 def _stopped_s(mechanism: Mechanism, turned_deg: Array) -> Array:
-    """Seconds that the stops have cost, at input angles from the first entry, degrees.
-
-    Where braking and starting fit into a dwell, they stand in its middle, one after the other.
-    """
+    """Seconds that the stops have cost, at input angles from the first entry, degrees."""
     drive, begin = mechanism.spec.drive, first_entry_deg(mechanism)
     count = np.floor(turned_deg / mechanism.period_deg)
     local = turned_deg - count * mechanism.period_deg
@@ -305,10 +287,7 @@ def knots_deg(mechanism: Mechanism, count: int) -> Array:
 
 
 def periods(mechanism: Mechanism, turns: int | None) -> int:
-    """The number of periods in ``turns`` of the input; 1 for None.
-
-    Raises GenevaError if the turns are no whole periods.
-    """
+    """The number of periods in ``turns`` of the input; 1 for None."""
     if turns is None:
         return 1
     if not 1 <= turns <= 1000:  # more make no file that a program reads

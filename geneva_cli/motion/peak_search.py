@@ -72,10 +72,7 @@ def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
 
 
 def pole_deg(even: Jet) -> Array:
-    """Distance from mid-motion of a function's nearest pole, degrees, from its jet near there.
-
-    Near mid-motion the function is as c / (1 + x²/w²), or as its root, with w the distance.
-    """
+    """Distance from mid-motion of a function's nearest pole, degrees, from its jet near there."""
     return np.sqrt(np.abs(array(even.c[0]) / even.c[2])) / DEGREE
 
 
@@ -94,10 +91,7 @@ def search_motion(motion: WheelMotion, f: Smooth, sized: bool = True) -> SearchR
 def motion_peaks(
     motion: WheelMotion, quantities: Sequence[str] = QUANTITIES
 ) -> dict[str, PeakArray]:
-    """Greatest sizes over the motions of m designs, ends included, and their input angles, degrees.
-
-    Closed forms are used where a motion has them.
-    """
+    """Greatest sizes over the motions of m designs, ends included, and their input angles."""
     peaks: dict[str, PeakArray] = {}
     for name in quantities:
         known = motion.closed_peak(name)

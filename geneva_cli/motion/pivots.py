@@ -95,11 +95,7 @@ class AxisPlace(NamedTuple):
 
 
 def wheel_places(count: int, sign: float, L: float) -> tuple[AxisPlace, ...]:
-    """Places of evenly spaced wheels about the axis at (L, 0); ``sign`` is -1 for internal ones.
-
-    >>> [round(value, 9) for value in wheel_places(2, 1.0, 100.0)[1].at]
-    [200.0, 0.0]
-    """
+    """Places of evenly spaced wheels about the axis at (L, 0); ``sign`` is -1 for internal ones."""
     first, *others = (math.tau * k / count for k in range(max(1, count)))
     out = [AxisPlace(1, 0.0, first, (0.0, 0.0))]
     for k, angle in enumerate(others, 1):
@@ -109,13 +105,7 @@ def wheel_places(count: int, sign: float, L: float) -> tuple[AxisPlace, ...]:
 
 
 def crank_places(steps: Sequence[float], z: int, L: float) -> tuple[AxisPlace, ...]:
-    """Places of cranks that stand ``steps`` steps of a wheel of ``z`` slots from the first.
-
-    They work in turn, evenly over a turn of the input.
-
-    >>> crank_places((0, 3), 6, 100.0)[1].at
-    (-100.0, 0.0)
-    """
+    """Places of cranks that stand ``steps`` steps of a wheel of ``z`` slots from the first."""
     out = []
     for k, step in enumerate(steps):
         sine, cosine = sin_cos_pi(2 * int(step), z)

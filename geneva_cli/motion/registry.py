@@ -54,11 +54,7 @@ def drive(name: str) -> type[Drive]:
 
 
 def drives_with(thing: str) -> list[str]:
-    """Names of the drives that have a thing of their own, such as ``gears``.
-
-    >>> drives_with("gears")
-    ['elliptical-gears', 'noncircular-gears']
-    """
+    """Names of the drives that have a thing of their own, such as ``gears``."""
     return [name for name in DRIVES if vars(drive(name)).get(thing)]
 
 

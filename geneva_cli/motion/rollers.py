@@ -20,10 +20,7 @@ ANGLES_KEY = ("drive", "roller_angles_deg")
 
 
 def places(wheel: Gearing, drive: Drive, L: float) -> list[RollerPlace]:
-    """Rollers of a machine with straight slots, in the order in which they move the wheel.
-
-    Rollers that move the wheel alike are returned as one. Raises GenevaError if rollers would jam.
-    """
+    """Rollers of a machine with straight slots, in the order in which they move the wheel."""
     angles = drive.roller_angles_deg
     if wheel.steps:  # on different arms: R_i = L sin b_i
         rollers = [wheel.place(HalfStep.of_deg(0.5 * step), L) for step in wheel.steps]

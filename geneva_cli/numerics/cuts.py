@@ -195,10 +195,7 @@ class Cutter:
     def _zeros(
         self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
     ) -> tuple[Mask, Whole, Array]:
-        """A mask of parts with unknown zeros, and the zeros of the other parts.
-
-        Zeros are the numbers of their parts, and positions from -1 to 1 in the rows.
-        """
+        """A mask of parts with unknown zeros, and the zeros of the other parts."""
         unsure, none = np.full(len(rows.design), False), (np.zeros(0, dtype=int), np.zeros(0))
         size, left = np.abs(value).max(axis=0), chebyshev.remainder(value)
         np.fmax.at(self.size[kind], rows.design, np.where(np.isfinite(size), size, 0.0))
@@ -290,24 +287,14 @@ def _between(cut: Whole, t: Array, part: Array) -> tuple[Whole, Array]:
 def spread(x: Array, w: Array) -> Array:
     """u at places x, where x = w sinh(u / w): samples even in u are spread about 0.
 
-    Near 0, where functions change fastest, the range within w of 0 gets as much length as the rest.
-    Poles at x = i w and -i w move to u = i w pi/2 and -i w pi/2. So the same number of samples
-    gives more digits. Near 0, u is x; with a large w it is x everywhere.
-
-    Source: D. Elliott, P. R. Johnston, "A sinh transformation for evaluating nearly singular
-    boundary element integrals", Int. J. Numer. Meth. Engng 62 (2005).
+    Poles at x = i w and -i w move to u = i w pi/2 and -i w pi/2; with a large w, u is x. Source: D.
+    Elliott, P. R. Johnston, Int. J. Numer. Meth. Engng 62 (2005).
     """
     u: Array = w * np.arcsinh(x / w)
     return u
 
 
 def gathered(u: Array, w: Array) -> Array:
-    """The places x at u.
-
-    >>> import numpy as np
-    >>> w = np.array([2.0, 1e3])
-    >>> gathered(spread(np.array([6.0, 6.0]), w), w).round(12)
-    array([6., 6.])
-    """
+    """The places x at u."""
     x: Array = w * np.sinh(u / w)
     return x

@@ -105,8 +105,6 @@ def search(
     else the greatest values of the functions and of their negatives. ``known`` are values that no
     span reaches: the number of a wanted function, and for each design the place and the value, or
     NaN. Samples are spread about 0 by ``w`` (n, 1), or evenly spaced.
-
-    Values that differ only by rounding are equal: the earlier place counts.
     """
     with np.errstate(all="ignore"):
         extremes = _Extremes(f, _widths(spans, w), sized)
@@ -229,11 +227,7 @@ class _Extremes:
             _raise(self.size, (numbers[0], design), np.where(np.isfinite(inner), inner, 0.0))
 
     def judge(self, pieces: Pieces) -> None:
-        """Keep candidates of pieces with precise series, and sample the others again.
-
-        Where a force is nearly 0, its square is only the rounding of the greatest force, and no
-        halving ends its series.
-        """
+        """Keep candidates of pieces with precise series, and sample the others again."""
         value, (a, b), design = pieces.value, pieces.rows.x, pieces.rows.design
         left = chebyshev.remainder(value)
         low, high = value.min(axis=1), value.max(axis=1)
@@ -378,9 +372,6 @@ def bar(most: Array, size: Array) -> Array:
     """The least value that counts as equal to a greatest one.
 
     ``size`` is the functions' typical size.
-
-    >>> bar(np.array([2.0, 0.0, np.inf]), np.array([2.0, 1.0, 1.0])).tolist()
-    [1.999999999998, -1e-13, inf]
     """
     # Extremes within 1e-12 of their size are equal. So are values within 1e-13 of the function's
     # size: at a computed root it is not exactly 0.
@@ -389,11 +380,7 @@ def bar(most: Array, size: Array) -> Array:
 
 
 def first_greatest(value: Array, place: Array, size: Array) -> tuple[Array, Array]:
-    """The greatest of values in rows (k, n), and the first place of its equals: (n,) each.
-
-    >>> first_greatest(np.array([[0.0], [1e-17]]), np.array([[10.0], [20.0]]), np.array([1.0]))
-    (array([1.e-17]), array([10.]))
-    """
+    """The greatest of values in rows (k, n), and the first place of its equals: (n,) each."""
     with np.errstate(invalid="ignore"):
         most = value.max(axis=0)
         first = np.argmax(value >= bar(most, size), axis=0)

@@ -157,43 +157,34 @@ class Backwards(Law):
 
     @property
     def backwards(self) -> Law:
-        """The law itself."""
         return self.of
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Breaks of the law, from its end."""
         return tuple(1.0 - u for u in reversed(self.of.breaks))
 
     @property
     def knots(self) -> tuple[float, ...]:
-        """Knots of the law, from its end."""
         return tuple(1.0 - u for u in reversed(self.of.knots))
 
     @property
     def symmetric(self) -> Truth:
-        """True if the law is symmetric; an array for a batch."""
         return self.of.symmetric
 
     @property
     def varies(self) -> bool:
-        """True if its numbers are arrays of a batch."""
         return self.of.varies
 
     def may_vary(self, table: str, key: str) -> bool:
-        """True if a number of a table may be an array along a design axis with this law."""
         return self.of.may_vary(table, key)
 
     def doubt(self) -> Doubt | None:
-        """Decimals of a law of points, and the effect of their rounding on d³s/du³; else None."""
         return self.of.doubt()
 
     def first(self, u: Number, order: int) -> Jet:
-        """Remainder of the law from its end."""
         return self.of.second(u, order)
 
     def second(self, w: Number, order: int) -> Jet:
-        """Fraction of the law from its start."""
         return self.of.first(w, order)
 
 
@@ -205,10 +196,7 @@ def remaining(rest: Jet, end: float = 1.0) -> Jet:
 def from_velocity(
     u: Number, order: int, position: Callable[[Number], Number], velocity: Callable[[Jet], Jet]
 ) -> Jet:
-    """Jet of s(u) from a closed form of s and from the jet of ds/du.
-
-    The velocity is written as a product wherever it vanishes, so that nothing cancels there.
-    """
+    """Jet of s(u) from a closed form of s and from the jet of ds/du."""
     if order == 0:
         return Jet((position(u),))
     return integral(velocity(Jet.variable(u, order - 1)), position(u))

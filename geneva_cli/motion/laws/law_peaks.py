@@ -13,14 +13,7 @@ NAMES = ("velocity", "acceleration", "jerk", "power")
 
 @lru_cache(maxsize=256)
 def greatest(law: Law) -> dict[str, tuple[float, float]]:
-    """Greatest size of each derivative of s(u) and of ds/du d²s/du² (power), and its first u.
-
-    For a law whose keys are numbers.
-
-    >>> from geneva_cli import Cycloidal
-    >>> greatest(Cycloidal())["velocity"]
-    (2.0, 0.5)
-    """
+    """Greatest size of each derivative of s(u) and of ds/du d²s/du² (power), and its first u."""
     # a list of the drives needs neither
     import numpy as np
 

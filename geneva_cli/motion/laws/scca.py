@@ -49,7 +49,6 @@ class SineConstantCosine(Law):
                 )
 
     def may_vary(self, table: str, key: str) -> bool:
-        """False for the fractions, which decide the pieces and so must be numbers."""
         return table != "motion" or key not in self.as_dict()
 
     @property
@@ -61,9 +60,7 @@ class SineConstantCosine(Law):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Values of u at which the pieces meet."""
         return breaks(*self._fractions, 0.0)
 
     def first(self, u: Number, order: int) -> Jet:
-        """First half of s, in which the wheel gains speed."""
         return first_half(u, order, *self._fractions)

@@ -22,7 +22,6 @@ class Harmonic(Law):
     ABOUT: ClassVar[str] = "simple sine line; its acceleration jumps at both ends"
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s = sin²(pi u / 2)."""
         m = library(u)
         return from_velocity(
             u, order, lambda u: m.sin(m.pi / 2.0 * u) ** 2, lambda u: sin(u * m.pi) * (m.pi / 2.0)
@@ -42,7 +41,6 @@ class Cycloidal(Law):
     ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s = u - sin(2 pi u) / (2 pi)."""
         m = library(u)
 
         def velocity(u: Jet) -> Jet:
@@ -60,11 +58,9 @@ class _ScaledLaw(Law):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Values of u at which the pieces meet."""
         return breaks(*self.FRACTIONS)
 
     def first(self, u: Number, order: int) -> Jet:
-        """First half of s, in which the wheel gains speed."""
         return first_half(u, order, *self.FRACTIONS)
 
 
@@ -126,8 +122,6 @@ class Polynomial345(Law):
     ABOUT: ClassVar[str] = "polynomial of degree 5; no jump in acceleration"
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s = 10 u³ - 15 u⁴ + 6 u⁵."""
-
         def velocity(u: Jet) -> Jet:
             w = u * (1.0 - u)
             return w * w * 30.0
@@ -148,8 +142,6 @@ class Polynomial4567(Law):
     ABOUT: ClassVar[str] = "polynomial of degree 7; no jump in jerk"
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s = 35 u⁴ - 84 u⁵ + 70 u⁶ - 20 u⁷."""
-
         def position(u: Number) -> Number:
             return u**4 * (35.0 - u * (84.0 - u * (70.0 - 20.0 * u)))
 
@@ -177,15 +169,12 @@ class SineGroup(Law):
 
     @property
     def symmetric(self) -> Truth:
-        """True without a tilt."""
         return self.lambda_ == 0.0
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s in closed form, from its velocity."""
         return _tilted(u, order, self.lambda_)
 
     def second(self, w: Number, order: int) -> Jet:
-        """Remainder 1 - s: the formula of ``first`` with the opposite tilt."""
         return _tilted(w, order, -self.lambda_)
 
 

@@ -81,8 +81,7 @@ class RestingSlot(NamedTuple):
 def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> RollerPlace:
     """Place of a roller on a crank radius l in slots of offset e, on a wheel with a ``rim``.
 
-    Lengths are over the centre distance. Raises GenevaError where the roller cannot pass the line
-    of centres in its slot.
+    Lengths are over the centre distance.
     """
     radial = isinstance(e, float) and e == 0.0
     refuse(l + abs(e) >= 1.0, _too_long)

@@ -75,32 +75,26 @@ class External(Gearing):
 
     @property
     def steps(self) -> tuple[float, ...]:
-        """Repeating pattern of unequal steps in degrees; empty if all are equal."""
         return self.steps_deg or ()
 
     @property
     def stopped(self) -> bool:
-        """True if a convex face in place of a recess stops the crank at both ends."""
         return self.stop
 
     @property
     def skewed(self) -> bool:
-        """True if slots are not radial or not all alike."""
         return True if self.steps_deg else self.offset_mm != 0.0
 
     @property
     def backwards(self) -> Self:
-        """The wheel with the opposite offset, and its steps in reverse order after the first."""
         steps = (self.steps[0], *self.steps[:0:-1]) if self.steps else None
         return self.replace(offset_mm=0.0 - self.offset_mm, steps_deg=steps)
 
     @property
     def layout(self) -> Layout:
-        """Distance by which the slots' axes miss the wheel's axis."""
         return (Dimension("slots' axes offset from the wheel's", self.offset_mm, "mm"),)
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """Place of a roller; GenevaError if an offset slot cannot be entered without shock."""
         e = self.offset_mm / center_distance_mm
         if isinstance(e, float) and not e:
             return super().place(step, center_distance_mm)
@@ -124,7 +118,6 @@ class External(Gearing):
         )
 
     def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace | None:
-        """Place of a roller on a crank of another R/L; None for unequal steps and with a stop."""
         if self.steps or self.stop:
             return None
         from geneva_cli.motion.wheels.as_built import place
@@ -132,7 +125,6 @@ class External(Gearing):
         return place(self.SIGN, self.step, ratio, self.offset_mm / L, rim)
 
     def distance_mm(self, crank_radius_mm: float) -> float:
-        """Centre distance L for a crank radius R, mm: R = L sin b cos d, e = L cos b sin d."""
         if self.steps:
             raise GenevaError(
                 "each of steps_deg has a crank radius of its own: set center_distance_mm instead "
@@ -146,7 +138,6 @@ class External(Gearing):
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
     ) -> tuple[Slot, WheelMotion]:
-        """Radial or offset slot for a roller's path, and the motion that follows."""
         if place.skew is None:
             return super().follow(path, place, turn)
         from geneva_cli.motion.wheels.offset_slot import OffsetSlot, OffsetSlotMotion
@@ -157,7 +148,6 @@ class External(Gearing):
     def exact_rate(
         self, step: tuple[float, float], L: float, exact: Callable[[float], float]
     ) -> FollowedRate:
-        """Rate of a wheel with radial or offset slots, as in ``Gearing.exact_rate``."""
         if not self.offset_mm:
             return super().exact_rate(step, L, exact)
         from geneva_cli.motion.wheels.offset_slot import exact_rate

@@ -24,7 +24,6 @@ class Internal(Gearing):
     SIGN: ClassVar[float] = -1.0
 
     def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace:
-        """Place of a roller on a crank of another R/L than the slots need."""
         from geneva_cli.motion.wheels.as_built import place
 
         return place(self.SIGN, self.step, ratio, 0.0, rim)

@@ -30,12 +30,10 @@ class OffsetSlot(Slot):
         self.path, self.skew, self.offset = path, skew, skew.e
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """Pin (x, y) in the wheel, on the slot's straight axis."""
         depth = self._depth(input_deg, order)
         return turned(depth, depth * 0.0 - self.offset, self.skew.tilt)
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
         depth = self._depth(input_deg, order + 1)
         return SlotAxis(depth.lower, depth.derivative())
 
@@ -52,11 +50,9 @@ class OffsetSlotMotion(StraightSlotMotion):
         self.skew = skew
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """Wheel angle from the slot's direction at the nearest anchor; at rest at both ends."""
         return self._angle_or_rate(input_deg, order, angle=True)
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
-        """Rate at which the slot's direction turns, computed without an arc tangent."""
         return self._angle_or_rate(input_deg, order + 1, angle=False)
 
     def _angle_or_rate(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
@@ -108,18 +104,14 @@ class OffsetSlotMotion(StraightSlotMotion):
 def _depth(e: float, deepest: float, toward: Jet) -> tuple[Jet, Jet]:
     """Coordinate s of the pin along its slot's axis, and rho² = s² + e².
 
-    From mid-motion the pin moves by u = l (1 - cos a) along the line of centres. So s² = deepest² +
-    2 u is a sum of positive terms.
+    The pin moves by u = l (1 - cos a) along the line of centres: s² = deepest² + 2 u.
     """
     square = toward * 2.0 + deepest**2
     return sqrt(square), square + e**2
 
 
 def exact_rate(e: float, sin_b: float, cos_b: float) -> Callable[[Jet, Jet], Jet]:
-    """Rate of a wheel with slots of offset e, in numbers in which differences lose no digits.
-
-    It is a function of sin d and 1 - cos d of the crank's rotation d since mid-motion.
-    """
+    """Rate of a wheel with slots of offset e, in numbers in which differences lose no digits."""
     sin_d = e / cos_b
     cos_d = library(sin_d).sqrt((1.0 - sin_d) * (1.0 + sin_d))
     l, deepest = sin_b * cos_d, cos_d - sin_b

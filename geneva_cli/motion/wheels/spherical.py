@@ -54,24 +54,19 @@ class Spherical(Gearing):
 
     @property
     def own_sizes(self) -> dict[str, float]:
-        """Angle between the shafts, for the report."""
         return {"axes_deg": self.axes_deg}
 
     def axes(self, L: float) -> tuple[Pivot, ...]:
-        """None: both axes meet at the sphere's centre."""
         return ()
 
     @property
     def layout(self) -> Layout:
-        """Angle between the shafts, as a dimension."""
         return (Dimension("angle of the shafts", self.axes_deg, "deg"),)
 
     def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle in degrees from entry to mid-motion."""
         return sphere(step, self.axes_deg).half_motion_deg
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """Place of a roller in a meridian slot; its arm is over the sphere's radius."""
         ball = sphere(step, self.axes_deg)
         top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
         fall = ball.sin_S * ball.sin_th
@@ -89,7 +84,6 @@ class Spherical(Gearing):
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
     ) -> tuple[Slot, StraightSlotMotion]:
-        """Meridian slot with the pin's coordinate along the wheel's axis, and the motion."""
         assert place.height is not None  # it is a place on a sphere
         slot = MeridianSlot(path, Height(*place.height, turn))
         return slot, StraightSlotMotion(path, place.step.b)
@@ -97,7 +91,6 @@ class Spherical(Gearing):
     def exact_rate(
         self, step: tuple[float, float], L: float, exact: Callable[[float], float]
     ) -> FollowedRate:
-        """Rate of a spherical wheel, as in ``Gearing.exact_rate``."""
         angle = radians(exact(self.axes_deg))
         m = library(angle)
         sin_S, cos_S = m.sin(angle), m.cos(angle)
@@ -144,10 +137,7 @@ def sphere(step: HalfStep, axes_deg: float) -> Sphere:
 
 
 def poses(step: HalfStep, ball: Sphere) -> tuple[PinPose, PinPose, PinPose]:
-    """Entry, middle and exit of a spherical wheel's pin, projected along the wheel's axis.
-
-    Lengths are in units of the sphere's radius.
-    """
+    """Entry, middle and exit of a spherical wheel's pin, projected along the wheel's axis."""
     sin_b, cos_b = step.sin_cos
     half = ball.half_motion_deg
     # derivatives of the pin's position by the crank angle a
