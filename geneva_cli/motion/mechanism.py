@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from typing import NamedTuple
 
@@ -225,7 +226,9 @@ class Mechanism(NamedTuple):
         for k in range(math.lcm(z, count, self.spec.drive.rollers) * wheels):
             number, behind = divmod(k, count)
             mid_deg = own[behind].mid_deg + number * spacing
-            each.append(own[behind].later(mid_deg, angles[k // wheels % z]))
+            later = copy.copy(own[behind])
+            later.mid_deg, later.mid_angle = mid_deg, angles[k // wheels % z]
+            each.append(later)
         return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / count)
 
     @property

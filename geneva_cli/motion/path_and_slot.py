@@ -152,8 +152,6 @@ class ClassicMotion(StraightSlotMotion):
     ``sign`` is +1 for an external wheel and -1 for an internal one; l = sin b and ``rest`` = 1 - l.
     """
 
-    is_closed = True
-
     def __init__(
         self, path: AnchoredPath, half_step: float, sign: float, l: float, rest: float
     ) -> None:

@@ -52,6 +52,11 @@ def _quantity(quantity: str, p: tuple[Array, ...]) -> Sequence[Array]:
     return out
 
 
+def breaks(motion: WheelMotion, m: int) -> list[Array]:
+    """The breaks of m motions, in degrees: (m, 1) each."""
+    return [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]
+
+
 def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     """Ends of the smooth parts of m motions, (m, 1) each, clear of the breaks between them.
 
@@ -59,7 +64,7 @@ def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     0 is exact. The value at a break itself belongs to the part before it, so that the part after it
     begins at least one double later.
     """
-    places = motion.breaks(m)
+    places = breaks(motion, m)
     blur = motion.BREAKS_TO * (places[-1] - places[0])
     inner = [(x, np.where(x == 0.0, 0.0, blur)) for x in places[1:-1]]
     # beyond 0 the next double would become 0 again where it is scaled

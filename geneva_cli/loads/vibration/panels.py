@@ -17,6 +17,7 @@ import numpy as np
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.peak_search import breaks
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Number, Whole, matrix_product, read_only
 from geneva_cli.numerics.jet import Jet
@@ -115,7 +116,7 @@ def motion_shapes(motion: WheelMotion, m: int, function: AngleFunction | None = 
         c = (function(angle, which) if function else angle).c
         return _by_order([v / step for v in c], whole * DEGREE, u)
 
-    every = np.hstack(motion.breaks(m))
+    every = np.hstack(breaks(motion, m))
     return panels_of(derivatives, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
 
 
