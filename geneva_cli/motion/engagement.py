@@ -12,7 +12,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, TypeAlias, TypeVar
+from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import (
@@ -26,9 +26,6 @@ from geneva_cli.numerics.arrays import (
     library,
 )
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
-
-if TYPE_CHECKING:
-    from geneva_cli.motion.slot_and_motion import SolvedPath
 
 K = TypeVar("K", float, "Array")
 
@@ -50,6 +47,24 @@ Displacement: TypeAlias = Callable[[Number, int], Vector]
 Reactions: TypeAlias = Callable[[Number, Vector, Sequence[Load]], list[tuple[Vector, Vector]]]
 # Peak of a quantity in closed form, or by a quicker search than the general one; else None.
 ClosedPeaks: TypeAlias = Callable[[str], "Peak[float] | None"]
+
+
+class Groove(Protocol):
+    """A fixed groove about the crank's axis, which guides the roller along the crank."""
+
+    sign: float  # 1 for an external wheel, -1 for an internal one
+
+    @property
+    def motion(self) -> WheelMotion: ...
+    @property
+    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
+        """Roller distance from the crank's axis with two derivatives, at entry and exit."""
+
+    def distances(self, input_deg: Number, order: int = 3) -> Vector:
+        """Roller distances from the wheel's axis and from the crank's, in units of L."""
+
+    def groove(self, input_deg: Number, order: int = 3) -> Vector:
+        """Pitch curve (x, y) of the groove about the crank's axis."""
 
 
 class Height(NamedTuple):
@@ -256,7 +271,7 @@ class Engagement(Batchable):
     body: Callable[[Number, int], Jet] | None = None
     reactions: Reactions | None = None
     crank_sense: float = 0.0
-    groove: SolvedPath | None = None
+    groove: Groove | None = None
     hub: float = 1.0
     mid_angle: float | None = None
     built: AsBuilt | None = None

@@ -16,10 +16,10 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import chords, fit
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Layer, closed
+from geneva_cli.motion.engagement import Groove
 from geneva_cli.motion.groove_path import back, distances
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import WALLED
-from geneva_cli.motion.slot_and_motion import SolvedPath
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
 from geneva_cli.parts.links.links import Links
@@ -35,9 +35,7 @@ BELOW = 2  # planes below the wheel: that of the groove, below the crank
 MOUNTS = 4
 
 
-def groove_curve(
-    groove: SolvedPath, L: float, offset: float
-) -> Callable[[Array], tuple[Array, Array]]:
+def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], tuple[Array, Array]]:
     """Return the groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
 
     They are functions of the input angle, degrees, over a whole turn, in the frame of the groove's
@@ -66,7 +64,7 @@ class GrooveExtremes(NamedTuple):
     pressure_deg: Array
 
 
-def sampled_extremes(groove: SolvedPath, input_deg: Array) -> GrooveExtremes:
+def sampled_extremes(groove: Groove, input_deg: Array) -> GrooveExtremes:
     """Return the extremes of a batch of grooves, or of one, over sampled positions.
 
     The motion is sampled at ``input_deg`` (m, k), the dwell at 360 positions.
@@ -80,7 +78,7 @@ def sampled_extremes(groove: SolvedPath, input_deg: Array) -> GrooveExtremes:
     return GrooveExtremes(R.min(axis=1), np.degrees(np.arctan(steep.max(axis=1))))
 
 
-def greatest_pressure(groove: SolvedPath) -> tuple[float, float]:
+def greatest_pressure(groove: Groove) -> tuple[float, float]:
     """Return the groove's greatest pressure angle, degrees, and its input angle.
 
     Its tangent is |R'/R|, for both signs of R'. It is greatest where R R'' = R'².
