@@ -274,7 +274,7 @@ class Spec(SpecTable):
                 )
             if not (before.gears or drive.turned_at_crank):
                 why = "the shaft between them has no bearing, since the input crank turns below it"
-                return f"{parts}: {why}"
+                return f"the parts of {pair}: {why}"
         own: Callable[[Spec], str] | None = thing(self.wheel.NAME, "no_parts")
         if own and (reason := own(self)):
             return reason
