@@ -263,15 +263,12 @@ class Spec(SpecTable):
             return f'shafts and frame of gearing = "{self.wheel.NAME}" are not built'
         before, drive = self.drive_before, self.drive
         if before is not None:
-            parts = (
-                f'the parts of kind = "{before.NAME}" before kind = "{drive.NAME}" are not built'
-            )
+            pair = f'kind = "{before.NAME}" before kind = "{drive.NAME}" are not built'
             if len(drive.cranks) > 1:
                 return f'the gears between several cranks and kind = "{before.NAME}" are not built'
             if before.gears and drive.gears:
-                return (
-                    f"{parts}: one pair of noncircular-gears with the ratio of both does the same"
-                )
+                why = "one pair of noncircular-gears with the ratio of both does the same"
+                return f"the parts of {pair}: {why}"
             if not (before.gears or drive.turned_at_crank):
                 why = "the shaft between them has no bearing, since the input crank turns below it"
                 return f"the parts of {pair}: {why}"

@@ -255,11 +255,6 @@ def size(x: N) -> N:
     return x.__abs__()
 
 
-def designs_of(design: int | Whole) -> int:
-    """The number of designs in a batch, from its designs' numbers: (m, 1), or one number."""
-    return 1 if isinstance(design, int) else len(design)
-
-
 def parameter(x: Number) -> float:
     """A machine's number that was computed by a jet, with the type that all of them have: float."""
     return cast(float, x)
