@@ -12,9 +12,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
-from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import PinPath, Plan
 from geneva_cli.motion.engagement import Anchor, ConstantRate, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth
@@ -52,16 +51,13 @@ class Epicyclic(PinPath, kw_only=True):
             "size": {"roller_radius_mm": 4.0},
         },
     )
+    round_gears: ClassVar[tuple[str, ...]] = ("planet", "fixed gear")
     planet_ratio: Annotated[
         float | str,
         Words(Range(-0.4, 0.4), ("shockless",)),
         'planet crank rp / L, either sign; "shockless" for no jump at entry',
     ]
     fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
-
-    @property
-    def round_gears(self) -> tuple[str, ...]:
-        return "planet", "fixed gear"
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         refuse(

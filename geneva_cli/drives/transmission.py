@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion import registry
@@ -70,6 +70,8 @@ class _CrankRate(NamedTuple):
 class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
+    turned_at_crank: ClassVar[bool] = False
+
     @abstractmethod
     def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
@@ -78,10 +80,6 @@ class Transmission(Drive, kw_only=True):
     def crank(self) -> Drive:
         plain, angles = registry.drive("crank"), self.roller_angles_deg
         return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
-
-    @property
-    def turned_at_crank(self) -> bool:
-        return self.direct
 
     @property
     def motions(self) -> int:
@@ -148,31 +146,19 @@ class Transmission(Drive, kw_only=True):
         rate = -wheel.SIGN * place.cone
         body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
         reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
-        return Engagement(
-            here.input_deg,
-            path,
-            slot,
-            motion,
-            body,
-            reactions,
-            hub=place.hub,
-            built=place.built,
-        )
+        own = Engagement(here.input_deg, path, slot, motion, body, reactions, built=place.built)
+        own.hub = place.hub
+        return own
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
-        from geneva_cli.motion.path_and_motion import (
-            LawMotion,
-            MiddlePath,
-            SolvedSlot,
-            refuse_alpha0,
-        )
+        from geneva_cli.motion import path_and_motion as solved
 
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)
         natural = 2.0 * self.about(half).input_deg
         motion_deg = natural - motion.alpha0_deg
-        refuse_alpha0(motion.alpha0_deg, natural)
+        solved.refuse_alpha0(motion.alpha0_deg, natural)
         refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
         ratio = self._ratio(wheel, motion, motion_deg)
         refuse(
@@ -185,21 +171,20 @@ class Transmission(Drive, kw_only=True):
         )
         here = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
-        path = MiddlePath(here.anchor(pose, here.input_deg), here.even)
-        turned = LawMotion(-0.5 * motion_deg, 0.5 * motion_deg, wheel.step.b, motion.law)
+        path = solved.MiddlePath(here.anchor(pose, here.input_deg), here.even)
+        end_deg, b = 0.5 * motion_deg, wheel.step.b
+        turned = solved.LawMotion(-end_deg, end_deg, b, motion.law)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
         body = ConstantRate(-wheel.SIGN) if self.direct else _CrankRate(here.advance, -wheel.SIGN)
-        engagement = Engagement(0.0, path, SolvedSlot(path, turned), turned, body, reactions)
+        engagement = Engagement(0.0, path, solved.SolvedSlot(path, turned), turned, body, reactions)
         period = 360.0 * self.turns / self.rollers
         return Plan((engagement,), period, ratio, rollers_max(motion_deg), L)
 
     def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
         """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion, or NaN."""
-        if motion.ratio is None:
-            return wheel.step.sin_cos[0]
-        if not isinstance(motion.ratio, str):
-            return motion.ratio
-        return self.matched_ratio(wheel, motion.law, motion_deg)
+        if isinstance(motion.ratio, str):
+            return self.matched_ratio(wheel, motion.law, motion_deg)
+        return wheel.step.sin_cos[0] if motion.ratio is None else motion.ratio
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
         crank = self.about(0.0).advance(0.0, 1)[0].c[1]
@@ -221,13 +206,12 @@ class Transmission(Drive, kw_only=True):
 class Direct(Transmission, kw_only=True):
     """A drive without a transmission: crank angle and input angle are equal."""
 
+    direct: ClassVar[bool] = True
+    turned_at_crank: ClassVar[bool] = True
+
     @property
     def motions(self) -> int:
         return 1
-
-    @property
-    def direct(self) -> bool:
-        return True
 
     def exact_advance(
         self, half: tuple[float, float], exact: Callable[[float], float]

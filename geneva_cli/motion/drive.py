@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Displacement, Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
+from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.spec.rules import NOT_NEGATIVE, SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import Example, SpecTable
@@ -65,6 +66,12 @@ class Drive(SpecTable, kw_only=True):
     IN_FRONT: ClassVar[str] = ""
     # reason why no drive may stand before it; empty if one may
     FIRST: ClassVar[str] = ""
+    # True if the input shaft carries the crank, so that the classic closed forms hold
+    direct: ClassVar[bool] = False
+    # True if its own input shaft turns about the crank's axis, as the crank or another arm
+    turned_at_crank: ClassVar[bool] = True
+    # names of its links that are gears with pitch circles
+    round_gears: ClassVar[tuple[str, ...]] = ()
     n_rpm: Annotated[
         float,
         SPEED,
@@ -88,15 +95,14 @@ class Drive(SpecTable, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         lost_s = 0.5 * (self.start_s + self.brake_s)
-
-        def error() -> GenevaError:
-            return GenevaError(
+        refuse(
+            lost_s > self.stop_s * (1.0 + 1e-12),
+            lambda: GenevaError(
                 f"stop_s = {self.stop_s:g}: to brake and to start takes {lost_s:g} s longer than "
                 f"to run on, so the input would not come to rest: it must be at least {lost_s:g}",
                 (self.TABLE, "stop_s"),
-            )
-
-        refuse(lost_s > self.stop_s * (1.0 + 1e-12), error)
+            ),
+        )
 
     @property
     def stands_s(self) -> float:
@@ -124,16 +130,6 @@ class Drive(SpecTable, kw_only=True):
         return self.replace(roller_angles_deg=(0.0, *(360.0 - angle for angle in others)))
 
     @property
-    def direct(self) -> bool:
-        """True if the input shaft carries the crank, so that the classic closed forms hold."""
-        return False
-
-    @property
-    def turned_at_crank(self) -> bool:
-        """True if its own input shaft turns about the crank's axis, as the crank or another arm."""
-        return True
-
-    @property
     def wheels_on_carrier(self) -> int:
         """Number of wheels that orbit on a carrier, which the input turns; 0 without a carrier."""
         return 0
@@ -159,11 +155,6 @@ class Drive(SpecTable, kw_only=True):
         return None
 
     @property
-    def round_gears(self) -> tuple[str, ...]:
-        """Names of its links that are gears with pitch circles."""
-        return ()
-
-    @property
     def missing_length(self) -> str:
         """Key of ``[drive]`` that its link reactions need and that is not set; empty if none."""
         return ""
@@ -181,10 +172,9 @@ class Drive(SpecTable, kw_only=True):
         return True
 
     def doubt(self, input_deg: float) -> Doubt | None:
-        """Uncertainty of the crank's jerk from the decimals of a ratio file.
+        """Uncertainty of the crank's jerk from the decimals of a ratio file; None without one.
 
-        It holds the number of decimals, and the change by rounding of the ratio's second
-        derivative. That change is a fraction of the ratio at an input angle. None without a file.
+        It is the change by rounding of the ratio's second derivative, over the ratio.
         """
         return None
 
@@ -239,3 +229,18 @@ class Drive(SpecTable, kw_only=True):
 
         ``L`` is the centre distance, mm, where the drive does not solve for it.
         """
+
+
+class PinPath(Drive, kw_only=True):
+    """A drive that moves the roller along a path of its own, with straight radial slots."""
+
+    ONE_ARM: ClassVar[bool] = False
+
+    def planned(
+        self, engagement: Engagement, ratio: float, center_distance_mm: float, inside: bool = False
+    ) -> Plan:
+        """The plan with one engagement for each roller."""
+        motion = engagement.motion_deg
+        refuse_jam(self.rollers, motion, inside)
+        period = 360.0 / self.rollers
+        return Plan((engagement,), period, ratio, rollers_max(motion), center_distance_mm)
