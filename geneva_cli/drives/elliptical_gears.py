@@ -7,14 +7,13 @@ slowest at 0. The directions of the half angles are (cos phi/2, sin phi/2) and (
 Source: the focal property of the ellipse; Kepler's true anomaly follows this law too.
 """
 
-from collections.abc import Callable
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import Mesh, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Gears, Plan
-from geneva_cli.motion.engagement import Displacement, Path
+from geneva_cli.motion.engagement import Path
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
@@ -74,12 +73,6 @@ class EllipticalGears(Transmission, kw_only=True):
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
         return Mesh(path, self.gear_distance_mm / L)
-
-    def exact_advance(
-        self, half: tuple[float, float], exact: Callable[[float], float]
-    ) -> Displacement:
-        e = exact(self.eccentricity)
-        return _focal(e if self.phase == "slow" else -e, *half)
 
     def about(self, crank_deg: float) -> LocalTransmission:
         slow = self.phase == "slow"

@@ -4,14 +4,13 @@ The coulisse carries the Geneva crank. The symbols A and f follow Polyudov and K
 of the Maltese cross mechanism with a side-crank drive".
 """
 
-from collections.abc import Callable
 from typing import Annotated, ClassVar
 
 from geneva_cli.drives import whitworth
 from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import ClosedPeaks, Displacement, Path
+from geneva_cli.motion.engagement import ClosedPeaks, Path
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.rollers import alike
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
@@ -54,11 +53,6 @@ class SideCrank(Transmission, kw_only=True):
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
         return self.straight(wheel, alike(wheel, self, place), L)
-
-    def exact_advance(
-        self, half: tuple[float, float], exact: Callable[[float], float]
-    ) -> Displacement:
-        return whitworth.exact_coulisse(exact(self.A), *half)
 
     @property
     def missing_length(self) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -212,11 +212,6 @@ class Direct(Transmission, kw_only=True):
     @property
     def motions(self) -> int:
         return 1
-
-    def exact_advance(
-        self, half: tuple[float, float], exact: Callable[[float], float]
-    ) -> Displacement:
-        return same
 
     def about(self, crank_deg: float) -> LocalTransmission:
         return LocalTransmission(crank_deg, same)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse
@@ -197,16 +196,6 @@ class Drive(SpecTable, kw_only=True):
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """Links that turn the crank or carry the roller, at input angles from mid-motion."""
         return ()
-
-    def exact_advance(
-        self, half: tuple[float, float], exact: Callable[[float], float]
-    ) -> Displacement | None:
-        """Rotation of the crank about a crank angle, in numbers of any kind, for certificates.
-
-        ``half`` has sine and cosine of half that angle. ``exact`` converts a number of the spec.
-        None for a drive whose proportions are solved for in doubles.
-        """
-        return None
 
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
         """Centre distance L for a crank radius R, mm, where the kind's shape fixes R/L."""

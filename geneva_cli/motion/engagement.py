@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
@@ -36,17 +36,43 @@ Vector: TypeAlias = tuple[Jet, Jet]
 Load: TypeAlias = tuple[Vector, Jet]
 
 
-# The pin's position (x, y) in the fixed frame, by the input angle in degrees and an order.
-Path: TypeAlias = Callable[..., Vector]
-# A pin's displacement since a moment, along a ray and across it, by the input's rotation since
-# then, radians, and an order; or a crank's rotation d since then, as sin d and 1 - cos d.
-Displacement: TypeAlias = Callable[[Number, int], Vector]
-# Reactions of the crank's shaft, and of the other guide of the body that carries the roller (a
-# rocker, slider, groove or fixed gear), to each load; by the input angle in degrees and the pin's
-# path, one order higher than the loads. The links have no mass and no friction.
-Reactions: TypeAlias = Callable[[Number, Vector, Sequence[Load]], list[tuple[Vector, Vector]]]
-# Peak of a quantity in closed form, or by a quicker search than the general one; else None.
-ClosedPeaks: TypeAlias = Callable[[str], "Peak[float] | None"]
+class Path(Protocol):
+    """The pin's position (x, y) in the fixed frame, by the input angle in degrees."""
+
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector: ...
+
+
+class Displacement(Protocol):
+    """A pin's displacement since a moment, along a ray and across it, ``tau`` input radians later.
+
+    Or a crank's rotation d since then, as sin d and 1 - cos d.
+    """
+
+    def __call__(self, tau: Number, order: int) -> Vector: ...
+
+
+class Rate(Protocol):
+    """Rate of a body in radians per input radian, ``tau`` after mid-motion, as the wheel turns."""
+
+    def __call__(self, tau: Number, order: int) -> Jet: ...
+
+
+class ClosedPeaks(Protocol):
+    """Peak of a quantity in closed form, or by a quicker search than the general one; else None."""
+
+    def __call__(self, quantity: str) -> Peak[float] | None: ...
+
+
+class Reactions(Protocol):
+    """Reactions on the body that carries the roller, held by links without mass or friction.
+
+    They are those of the crank's shaft, and of the body's other guide (a rocker, slider, groove or
+    fixed gear), to each load. ``path`` is the pin's path, one order higher than the loads.
+    """
+
+    def __call__(
+        self, input_deg: Number, path: Vector, loads: Sequence[Load]
+    ) -> list[tuple[Vector, Vector]]: ...
 
 
 class Groove(Protocol):
@@ -268,7 +294,7 @@ class Engagement(Batchable):
     path: Path
     slot: Slot
     motion: WheelMotion
-    body: Callable[[Number, int], Jet] | None = None
+    body: Rate | None = None
     reactions: Reactions | None = None
     crank_sense: float = 0.0
     groove: Groove | None = None

@@ -102,7 +102,7 @@ class Mechanism(NamedTuple):
     @property
     def law(self) -> Law | None:
         """Motion law by the angle of the drive's own input shaft; None for straight slots."""
-        return self.spec.motion and self.spec.motion.law
+        return self.spec.motion.law if self.spec.motion else None
 
     @property
     def input_law(self) -> Law | None:

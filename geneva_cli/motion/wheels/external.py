@@ -1,14 +1,13 @@
 """External wheels: radial slots, offset slots, unequal steps."""
 
 import math
-from collections.abc import Callable
 from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
 from geneva_cli.motion.path_and_slot import AnchoredPath
 from geneva_cli.motion.pivots import Dimension, Layout
-from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.spec.rules import LENGTH, Range
@@ -144,15 +143,6 @@ class External(Gearing):
 
         slot = OffsetSlot(path, place.skew)
         return slot, OffsetSlotMotion(path, place.step.b, place.skew)
-
-    def exact_rate(
-        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
-    ) -> FollowedRate:
-        if not self.offset_mm:
-            return super().exact_rate(step, L, exact)
-        from geneva_cli.motion.wheels.offset_slot import exact_rate
-
-        return exact_rate(exact(self.offset_mm) / exact(L), *step)
 
 
 def _multiples(z: int, n: int) -> str:

@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Layout, Pivot
 from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, radial
 from geneva_cli.numerics.arrays import choose, larger
-from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.motion.engagement import AsBuilt, Displacement, Slot, WheelMotion
     from geneva_cli.motion.plane_motion import PlaneMotion
-
-
-# The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
-FollowedRate: TypeAlias = Callable[[Jet, Jet], Jet]
 
 
 class Output(NamedTuple):
@@ -208,21 +202,6 @@ class Gearing(SpecTable):
         from geneva_cli.motion.plane_motion import PlaneMotion
 
         return PlaneMotion()
-
-    def exact_rate(
-        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
-    ) -> FollowedRate:
-        """Rate of a wheel with straight slots, in numbers of any kind, for certificates.
-
-        ``step`` has sine and cosine of half the index angle. ``L`` is the centre distance, mm.
-        ``exact`` converts a number of the spec. Differences lose digits of doubles.
-        """
-        l = step[0]
-
-        def rate(sine: Jet, versine: Jet) -> Jet:
-            return turning(versine * (self.SIGN * l) + self.rest(l), sine * l)
-
-        return rate
 
     def matched_ratio(self, v: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.

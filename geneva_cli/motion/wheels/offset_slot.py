@@ -11,7 +11,6 @@ computed once.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 
 from geneva_cli.motion.engagement import Anchor, Slot, SlotAxis
@@ -108,20 +107,6 @@ def _depth(e: float, deepest: float, toward: Jet) -> tuple[Jet, Jet]:
     """
     square = toward * 2.0 + deepest**2
     return sqrt(square), square + e**2
-
-
-def exact_rate(e: float, sin_b: float, cos_b: float) -> Callable[[Jet, Jet], Jet]:
-    """Rate of a wheel with slots of offset e, in numbers in which differences lose no digits."""
-    sin_d = e / cos_b
-    cos_d = library(sin_d).sqrt((1.0 - sin_d) * (1.0 + sin_d))
-    l, deepest = sin_b * cos_d, cos_d - sin_b
-
-    def rate(sine: Jet, versine: Jet) -> Jet:
-        toward = versine * l
-        square = toward * 2.0 + deepest * deepest
-        return _turning(toward + (1.0 - l), sine * l, sqrt(square) * e, square + e * e)
-
-    return rate
 
 
 def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:

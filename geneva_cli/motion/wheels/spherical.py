@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Displacement, Height, Slot
 from geneva_cli.motion.path_and_slot import AnchoredPath, MeridianSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot
-from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose
-from geneva_cli.numerics.angles import radians, sin_cos_deg
+from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
-from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.rules import Range
 from geneva_cli.spec.schema import Example
 
@@ -87,21 +85,6 @@ class Spherical(Gearing):
         assert place.height is not None  # it is a place on a sphere
         slot = MeridianSlot(path, Height(*place.height, turn))
         return slot, StraightSlotMotion(path, place.step.b)
-
-    def exact_rate(
-        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
-    ) -> FollowedRate:
-        angle = radians(exact(self.axes_deg))
-        m = library(angle)
-        sin_S, cos_S = m.sin(angle), m.cos(angle)
-        sin_th = sin_S * step[0]
-        cos_th = m.hypot(cos_S, sin_S * step[1])
-        least = sin_S * cos_th - cos_S * sin_th
-
-        def rate(sine: Jet, versine: Jet) -> Jet:
-            return turning(versine * (sin_th * cos_S) + least, sine * sin_th)
-
-        return rate
 
 
 class Sphere(NamedTuple):
