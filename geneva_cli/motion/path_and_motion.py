@@ -9,8 +9,7 @@ from typing import ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Anchor, Peak, Slot, WheelMotion, in_wheel
-from geneva_cli.motion.laws.law import Law, remaining
-from geneva_cli.motion.laws.law_peaks import greatest
+from geneva_cli.motion.laws.law import Law, greatest, remaining
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, all_true, ascending, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise

@@ -35,7 +35,7 @@ LAWS = _STANDARD.copy()
 for _folder in EXTRAS:
     LAWS.update(load_named(f"extras.{_folder}:EXTRA").laws)
 LAWS |= {
-    "scca": "motion.laws.scca:SineConstantCosine",
+    "scca": "motion.laws.standard:SineConstantCosine",
     "tuned": "loads.vibration.tuned:Tuned",
     "table": "motion.laws.table_law:TableLaw",
 }
