@@ -10,7 +10,6 @@ from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import (
     SINGLE,
-    Array,
     Batchable,
     Whole,
     array,
@@ -19,8 +18,6 @@ from geneva_cli.numerics.arrays import (
     piece_of,
 )
 from geneva_cli.numerics.jet import Jet, Number, atan2, piecewise, sin, sin_cos, sqrt, turning
-
-END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 
 
 class AnchoredPath(Batchable):
@@ -176,17 +173,6 @@ class ClassicMotion(StraightSlotMotion):
     def end_rates(self, input_deg: float) -> tuple[float, float]:
         jump = self.l / self.entry.along  # which is cos b
         return jump, 3.0 * jump * jump
-
-    def _requested(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
-        if not isinstance(self.l, float):
-            return super()._requested(input_deg, orders)
-        out = classic.derivatives(self.sign, self.l, self.rest, input_deg, orders)
-        near = (input_deg < self.entry_deg + END_DEG) | (input_deg > self.exit_deg - END_DEG)
-        low = [order for order in orders if order < 2]
-        if low and near.any():
-            for order, values in zip(low, super()._requested(input_deg[near], low), strict=True):
-                out[orders.index(order)][near] = values
-        return out
 
 
 def _length(x: Jet, y: Jet) -> Jet:

@@ -27,10 +27,11 @@ def places(wheel: Gearing, drive: Drive, L: float) -> list[RollerPlace]:
         return alike(wheel, drive, wheel.place(wheel.step, L))
     # on different arms: R_i = L sin b_i
     rollers = [wheel.place(HalfStep.of_deg(0.5 * step), L) for step in wheel.steps]
-    total = _refuse_no_dwell(rollers, ("wheel", "steps_deg"))
+    _refuse_no_dwell(rollers, ("wheel", "steps_deg"))
     if drive.roller_angles_deg:
         return _at_angles(drive.roller_angles_deg, rollers)
     # placed so that the dwells between their motions are equal
+    total = math.fsum(2.0 * one.half_motion_deg for one in rollers)
     dwell, at, out = (360.0 - total) / len(rollers), 0.0, rollers[:1]
     for before, one in pairwise(rollers):
         at += before.half_motion_deg + dwell + one.half_motion_deg
@@ -67,9 +68,9 @@ def _at_angles(angles: tuple[float, ...], rollers: list[RollerPlace]) -> list[Ro
     return [one._replace(crank_deg=a) for a, one in zip(angles, rollers, strict=True)]
 
 
-def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> float:
-    """The motions of all rollers, degrees. Raises GenevaError if they take a whole turn."""
-    total = math.fsum(2.0 * one.half_motion_deg for one in rollers)
+def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> None:
+    """Raise GenevaError if the motions of all rollers take a whole turn."""
+    total = sum(2.0 * one.half_motion_deg for one in rollers)
     refuse(
         total >= 360.0,
         lambda: GenevaError(
@@ -78,4 +79,3 @@ def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> float:
             key,
         ),
     )
-    return total

@@ -48,20 +48,17 @@ class OffsetSlotMotion(StraightSlotMotion):
         super().__init__(path, half_step)
         self.skew = skew
 
-    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        return self._angle_or_rate(input_deg, order, angle=True)
+    def __call__(self, input_deg: Number, order: int = 3, angle: bool = True) -> Jet:
+        entry, _, exit_ = self.path.anchors
+        pieces = [
+            partial(self._from_end, entry, order=order, angle=angle),
+            partial(self._inside, order=order, angle=angle),
+            partial(self._from_end, exit_, order=order, angle=angle),
+        ]
+        return piecewise(input_deg, self.path.cuts, pieces)
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
-        return self._angle_or_rate(input_deg, order + 1, angle=False)
-
-    def _angle_or_rate(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
-        """Wheel angle, or its rate, which is one order lower."""
-        entry, _, exit_ = self.path.anchors
-        first, last = (
-            partial(self._from_end, end, order=order, angle=angle) for end in (entry, exit_)
-        )
-        inside = partial(self._inside, order=order, angle=angle)
-        return piecewise(input_deg, self.path.cuts, [first, inside, last])
+        return self(input_deg, order + 1, angle=False)
 
     def _from_end(self, anchor: Anchor, x: Number, order: int, angle: bool) -> Jet:
         """Wheel angle or rate near entry or exit.
@@ -116,15 +113,8 @@ def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
     return (moment(x, y) - lever.derivative()) / rho2.lower
 
 
-def margin(step: HalfStep, e: float) -> float:
-    """cos² b - |e|: positive if a slot of offset e exists for half an index angle b."""
-    # cos² b by the double angle, which is exact for 3, 4 and 6 slots
-    limit: float = 0.5 + 0.5 * sin_cos_pi(2 * step.p, step.q)[1]
-    return limit - abs(e)
-
-
 def skew(step: HalfStep, e: float, spare: float) -> Skew:
-    """The slot of offset e for half an index angle b; ``spare`` is its ``margin``, above 0."""
+    """The slot of offset e for half an index angle b; ``spare`` is cos² b - |e|, above 0."""
     m = library(e, step.p, step.q)
     sin_b, cos_b = step.sin_cos
     less = 2.0 * sin_cos_pi(step.p, 2 * step.q)[0] ** 2  # 1 - cos b
