@@ -27,12 +27,15 @@ class Functions(Protocol):
     """The functions of designs: first those whose signs matter, then the wanted ones.
 
     Each of the first is smooth while those before it keep their signs, the wanted ones while all
-    do. ``poled`` are the numbers of those that behave as 1/x at the place 0.
+    do. Called with places (m, k) of some designs, it returns masks of positive signs (signs, m, k)
+    and Taylor coefficients (functions, m, k) by the place. ``held`` are known signs, 1.0 or -1.0,
+    NaN where they are computed. ``requested`` are the numbers of the wanted functions to evaluate,
+    all by default. A function without a bound is infinite, and its slope 0.
     """
 
     signs: int  # number of the functions whose signs matter
     wanted: int  # number of the wanted ones
-    poled: Sequence[int]
+    poled: Sequence[int]  # numbers of those that behave as 1/x at the place 0
 
     def __call__(
         self,
@@ -41,13 +44,7 @@ class Functions(Protocol):
         order: int,
         held: Array | None = None,
         requested: Sequence[int] | None = None,
-    ) -> tuple[Mask, list[Array]]:
-        """Masks of positive signs, (signs, m, k), and Taylor coefficients (functions, m, k).
-
-        They are those of some designs at places (m, k), by the place. ``held`` are known signs, 1.0
-        or -1.0, NaN where they are computed. ``requested`` are the numbers of the wanted functions
-        to evaluate, all by default. A function without a bound is infinite, and its slope 0.
-        """
+    ) -> tuple[Mask, list[Array]]: ...
 
 
 class Rows(NamedTuple):
@@ -119,7 +116,14 @@ class Cutter:
         level, until none is left. A kink or a pole leaves some rows at each level, noise twice as
         many as before.
         """
-        rows = joined([self._rows(i, a, b, start) for i, (a, b) in enumerate(spans)])
+        each = []
+        for number, (a, b) in enumerate(spans):
+            own = np.flatnonzero((b > a)[:, 0])
+            design, x = own + start, np.stack((a[own, 0], b[own, 0]))
+            u = spread(x, self.w[design])
+            self.width[design] += u[1] - u[0]
+            each.append(Rows(design, np.full(len(own), number), u, x))
+        rows = joined(each)
         first = np.bincount(rows.design, minlength=len(self.noisy))
         for depth in range(60):  # halvings: all rows are too narrow for more by then
             if not len(rows.design):
@@ -132,13 +136,6 @@ class Cutter:
                 [self._sampled(rows.take(some)) for some in blocks(len(rows.design), BLOCK)],
             )
             rows = joined(self.todo)
-
-    def _rows(self, number: int, a: Array, b: Array, start: int) -> Rows:
-        own = np.flatnonzero((b > a)[:, 0])
-        design, x = own + start, np.stack((a[own, 0], b[own, 0]))
-        u = spread(x, self.w[design])
-        self.width[design] += u[1] - u[0]
-        return Rows(design, np.full(len(own), number), u, x)
 
     def is_settled(self, rows: Rows) -> Mask:
         """Masks of the rows that are too narrow for halving, or noise."""
@@ -174,12 +171,20 @@ class Cutter:
             if unsure.any():
                 self.again(here.part(part, self.w), part, unsure)
             if len(cut) or unsure.any():
-                number, part = _between(cut, t, part)
+                # the parts between the cuts, by the numbers of the original parts
+                number = np.concatenate((np.arange(part.shape[1]), cut))
+                begin, end = np.concatenate((part[0], t)), np.concatenate((part[1], t))
+                one, two = np.lexsort((begin, number)), np.lexsort((end, number))
+                number, part = number[one], np.stack((begin[one], end[two]))
                 kept = np.flatnonzero(~unsure[number] & (part[1] > part[0]))
                 number, part = number[kept], part.take(kept, axis=1)
                 own = own[number]
                 q, sign, value = (v.take(number, axis=-1) for v in (q, sign, value))
-            flip = _other_sign(q, part, sign[kind])
+            # parts in whose middle the function does not have the sign of their row
+            some = np.flatnonzero(~is_whole(part))
+            terms, t = chebyshev.series(q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some]
+            middles = np.where(chebyshev.at(terms, t) > 0.0, 1.0, -1.0)
+            flip = some[middles != sign[kind, some]]
             if len(flip):
                 sign[kind, flip] *= -1.0
                 design = rows.design[own[flip]]
@@ -220,7 +225,13 @@ class Cutter:
         # are within the error of 0.
         open_ = (left > 3e-3 * size) & change.any(axis=0)
         open_ |= (left > np.maximum(1e-9 * size, rounding)) & (near.sum(axis=0) > 1)
-        open_ |= _crosses_twice(g, d, below, noise, LATER_TERMS * left)
+        # a pair of zeros between two places of the grid, by a parabola there
+        before, after = d[:-1], d[1:]
+        turn = before / (before - after)
+        bottom = g[:-1] + 0.5 * before * turn * np.diff(GRID)[:, None]
+        bottom += np.where(below[1:], LATER_TERMS * left, -LATER_TERMS * left)
+        dips = (before * after < 0.0) & ~change & ((bottom < -noise[1:]) != below[1:])
+        open_ |= dips.any(axis=0)
         unsure[some] = open_
         own, cell = np.nonzero((change & ~open_).T)
         if not len(own):
@@ -253,35 +264,6 @@ class Cutter:
             # After a step of 1e-8 of a half row the rest is rounding.
             live = live[np.abs(step) > 1e-8 * half[live]]
         return np.asarray((spread(x, w) - rows.at(np.zeros(1))) / half)
-
-
-def _other_sign(q: Array, part: Array, sign: Array) -> Whole:
-    """Numbers of the parts in whose middle a function does not have the sign of its row."""
-    some = np.flatnonzero(~is_whole(part))
-    middle = chebyshev.at(chebyshev.series(q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some])
-    return some[np.where(middle > 0.0, 1.0, -1.0) != sign[some]]
-
-
-def _crosses_twice(g: Array, d: Array, below: Mask, noise: Array, left: Array) -> Mask:
-    """Masks of rows that may have a pair of zeros between two places of the grid.
-
-    ``left`` is the error of their series.
-    """
-    before, after = d[:-1], d[1:]
-    turn = before / (before - after)
-    bottom = g[:-1] + 0.5 * before * turn * np.diff(GRID)[:, None]
-    dips = (before * after < 0.0) & (below[1:] == below[:-1])
-    bottom += np.where(below[1:], left, -left)
-    dips &= (bottom < -noise[1:]) != below[1:]
-    return np.asarray(dips.any(axis=0))
-
-
-def _between(cut: Whole, t: Array, part: Array) -> tuple[Whole, Array]:
-    """Parts between cuts: the numbers of the original parts, and both ends."""
-    number = np.concatenate((np.arange(part.shape[1]), cut))
-    start, end = np.concatenate((part[0], t)), np.concatenate((part[1], t))
-    one, two = np.lexsort((start, number)), np.lexsort((end, number))
-    return number[one], np.stack((start[one], end[two]))
 
 
 def spread(x: Array, w: Array) -> Array:
