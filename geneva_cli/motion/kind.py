@@ -55,7 +55,7 @@ class Kind(NamedTuple):
     wheel_body: str = ""  # function that returns mass and inertia of a mechanism's wheel
     motion_checks: Mapping[str, str] = _NONE  # by their names
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds
-    remedies: Mapping[str, str] = _NONE  # of its checks, in words of ``verdict.remedies``
+    remedies: Mapping[str, str] = _NONE  # of its checks, in words of ``verdict.advice``
     load_case: str = ""  # function that completes the load case of a mechanism
     quantities: tuple[Quantities, ...] = ()  # of the report
     # sizes of a mechanism's horns: half the slot's width, the recess (0 without a lock), and more
