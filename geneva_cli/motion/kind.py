@@ -61,7 +61,7 @@ class Kind(NamedTuple):
     # sizes of a mechanism's horns: half the slot's width, the recess (0 without a lock), and more
     horn_sizes: str = ""
     horns: str = ""  # function of a mechanism and them that returns horns of another shape
-    cut_parts: str = ""  # class of the parts as they are cut within the tolerances
+    locks: str = ""  # function of parts and tolerances: the locks as cut, and what they need
     # functions that return families of synth, by where they are searched: those of a "wheel" alone,
     # beside "straight" slots of any wheel, "alone", or where wheels on a "carrier" are required
     families: Mapping[str, str] = _NONE

@@ -95,7 +95,6 @@ driver_gear_convexity driven_gear_convexity: drive.eccentricity:0 drive.A:0 whee
 dwell_hold: lock_radius_mm= wheel.held_by=detent
 tolerance_slot_mm: slot_clearance_mm+1
 tolerance_lock_mm: lock_clearance_mm+1
-tolerance_turns:
 wall_between_slots_mm: SMALLER TIGHTER
 horn_mm: lock_radius_mm? SMALLER lock_clearance_mm:0 TIGHTER
 wheels_apart_mm: SMALLER LARGER drive.wheels:1

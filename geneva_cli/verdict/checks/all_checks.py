@@ -137,12 +137,10 @@ PLAYS = _of(
     limited_play="index_play_max_deg dwell_play_max_deg",
     dwell_position="dwell_position_max_deg",
 )
-# Of all the machines within the tolerances, for which parts are turned.
+# Of all the machines within the tolerances.
 TOLERANCES = _of(
     "play_checks",
-    slot_clearance="tolerance_slot_mm",
-    lock_clearance="tolerance_lock_mm",
-    extremes_turn="tolerance_turns",
+    toleranced="tolerance_slot_mm tolerance_lock_mm",
 )
 TURNING: Checks = {
     **_of(
