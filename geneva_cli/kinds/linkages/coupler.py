@@ -23,7 +23,6 @@ from geneva_cli.kinds.linkages.link_path import LinkPath
 from geneva_cli.kinds.linkages.tangent_pairs import taken
 from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos
-from geneva_cli.study.synth.parts_data import distances_at_rest
 
 
 class CouplerMotion(NamedTuple):
@@ -149,7 +148,9 @@ def _passes(place: Complex, r: Array, b: Number) -> Mask:
     corners at (1, r).
     """
     d, angle = np.abs(place), np.abs((np.angle(place) + b) % (2.0 * b) - b)
-    away = distances_at_rest(d * np.cos(angle), d * np.sin(angle), np.hypot(1.0, r), r)
+    along, across = d * np.cos(angle), d * np.sin(angle)
+    corner = np.where(along >= 1.0, np.hypot(along - 1.0, r - across), r - across)
+    away = np.where(across < r * along, corner, d - np.hypot(1.0, r))  # in front of a slot or not
     touch = 1e-6  # a roller that leaves its slot is this near to it
     clear: Mask = np.all((away - r >= -touch) & (d > 1.0), axis=1)
     return clear
