@@ -189,15 +189,13 @@ def _not_ours(path: str) -> GenevaError:
 class GrowingTable:
     """The destination of the rows of ``names``, ``done`` of which exist already.
 
-    ``key`` is all that they depend on, for ``resume``; ``message`` says what that does. A later
-    shard of a table has no ``header``.
+    ``key`` is all that they depend on, for ``resume``; ``message`` says what that does.
     """
 
     def __init__(
         self,
         names: Sequence[str],
         key: str,
-        header: bool,
         output: str,
         resume: bool = False,
         inputs: Iterable[str] = (),
@@ -213,7 +211,7 @@ class GrowingTable:
             from geneva_cli.output.parquet import refuse_without
 
             refuse_without()
-        first = one_line(names) if header and not self.parquet else ""
+        first = one_line(names) if not self.parquet else ""
         if output != "-":
             self.file = GrowingFile(output, first, key, resume, inputs)
             self.done = self.file.done

@@ -52,7 +52,6 @@ def run(
     best: Annotated[
         str, option("min:FIELD", "The best design, refined, as a spec; or max:.", CHOICE)
     ] = "",
-    shard: Annotated[str, option("I/N", "Only shard I of N, as 3/16.", LONG)] = "",
     resume: Annotated[bool, flag("--resume", "Continue a stopped run.", LONG)] = False,
     jobs: Annotated[
         int | None, option("N", "Number of processes; all cores by default.", LONG)
@@ -65,7 +64,7 @@ def run(
 
     VALUES are 4,6,8, 3..12, 0..0.9:0.1 or words. With --random and --best, LOW..HIGH is the
     whole range between.
-    Long runs, shards and the best of many: `geneva help search`.
+    Long runs and the best of many: `geneva help search`.
     """
     from geneva_cli.output import show, show_text
     from geneva_cli.output.formats import FORMATS
@@ -88,7 +87,6 @@ def run(
         subject_to=subject_to or (),
         pareto=pareto,
         best=best,
-        shard=shard,
         jobs=jobs,
     )
     outcome = Outcome(plan)
@@ -139,8 +137,7 @@ def _write_rows(
         for block in outcome.rows(_tracked(plan, 0)):
             digest.add(block)
     else:
-        first = sweep.shard.number == 1
-        growing = GrowingTable(sweep.names, plan.key, first, output, resume, plan.inputs)
+        growing = GrowingTable(sweep.names, plan.key, output, resume, plan.inputs)
         with closing(growing) as rows:
             if rows.message:
                 print(clean(rows.message), file=sys.stderr)
@@ -160,5 +157,4 @@ def _write_rows(
 
 def _tracked(plan: "SweepRequest", done: int) -> "Iterator[Rows]":
     """The rows, with a progress bar."""
-    start, stop = plan.sweep.span
-    return tracked(plan.blocks(done), "designs", stop - start - done, len)
+    return tracked(plan.blocks(done), "designs", len(plan.sweep.plan) - done, len)

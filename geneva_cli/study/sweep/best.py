@@ -64,8 +64,6 @@ def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
         f"# The {word} {search.name} of {tried:,} designs, {feasible:,} of them within the bounds: "
         f"{values[search.name]:.9g}."
     ]
-    if anew := request.chosen_anew(machine):
-        notes.append(f"# sizes chosen anew: {anew}")
     notes += [f"# {c}: {values[c.name]:.9g}{c.standing(values[c.name])}" for _, c in search.bounds]
     for name, value in zip(request.of_best.names, request.of_best.of(machine), strict=True):
         if value is None or isinstance(value, bool):
@@ -112,7 +110,7 @@ class _SweepSearch:
         return np.reshape(each, (len(each), len(rows)))
 
     def merits(self, rows: Rows) -> tuple[Array, Array]:
-        """The violations of the bounds, 0 where they are kept apart from rounding, and the costs."""
+        """Violations of the bounds, 0 where they are kept apart from rounding, and costs."""
         costs = self.costs(rows)
         kept = np.isfinite(costs)
         for i, c in self.bounds:
