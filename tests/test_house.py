@@ -67,7 +67,6 @@ ALONE = {
     "specfile.json_schema",
     "geometry.pieces",
     "drawings.catalogue",
-    "verdict.quantities.quantity_names",
 }
 # A kind's names; "table" is a law, and also what people are shown.
 NAMES = {*registry.LAWS, *(kind.name for kind in registry.KINDS)} - {"table"}

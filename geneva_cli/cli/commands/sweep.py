@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from contextlib import closing
 from typing import TYPE_CHECKING, Annotated
 
-from geneva_cli.cli.completion import fields, keys, listed
 from geneva_cli.cli.options import Format, Settings, SpecPath, flag, option, output_option
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import tracked
@@ -29,11 +28,11 @@ def run(
     spec: SpecPath,
     vary: Annotated[
         list[str] | None,
-        option("KEY=VALUES", "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.", DESIGNS, keys),
+        option("KEY=VALUES", "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.", DESIGNS),
     ] = None,
     pick: Annotated[
         str,
-        option("FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS, listed(fields)),
+        option("FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS),
     ] = "",
     random: Annotated[
         int | None, option("N", "N random designs from the ranges, not the grid.", DESIGNS)
@@ -44,7 +43,7 @@ def run(
     check: Annotated[bool, flag("--check", "Add whether all checks pass.", DESIGNS)] = False,
     subject_to: Annotated[
         list[str] | None,
-        option("BOUND", 'Only rows that keep it: "dwell_s >= 0.8"; repeat.', CHOICE, fields),
+        option("BOUND", 'Only rows that keep it: "dwell_s >= 0.8"; repeat.', CHOICE),
     ] = None,
     pareto: Annotated[
         str, option("min:FIELD,...", "Only rows that no other row beats in all of these.", CHOICE)
