@@ -6,9 +6,10 @@ import math
 from collections.abc import Iterator, Sequence
 
 from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hub, holes_of
-from geneva_cli.drawings.sheet.view import Block, View, grouped, times
+from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.geometry.measure import at, legs
 from geneva_cli.geometry.plates import Member, Plate, plates
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape
