@@ -28,16 +28,7 @@ from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.board import chords
 from geneva_cli.geometry.measure import at, bounds, bounds_of, mapped
-from geneva_cli.geometry.plates import (
-    Group,
-    Member,
-    Plate,
-    Shell,
-    Stack,
-    in_place,
-    plates,
-    steps_of,
-)
+from geneva_cli.geometry.plates import Group, Member, Plate, Shell, in_place, plates
 from geneva_cli.geometry.shapes import Circle, Point, two_arcs
 from geneva_cli.geometry.sheet import HATCH, OUTLINE, Sheet, line, rectangle
 from geneva_cli.motion.mechanism import Mechanism
@@ -69,9 +60,7 @@ def sheet(parts: FlatParts) -> Sheet:
     area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
     items: dict[Plate, int] = {}  # the number of each kind of plate in the list
     for i, kind in enumerate(alike(every), 1):
-        for one in kind:
-            if isinstance(one, Plate | Stack):
-                items |= dict.fromkeys(steps_of(one), i)
+        items |= {one: i for one in kind if isinstance(one, Plate)}
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
     faces = cut_faces(parts.members, 500.0 / largest)
     marked = {items[face.plate] for face in faces}
@@ -141,7 +130,7 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
     """Yield the view of each part."""
     mechanism, bars = parts.mechanism, parts.links
     process, to_fix = mechanism.spec.size.process, parts.to_fix
-    unborne = {one.name for one in parts.unborne}
+    unborne = {name for name, _ in parts.unborne}
 
     def begin(*names: str, thick: bool = True) -> View:
         """Begin a view, titled with its parts' numbers and thicknesses.
