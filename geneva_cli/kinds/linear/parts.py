@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Self
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Point
+from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.linear.frame import bar_bolts, guide, guide_bar, shafts_and_frame
+from geneva_cli.kinds.linear.frame import bar_bolts, guide, rack_frame, shafts_and_frame
 from geneva_cli.kinds.linear.outlines import RackOutlines, turned_rack
 from geneva_cli.kinds.linear.rack import (
     RackSizes,
@@ -23,6 +24,7 @@ from geneva_cli.kinds.linear.rack import (
     rack_bore,
     rack_contour,
     rack_crank,
+    rack_ends,
     rack_sizes,
 )
 from geneva_cli.numerics.arrays import Array
@@ -87,8 +89,12 @@ class RackParts(EdgedParts):
 
     @cached_property
     def bar(self) -> Member:
-        """The bar under the rack's back."""
-        return Member(guide_bar(self.mechanism, self.mechanism.spec.wheel.z))
+        """The bar under the rack's back; half the height under it is free."""
+        count, sizes, x = self.mechanism.spec.wheel.z, self.sizes, self.sizes.guide.back
+        low, high = rack_ends(sizes, count)
+        outline = rectangle("LINK", x, low, x + sizes.guide.bar, high)
+        under = 0.5 * rack_frame(self.mechanism).top
+        return Member(Plate("guide bar", "LINK", outline, bar_bolts(sizes, count), under, 0.0))
 
     @cached_property
     def arm(self) -> Plate | None:
