@@ -19,7 +19,7 @@ MESHES = {  # of solids, in bytes
 DRAWN = {"dxf": "dxf", "svg": "svg.drawing_svg", "step": "step", **MESHES}
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
 CAMS = ("cam",)  # for motions only: a file for a controller
-CONTROLLERS = ("polynomial", "codesys", "beckhoff")  # what reads a cam
+CONTROLLERS = ("polynomial", "codesys")  # what reads a cam
 PICTURES = ("png", "pdf")  # for figures only
 # for documents; the other formats of tables get their values
 DOCUMENTS = {"html": "html", "pdf": "document_pdf", "md": "document_markdown"}
