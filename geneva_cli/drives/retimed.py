@@ -202,10 +202,6 @@ class _Engagement(Engagement):
         return _Engagement(own, timing), self.mid_deg - timing.mid_deg
 
     @property
-    def overtaking(self) -> float:
-        return self._own.overtaking
-
-    @property
     def own(self) -> Engagement:
         return self._own
 

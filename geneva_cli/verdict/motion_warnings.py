@@ -29,7 +29,6 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
         *_as_built(mechanism),
         *_fits(mechanism),
         *_rounded_points(mechanism),
-        *_overtaken(mechanism),
         *(_of_law(mechanism, mechanism.law) if mechanism.law else ()),
     ]
 
@@ -196,18 +195,6 @@ def _least_clearance_mm(size: Size, own: float, radius: float) -> float:
     if shop.cut_mm:  # a cut's clearance is its deviation
         return own
     return 0.5 * (closest_mm(2.0 * radius) or 0.0) if shop.fits else min(own, shop.deviation_mm)
-
-
-def _overtaken(mechanism: Mechanism) -> Iterator[Notice]:
-    """A warning for a roller that presses into the wall that it drove, as gears slow the wheel."""
-    lead = mechanism.engagements[0].overtaking / DEGREE
-    if lead > 1e-6:  # degrees: less is rounding
-        yield Notice(
-            "roller-overtakes",
-            f"the roller overtakes the wheel by {lead:.4g}° while the gears drive. Near the "
-            "line of centres its slot would turn the wheel faster than the gears do. It presses "
-            'into the wall that it drove: gear_ratio = "shockless" keeps it behind',
-        )
 
 
 def _rounded_points(mechanism: Mechanism) -> Iterator[Notice]:

@@ -117,7 +117,7 @@ outer_wall_mm: wheel_outer_radius_mm?
 cut_plate_mm: THICK
 cut_slot_mm: roller_radius_mm? THICK
 branches_apart_mm branches_crossed_mm: roller_radius_mm*3 LONGER
-OTHERS: drive.gear_ratio=shockless wheel_radius_mm~ lock_radius_mm~ relief~
+OTHERS: wheel_radius_mm~ lock_radius_mm~ relief~
   relief_clearance_mm~ slot_bottom_clearance_mm~ wheel_outer_radius_mm~ lock_clearance_mm>0
   TIGHTER roller_radius_mm~ roller_radius_mm*0.4 wheel.offset_mm>0
 """
