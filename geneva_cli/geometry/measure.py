@@ -78,11 +78,7 @@ def legs(arc: Arc) -> tuple[float, float]:
 
 
 def fraction_at(piece: Line | Arc, point: Point) -> float:
-    """Fraction of the length at a point of the piece, or of its whole line or circle.
-
-    >>> fraction_at(Line((0.0, 0.0), (4.0, 0.0)), (1.0, 0.0))
-    0.25
-    """
+    """Fraction of the length at a point of the piece, or of its whole line or circle."""
     (x, y), (x0, y0), (x1, y1) = point, piece.start, piece.end
     u, v = x1 - x0, y1 - y0
     along = ((x - x0) * u + (y - y0) * v) / (u * u + v * v)
@@ -132,10 +128,7 @@ def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:
 
 
 def as_cubic(arc: Arc) -> Cubic:
-    """The cubic with the arc's ends, tangents and middle, within 3e-4 of the radius at 90 degrees.
-
-    Its handles are 4/3 tan(sweep/4) of the radius long; with the bulge b, (1 + b²)/3 of the chord.
-    """
+    """The cubic with the arc's ends, tangents and middle: within 3e-4 radii at 90 degrees."""
     (x0, y0), (x1, y1) = arc.start, arc.end
     long = (1.0 + arc.bulge * arc.bulge) / 3.0
     half = 0.5 * arc.sweep
@@ -149,10 +142,7 @@ def as_cubic(arc: Arc) -> Cubic:
 def mapped(
     shape: S, point: Callable[[Point], Point], radius: Callable[[float], float] = lambda r: r
 ) -> S:
-    """Move a shape by a similarity that keeps the sense of rotation.
-
-    ``point`` maps its points, and ``radius`` a circle's radius.
-    """
+    """Move a shape by a similarity of points that keeps the sense, and of a circle's radius."""
     if isinstance(shape, Circle):
         return shape._replace(centre=point(shape.centre), radius=radius(shape.radius))
     pieces: list[Segment] = []

@@ -33,11 +33,7 @@ from geneva_cli.geometry.shapes import (
 
 
 class Moments(NamedTuple):
-    """Integrals of 1, x, y and x² + y² over the inside, about the origin.
-
-    Units are those of the coordinates to the second, third, third and fourth power. Values are
-    negative if the outline runs clockwise.
-    """
+    """Integrals of 1, x, y and x² + y² over the inside, about the origin; below 0 if clockwise."""
 
     area: float
     x: float
@@ -55,11 +51,7 @@ class Moments(NamedTuple):
 
 
 def moments(shape: Shape) -> Moments:
-    """Moments of a closed contour, or of a circle.
-
-    >>> moments(Circle("BORE", (3.0, 0.0), 1.0)).polar / math.pi  # 1/2 and, by Steiner, 3²
-    9.5
-    """
+    """Moments of a closed contour, or of a circle."""
     if isinstance(shape, Circle):
         (x, y), square = shape.centre, shape.radius * shape.radius
         area = math.pi * square
@@ -70,11 +62,7 @@ def moments(shape: Shape) -> Moments:
 
 
 def area(shape: Shape) -> float:
-    """Area inside, positive if the contour runs counterclockwise.
-
-    An open contour is closed by the chord from its end to its start. Moments are taken about the
-    first point, so that a shape far from the origin loses no digits.
-    """
+    """Area inside, positive if the contour runs counterclockwise; a chord closes an open one."""
     if isinstance(shape, Circle):
         return math.pi * shape.radius * shape.radius
     if not shape.segments:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -39,47 +38,6 @@ class Plate(NamedTuple):
     def thickness(self) -> float:
         """Thickness along the axis."""
         return self.high - self.low
-
-    @property
-    def plates(self) -> tuple[Plate, ...]:
-        """The plate itself, as those of a ``Stack``."""
-        return (self,)
-
-    def of_plates(self, plates: Iterable[Plate]) -> Plate:
-        """Return the only plate, as a part in place of this one."""
-        (only,) = plates
-        return only
-
-
-class Stack(NamedTuple):
-    """A turned part: plates without holes, each on the one before, as one solid.
-
-    Of two neighbours one lies within the other. Where their outlines coincide, they have the same
-    pieces.
-    """
-
-    name: str
-    layer: Layer
-    plates: tuple[Plate, ...]
-
-    @property
-    def low(self) -> float:
-        """Lower end along the axis."""
-        return self.plates[0].low
-
-    @property
-    def high(self) -> float:
-        """Upper end along the axis."""
-        return self.plates[-1].high
-
-    @property
-    def thickness(self) -> float:
-        """Length along the axis."""
-        return self.high - self.low
-
-    def of_plates(self, plates: Iterable[Plate]) -> Stack:
-        """Return a part with other plates."""
-        return self._replace(plates=tuple(plates))
 
 
 class Shell(NamedTuple):
@@ -122,15 +80,7 @@ class Shell(NamedTuple):
         return most * (self.outer if most > 0.0 else self.inner)
 
     def inertia(self, axis: Vector) -> float:
-        """The volume's moment of inertia about an axis through the centre, mm⁵.
-
-        >>> from geneva_cli.geometry.sphere import Region, SphereArc, place
-        >>> half = place(math.pi / 2.0, 0.0)
-        >>> dome = Region((SphereArc((0.0, 0.0, 1.0), math.pi / 2.0, half, half),), (0.0, 0.0, 1.0))
-        >>> ball = Shell("", "WHEEL", (dome,), 0.0, 10.0)
-        >>> round(ball.inertia((0.0, 0.0, 1.0)) / ball.volume, 12)  # 2/5 r²
-        40.0
-        """
+        """The volume's moment of inertia about an axis through the centre, mm⁵."""
         covered = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
         bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
         return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
@@ -152,7 +102,7 @@ class Member(NamedTuple):
     frame: Rotation | None = None  # in place of a turn: the directions of its x, y and z
 
 
-Solid: TypeAlias = Plate | Stack | Shell
+Solid: TypeAlias = Plate | Shell
 Part: TypeAlias = Solid | Group
 
 
@@ -164,38 +114,18 @@ def solids(part: Part) -> list[Solid]:
 
 
 def plates(part: Part) -> list[Plate]:
-    """The flat solids of a part; turned ones are left out."""
+    """The flat solids of a part."""
     return [one for one in solids(part) if isinstance(one, Plate)]
 
 
-def between(part: Plate | Stack, low: float, high: float) -> Plate | Stack:
-    """The length of a flat or turned part that lies between two heights."""
-    inside = (one for one in part.plates if one.low < high and one.high > low)
-    return part.of_plates(
-        one._replace(low=max(low, one.low), high=min(high, one.high)) for one in inside
-    )
+def inwards(plate: Plate, outside: float) -> Plate:
+    """A plate whose heights count inwards from ``outside``, by distances instead."""
+    return plate._replace(low=outside - plate.high, high=outside - plate.low)
 
 
-def inwards(part: Part, outside: float) -> Plate | Stack:
-    """A flat or turned part whose heights count inwards from ``outside``, by distances instead."""
-    assert isinstance(part, Plate | Stack)
-    return part.of_plates(
-        one._replace(low=outside - one.high, high=outside - one.low) for one in part.plates[::-1]
-    )
-
-
-def steps_of(part: Part) -> list[Plate]:
-    """A flat part, or the steps of a turned one, under the part's name."""
-    assert isinstance(part, Plate | Stack)
-    return [step._replace(name=part.name) for step in part.plates]
-
-
-def lowered(part: Plate | Stack) -> Plate | Stack:
-    """A flat or turned part with its lower face at z = 0."""
-    down = part.low
-    return part.of_plates(
-        one._replace(low=one.low - down, high=one.high - down) for one in part.plates
-    )
+def lowered(plate: Plate) -> Plate:
+    """A plate with its lower face at z = 0."""
+    return plate._replace(low=0.0, high=plate.high - plate.low)
 
 
 def placed(shape: S, at: Point, turn: float) -> S:
@@ -206,12 +136,13 @@ def placed(shape: S, at: Point, turn: float) -> S:
 
 
 def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
-    """Yield each plate, and each step of a turned part, in its own frame and at its position."""
+    """Yield each plate in its own frame and at its position."""
     for one in members:
         if isinstance(one.part, Group):
             inner = in_place(one.part.members)
         else:
-            inner = ((step, step) for step in steps_of(one.part))
+            assert isinstance(one.part, Plate)
+            inner = iter([(one.part, one.part)])
         for own, plate in inner:
             outline, *holes = (
                 placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)
@@ -228,20 +159,9 @@ class MassProperties(NamedTuple):
 
 
 def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
-    """Mass, centroid and inertia J = rho h Ip of a plate.
-
-    >>> disc = Plate("disc", "CRANK", Circle("", (0, 0), 50.0), (), 0.0, 10.0)
-    >>> steel = mass_properties(disc, 7850.0)
-    >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
-    0.5
-    """
+    """Mass, centroid and inertia J = rho h Ip of a plate."""
     whole, per = face(plate).times(plate.thickness), density_kgm3 * MM**3
     return MassProperties(per * whole.area, whole.centroid, per * MM**2 * whole.polar)
-
-
-def solid_properties(solid: Plate | Stack, density_kgm3: float) -> MassProperties:
-    """Mass, centroid and inertia of a flat or a turned part."""
-    return reduce(added, (mass_properties(one, density_kgm3) for one in solid.plates))
 
 
 def added(one: MassProperties, other: MassProperties) -> MassProperties:
@@ -255,14 +175,7 @@ def added(one: MassProperties, other: MassProperties) -> MassProperties:
 
 
 def face(plate: Plate) -> Moments:
-    """Area, first moments and polar moment of a plate's face about the origin.
-
-    >>> washer = Plate(
-    ...     "washer", "CRANK", Circle("", (0, 0), 5.0), (Circle("", (0, 0), 3.0),), 0.0, 2.0
-    ... )
-    >>> face(washer).area / 3.141592653589793
-    16.0
-    """
+    """Area, first moments and polar moment of a plate's face about the origin."""
     out, *holes = (moments(shape) for shape in (plate.outline, *plate.holes))
     cut = (hole.times(-math.copysign(1.0, hole.area)) for hole in holes)
     return total((out.times(math.copysign(1.0, out.area)), *cut))

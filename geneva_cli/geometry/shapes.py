@@ -12,11 +12,11 @@ from typing import Literal, NamedTuple, TypeAlias
 Point: TypeAlias = tuple[float, float]
 ORIGIN: Point = (0.0, 0.0)
 HULL_ROUNDING = 1e-12  # radians, and mm: directions and points nearer to each other are one
-# The names of all layers: of drawings, coupons, sheets and animations. Shapes that are not drawn
+# The names of all layers: of drawings, sheets and animations. Shapes that are not drawn
 # have none.
 Layer: TypeAlias = Literal[
     "WHEEL", "CRANK", "ARM", "LINK", "FRAME", "GROOVE", "PITCH", "ROLLER", "BORE", "HUB", "SHAFT",
-    "COUPON", "ENGRAVE", "OUTLINE", "HIDDEN", "CENTER", "HATCH", "DIMENSION", "TEXT",
+    "OUTLINE", "HIDDEN", "CENTER", "HATCH", "DIMENSION", "TEXT",
     "GEAR", "SLOT", "HOLLOW", "",
 ]  # fmt: skip
 
@@ -120,11 +120,7 @@ def closed(layer: Layer, segments: Iterable[Segment]) -> Contour:
 
 
 def polygon(layer: Layer, corners: Sequence[Point]) -> Contour:
-    """A closed contour of lines between corners.
-
-    >>> len(polygon("", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]).segments)
-    3
-    """
+    """A closed contour of lines between corners."""
     after = [*corners[1:], corners[0]]
     return closed(layer, [Line(p, q) for p, q in zip(corners, after, strict=True)])
 
@@ -147,10 +143,6 @@ def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
 
     It touches a circle in the directions in which this circle reaches farthest. Going round, the
     next circle takes over where both reach equally far, on their common tangent.
-
-    >>> two = convex_hull("ARM", [Circle("ARM", (0.0, 0.0), 1.0), Circle("ARM", (4.0, 0.0), 1.0)])
-    >>> [type(piece).__name__ for piece in two.segments]
-    ['Arc', 'Line', 'Arc', 'Line']
     """
     order = sorted(circles, key=lambda c: (c.centre[0] + c.radius, c.centre[1]))
     here, turned = order[-1], 0.0  # the farthest along x

@@ -21,9 +21,8 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE
 def _distances(off: Array, across: Array, beyond: Array) -> Array:
     """Return the angles between points and the nearest points of arcs.
 
-    ``off`` is the angle of a point from the arc's circle, ``beyond`` the angle about the axis by
-    which it is past the arc's end. ``across`` is the product of the sines of both angles from the
-    axis. In the triangle of axis, point and end this needs no difference of near numbers.
+    A point is ``off`` the arc's circle, and about the axis ``beyond`` the arc's end. ``across`` is
+    the product of the sines of both angles from the axis.
     """
     square = np.sin(0.5 * off) ** 2 + across * np.sin(0.5 * beyond) ** 2
     return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
@@ -33,12 +32,6 @@ class SphereArcs:
     """A boundary of arcs, each from the end of the one before; its region is to its left.
 
     If it is not closed, it is a part of a boundary and continues smoothly at its ends.
-
-    >>> from geneva_cli.geometry.sphere import place
-    >>> cap = SphereArcs([SphereArc((0.0, 0.0, 1.0), 0.5, place(0.5, 0.0), place(0.5, 0.0))])
-    >>> away = cap.signed(np.array([place(0.7, 1.0), place(0.2, 2.0)]))
-    >>> away.round(12).tolist()  # outside, and inside
-    [0.2, -0.3]
     """
 
     def __init__(self, arcs: Sequence[SphereArc], closed: bool = True) -> None:
@@ -95,11 +88,7 @@ class SphereArcs:
         return off, past, short, _distances(off, np.sin(self.angle) * across, beyond)
 
     def facing(self, which: Whole, towards: Array) -> tuple[Whole, Array]:
-        """Points of some of the arcs that face directions (n, 3), or face away from them.
-
-        They are on the great circle through the arc's axis and the direction. The result is the
-        index of the direction for each point, and the points.
-        """
+        """Points of some arcs that face directions (n, 3), or away; the direction's index first."""
         along = (towards * self.x[which]).sum(axis=1)
         turn = np.arctan2((towards * self.y[which]).sum(axis=1), along)
         owner, points = [], []
@@ -112,10 +101,7 @@ class SphereArcs:
 
 
 class Circle(NamedTuple):
-    """A circle on the sphere, ``angle`` radians from its axis; x, y and the axis are unit vectors.
-
-    Azimuths on it are from x towards y.
-    """
+    """A circle on the sphere, ``angle`` radians from its axis, with azimuths from x towards y."""
 
     axis: Array
     x: Array
@@ -136,18 +122,14 @@ class Circle(NamedTuple):
 
 
 def farthest(boundary: SphereArcs, points: Array) -> Array:
-    """Return the distance from each point, (n, 3), to the farthest point of each arc, (n, k).
-
-    That is nearest to the opposite point.
-    """
+    """Return the distance from each point, (n, 3), to the farthest point of each arc, (n, k)."""
     return math.pi - boundary.distances(-points)
 
 
 def from_circle(boundary: SphereArcs, circle: Circle, middle: Array, half: Array) -> Array:
-    """Return the least distances of arcs of a circle from a boundary that they do not cross, (n,).
+    """Return the distances of arcs of a circle from a boundary that they do not cross, (n,).
 
-    The arcs are from azimuths ``middle - half`` to ``middle + half``. The distance is at a corner
-    of the boundary, at one of its points that face the circle's axis, or at an end of the arc.
+    They are from azimuths ``middle - half`` to ``middle + half``.
     """
     # two circles are nearest to each other on the great circle through both axes
     every = np.arange(len(boundary))
@@ -178,12 +160,6 @@ class RoundHole(NamedTuple):
 
     The volume that it removes from a shell is in closed form, by c = sqrt(1 - (q/R)²), where it
     meets a sphere.
-
-    >>> hole = RoundHole((0.0, 0.0, 1.0), 3.0)
-    >>> half_rings = 2.0 / 3.0 * math.pi * 4.0**3  # the rest of half a ball: h³ for any R
-    >>> halves = 2.0 / 3.0 * math.pi * (5.0**3 - 3.0**3)
-    >>> round((halves - hole.volume(3.0, 5.0)) / half_rings, 12)
-    1.0
     """
 
     axis: Vector

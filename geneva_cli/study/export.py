@@ -11,9 +11,9 @@ from functools import partial
 from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
-from geneva_cli.drawings.coupon import single_parts
+from geneva_cli.drawings.catalogue import without_sheet
+from geneva_cli.drawings.single_parts import single_parts
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.motion.records import of_wheel
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
 from geneva_cli.output.folder import LIST
 from geneva_cli.output.formats import curve_tolerance, usual_curves
@@ -96,8 +96,7 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
                 more = f"-{seen[stem]}" if seen[stem] > 1 else ""
                 content, work = f"{one.name}: {SINGLE[format]}", partial(draw, one.drawing)
                 files.append(ExportFile(f"{stem}{more}.{format}", content, work))
-    kinds = of_wheel(design.spec.wheel.NAME)
-    lacks = set() if any("sheet" in kind.drawings for kind in kinds) else {"sheet.pdf"}
+    lacks = {"sheet.pdf"} if without_sheet(design.mechanism) else set()
     lacks |= {"plate.3mf"} if bent else set()  # shells do not lie on a bed
     names = [name for name in trade.whole if name not in lacks]
     files += [ExportFile(name, CONTENTS[name], partial(_write, design, name)) for name in names]

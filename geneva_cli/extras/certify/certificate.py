@@ -8,10 +8,10 @@ the input's torque. Where an interval does not decide a sign, the load is enclos
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.loads.contact import contact
@@ -29,10 +29,10 @@ from geneva_cli.table import Table, rows_table
 
 if TYPE_CHECKING:
     from geneva_cli.extras.certify.balls import Ball
-    from geneva_cli.extras.certify.decimals import Formula
     from geneva_cli.extras.certify.enclosures import BoundedSpan, Greatest
 
-DECIMALS, DOUBLES = "the decimals as written", "the spec's numbers as doubles"
+# a jet of an order by the input angle, at an angle in degrees from mid-motion
+Formula: TypeAlias = Callable[[Number, int], Jet]
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
 DIGITS = 15  # that are printed: as many as every double keeps
 NARROW_DEG = 1e-6  # a narrower place is one angle for people
@@ -78,7 +78,6 @@ class Certificate(NamedTuple):
     mirrored: bool  # True for two places that mirror each other
     intervals: int
     open: Open | None
-    about: str = DOUBLES
 
     @property
     def proved(self) -> bool:
@@ -141,8 +140,6 @@ def not_proved(mechanism: Mechanism, quantity: str) -> str:
     """The reason why a load has no certificate; empty if it has one."""
     if not mechanism.spec.is_loaded:
         return f"no load: set {mechanism.spec.load_keys}"
-    if mechanism.unbalanced:
-        return "a body stands off the axis of a wheel on a carrier"
     if quantity != WHEEL_TORQUE and load_case(mechanism).guided:
         return "friction in a rack's guide"
     if quantity == WHEEL_TORQUE or mechanism.engagements[0].slot.walls_flat:
@@ -150,13 +147,10 @@ def not_proved(mechanism: Mechanism, quantity: str) -> str:
     return "the slot is curved, or gears drive for part of the motion"
 
 
-def certificate(
-    mechanism: Mechanism, quantity: str, limit: int = LIMIT, decimals: bool = True
-) -> Certificate:
+def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Certificate:
     """The certificate of a machine's peak over all its engagements, with so many intervals each.
 
-    It is about the decimals of the spec, for machines whose formulas allow it and unless
-    ``decimals`` is False; else about the spec's numbers as doubles. Loads are about doubles.
+    It is about the spec's numbers as doubles.
 
     Raises GenevaError without python-flint, and for a quantity that has no certificate.
     """
@@ -172,7 +166,6 @@ def certificate(
     if find_spec("flint") is None:
         raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
     from geneva_cli.extras.certify.balls import ball_of, precision
-    from geneva_cli.extras.certify.decimals import exact_rates
     from geneva_cli.extras.certify.enclosures import greatest
 
     def peak_of(rate: Formula) -> Formula:
@@ -189,21 +182,15 @@ def certificate(
 
     peaks: list[Greatest] = []
     with precision():
-        exact = exact_rates(mechanism) if decimals and quantity in QUANTITIES else None
-        for i, e in enumerate(mechanism.engagements):
-            if quantity in LOADS:
-                formula = _load(mechanism, e, quantity)
-            else:
-                formula = peak_of(exact[i] if exact else e.motion.rate)
+        for e in mechanism.engagements:
+            formula = _load(mechanism, e, quantity) if quantity in LOADS else peak_of(e.motion.rate)
 
             def curve(at: Ball, order: int, formula: Formula = formula) -> Sequence[Ball]:
                 return [ball_of(c) for c in formula(cast("Number", at), order).c]
 
-            # in doubles a motion has the seams that the program computes it with
-            seams = (e.entry_deg, e.exit_deg) if exact else {*e.motion.seams_deg, *e.slot.seams_deg}
-            peaks.append(greatest(curve, seams, limit, not exact))
-    about = DECIMALS if exact else DOUBLES
-    return _combined(mechanism, quantity, peaks)._replace(about=about)
+            seams = {*e.motion.seams_deg, *e.slot.seams_deg}
+            peaks.append(greatest(curve, seams, limit))
+    return _combined(mechanism, quantity, peaks)
 
 
 def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:
@@ -289,7 +276,7 @@ def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> T
     proofs = [certificate(mechanism, quantity) for quantity in QUANTITIES]
     rows = [_row(one) for one in proofs]
     table = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
-    texts = [*(one.text for one in proofs), f"holds for {proofs[0].about}"]
+    texts = [one.text for one in proofs]
     value = tuple(texts) if for_people else table
     return peaks.replaced(names=(*peaks.names, "certificate"), columns=[*peaks.columns, (value,)])
 
@@ -304,9 +291,8 @@ def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[s
     proofs = {name: certificate(mechanism, name) for name, why in reasons.items() if not why}
     if for_people:
         refused = [f"{name}.max not proved: {why}" for name, why in reasons.items() if why]
-        about = [f"holds for {DOUBLES}"] if proofs else []
-        return (*[one.text for one in proofs.values()], *refused, *about)
-    names = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "about", "open")
+        return (*[one.text for one in proofs.values()], *refused)
+    names = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "open")
     none: dict[str, object] = dict.fromkeys(names) | {"places": (), "proved": False, "intervals": 0}
     rows = [
         (_row(proofs[name]) if name in proofs else none | {"quantity": name}) | {"why": why or None}
@@ -316,7 +302,7 @@ def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[s
 
 
 def _row(one: Certificate) -> dict[str, object]:
-    names = "quantity low high at_deg places proved intervals about open"
+    names = "quantity low high at_deg places proved intervals open"
     row = {name: getattr(one, name) for name in names.split()}
     row["places"] = tuple(map(tuple, one.places))
     return row | {"open": None if one.open is None else one.open._asdict()}

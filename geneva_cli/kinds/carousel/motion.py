@@ -32,7 +32,7 @@ class Carousel(Direct, kw_only=True):
     ``n_rpm`` is the carrier's speed. ``rollers`` are the fingers, if there is one wheel.
 
     >>> orbit = Design(External(4), Carousel(wheels=3))
-    >>> orbit.mechanism.absolute_deg(45.0, 45.0)  # at exit: the carrier's angle and its own
+    >>> orbit.timing.motion_deg
     90.0
     """
 
@@ -89,10 +89,10 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
         'kind = "{spec.drive.NAME}" carries its wheels round at a constant speed: remove stop_s',
     )
     yield Conflict(
-        spec.motion is not None and spec.unbalanced,
+        spec.unbalanced,
         ("mass", "radius_mm"),
-        'kind = "{spec.drive.NAME}" with a law needs balanced wheels: set count to 2 or more '
-        "evenly spaced bodies, or radius_mm = 0, or remove law",
+        'kind = "{spec.drive.NAME}" needs balanced wheels, as a body off the axis would pull in '
+        "another direction in each motion: set count to 2 or more, or radius_mm = 0",
     )
     if drive.wheels_on_carrier > 1:
         yield Conflict(

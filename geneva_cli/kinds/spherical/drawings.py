@@ -40,7 +40,7 @@ from geneva_cli.kinds.spherical.regions import edge, locked, rollers
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.projection import titled
-from geneva_cli.spec.written import length, unit
+from geneva_cli.spec.written import length
 
 
 class Cone(NamedTuple):
@@ -194,9 +194,9 @@ def assembly(parts: SphereParts) -> Drawing:
 
 def _titled(parts: SphereParts, name: str, cone: Cone, whose: str) -> str:
     """Return a title with the cone's shape and position for the workshop."""
-    sphere = f"the {length(cone.radius_mm)} {unit()} sphere"
+    sphere = f"the {length(cone.radius_mm)} mm sphere"
     at = f"touches {sphere} {math.degrees(cone.polar):.6g} deg from the {whose}'s axis"
-    text = f"cone that {at}, {length(abs(cone.apex_mm))} {unit()} from its apex; sector "
+    text = f"cone that {at}, {length(abs(cone.apex_mm))} mm from its apex; sector "
     text += f"{cone.sector_deg:.6g} deg"
     if abs(math.cos(cone.polar)) < SAME_ANGLE:
         text = f"cylinder that {at}"

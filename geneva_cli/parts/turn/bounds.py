@@ -30,11 +30,7 @@ UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval close
 
 
 class FlatPairs:
-    """Pairs of flat parts, and the distances of parts from their axes, mm.
-
-    ``rim`` is the level that the wheel reaches: the circle about its axis, or that which an
-    internal wheel leaves, or the edge of a rack. Gaps are bounded up to ``target``.
-    """
+    """Pairs of flat parts, with gaps up to ``target`` mm; the wheel reaches the level ``rim``."""
 
     def __init__(self, gaps: Gaps, crank: Sequence[Contour], target: float, rim: float) -> None:
         self.gaps, self.crank, self.target, self.rim = gaps, crank, target, rim
@@ -45,8 +41,8 @@ class FlatPairs:
     def lock(self, window: Window, on: Intervals) -> Bounds:
         """Return the gap of locking disc and wheel: bounds up to ``apart``.
 
-        The wheel leaves a circle free about the middle of each recess. In the dwell and beside it,
-        the part of the crank that is within the wheel's rim lies in that circle.
+        In the dwell and beside it, the part of the crank that is within the wheel's rim lies in the
+        circle that the wheel leaves free about the middle of each recess.
         """
         gap = self.gaps.locking(on.at_middle)
         far = self.rim if self.gaps.assembly.sign > 0.0 else self.L + self.disc + self.apart
@@ -77,10 +73,7 @@ class FlatPairs:
         return Bounds(gap, raised(least, window.rests & (least < self.target), near_chord))
 
     def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds:
-        """Return the gap of a roller in its slot between two input angles.
-
-        Its centre is on the axis of a straight slot, or near a chord of the pitch curve.
-        """
+        """Return the gap of a roller in its slot, on its axis or near chords of its curve."""
         engagement, _ = self.gaps.assembly.rollers[roller]
         centre = self._centre(roller, on.at_middle)
         gap = self.gaps.rollers(on.at_middle)[:, roller]
@@ -147,10 +140,9 @@ class FlatPairs:
         return self._path(roller).most(*self._own(roller, on)) + moved
 
     def _along(self, segments: tuple[Array, Array, Array], centre: Array, gap: Array) -> Array:
-        """Return the gap of a roller whose centre moves along segments.
+        """Return the gap of a roller, ``gap`` at ``centre``, that moves along segments.
 
-        ``segments`` has their ends in the wheel's frame, and how far off the centre may be, mm. In
-        the middle of an interval it is at ``centre`` and has the gap ``gap``.
+        ``segments`` has their ends in the wheel's frame, and how far off the centre may be, mm.
         """
         start, end, aside = segments
         radius = self.gaps.sizes.roller
@@ -188,9 +180,8 @@ class FlatPairs:
 class Travel:
     """Bounds of the speed and the second derivative of a curve between two input angles.
 
-    The angles are those of one engagement, from its mid-motion; lengths are mm. ``rates`` (2, n)
-    has the bounds on the n cells between ``edges``, infinite if unknown, in units of ``length``. A
-    curve that runs all round repeats after ``turn_deg``.
+    ``rates`` (2, n) has them on the n cells between ``edges``, degrees from mid-motion, in units of
+    ``length`` mm; infinite if unknown. A curve that runs all round repeats after ``turn_deg``.
     """
 
     def __init__(
@@ -229,10 +220,9 @@ def _edges(engagement: Engagement, start: float, end: float) -> list[float]:
 
 
 def _rates(curve: Curve, start: Array, end: Array) -> Array:
-    """Return the greatest sizes of a curve's two derivatives on n cells (2, n).
+    """Return the greatest sizes of a curve's derivatives on n cells (2, n); infinite if unknown.
 
-    They are infinite where none is known. Cells with different formulas are evaluated apart. Where
-    another formula takes over within a cell, it is halved down to that place.
+    Where another formula takes over within a cell, it is halved down to that place.
     """
     rates, tries = np.zeros((2, len(start))), np.zeros(len(start), dtype=int)
     left = [(np.arange(len(start)), start, end)]  # parts of cells: each one's cell, and its ends

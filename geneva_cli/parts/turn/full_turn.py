@@ -98,10 +98,7 @@ class FullTurn(NamedTuple):
 
 
 def full_turn(parts: TurnedParts) -> FullTurn:
-    """Return the results of turning the parts through a whole turn of the crank.
-
-    Raises WorkLimit where that takes more than ``POSITIONS``.
-    """
+    """Return the results of a whole turn of the crank; raises WorkLimit beyond ``POSITIONS``."""
     # One turn of the input is shown from half a turn before mid-motion, so that the second half of
     # the last dwell comes first. A period of several turns is shown from the first entry.
     assembly, every = parts.assembly, [*windows(parts)]
@@ -231,12 +228,12 @@ def _least(gap: Callable[[Array], Array], at: Array, close: float, earlier: Earl
 def _contact(parts: TurnedParts, motion: int) -> FirstContact:
     """Return the first contact of a motion's roller, at entry or, in reverse, at exit.
 
-    It is at the end where the roller comes nearer to the rim's inside: at the other no rim that
-    lets it pass at both ends reaches it.
+    It is at the end where the roller comes nearer to the rim's inside.
     """
     assembly, gaps = parts.assembly, parts.gaps
     engagement, mid = assembly.motions[motion]
-    ahead = scalar(engagement.exit_reach) - scalar(engagement.entry_reach)
+    ends = engagement.exit_deg, engagement.entry_deg
+    ahead = scalar(engagement.reach(ends[0])) - scalar(engagement.reach(ends[1]))
     # the mouth of an offset slot has a corner for each end, and the rim is at the farther one
     farther = -1.0 if engagement.slot.offset else assembly.sign
     start = mid + engagement.end_deg(1.0 if farther * ahead < -SAME_LENGTH else -1.0)
@@ -273,10 +270,7 @@ def _contact(parts: TurnedParts, motion: int) -> FirstContact:
 
 
 def gap_about(parts: TurnedParts, shown_deg: float) -> float:
-    """Return the smallest gap of any two parts, mm, at positions around one input angle.
-
-    A few positions take the place of a whole turn, in a search for a size that clears the parts.
-    """
+    """Return the smallest gap of any two parts, mm, at positions around one input angle."""
     pose = parts.gaps.pose(_about(parts, shown_deg))
     gap = float(parts.gaps.rollers(pose).min())
     return min(gap, float(parts.gaps.locking(pose).min())) if parts.locked else gap

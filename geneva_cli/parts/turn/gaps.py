@@ -89,10 +89,7 @@ class Gaps:
         return Pose(self.assembly.wheel(input_deg), crank, np.stack(pins, axis=1))
 
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """Return the gap of each roller, mm (n, m), with the wheel turned on by ``lead`` radians.
-
-        Gaps wider than ``near``, by default NEAR * L, are returned as ``near``.
-        """
+        """Return the gap of each roller, mm (n, m), the wheel turned on by ``lead`` radians."""
         near = self.near if near is None else near
         r, sign = self.sizes.roller, self.assembly.sign
         columns = []
@@ -144,11 +141,10 @@ class Gaps:
         return out
 
     def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
-        """Return the wheel's points that enter the locking disc during one motion, as x and y, mm.
+        """Return the wheel's points, x and y on the crank, that enter its disc in a motion.
 
-        They are in the crank's frame. The wheel is placed at steps of ``step_deg`` degrees of the
-        input. If the second half of a crank's only motion mirrors the first, only the first is
-        returned.
+        The wheel is placed at steps of ``step_deg`` of the input: up to the middle of a mirrored
+        motion of one roller.
         """
         engagement, behind = self.assembly.motions[number]
         count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
@@ -226,9 +222,9 @@ def _candidates(
 ) -> tuple[Whole, Array]:
     """Return points of ``own`` that may touch ``other``, within ``reach`` of its origin.
 
-    ``placed`` has the n points of that origin, (n, 2), and the n angles of ``other``. ``near``
-    selects pieces of ``own``, each after the index of the position that it belongs to. Returns the
-    index of the position of each point, and the points in the frame of ``own``.
+    ``placed`` has the n points of that origin and the n angles of ``other``; ``near`` selects
+    pieces of ``own``, each after the index of its position. Returns that index of each point, and
+    the points in the frame of ``own``.
     """
     (owner, piece), (origin, angle) = near, placed
     dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
@@ -268,8 +264,7 @@ def _on_arcs(
     """Yield points of arcs in the directions of centres and normals, (k, pieces) each.
 
     Coordinates are from each arc's centre, along its chord and outwards, over its radius. They are
-    computed from the chord's middle: the centre of an arc fitted to a nearly straight wall is too
-    far away.
+    computed from the chord's middle: the centre of a nearly straight arc is too far away.
     """
     bent = np.flatnonzero(own.arc[piece])
     i = piece[bent]

@@ -52,10 +52,7 @@ class Stop(NamedTuple):
 
 
 class Intervals(NamedTuple):
-    """Intervals of the input angle, and how far crank and wheel are at most from their middles.
-
-    The angles are greatest at the ends, because neither crank nor wheel turns back.
-    """
+    """Intervals of the input angle, and how far crank and wheel are at most from their middles."""
 
     start: Array  # degrees of the input, (n,)
     end: Array
@@ -84,10 +81,7 @@ class Bounds(NamedTuple):
 
 
 def raised(least: Array, doubtful: Mask, closer: Callable[[Whole], Array]) -> Array:
-    """Return bounds (n,), where ``doubtful`` the better of them and of those of ``closer``.
-
-    ``closer`` gets the indices of the doubtful intervals.
-    """
+    """Return bounds (n,), where ``doubtful`` the better of them and ``closer`` of their indices."""
     which, out = np.flatnonzero(doubtful), least.copy()
     if len(which):
         out[which] = np.maximum(least[which], closer(which))
@@ -121,8 +115,7 @@ class Lengths(Protocol):
 class Clearances(Protocol):
     """The clearances between wheel, crank and rollers, mm, negative where they overlap.
 
-    All are computed in n poses, with the wheel turned on by ``lead`` radians. Clearances wider than
-    ``near`` mm are returned as ``near``.
+    They are in n poses, with the wheel turned on by ``lead`` radians, and at most ``near`` mm.
     """
 
     @property
@@ -144,7 +137,7 @@ class Clearances(Protocol):
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and on until parts overlap by ``close`` mm.
 
-        Parts that overlap nowhere by more at first turn by at most ``most`` radians.
+        Where none does, it turns by ``most`` radians.
         """
 
 
@@ -186,9 +179,8 @@ class Shape(Protocol):
 class TurnedParts(ABC):
     """Wheel, crank and rollers of one machine, which a full turn checks.
 
-    Curved outlines are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance
-    they are as accurate as the checks need them. Without ``advice`` an error does not name the
-    roller that fits, which takes long to find.
+    Curves are "arcs" or "cubics" within ``tolerance`` mm; by default they are as accurate as the
+    checks need them. Without ``advice`` an error does not name the roller that fits.
     """
 
     def __init__(
@@ -248,9 +240,9 @@ class TurnedParts(ABC):
         return other
 
     def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame at input angles (n,), mm.
+        """Return the centre of a motion's roller in the frame of the wheel, mm, (n, 2) or (n, 3).
 
-        It is an array (n, 2), or on a sphere (n, 3). The wheel is turned on by ``lead`` radians.
+        The wheel is turned on by ``lead`` radians.
         """
         return self.assembly.in_wheel(motion, at, lead)
 

@@ -26,10 +26,9 @@ EXACT = 1e-10  # radians: smaller angles are rounding
 class Play(NamedTuple):
     """The wheel's play back and on, degrees, at ascending input angles.
 
-    ``resting`` is True where the wheel rests, ``guided`` where a roller's centre is past the
-    mouth's corners of its slot. ``speed`` is the roller's in the wheel's frame, mm per degree.
-    ``back_push`` and ``on_push`` are pressure angles, degrees, where a roller stops the wheel; 0
-    where the lock does.
+    The wheel rests where ``resting``, and a roller's centre is past its mouth's corners where
+    ``guided``. ``speed`` is the roller's in the wheel's frame, mm per degree. The pushes are
+    pressure angles, degrees, where a roller stops the wheel; 0 where the lock does.
     """
 
     input_deg: Array
@@ -65,10 +64,7 @@ def windows(parts: TurnedParts) -> Iterator[Window]:
 
 
 def play_of(parts: TurnedParts, fits: bool) -> Play:
-    """Return the play at a grid of positions, refined where it is greatest or closes fastest.
-
-    ``fits`` says that no parts overlap in the positions of the ideal motion.
-    """
+    """Return the play at a grid of positions, refined where it is greatest or closes fastest."""
     # 24 positions on either side of entry and exit, where lock and roller change over
     close, grid = np.concatenate(([0.0], np.geomspace(0.01, 1.0, 24))), []
     for a, b, _, rests in windows(parts):
@@ -98,10 +94,9 @@ def play_of(parts: TurnedParts, fits: bool) -> Play:
 def push_deg(parts: TurnedParts, play: Play) -> Array:
     """Return the pressure angle, degrees, at which the wheel is pushed into line; 0 if it is not.
 
-    It belongs to the intervals between positions. Where the play shrinks as the crank turns,
-    something pushes the wheel. If a roller at the mouth of its slot does, this is the angle between
-    their common normal and the direction in which the wheel's corner moves. A play that ends
-    abruptly means that a corner blocks: 90 degrees.
+    It belongs to the intervals between positions. Where the play shrinks as the crank turns, a
+    roller at the mouth of its slot pushes the wheel's corner along their common normal. A play that
+    ends abruptly means that a corner blocks: 90 degrees.
     """
     step = np.diff(play.input_deg)
     moved = 0.5 * (play.speed[1:] + play.speed[:-1]) * step
@@ -143,10 +138,9 @@ def _play_at(parts: TurnedParts, at: Array, fits: bool) -> Play:
 def _peaks(parts: TurnedParts, play: Play) -> tuple[Whole, Whole, Whole]:
     """Return the intervals in which the play may be greatest, in slots and elsewhere.
 
-    They are those on both sides of the greatest plays, and those in which the roller changes from
-    one wall of its slot to the other. One play grows there as the other vanishes, and the smaller
-    one may have a narrow peak. Where both change steadily, it is at most the smaller of their
-    greater ends.
+    Besides those about the greatest plays they are those in which the roller changes from one wall
+    of its slot to the other: the smaller play may have a narrow peak there. Where both change
+    steadily, it is at most the smaller of their greater ends.
     """
     # walls hold up to a pressure angle of 84 degrees, whose cosine is 1/10: a smaller play between
     # the walls of a slot may be that of their tolerance alone
@@ -183,8 +177,7 @@ def free_angles(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Arra
 def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Stop, Stop]:
     """Return the stops of the wheel, turned back and turned on at input angles (n,).
 
-    ``fits`` says that no parts overlap there; otherwise that is tested. Where gears drive the wheel
-    they hold it both ways: their teeth are assumed to mesh without play.
+    ``fits`` says that no parts overlap there. Gears hold the wheel both ways, without backlash.
     """
     gaps, close = parts.gaps, parts.close
     pose, held = gaps.pose(at), parts.assembly.geared(at)

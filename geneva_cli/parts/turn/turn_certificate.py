@@ -22,10 +22,7 @@ Parts = TypeVar("Parts", bound=TurnedParts)
 
 
 class Open(NamedTuple):
-    """An interval of input angles, degrees, on which the gap was not proved.
-
-    ``gap_mm`` is the gap in its middle, ``least_mm`` the proved lower bound on it.
-    """
+    """An interval, degrees, on which the gap is not proved: in its middle, and least."""
 
     start_deg: float
     end_deg: float
@@ -90,10 +87,9 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
 def _halved(
     gaps: Clearances, pair: Callable[[Intervals], Bounds], ends: tuple[float, float], target: float
 ) -> Certificate:
-    """Return a lower bound of a pair's gap between two input angles, at least ``target`` mm.
+    """Return a lower bound of a pair's gap, by halving intervals until it is ``target`` mm on each.
 
-    Intervals are halved until the bound on each is at least ``target``. Without success the most
-    doubtful interval is returned as open.
+    Without success the most doubtful interval is returned as open.
     """
     cuts = np.linspace(*ends, 33)
     start, end = cuts[:-1], cuts[1:]
@@ -118,8 +114,7 @@ def _halved(
 def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
     """Return intervals of the input angle, with the turn of crank and wheel on them, and poses.
 
-    Where the wheel turns back, the ends do not bound its turn. A whole turn does: no point moves
-    farther than twice its radius.
+    Where the wheel turns back, its turn is a whole one: no point moves farther than that.
     """
     pose = gaps.pose(np.concatenate((start, 0.5 * (start + end), end)))
     crank = np.unwrap(pose.crank.reshape(3, -1), axis=0)
@@ -134,8 +129,8 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
 def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
     """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
 
-    Where gears drive between two rollers, each is in its slot up to its deepest position, or from
-    there.
+    Between two rollers of a motion gears drive the wheel, from the deepest position to that of the
+    other.
     """
     start, end, motion, rests = window
     assembly = parts.assembly
@@ -152,11 +147,7 @@ def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, flo
 
 
 def one_motion(parts: Parts) -> Parts:
-    """Return the parts, checked over one motion and its dwell if all rollers move alike.
-
-    This is for pass or fail: input angles refer to the first motion, and values may differ from
-    those of the whole turn by rounding.
-    """
+    """Return the parts, checked over one motion and its dwell if all rollers move alike."""
     assembly = parts.assembly
     motions, m = assembly.motions, assembly.mechanism.spec.drive.rollers
     one = len(assembly.mechanism.engagements) == 1
