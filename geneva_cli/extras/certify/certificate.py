@@ -282,10 +282,7 @@ def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> T
 
 
 def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[str, ...]:
-    """The loads' certificates: a table of them, or a text each.
-
-    For a load without a certificate, ``why`` is the reason.
-    """
+    """The loads' certificates: a table of them, or a text each."""
     lacks = mechanism.output.lacks
     reasons = {name: not_proved(mechanism, name) for name in LOADS if name not in lacks}
     proofs = {name: certificate(mechanism, name) for name, why in reasons.items() if not why}

@@ -79,10 +79,7 @@ class _Piece(NamedTuple):
 
 
 def greatest(curve: Curve, seams: Iterable[float], limit: int) -> Greatest:
-    """The greatest size of a curve from the first seam to the last, with at most so many intervals.
-
-    Between two seams, in degrees, the curve is one analytic formula.
-    """
+    """The greatest size of a curve from first to last seam, with at most so many intervals."""
     ends = sorted(seams)
     pieces = [
         _Piece(a, b, a == ends[0], b == ends[-1])

@@ -21,10 +21,7 @@ from geneva_cli.study.target import Target
 
 
 def carousels(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
-    """One wheel with any number of fingers, or several wheels with one finger.
-
-    The wheels must not meet in time: each moves before the next one reaches the finger.
-    """
+    """One wheel with any number of fingers, or several wheels with one finger."""
     for wheel in wheels:
         natural = natural_deg(wheel)
         several = rollers(target, natural)

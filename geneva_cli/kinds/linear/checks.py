@@ -39,10 +39,7 @@ def guide_locks(name: str, parts: RackParts) -> Check | None:
 
 
 def passing_shafts(name: str, parts: RackParts) -> Check | None:
-    """The least gap between shafts and a rack, of a crank's shaft that ends above the arm.
-
-    The rack slides along y, and covers everything up to its edge.
-    """
+    """The least gap between shafts and a rack, of a crank's shaft that ends above the arm."""
     if not parts.mechanism.spec.has_parts:
         return None  # without a frame there are no shafts
     L = parts.mechanism.center_distance_mm
@@ -74,10 +71,7 @@ def passing_gears(name: str, parts: RackParts) -> Check | None:
 
 
 def thickest_plate(name: str, parts: RackParts) -> Check | None:
-    """The thickest plate of a rack's machine, where the process has a limit.
-
-    Bar, rail and wall of the guide are bars, which may be cut from stock.
-    """
+    """The thickest plate of a rack's machine, where the process has a limit."""
     thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm)
     return plate_thickness(name, parts.mechanism, max(thick.wheel, thick.lock, thick.arm))
 
@@ -89,11 +83,7 @@ def slot_width(name: str, parts: RackParts) -> Check | None:
 
 
 def guide(of: Designs) -> Columns:
-    """Return the guides of racks; none for a wheel, and for a rack that has no guide.
-
-    These are length, the friction from which a guide locks itself, with the slot's own as it is,
-    and the greatest force at an end with its angle; infinite for what a design lacks.
-    """
+    """Return the guides of racks; none for a wheel, and for a rack that has no guide."""
     if not guided(of.spec):
         return {}
     rows = []

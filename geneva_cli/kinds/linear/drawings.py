@@ -45,10 +45,7 @@ def slot(parts: RackParts) -> Drawing:
 
 
 def guide(parts: RackParts) -> Drawing:
-    """Return rail and wall of the guide, with the bar of the rack between them.
-
-    The cover lies on wall and bar, and its holes are those of the wall.
-    """
+    """Return rail and wall of the guide, with the bar of the rack between them."""
     title = titled(parts.mechanism, "guide")
     solid = Group(title, (parts.bar, *parts.guide))
     return Drawing(title, outlines_of(solid), solid=solid)
@@ -101,21 +98,13 @@ class RackScene(WheelScene):
         yield Body("wheel", (*shapes, mark), (0.0, 0.0), still(), travel)
 
     def view(self, wheel: Body, box: Box, turn: MachineTurn) -> Box:
-        """Return the box that a page shows: the rack's width, and the slots next to the crank.
-
-        A rack of many slots is much longer than its machine. 3 R on either side stay full of any
-        rack in the first turn: the shortest one has 4 R on either side, and travels by R from its
-        middle.
-        """
+        """Return the box that a page shows: the rack's width, and the slots next to the crank."""
         R = turn.mechanism.output.per_radian
         own = bounds(wheel.shapes[0])
         x0, y0, x1, y1 = box
         return min(x0, own.x0), min(y0, -3.0 * R), max(x1, own.x1), max(y1, 3.0 * R)
 
     def stops(self, outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float]:
-        """Return the input angles from the start between which all slots of the rack have passed.
-
-        The middle slot is the first to pass.
-        """
+        """Return the input angles from the start between which all slots of the rack pass."""
         z, step_deg = turn.mechanism.spec.wheel.z, turn.turn_deg / len(turn.passages)
         return -step_deg * (z // 2), step_deg * ((z + 1) // 2)

@@ -69,10 +69,7 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
 
 
 def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
-    """Return the shafts and the frame, with holes for them and guide's screws.
-
-    Raises GenevaError, naming the key, where they do not fit.
-    """
+    """Return the shafts and the frame, with holes for them and guide's screws."""
     size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
     L, axis, radius = 2.0 * sizes.arm, mechanism.crank_shaft.at, rack_bore(mechanism)  # z = 6
     own: list[Shaft] = []
@@ -107,10 +104,7 @@ def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:
 
 
 def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
-    """Return rail, wall and cover of the guide.
-
-    Raises GenevaError where the slots are so wide that hardly any guide is left between them.
-    """
+    """Return rail, wall and cover of the guide."""
     sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
     place = sizes.guide
     x, bar, slide, half = place.back, place.bar, place.slide, place.half
@@ -146,11 +140,7 @@ def _bolt(sizes: RackSizes) -> float:
 
 
 def rack_stressed(mechanism: Mechanism) -> Stressed:
-    """Return the dimensions of the parts of a machine that their strength depends on.
-
-    The rack has no shaft and no key. The crank's overhang is the distance of its bearing in the
-    frame from the middle of the rack's thickness. Raises GenevaError where the parts do not fit.
-    """
+    """Return the dimensions of the parts of a machine that their strength depends on."""
     spec, heights, bore = mechanism.spec, rack_frame(mechanism), rack_bore(mechanism)
     size, R = spec.size, mechanism.center_distance_mm
     contact, thick = value_or(size.face_width_mm, heights.rack), heights.stands - heights.arm

@@ -113,10 +113,7 @@ class RackGuide(NamedTuple):
 
 
 def with_guide(mechanism: Mechanism, case: LoadCase) -> LoadCase:
-    """Return a load case with the guide of a rack, if the machine has one.
-
-    A rack whose slots leave no space for a guide has none.
-    """
+    """Return a load case with the guide of a rack, if the machine has one."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     if not guided(spec):
         return case

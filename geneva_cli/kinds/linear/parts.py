@@ -41,10 +41,7 @@ if TYPE_CHECKING:
 
 
 class RackParts(EdgedParts):
-    """The parts of a machine, in its frame.
-
-    A part that the sizes leave no place for raises GenevaError, naming the key.
-    """
+    """The parts of a machine, in its frame."""
 
     @cached_property
     def _shape(self) -> RackOutlines:

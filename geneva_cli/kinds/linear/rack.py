@@ -65,10 +65,7 @@ class RackSizes(NamedTuple):
 
     @property
     def horn(self) -> float:
-        """Thickness of the horn between slot and recess at its thinnest place.
-
-        Without a recess it is half of the wall between two slots.
-        """
+        """Thickness of the horn between slot and recess at its thinnest place."""
         below = min(self.edge - self.arm, 0.0)  # an edge below the crank's axis has wider horns
         half_recess = math.sqrt(max(self.recess**2 - below**2, 0.0))
         return self.arm - self.half_width - half_recess
@@ -116,10 +113,7 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
 
 
 def key_sizes(mechanism: Mechanism) -> KeySizes:
-    """Return the sizes of a rack and its crank by the keys of the spec, of which no load chooses.
-
-    There are none where they leave no rack.
-    """
+    """Return the sizes of a rack and its crank by the keys of the spec, without its load."""
     size, r = mechanism.spec.size, mechanism.roller_radius_mm
     try:
         sizes, bore = rack_sizes(mechanism), rack_bore(mechanism)
@@ -167,10 +161,7 @@ def _lock(mechanism: Mechanism, arm: float, limit: float, relief: float) -> floa
 
 
 def rack_contour(sizes: RackSizes, count: int) -> Contour:
-    """Return a rack of ``count`` slots, counterclockwise; the slot in the middle is at y = 0.
-
-    A recess lies between two slots, and one beyond the last slot on either side.
-    """
+    """Return a rack of ``count`` slots, counterclockwise; the slot in the middle is at y = 0."""
     low, high = rack_ends(sizes, count)
     back, places = sizes.behind, slot_places(sizes, count)
     cuts = [slot_walls(sizes, y) for y in places]
@@ -226,10 +217,7 @@ def locking_sector(sizes: RackSizes) -> Contour | None:
 
 
 def rack_arm(mechanism: Mechanism) -> Plate:
-    """Return the arm, whose x is from the crank's axis to the roller.
-
-    Raises GenevaError, naming the key, where the sizes leave no arm around its holes.
-    """
+    """Return the arm, whose x is from the crank's axis to the roller."""
     size, sizes = mechanism.spec.size, rack_sizes(mechanism)
     thick, arm = drawn_thicknesses(size, sizes.arm), crank_arm(mechanism)
     outline, holes = arm.outline, (arm.bore, *arm.pins, *arm.bolts)
@@ -259,10 +247,7 @@ def crank_arm(mechanism: Mechanism) -> CrankArm:
 
 
 def rack_bore(mechanism: Mechanism) -> float:
-    """Return the radius of the arm's bore, in which the crank's shaft ends.
-
-    It is 0 where the roller has no pin, and so the crank no arm.
-    """
+    """Return the radius of the arm's bore, in which the crank's shaft ends."""
     size, R = mechanism.spec.size, mechanism.ratio * mechanism.center_distance_mm
     pin = pin_radius(size, mechanism.roller_radius_mm)
     # as if R were L/2, as for 6 slots

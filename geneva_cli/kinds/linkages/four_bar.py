@@ -157,10 +157,7 @@ class CouplerPath(LinkPath):
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
 
     def about(self, phi: float) -> PointDisplacement:
-        """Displacement since a crank angle.
-
-        Each of A, D, 1/D, N, k and e changes by the change of the one before it.
-        """
+        """Displacement since a crank angle."""
         a, g, b, c, p, q = self.numbers
         m = library(phi, a, g)
         sine, cosine, half_sine, half_cosine = (

@@ -111,10 +111,7 @@ class SlidingRod(LinkPath):
         return b, (sine * 0.0, cosine * 0.0 + 1.0)
 
     def about(self, phi: float) -> PointDisplacement:
-        """Displacement since a crank angle.
-
-        The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy).
-        """
+        """Displacement since a crank angle."""
         a, b, h, p, q = self.numbers
         m = library(phi, a, h)
         sine, cosine = m.sin(phi), m.cos(phi)

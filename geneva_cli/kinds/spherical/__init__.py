@@ -13,7 +13,6 @@ KINDS = (
             "arm": "kinds.spherical.drawings:arm",
             "assembly": "kinds.spherical.drawings:assembly",
         },
-        tables={"wheel": "kinds.spherical.dimensions:meridians_table"},
         dimensions="kinds.spherical.dimensions:dimensions",
         sizes="kinds.spherical.sizes:key_sizes",
         details="kinds.spherical.parts:screw_sizes",

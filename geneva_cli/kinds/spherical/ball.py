@@ -113,10 +113,7 @@ class Ball(NamedTuple):
         return self.radius_mm * (self.axes - self.arm - opening)
 
     def cap(self, hub_mm: float, bored_mm: float, wall_mm: float) -> float:
-        """Return the angle of the arm's cap about its sectors, or about its hub and a wall.
-
-        The wall is as thick as that of the hub, whose bore reaches to ``bored_mm``.
-        """
+        """Return the angle of the arm's cap about its sectors, or about its hub and a wall."""
         edge = hub_mm + max(hub_mm - bored_mm, wall_mm)
         return max(self.lock, math.asin(min(1.0, edge / self.arm_span_mm[0])))
 
@@ -133,10 +130,7 @@ class Ball(NamedTuple):
 
 
 def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
-    """Return the sizes without a load, for a thickness of the wheel, or else its default.
-
-    Raises GenevaError, naming the key, where they leave no wheel or no lock.
-    """
+    """Return the sizes without a load, for a thickness of the wheel, or else its default."""
     spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
     size, z, allowed = spec.size, spec.wheel.z, spec.size.allowances
     if z > Z_DRAWN:
@@ -259,10 +253,7 @@ def _lock_mm(mechanism: Mechanism, limit: float, least: float, roller: float) ->
 
 
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:
-    """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends.
-
-    Where a default hub would leave no wall around the bore there is none: it is the bore's.
-    """
+    """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends."""
     wall = wall_min(size, L)
     bored, hub = wheel_reach_and_hub(size, bore, wall, end)
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub

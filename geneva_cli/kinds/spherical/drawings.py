@@ -96,11 +96,7 @@ class Cone(NamedTuple):
         return closed(layer, chain(*(self.segments(arc, about) for arc in region.boundary)))
 
     def segments(self, arc: SphereArc, about: float) -> list[Segment]:
-        """Return an arc of the sphere on the flat cone.
-
-        Azimuths are unwrapped to within half a turn of ``about``. Circles about z become arcs and
-        meridians lines; the rest becomes curves.
-        """
+        """Return an arc of the sphere on the flat cone."""
         ends = [self._at(p, about) for p in (arc.start, arc.end)]
         # a meridian: a great circle is at 90 degrees from its axis
         if not arc.axis[2] and abs(math.cos(arc.angle)) < 1e-12:
@@ -248,10 +244,7 @@ def crank_flat(parts: SphereParts) -> list[Shape]:
 
 
 def arm(parts: SphereParts) -> Drawing:
-    """Return the arm laid flat, cut open between its holes; its solid is the cap with its hub.
-
-    About the crank's axis the opening is as wide as the hub. Raises GenevaError without an arm.
-    """
+    """Return the arm laid flat, cut open between its holes; its solid is the cap with its hub."""
     ball = parts.ball
     # the error says why there is no arm
     arm = parts.arm or crank_arm(ball, parts.shells.crank, parts.mechanism.spec.size)

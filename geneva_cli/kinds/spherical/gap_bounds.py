@@ -48,6 +48,7 @@ class SpherePairs:
 
         def in_recess(which: Whole) -> Array:
             """Return how far the sectors stay within the cap of the nearer recess, mm."""
+            assert pieces is not None  # without sectors no gap is doubtful
             some, (wheel, crank, _) = on.at(which), on.at_middle.at(which)
             # the middles of the recesses at both ends of the window, in the wheel's frame
             turn = gaps.assembly.wheel(np.array((window.start, window.end)))

@@ -56,10 +56,7 @@ class BallGaps:
         return Pose(self.assembly.wheel(input_deg), turn, pins)
 
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """Return the gap of each roller, mm (n, m), with the wheel turned on by ``lead`` radians.
-
-        Gaps wider than ``near`` mm, by default ``self.near``, are returned as ``near``.
-        """
+        """Return the gap of each roller, mm (n, m), at most ``near``."""
         near = self.near if near is None else near
         columns = []
         for i in range(pose.pins.shape[1]):
@@ -117,18 +114,12 @@ class BallGaps:
         return self.ball.radius_mm * least
 
     def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, directions (n, 3).
-
-        The wheel is turned on by ``lead`` radians.
-        """
+        """Return the centre of a motion's roller in the wheel's frame, directions (n, 3)."""
         pose = self.pose(input_deg)
         return about(pose.pins[:, motion], -(pose.wheel + lead))
 
     def to_wheel(self, points: Array) -> Array:
-        """Return the distances of points in the wheel's frame from its edge, radians.
-
-        Each is turned to the first slot's sector, whose edge is nearest.
-        """
+        """Return the distances of points in the wheel's frame from its edge, radians."""
         step = 2.0 * self.ball.half_step
         back = step * np.round(np.arctan2(points[:, 1], points[:, 0]) / step)
         return self.around.signed(about(points, -back))

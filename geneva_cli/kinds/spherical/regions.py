@@ -63,10 +63,7 @@ def wheel_regions(ball: Ball) -> list[Region]:
 
 
 def edge(ball: Ball, at: float = 0.0) -> list[SphereArc]:
-    """Return the edge about the slot at an azimuth, from the meridian before it to the next.
-
-    It is recess, rim, wall, round, wall, rim and recess, counterclockwise.
-    """
+    """Return the edge about the slot at an azimuth, from the meridian before it to the next."""
     b, w, corner = ball.half_step, ball.half_width, ball.corner
     start, end = (place(ball.between_slots, at + side * b) for side in (-1.0, 1.0))
     low, high = start, end
@@ -101,11 +98,7 @@ def edge_points(ball: Ball, each: int = 200) -> Array:
 
 
 def sectors(ball: Ball) -> list[Region]:
-    """Return the locking sectors of the crank, outside the region that the wheel sweeps.
-
-    Each lies between two rollers, and is as wide as the wheel leaves free. Raises PartDoesNotFit
-    where nothing is left of one.
-    """
+    """Return the locking sectors of the crank, outside the region that the wheel sweeps."""
     spare = min(0.25 * (ball.recess - ball.lock) + 0.1 * ball.roller, 0.1 * ball.lock)
     # A sector's inner edge is a fifth of its outer one, or farther out where the wheel needs that.
     least = 0.2 * ball.lock

@@ -83,11 +83,7 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
 
 
 def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0) -> Array:
-    """Return the gaps of disc and face, mm, at crank angles up to either stop and a little past it.
-
-    It is an array (2, n) of positions half a degree apart, from half a turn before a stop. The
-    first row is the way to the first stop.
-    """
+    """Return the gaps of disc and face, mm (2, n), up to either stop and a little past it."""
     assembly = outlines.assembly
     parts = Gaps(assembly, outlines.sizes, outlines.wheel, outlines.crank)
     z = assembly.full.spec.wheel.z
