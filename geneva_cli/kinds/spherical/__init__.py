@@ -10,7 +10,6 @@ KINDS = (
         drawings={
             "wheel": "kinds.spherical.drawings:wheel",
             "crank": "kinds.spherical.drawings:crank",
-            "arm": "kinds.spherical.drawings:arm",
             "assembly": "kinds.spherical.drawings:assembly",
         },
         dimensions="kinds.spherical.dimensions:dimensions",

@@ -32,10 +32,9 @@ from geneva_cli.geometry.shapes import (
     joined,
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing
-from geneva_cli.geometry.sphere import Cap, Region, SphereArc, Vector, place
-from geneva_cli.kinds.spherical.arm import crank_arm
+from geneva_cli.geometry.sphere import Region, SphereArc, Vector
 from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.kinds.spherical.parts import SphereParts, arm_solids
+from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.regions import edge, locked, rollers
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
@@ -160,11 +159,6 @@ def crank_cone(ball: Ball) -> Cone:
     return Cone(ball.radius_mm, ball.arm)
 
 
-def arm_cone(ball: Ball) -> Cone:
-    """Return the cone that touches the middle of the arm's thickness at the pins."""
-    return Cone(0.5 * sum(ball.arm_span_mm), ball.arm)
-
-
 def wheel(parts: SphereParts) -> Drawing:
     """Return the wheel's cone, cut open between two slots; x is along the first slot."""
     title = _titled(parts, "wheel", wheel_cone(parts.ball), "wheel")
@@ -241,40 +235,3 @@ def crank_flat(parts: SphereParts) -> list[Shape]:
     ends = cone.point(ball.arm, 0.0), cone.point(ball.arm, math.tau)
     shapes.append(Contour("PITCH", (cone.level(*ends, math.tau),), closed=False))
     return shapes
-
-
-def arm(parts: SphereParts) -> Drawing:
-    """Return the arm laid flat, cut open between its holes; its solid is the cap with its hub."""
-    ball = parts.ball
-    # the error says why there is no arm
-    arm = parts.arm or crank_arm(ball, parts.shells.crank, parts.mechanism.spec.size)
-    cone = arm_cone(ball).within(parts)
-    hub, *others = arm.holes
-    azimuths = [math.atan2(hole.axis[1], hole.axis[0]) for hole in others]
-    # in the middle of the widest gap; azimuths rise from here by a whole turn, past 0
-    around = sorted(a % math.tau for a in azimuths)
-    gaps = zip(around, [*around[1:], around[0] + math.tau], strict=True)
-    start, end = max(gaps, key=lambda pair: pair[1] - pair[0])
-    cut = 0.5 * (start + end) % math.tau - math.tau
-    # the boundary, counterclockwise from where it crosses that azimuth
-    arcs = arm.boundary.boundary
-    number, polar = next((i, p) for i, arc in enumerate(arcs) for p in arc.crossings(cut))
-    at = place(polar, cut)
-    head, tail = arcs[number]._replace(start=at), arcs[number]._replace(end=at)
-    # each arc's azimuths are unwrapped around a value near them
-    edge = cone.segments(head, cut + 0.5 * math.pi)
-    for arc in (*arcs[number + 1 :], *arcs[:number]):
-        edge += cone.segments(arc, cut + math.pi)
-    edge += cone.segments(tail, cut + 1.5 * math.pi)
-    far, near = (cone.point(hub.angle(cone.radius_mm), cut + turn) for turn in (math.tau, 0.0))
-    back = cone.level(far, near, -math.tau)
-    outline = closed("ARM", [*edge, Line(edge[-1].end, far), back, Line(near, edge[0].start)])
-    holes = []
-    for hole, azimuth in zip(others, azimuths, strict=True):
-        region = Cap(hole.axis, hole.angle(cone.radius_mm)).region
-        holes.append(cone.region("BORE", region, cut + (azimuth - cut) % math.tau))
-    low, high = ball.arm_span_mm
-    plate = Plate("arm", "ARM", outline, tuple(holes), 0.0, high - low)
-    solid = Group("arm", tuple(map(Member, arm_solids(ball, arm))))
-    title = _titled(parts, "arm", arm_cone(ball), "crank")
-    return Drawing(title, (outline, *holes), solid=plate, shells=solid)

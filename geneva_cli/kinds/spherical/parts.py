@@ -70,7 +70,7 @@ class Shells(NamedTuple):
 class SphereParts(Parts):
     """The parts of a machine in the wheel's frame."""
 
-    LAID_FLAT: ClassVar[tuple[str, ...]] = ("wheel", "crank", "arm")
+    LAID_FLAT: ClassVar[tuple[str, ...]] = ("wheel", "crank")
 
     @cached_property
     def _shape(self) -> Shells:
