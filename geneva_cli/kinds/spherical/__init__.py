@@ -12,7 +12,7 @@ KINDS = (
             "crank": "kinds.spherical.drawings:crank",
             "assembly": "kinds.spherical.drawings:assembly",
         },
-        dimensions="kinds.spherical.dimensions:dimensions",
+        dimensions="kinds.spherical.drawings:dimensions",
         sizes="kinds.spherical.sizes:key_sizes",
         details="kinds.spherical.parts:screw_sizes",
         stressed="kinds.spherical.sizes:stressed",

@@ -1,4 +1,4 @@
-"""Drawings of a spherical machine: its parts laid flat, and their solids.
+"""Drawings and dimensions of a spherical machine: its parts laid flat, and their solids.
 
 A shell is projected from the centre on a tangent cone and unrolled. All walls lead to the centre.
 So a sheet that is cut by this outline and rolled up to the cone lets the roller pass as the shell
@@ -11,6 +11,7 @@ Layers: WHEEL and CRANK are cut; ROLLER is the hole of a roller; PITCH is the ro
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import partial
 from itertools import chain
 from typing import NamedTuple
@@ -32,13 +33,15 @@ from geneva_cli.geometry.shapes import (
     joined,
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing
-from geneva_cli.geometry.sphere import Region, SphereArc, Vector
+from geneva_cli.geometry.sphere import Region, SphereArc
+from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.regions import edge, locked, rollers
+from geneva_cli.motion.pivots import Dimension
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.projection import titled
+from geneva_cli.parts.projection import Missing, or_missing, titled
 from geneva_cli.spec.written import length
 
 
@@ -47,13 +50,6 @@ class Cone(NamedTuple):
 
     Laid flat and seen from outside, its origin is the point of contact at azimuth 0. x points away
     from the pole, and y towards rising azimuths.
-
-    >>> cone = Cone(100.0, math.radians(60.0))
-    >>> round(cone.apex_mm, 9), round(cone.sector_deg, 9)
-    (173.205080757, 180.0)
-    >>> x, y = cone.point(math.radians(60.0), math.radians(180.0))
-    >>> round(x, 9), round(y, 9)  # a quarter of a turn about the apex
-    (-173.205080757, 173.205080757)
     """
 
     radius_mm: float  # of the sphere
@@ -96,7 +92,10 @@ class Cone(NamedTuple):
 
     def segments(self, arc: SphereArc, about: float) -> list[Segment]:
         """Return an arc of the sphere on the flat cone."""
-        ends = [self._at(p, about) for p in (arc.start, arc.end)]
+        ends = []
+        for x, y, z in (arc.start, arc.end):
+            azimuth = about + math.remainder(math.atan2(y, x) - about, math.tau)
+            ends.append(self.point(math.atan2(math.hypot(x, y), z), azimuth))
         # a meridian: a great circle is at 90 degrees from its axis
         if not arc.axis[2] and abs(math.cos(arc.angle)) < 1e-12:
             return [Line(*ends)]
@@ -118,11 +117,6 @@ class Cone(NamedTuple):
         """Return the arc about the apex between two points, over an azimuth."""
         bulge = math.tan(0.25 * azimuth * math.cos(self.polar))
         return Arc(start, end, bulge) if abs(bulge) > SAME_ANGLE else Line(start, end)
-
-    def _at(self, at: Vector, about: float) -> Point:
-        x, y, z = at
-        azimuth = about + math.remainder(math.atan2(y, x) - about, math.tau)
-        return self.point(math.atan2(math.hypot(x, y), z), azimuth)
 
     def _flat(
         self, polar: Array, azimuth: Array, d_polar: Array, d_azimuth: Array
@@ -235,3 +229,72 @@ def crank_flat(parts: SphereParts) -> list[Shape]:
     ends = cone.point(ball.arm, 0.0), cone.point(ball.arm, math.tau)
     shapes.append(Contour("PITCH", (cone.level(*ends, math.tau),), closed=False))
     return shapes
+
+
+def dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
+    """Yield the dimensions of the parts; for those that cannot be built, the reason."""
+    return or_missing("dimensions of the shells", lambda: _dimensions(parts))
+
+
+def _dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
+    ball = parts.ball
+    yield from _lengths("shells'", ball.span_mm)
+    yield _angle("roller's cone, half angle", ball.roller)
+    yield _angle("slot, between its walls", 2.0 * ball.half_width)
+    yield _angle("slot's last round, from the wheel's axis", ball.bottom)
+    yield _angle("rim, from the wheel's axis", ball.rim)
+    yield _angle("slotted ring's inner edge, from its axis", ball.inner)
+    yield from _axle("wheel", ball.bore_mm, ball.hub_mm)
+    if ball.lock:
+        yield _angle("lock, from the crank's axis", ball.lock)
+        yield _angle("recess, from the crank's axis", ball.recess)
+        yield Dimension("locking sectors' inner radius", ball.lock_span_mm[0], "mm")
+    for k, region in enumerate(parts.shells.crank, 1):
+        rim, _, low, _ = region.boundary
+        yield _angle(f"locking sector {k}: inner edge", math.pi - low.angle)
+        start = math.atan2(rim.start[1], rim.start[0]) % math.tau
+        yield _angle(f"locking sector {k}: begins", start)
+        yield _angle(f"locking sector {k}: width", rim.sweep)
+    yield from or_missing("arm's dimensions", lambda: _arm(parts))
+    for whose, cone in (("wheel", wheel_cone(ball)), ("crank", crank_cone(ball))):
+        flat = f"{whose} laid flat"
+        yield _angle(f"{flat}: cone touches the sphere at", cone.polar)
+        yield Dimension(f"{flat}: from there to its apex", abs(cone.apex_mm), "mm")
+        yield Dimension(f"{flat}: sector", cone.sector_deg, "deg")
+
+
+def _arm(parts: SphereParts) -> Iterator[Dimension]:
+    arm, ball = parts.arm, parts.ball
+    if arm is None:
+        return
+    yield from _lengths("arm's", ball.arm_span_mm)
+    yield from _axle("arm", arm.bore.radius, arm.hub)
+    yield _angle("arm's cap, from the crank's axis", arm.cap)
+    yield _angle("arm's eyes, half angle", arm.eye)
+    yield Dimension("pins", 2.0 * ball.pin_mm, "mm")
+    yield Dimension("pins' holes in the arm", 2.0 * arm.pins[0].radius, "mm")
+    yield from _bolts("lock's bolt", arm.bolts)
+
+
+def _axle(part: str, bore: float, hub: float) -> Iterator[Dimension]:
+    if bore:
+        yield Dimension(f"{part}'s bore", 2.0 * bore, "mm")
+    if hub > bore:
+        yield Dimension(f"{part}'s hub", 2.0 * hub, "mm")
+
+
+def _bolts(name: str, holes: tuple[RoundHole, ...]) -> Iterator[Dimension]:
+    for k, bolt in enumerate(holes, 1):
+        x, y, z = bolt.axis
+        yield Dimension(f"{name} {k}: hole", 2.0 * bolt.radius, "mm")
+        yield _angle(f"{name} {k}: from the axis", math.acos(z))
+        yield _angle(f"{name} {k}: azimuth", math.atan2(y, x))
+
+
+def _lengths(whose: str, span_mm: tuple[float, float]) -> Iterator[Dimension]:
+    for end, radius in zip(("inner", "outer"), span_mm, strict=True):
+        yield Dimension(f"{whose} {end} radius", radius, "mm")
+
+
+def _angle(name: str, value: float) -> Dimension:
+    return Dimension(name, math.degrees(value), "deg")

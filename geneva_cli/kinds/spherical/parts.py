@@ -29,8 +29,7 @@ from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
-from geneva_cli.kinds.spherical.gap_bounds import SpherePairs
-from geneva_cli.kinds.spherical.gaps import BallGaps
+from geneva_cli.kinds.spherical.gaps import BallGaps, SpherePairs
 from geneva_cli.kinds.spherical.regions import at_mid_motion, wheel_regions
 from geneva_cli.kinds.spherical.sizes import ball, fitted
 from geneva_cli.motion.mechanism import Mechanism
