@@ -10,7 +10,7 @@ from geneva_cli.geometry.plates import Group
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.kinds.linear.parts import RackParts
-from geneva_cli.kinds.linear.rack import rack_arm, rack_sizes, slot_walls
+from geneva_cli.kinds.linear.rack import rack_sizes, slot_walls
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.output.scene import Body, Box, Track
 from geneva_cli.parts.projection import (
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 def arm(parts: RackParts) -> Drawing:
     """Return the arm, whose x is from the crank's axis to the roller."""
     # without an arm the error says why
-    return drawing_of(parts.mechanism, "arm", parts.arm or rack_arm(parts.mechanism))
+    return drawing_of(parts.mechanism, "arm", parts.arm or parts.required_arm)
 
 
 def slot(parts: RackParts) -> Drawing:
