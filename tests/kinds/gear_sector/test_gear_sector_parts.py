@@ -13,11 +13,10 @@ import shapely
 from drawing_witness import polygon
 from witness import mp
 
-from geneva_cli import Design, External, GearSector, Load, RollerMaterial, Size
+from geneva_cli import Design, External, GearSector, Load, Size
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.loads.impacts.reversal import arrival
-from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import single_check
 from geneva_cli.verdict.checks.load_checks import stopping_torque
@@ -133,39 +132,6 @@ def test_two_rollers_on_the_crank():
     assert where.geared(np.array([-50.1, -49.9, 0.0, 49.9, 50.1])).tolist() == [0, 1, 1, 1, 0]
 
 
-@pytest.mark.long
-@pytest.mark.usefixtures("no_advice")
-def test_slots_that_coincide_are_a_plain_wheels():
-    """As D goes to 0 every check comes to the plain wheel's value, and the wheel to its outline."""
-    size = {"slot_clearance_mm": 0.1, "lock_clearance_mm": 0.05}
-    pair, plain = made(5, 1e-6, **size), Design(External(5), size=Size(**size))
-    values = [{c.name: c.value for c in one.checks} for one in (pair, plain)]
-    # a proof ends once it is near enough: the two end elsewhere
-    assert all(one.pop("gap_proved_mm") > -0.001 for one in values)
-    assert values[0].pop("rollers_apart_mm") < 0.0  # two of them in one place
-    assert values[0].pop("idle_roller_mm") > 0.0 and values[0].pop("link_gap_mm") > 0.0
-    # 1e-6 degrees, over the lock's clearance, which opens as the square root of that
-    assert values[0] == pytest.approx(values[1], rel=1e-5, abs=1e-6)
-
-
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize("name", MACHINES)
-def test_the_wheels_mass_is_what_its_outline_holds(name):
-    """By a polygon, whose chords of an arc miss 2/3 of their height: some 1e-5 of the area."""
-    z, sector, size = MACHINES[name]
-    design = made(z, sector, **size, wheel_thickness_mm=10.0, wheel_bore_mm=0.0)
-    x, y = np.array(polygon(design.parts.outlines.wheel, 1e-5).exterior.coords).T
-    cross = x[:-1] * y[1:] - x[1:] * y[:-1]
-    square = sum(v[:-1] ** 2 + v[:-1] * v[1:] + v[1:] ** 2 for v in (x, y))
-    rows = design.part_table("parts").to_dict()
-    i = [*zip(rows["row"], rows["name"], strict=True)].index(("part", "wheel"))
-    assert rows["mass_kg"][i] == pytest.approx(7850.0 * 1e-8 * 0.5 * cross.sum(), rel=1e-6)
-    polar = 7850.0 * 1e-14 * (cross * square).sum() / 12.0
-    assert rows["inertia_kgm2"][i] == pytest.approx(polar, rel=1e-6)
-    own = wheel_body(design.mechanism)  # of the same outline
-    assert own.inertia_kgm2 == pytest.approx(rows["inertia_kgm2"][i], rel=1e-13)
-
-
 def loaded(torque, inertia=0.01, sector=60.0, z=3):
     drive = GearSector(sector_deg=sector, n_rpm=60.0 / math.tau)  # 1 rad/s
     return Design(External(z), drive, load=Load(inertia_kgm2=inertia, torque_Nm=torque))
@@ -250,31 +216,6 @@ def test_what_is_said_of_a_wheel_that_lags():
     assert single_check(faster.mechanism, "stopping_torque_Nm").passes
     check, _ = of(1.0, 0.0)
     assert (check.limit, check.passes) == (0.0, False) and "inertia_kgm2" in check.why
-
-
-@pytest.mark.long
-def test_horn_and_rollers_are_as_of_a_wheel_with_these_slots():
-    """b = 30 degrees: the first half of a wheel of six slots, on the same inertia and speed."""
-    of = {"center_distance_mm": 120.0, "face_width_mm": 10.0, "roller_radius_mm": 8.0}
-    heavy = Load(inertia_kgm2=0.01)
-    more = {
-        "size": Size(**of),
-        "load": heavy,
-        "material_roller": RollerMaterial(dynamic_capacity_N=5e3),
-    }
-    pair, six = (
-        Design(External(3), GearSector(sector_deg=60.0), **more),
-        Design(External(6), **more),
-    )
-    ours, plain = (one.life for one in (pair, six))
-    assert ours["horn_stress_MPa"] == pytest.approx(plain["horn_stress_MPa"], rel=1e-9)
-    # its two rollers share what one does there
-    assert ours["slot_travel_m"] == pytest.approx(plain["slot_travel_m"], rel=1e-12)
-    assert ours["equivalent_force_N"] == pytest.approx(plain["equivalent_force_N"], rel=1e-9)
-    assert ours["roller_life_turns"] == pytest.approx(plain["roller_life_turns"], rel=1e-8)
-    for name, share in (("turns_per_motion", 0.5), ("life_motions", 2.0), ("life_h", 2.0)):
-        name = f"roller_{name}"
-        assert ours[name] == pytest.approx(share * plain[name], rel=1e-8), name
 
 
 def test_refusals():
