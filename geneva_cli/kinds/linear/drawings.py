@@ -65,20 +65,15 @@ def dimensions(parts: RackParts) -> Iterator[Dimension | Missing]:
 
     def listed() -> Iterator[Dimension]:
         sizes = parts.sizes
-        lock = {
-            "recess radius": sizes.recess,
-            "locking sector: outer radius": sizes.lock,
-            "locking sector: inner radius": sizes.floor,
-        }
-        named = {
-            "distance of the slots": 2.0 * sizes.arm,
-            "edge, from the deepest roller": sizes.edge,
-            **(lock if sizes.lock else {}),
-            "guide bar: width": sizes.guide.bar,
-            "guide: clearance on either side": sizes.guide.slide,
-            "guide: length": 2.0 * sizes.guide.half,
-        }
-        return (Dimension(name, value, "mm") for name, value in named.items())
+        yield Dimension("distance of the slots", 2.0 * sizes.arm, "mm")
+        yield Dimension("edge, from the deepest roller", sizes.edge, "mm")
+        if sizes.lock:
+            yield Dimension("recess radius", sizes.recess, "mm")
+            yield Dimension("locking sector: outer radius", sizes.lock, "mm")
+            yield Dimension("locking sector: inner radius", sizes.floor, "mm")
+        yield Dimension("guide bar: width", sizes.guide.bar, "mm")
+        yield Dimension("guide: clearance on either side", sizes.guide.slide, "mm")
+        yield Dimension("guide: length", 2.0 * sizes.guide.half, "mm")
 
     return or_missing("dimensions of the rack", listed)
 

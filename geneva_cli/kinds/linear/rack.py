@@ -154,7 +154,9 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
     cuts = [slot_walls(sizes, y) for y in places]
     if sizes.recess:
         between = places[0] - sizes.arm, *(y + sizes.arm for y in places)
-        recesses = [_recess(sizes, y) for y in between]
+        beyond = math.asin((sizes.edge - sizes.arm) / sizes.recess)
+        start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
+        recesses = [[about((sizes.arm, y), sizes.recess, start, sweep)] for y in between]
         pairs = zip(recesses, [*cuts, []], strict=True)
         cuts = [cut for pair in pairs for cut in pair if cut]
     edge: list[Segment] = []
@@ -185,12 +187,6 @@ def slot_walls(sizes: RackSizes, y: float) -> list[Segment]:
     edge, w, bottom = sizes.edge, sizes.half_width, -sizes.slot_bottom
     end = about((bottom, y), w, -0.5 * math.pi, -math.pi)
     return [Line((edge, y - w), end.start), end, Line(end.end, (edge, y + w))]
-
-
-def _recess(sizes: RackSizes, y: float) -> list[Segment]:
-    beyond = math.asin((sizes.edge - sizes.arm) / sizes.recess)
-    start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
-    return [about((sizes.arm, y), sizes.recess, start, sweep)]
 
 
 def locking_sector(sizes: RackSizes) -> Contour | None:

@@ -175,7 +175,22 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     pin = pin_radius(size, radius_mm)
     refuse_wide_pin(size, pin, inside * math.sin(roller))
     refuse_edges(size, min(thick.wheel, thick.lock, thick.arm))
-    lock_mm = _lock_mm(mechanism, arm - w, abs(deepest + arm - rim), roller)
+    # the locking sectors' edge, between the wheel's rim and the rollers
+    limit, least = arm - w - allowed.lock_clearance_mm / L, abs(deepest + arm - rim)
+    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
+    lock_mm = size.lock_radius_mm
+    if not spec.has_lock:
+        lock_mm = 0.0
+    elif limit <= least:
+        raise PartDoesNotFit(
+            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
+            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
+            ("size", "lock_radius_mm"),
+        )
+    elif lock_mm is None:
+        lock_mm = L * math.sin(lock_between(least, limit, roller))
+    else:
+        require_lock_between(lock_mm, low, high)
     lock = math.asin(lock_mm / L)
     turns = [p.crank_deg for p in (first, *others)]
     if len(turns) == 1:
@@ -231,25 +246,6 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
             ("size", "lock_radius_mm"),
         )
     return ball
-
-
-def _lock_mm(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:
-    """Return the radius of the locking sectors' edge about the crank's axis, 0 for none."""
-    size, L = mechanism.spec.size, mechanism.center_distance_mm
-    if not mechanism.spec.has_lock:
-        return 0.0
-    limit -= size.allowances.lock_clearance_mm / L
-    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
-    if limit <= least:
-        raise PartDoesNotFit(
-            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
-            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
-            ("size", "lock_radius_mm"),
-        )
-    if size.lock_radius_mm is None:
-        return L * math.sin(lock_between(least, limit, roller))
-    require_lock_between(size.lock_radius_mm, low, high)
-    return size.lock_radius_mm
 
 
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:

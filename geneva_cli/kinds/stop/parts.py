@@ -104,15 +104,9 @@ def stop(parts: Parts) -> Values:
     stops = wheel_stop(outlines)
     assert stops is not None  # the wheel has a convex face
     force, stress = stop_contact(parts.mechanism, stops.lever_mm, outlines.sizes.rim)
-    return {
-        "turns": stops.turns,
-        "first_deg": stops.first_deg,
-        "last_deg": stops.last_deg,
-        "overlap_mm": stops.overlap_mm,
-        "lever_mm": stops.lever_mm,
-        "force_N": force,
-        "contact_stress_MPa": stress,
-    }
+    names = "turns", "first_deg", "last_deg", "overlap_mm", "lever_mm"
+    own: Values = {name: getattr(stops, name) for name in names}
+    return own | {"force_N": force, "contact_stress_MPa": stress}
 
 
 def stop_contact(
@@ -162,8 +156,7 @@ def turns(name: str, parts: FlatParts) -> Check | None:
 
 def overlap(name: str, parts: FlatParts) -> Check | None:
     """How far the circles of disc and face overlap, so that wear does not free the crank."""
-    stop = _stop_of(parts)
-    if stop is None:
+    if not (stop := _stop_of(parts)):
         return None
     return compared(name, stop.overlap_mm, "at least", parts.outlines.sizes.wall_min)
 
@@ -178,8 +171,7 @@ def stress(name: str, parts: FlatParts) -> Check | None:
         needs = "lock_edge_mm in [size]: the end of the disc is sharp"
         if force is None:
             needs = "winding_torque_Nm in [load]"
-        why = f"not known: it needs {needs}"
-        return Check(name, None, "at most", limit, None, why)
+        return Check(name, None, "at most", limit, None, f"not known: it needs {needs}")
     return compared(name, value, "at most", limit)
 
 
