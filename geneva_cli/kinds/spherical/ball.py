@@ -192,9 +192,8 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     else:
         require_lock_between(lock_mm, low, high)
     lock = math.asin(lock_mm / L)
-    turns = [p.crank_deg for p in (first, *others)]
-    if len(turns) == 1:
-        turns = [360.0 * i / spec.drive.rollers for i in range(spec.drive.rollers)]
+    even = [360.0 * i / spec.drive.rollers for i in range(spec.drive.rollers)]
+    turns = [first.crank_deg, *(p.crank_deg for p in others)] if others else even
     bored = 0.0
     if spec.drive.crank and pin:
         bored = arm_bore(spec, 0.0, L, L * arm - hole_radius(size, pin))
