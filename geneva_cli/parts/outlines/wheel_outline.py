@@ -22,9 +22,8 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import array, scalar
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.slot_ends import Tip, rounded, tip
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.slots.roller_paths import corner, least_mouth, mouth, rest
+from geneva_cli.parts.slots.roller_paths import Tip, corner, least_mouth, mouth, rest, rounded, tip
 from geneva_cli.parts.turn.pairs import CONTACT
 
 CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
