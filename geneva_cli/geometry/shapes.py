@@ -12,11 +12,11 @@ from typing import Literal, NamedTuple, TypeAlias
 Point: TypeAlias = tuple[float, float]
 ORIGIN: Point = (0.0, 0.0)
 HULL_ROUNDING = 1e-12  # radians, and mm: directions and points nearer to each other are one
-# The names of all layers: of drawings, coupons, sheets and animations. Shapes that are not drawn
+# The names of all layers: of drawings, sheets and animations. Shapes that are not drawn
 # have none.
 Layer: TypeAlias = Literal[
     "WHEEL", "CRANK", "ARM", "LINK", "FRAME", "GROOVE", "PITCH", "ROLLER", "BORE", "HUB", "SHAFT",
-    "COUPON", "ENGRAVE", "OUTLINE", "HIDDEN", "CENTER", "HATCH", "DIMENSION", "TEXT",
+    "OUTLINE", "HIDDEN", "CENTER", "HATCH", "DIMENSION", "TEXT",
     "GEAR", "SLOT", "HOLLOW", "",
 ]  # fmt: skip
 

@@ -195,7 +195,6 @@ class Sheet(NamedTuple):
     shapes: tuple[Shape, ...]
     labels: tuple[Label, ...]
     measures: tuple[Measure, ...]
-    units: str = "mm"  # of the dimensions' texts: mm or inch
 
     @property
     def texts(self) -> list[Label]:

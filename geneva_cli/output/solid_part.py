@@ -9,19 +9,14 @@ from geneva_cli.geometry.shapes import Circle, Contour
 from geneva_cli.geometry.sheet import Drawing
 
 
-def solid_part(drawing: Drawing, units: str, format: str) -> Part:
-    """Return the part of a drawing; ``format`` is the name in messages.
-
-    Raises GenevaError for a drawing without solids, and for a unit other than mm.
-    """
+def solid_part(drawing: Drawing, format: str) -> Part:
+    """Return the part of a drawing. Raises GenevaError, naming the format, for one without."""
     whole = drawing.shells or drawing.solid
     if whole is None:
         raise GenevaError(
             f"no solid to write as {format}: solids are --part wheel, crank, arm and assembly. "
             "Write other drawings, and paths with --kerf, as .dxf or .svg"
         )
-    if units != "mm":
-        raise GenevaError(f"--units: {format} is always in mm; leave it out")
     return whole
 
 

@@ -159,7 +159,7 @@ def with_centre_marks(drawing: Drawing) -> Drawing:
             arcs = [piece for piece in shape.segments if isinstance(piece, Arc)]
             if shape.layer != "BORE" or not arcs:
                 continue
-            widest = max(arcs, key=lambda arc: arc.radius)  # dog bones are smaller
+            widest = max(arcs, key=lambda arc: arc.radius)
             x, y = (round(v, 9) + 0.0 for v in widest.centre)  # mm; removes rounding errors
             at, radius = (x, y), widest.radius
         least[at] = min(least.get(at, radius), radius)

@@ -23,7 +23,7 @@ from geneva_cli.spec.written import degrees, length
 
 
 def draw_wheel(view: View, parts: FlatParts) -> None:
-    """Draw the wheel with all its dimensions; a table has the points of curved slots."""
+    """Draw the wheel with all its dimensions but the flanks of curved slots."""
     outlines = parts.outlines
     assembly, sizes = outlines.assembly, outlines.sizes
     wheel, *hubs = plates(parts.wheel.part)
@@ -44,6 +44,9 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
         number_of = sum(1 for one, _ in assembly.slots if one is engagement)
         if not engagement.slot.curved:
             _slot(view, outlines, engagement, number_of)
+            continue
+        width = sized.made(view.fits, assembly.mechanism, "slot", sizes.half_width)
+        view.remark(f"{times(number_of, 'slot')}, {width} wide: flanks as in the wheel's dxf")
     up = 0.5 * math.pi
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
     _steps(view, outlines, reach)

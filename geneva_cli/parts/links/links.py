@@ -204,7 +204,7 @@ def _gears(
 ) -> tuple[GearMesh | None, list[Gear]]:
     """Return the teeth of gears, if they have some, and the gears, bored for their shafts.
 
-    Raises GenevaError, naming the key, for teeth that do not mesh, or not in both directions.
+    Raises GenevaError, naming the key, for teeth that do not mesh.
     """
     from geneva_cli.parts.gears.gear_blanks import link_gear
     from geneva_cli.parts.gears.gear_mesh import gear_mesh
@@ -215,13 +215,6 @@ def _gears(
     if mechanism.spec.drive.round_gears and size.gear_module_mm is not None:
         driver, driven = links
         mesh = gear_mesh(driver, driven, (at[0], at[1]), size)
-        if mechanism.spec.drive.both_ways and mesh.gears[driver.name].last_tip:
-            raise GenevaError(
-                f"gear_module_mm = {size.gear_module_mm:g}: the last tooth of the {driver.name} is "
-                "lower, so that it drives one way only; remove gear_module_mm, or both_ways and "
-                "--reverse",
-                ("size", "gear_module_mm"),
-            )
     cut = mesh.gears if mesh else {}
     bores = [next(axis.bore for axis in turning if same(axis.at, p, L)) for p in at]
     return mesh, [

@@ -66,7 +66,8 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
         nearest = min if assembly.sign > 0.0 else max
         if engagement.built is not None:
             return math.hypot(*_mouth(assembly, engagement, 1.0), r)
-        reaches = (scalar(reach) for reach in (engagement.entry_reach, engagement.exit_reach))
+        ends = engagement.entry_deg, engagement.exit_deg
+        reaches = (scalar(engagement.reach(at_deg)) for at_deg in ends)
         return math.hypot(assembly.L * nearest(reaches), r)
     return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
 

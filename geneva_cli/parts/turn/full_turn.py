@@ -232,7 +232,8 @@ def _contact(parts: TurnedParts, motion: int) -> FirstContact:
     """
     assembly, gaps = parts.assembly, parts.gaps
     engagement, mid = assembly.motions[motion]
-    ahead = scalar(engagement.exit_reach) - scalar(engagement.entry_reach)
+    ends = engagement.exit_deg, engagement.entry_deg
+    ahead = scalar(engagement.reach(ends[0])) - scalar(engagement.reach(ends[1]))
     # the mouth of an offset slot has a corner for each end, and the rim is at the farther one
     farther = -1.0 if engagement.slot.offset else assembly.sign
     start = mid + engagement.end_deg(1.0 if farther * ahead < -SAME_LENGTH else -1.0)
