@@ -734,7 +734,7 @@ class Design:
         'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
         """
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.geometry.cutter import judged
+        from geneva_cli.geometry.offsets import judged
 
         require_cut(part, "--cutter")
         return judged(self.drawing(part), cutter_mm)
