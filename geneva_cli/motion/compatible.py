@@ -47,7 +47,6 @@ def refuse_conflicts(spec: Spec) -> None:
     rules: list[Callable[[Spec], Iterator[Conflict]]] = [
         _of_drive_before,
         *kinds,
-        _of_gears,
         _of_slot_ends,
         _of_limits,
     ]
@@ -114,27 +113,6 @@ def _of_drive_before(spec: Spec) -> Iterator[Conflict]:
         ("drive", "before"),
         'the crank of kind = "{spec.drive.NAME}" is on the shaft: set kind = '
         '"{spec.drive_before.NAME}" in [drive] instead',
-    )
-
-
-def _of_gears(spec: Spec) -> Iterator[Conflict]:
-    """Rules on the keys of gears."""
-    size = spec.size
-    yield Conflict(
-        size.gear_module_mm is not None and not is_geared(spec),
-        ("size", "gear_module_mm"),
-        'gear_module_mm cuts the teeth of gears, and kind = "{spec.drive.NAME}" has none: remove '
-        "it",
-    )
-    yield Conflict(
-        size.gear_module_mm is None and size.gear_shift is not None,
-        ("size", "gear_shift"),
-        "gear_shift moves the teeth of gears: set gear_module_mm, or remove gear_shift",
-    )
-    yield Conflict(
-        size.gear_module_mm is None and size.gear_teeth is not None,
-        ("size", "gear_teeth"),
-        "gear_teeth counts the teeth of gears: set gear_module_mm, or remove gear_teeth",
     )
 
 

@@ -205,11 +205,10 @@ def input_of(mechanism: Mechanism) -> Callable[[float], float]:
 def assembled(mechanism: Mechanism) -> Assembly:
     """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
     spec, plain = mechanism.spec, mechanism.spec
-    no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
     if mechanism.law is None and (crank := spec.drive.crank):
-        plain = spec.replace(drive=crank, drive_before=None, size=no_gears)
+        plain = spec.replace(drive=crank, drive_before=None)
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
-        plain = spec.replace(drive_before=None, size=no_gears)
+        plain = spec.replace(drive_before=None)
     turned = mechanism if plain == spec else build(plain)
     return assembled_by_input(turned)._replace(full=mechanism, to_input=input_of(mechanism))
 

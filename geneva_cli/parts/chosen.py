@@ -25,7 +25,7 @@ LEFT_OUT = ("wheel_hub_mm", "crank_hub_mm", "wall_min_mm")
 # Clearances and fits, which a process sets; without one they are 0, and no rule chose them.
 ALLOWED = (
     *("slot_clearance_mm", "lock_clearance_mm", "press_fit_mm", "shaft_fit_mm"),
-    *("pin_gap_mm", "gear_backlash_mm"),
+    "pin_gap_mm",
 )
 # What people call the sizes that a load chooses, the first one that is to be looked at first.
 NAMES = {
@@ -132,7 +132,7 @@ def by_load(mechanism: Mechanism) -> dict[str, Chosen]:
 def _is_written(mechanism: Mechanism, key: str, values: Mapping[str, float | str]) -> bool:
     """Return True for a size of a part that the machine has."""
     spec, value = mechanism.spec, values[key]
-    if key in ("lock_bolts", "gear_shift") or isinstance(value, str):
+    if key == "lock_bolts" or isinstance(value, str):
         return True
     if key in LEFT_OUT or (key in ALLOWED and spec.size.process is None):
         return False

@@ -11,7 +11,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
 from geneva_cli.parts.arm import bolts, crank_arm
-from geneva_cli.parts.gears.gear_curves import pair_teeth
 from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import reliefs, sectors
@@ -84,7 +83,7 @@ def _flats(parts: Outlines) -> Values:
 def _links(parts: Outlines) -> Values:
     """Return pins and width of links, and the sizes of gears."""
     links = drawn_links(parts.assembly.full, parts)
-    out = _screws(links) | _teeth(parts.assembly.full, links)
+    out = _screws(links)
     if links.sizes and any(links.plates):
         out |= {"link_pin_mm": 2.0 * links.sizes.pin, "link_width_mm": 2.0 * links.sizes.eye}
     return out
@@ -98,18 +97,3 @@ def _screws(links: Links) -> Values:
         for one in circles
         for key, radius in (("gear_bolt_mm", one.hole), ("gear_bolt_circle_mm", one.radius))
     }
-
-
-def _teeth(machine: Mechanism, links: Links) -> Values:
-    """Return number, shift and backlash of the teeth of gears."""
-    size, pair = machine.spec.size, pair_teeth(machine.spec.gears, machine.spec.size)
-    backlash: Values = {"gear_backlash_mm": size.allowances.gear_backlash_mm}
-    if pair:
-        return {"gear_teeth": pair.z, "gear_shift": pair.shift, **backlash}
-    if not links.mesh:
-        return {}
-    small = next(iter(links.mesh.gears.values()))
-    shift: Values = {"gear_shift": small.shift, **backlash}
-    # the module sets the number of teeth on sectors
-    is_whole = all(len(gear.middles[0]) == gear.z for gear in links.mesh.gears.values())
-    return {"gear_teeth": small.z, **shift} if is_whole and small.z >= 3 else shift

@@ -19,7 +19,6 @@ from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import Dimension
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.arm import (
@@ -47,7 +46,6 @@ from geneva_cli.parts.sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.mounted_plate import FrameAndShafts
     from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.turn.bounds import FlatPairs
@@ -273,28 +271,14 @@ class FlatParts(EdgedParts):
             for plate, x, turn in (wheel, *discs)
         )
 
-    @cached_property
-    def toothed(self) -> tuple[Gear, ...]:
-        """Gears with round pitch circles, with teeth if they have a module; no first wheel."""
-        if self.first or not self.links.gears:
-            return ()
-        from geneva_cli.parts.gears.gear_pair import FINE
-
-        write = self.writer(FINE["cubics"] * self.mechanism.center_distance_mm)
-        return tuple(gear.with_teeth(write) for gear in self.links.gears)
-
     @property
-    def tooth_dimensions(self) -> tuple[Dimension, ...]:
-        """Dimensions of the gears' teeth; none without teeth."""
-        from geneva_cli.parts.gears.gear_curves import pair_teeth
-
-        teeth = pair_teeth(self.mechanism.spec.gears, self.mechanism.spec.size)
-        meshes = (teeth, self.links.mesh)
-        return tuple(one for mesh in meshes if mesh for one in mesh.layout)
+    def round_gears(self) -> tuple[Member, ...]:
+        """Gears with round pitch circles; a first wheel is none."""
+        return () if self.first else tuple(gear.member for gear in self.links.gears)
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
-        """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
+        """The noncircular gears in front of a crank, up to their pitch curves."""
         if self.mechanism.spec.gears is None:
             return ()
         from geneva_cli.parts.gears.gear_pair import gear_pair
@@ -373,14 +357,6 @@ class FlatParts(EdgedParts):
         """Wheel, crank, links and frame, whose curves need not be fitted."""
         turning = (self.wheel, self.crank) if self.drawn else ()
         return (*turning, *self.links.cut, self.frame)
-
-    def require(self) -> None:
-        """Raise GenevaError for a part that cannot be built."""
-        super().require()
-        if self.mechanism.spec.gears is not None:
-            from geneva_cli.parts.gears.gear_pair import pair_with_teeth
-
-            pair_with_teeth(self.mechanism)
 
     @property
     def to_fix(self) -> tuple[str, ...]:

@@ -87,12 +87,13 @@ def framed(
             on_crank = at in [one.at for one in mechanism.crank_places]
             diameter = table.crank_diameter_mm if on_crank else table.wheel_diameter_mm
             holes.append(hole_without_shaft(diameter, at, L))
-    fixed: list[tuple[Circle, Plate]] = []  # the clearance holes of screws into the frame, and the parts that they fix
+    # the clearance holes of screws into the frame, and the parts that they fix
+    fixed: list[tuple[Circle, Plate]] = []
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             fixed += [(hole, member.part) for hole in placed_holes(member)]
     for gear in bars.gears:
-        for hole in gear.bolts:
+        for hole in gear.screws.holes if gear.screws else ():
             (x, y), (u, v) = gear.at, hole.centre
             fixed.append((Circle("BORE", (x + u, y + v), hole.radius), gear.plate))
     for plate in (base, bridge):

@@ -82,8 +82,6 @@ def usual(rng, key, L, R, r, outside):
         return rng.choice(WORDED[key])
     if key in ("lock_bolts", "dial_bolts", "gear_bolts"):
         return rng.choice([0, 1, 2, 3])
-    if key == "gear_teeth":
-        return rng.choice([12, 17, 20, 30])
     of = {
         "mouth_radius_mm": 0.1 * r,
         "horn_tip_mm": 0.2 * r,
@@ -124,9 +122,6 @@ def usual(rng, key, L, R, r, outside):
         "dial_bolt_mm": L / 40.0,
         "gear_bolt_mm": L / 40.0,
         "gear_bolt_circle_mm": 0.8 * L,
-        "gear_module_mm": L / 60.0,
-        "gear_shift": 0.2,
-        "gear_backlash_mm": 0.001 * L,
         "dial_bolt_circle_mm": L / 2.0,
         "wheel_flat_mm": 0.02 * L,
         "crank_flat_mm": 0.02 * R,
@@ -334,7 +329,7 @@ def machine_text(rng, kind=None):
     text = with_radius(rng, text, L, R, flat and not curved)
     if curved or not flat or "stop = true" in text:
         text = [line for line in text if not line.startswith(("mouth_radius", "horn_tip"))]
-    return "\n".join(fitting(text)) + "\n"
+    return "\n".join(text) + "\n"
 
 
 def with_radius(rng, text, L, R, straight):
@@ -344,16 +339,6 @@ def with_radius(rng, text, L, R, straight):
         radius = f"crank_radius_mm = {near(rng, R, 1e-3)!r}"
         text[text.index(distance)] = rng.choice([radius, f"{distance}\n{radius}"])
     return text
-
-
-def fitting(text):
-    """The lines without those of teeth, where the machine has none or they have no module."""
-    kinds = [line[8:-1] for line in text if line.startswith("kind = ")]
-    toothed = any({"gears", "round_gears"} & {*vars(drive(kind))} for kind in kinds)
-    if toothed and any(line.startswith("gear_module_mm") for line in text):
-        return text
-    teeth = ("gear_module", "gear_teeth", "gear_shift", "gear_backlash")
-    return [line for line in text if not line.startswith(teeth)]
 
 
 def bodies(rng, L, orbits):
@@ -401,4 +386,4 @@ def rack_text(rng):
     if rng.random() < 0.2:
         keys = {"crank_diameter_mm": 0.2 * R, "crank_overhang_mm": 0.4 * R, "crank_span_mm": R}
         text += ["[shaft]", *(f"{key} = {near(rng, size)!r}" for key, size in keys.items())]
-    return "\n".join(fitting(text)) + "\n"
+    return "\n".join(text) + "\n"

@@ -38,7 +38,6 @@ from geneva_cli.parts.shafts.screws import screw_through
 
 if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear
-    from geneva_cli.parts.gears.gear_mesh import GearMesh
 
 SHAFT = Joint.SHAFT
 
@@ -74,7 +73,6 @@ class Links(NamedTuple):
     standing: frozenset[str] = frozenset()  # names of the links that are fixed to the frame
     blocks: frozenset[str] = frozenset()  # names of the blocks that slide in a link
     axes: tuple[LinkAxis, ...] = ()  # axes that links and gears turn about
-    mesh: GearMesh | None = None  # the teeth of round gears
 
     @property
     def plates(self) -> list[Plate]:
@@ -136,7 +134,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
             ("size", "link_bore_mm"),
         )
     bored_axes = tuple(axis for axis, _ in turning)
-    mesh, gears = _gears([link for link in links if link.radius_mm], bored_axes, sizes, mechanism)
+    gears = _gears([link for link in links if link.radius_mm], bored_axes, sizes, mechanism)
     kinds = {kind for link in bars if link.plane == 1 for kind in link.kinds}
     pin_low = None
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
@@ -150,7 +148,6 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
         standing=frozenset(link.name for link in bars if link.kinds[0] is Joint.NONE),
         blocks=frozenset(block.part.name for bar in unbored for block in bar.blocks),
         axes=bored_axes,
-        mesh=mesh,
     )
 
 
@@ -202,33 +199,16 @@ def _with_shaft(
 
 def _gears(
     links: list[Link], turning: Iterable[LinkAxis], sizes: LinkSizes, mechanism: Mechanism
-) -> tuple[GearMesh | None, list[Gear]]:
-    """Return the teeth of gears, if they have some, and the gears, bored for their shafts.
-
-    Raises GenevaError, naming the key, for teeth that do not mesh, or not in both directions.
-    """
+) -> list[Gear]:
+    """Return the round gears, bored for their shafts."""
     from geneva_cli.parts.gears.gear_blanks import link_gear
-    from geneva_cli.parts.gears.gear_mesh import gear_mesh
 
-    L, size = mechanism.center_distance_mm, mechanism.spec.size
-    at = [point_at_zero(*places(link)) for link in links]
-    mesh = None
-    if mechanism.spec.drive.round_gears and size.gear_module_mm is not None:
-        driver, driven = links
-        mesh = gear_mesh(driver, driven, (at[0], at[1]), size)
-        if mechanism.spec.drive.both_ways and mesh.gears[driver.name].last_tip:
-            raise GenevaError(
-                f"gear_module_mm = {size.gear_module_mm:g}: the last tooth of the {driver.name} is "
-                "lower, so that it drives one way only; remove gear_module_mm, or both_ways and "
-                "--reverse",
-                ("size", "gear_module_mm"),
-            )
-    cut = mesh.gears if mesh else {}
-    bores = [next(axis.bore for axis in turning if same(axis.at, p, L)) for p in at]
-    return mesh, [
-        link_gear(link, p, bore, sizes, mechanism, cut.get(link.name))
-        for link, p, bore in zip(links, at, bores, strict=True)
-    ]
+    L, out = mechanism.center_distance_mm, []
+    for link in links:
+        at = point_at_zero(*places(link))
+        bore = next(axis.bore for axis in turning if same(axis.at, at, L))
+        out.append(link_gear(link, at, bore, sizes, mechanism))
+    return out
 
 
 def _bar(link: Link, sizes: LinkSizes, L: float) -> _Unbored:
