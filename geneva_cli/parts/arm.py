@@ -46,11 +46,7 @@ class CrankArm(NamedTuple):
 
 
 def crank_arm(parts: Outlines) -> CrankArm:
-    """Return the arm of a machine.
-
-    Raises GenevaError, naming the key, where the rollers are on no crank, or the sizes leave no arm
-    around the holes.
-    """
+    """Return the arm of a machine."""
     assembly, sizes, drive = parts.assembly, parts.sizes, parts.assembly.full.spec.drive
     size, radius, wall = assembly.full.spec.size, sizes.arm_bore, sizes.wall_min
     if not drive.ONE_ARM:
@@ -91,8 +87,7 @@ def bolts(parts: Outlines) -> list[Circle]:
     """Return the holes of bolts that fix the locking disc to the arm, evenly in each sector.
 
     By default there are as many as leave walls in disc and arm, up to two in each sector, where the
-    arm passes the wheel's hub, unless a key, a flat or a hexagon holds both. Raises GenevaError
-    where there is no disc to fix.
+    arm passes the wheel's hub, unless a key, a flat or a hexagon holds both.
     """
     assembly, sizes = parts.assembly, parts.sizes
     size = assembly.mechanism.spec.size

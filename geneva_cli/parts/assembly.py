@@ -176,10 +176,7 @@ class Assembly(NamedTuple):
 
 @lru_cache(maxsize=16)
 def assembly(mechanism: Mechanism) -> Assembly:
-    """Return the assembly of a mechanism with flat parts, cached for its sizes and its parts.
-
-    Raises GenevaError for a machine whose parts are not flat outlines.
-    """
+    """Return the assembly of a mechanism with flat parts, cached for its sizes and its parts."""
     spec = mechanism.spec
     if not spec.wheel.FLAT:
         raise GenevaError(

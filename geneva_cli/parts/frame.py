@@ -51,8 +51,7 @@ def framed(
     """Return the frame and the shafts of a machine with its ``outlines``, if it has any.
 
     ``bars`` are the links, ``base`` is the lowest plate with a cam's groove, ``first`` are the
-    first wheel and its locking disc of two in series. Raises GenevaError where a shaft's lower end
-    is not below its upper one.
+    first wheel and its locking disc of two in series.
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     moving = [one.part for one in (*bars.cut, *bars.joined, *first)]

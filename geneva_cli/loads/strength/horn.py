@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.strength.horn_search import SlotEnd, UnitStress, slot_ends, squeezed
+from geneva_cli.loads.strength.horn_search import SlotEnd, slot_ends, squeezed
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import pitch
 from geneva_cli.numerics.arrays import Number, parameter
@@ -58,15 +58,16 @@ class Horn(NamedTuple):
 
         At angles (m, k) both are (2, m, k). The origin is the recess's centre.
         """
+
+        def turned(of: Array) -> Array:
+            axes = product(of, self.inwards), product(of, self.across)
+            return np.stack(np.broadcast_arrays(*axes))
+
         x, y = self.at.engagement.slot(squeezed(input_deg), 1)
-        place = self._turned(self.L * vector(x.c[0], y.c[0]) - self.centre)
-        normal = self._turned(vector(-np.asarray(y.c[1]), x.c[1]))
+        place = turned(self.L * vector(x.c[0], y.c[0]) - self.centre)
+        normal = turned(vector(-np.asarray(y.c[1]), x.c[1]))
         normal *= np.where(normal[1] > 0.0, -1.0, 1.0) / np.hypot(*normal)
         return place + self.half_width * normal, normal
-
-    def _turned(self, of: Array) -> Array:
-        """Transform a vector to the horn's frame."""
-        return np.stack(np.broadcast_arrays(product(of, self.inwards), product(of, self.across)))
 
     def thickness(self, wall: Array, normal: Array) -> Array:
         """Thickness at points of the wall, mm; infinite where another horn begins."""
@@ -93,14 +94,18 @@ class Horn(NamedTuple):
 
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
-    ) -> UnitStress:
-        """Bending and tension at sections under 1 N, as ``HornSide`` describes."""
+    ) -> tuple[Array, Array, Array]:
+        """Bending and tension at sections under 1 N, as ``horn_search.Sides`` describes."""
         places, normals = self.wall(np.hstack((roller, sections)))
         count = roller.shape[1]
         (contact, wall), (push, normal) = (
             np.split(of, [count], axis=2) for of in (places, normals)
         )
         thick = self.thickness(wall, normal)
+        # places of the wall that a tip which is cut back has left
+        depth = contact[1] - self.tip_mm
+        inner = np.sqrt(np.maximum(np.square(self.recess_mm) - depth * depth, 0.0))
+        left = (depth >= self.recess_mm) | (contact[0] >= inner) | np.equal(self.tip_mm, 0.0)
         contact, push = contact[..., None], push[..., None]
         # friction along the wall towards the mouth, where the first axis is negative
         push = push + rub[..., None] * np.stack((push[1], -push[0]))
@@ -111,18 +116,9 @@ class Horn(NamedTuple):
             along, deep = normal[:, :, None], thick[:, None]
             pull = push[1] * along[0] - push[0] * along[1]  # along the beam
             bent = (moment * (6.0 / deep**2) - pull / deep) / np.asarray(width_mm)[..., None]
-            further = (wall[0][:, None] > contact[0]) & self.is_left(contact[:, :, :, 0])[
-                :, :, None
-            ]
+            further = (wall[0][:, None] > contact[0]) & left[:, :, None]
             stress = np.where(further & np.isfinite(bent), bent, 0.0)
-        return UnitStress(stress, wall[0], thick)
-
-    def is_left(self, wall: Array) -> Array:
-        """True for points (2, m, k) of the wall that a tip cut back has left."""
-        depth = wall[1] - self.tip_mm
-        inwards = np.sqrt(np.maximum(np.square(self.recess_mm) - depth * depth, 0.0))
-        left: Array = (depth >= self.recess_mm) | (wall[0] >= inwards) | np.equal(self.tip_mm, 0.0)
-        return left
+        return stress, wall[0], thick
 
     @property
     def stoutness(self) -> Array:

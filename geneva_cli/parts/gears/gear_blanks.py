@@ -62,7 +62,6 @@ def link_gear(link: Link, at: Point, on: ShaftBore, sizes: LinkSizes, mechanism:
     """Return the gear of a link that is a pitch circle, on a shaft.
 
     A gear that is fixed to the frame does not turn with the shaft, and is bored round.
-    Raises GenevaError, naming the key, where its bore or its bolts leave nothing of it.
     """
     teeth, L, radius = link.teeth, mechanism.center_distance_mm, link.radius_mm
     # the key that sets its bore

@@ -92,10 +92,7 @@ def convexity(gears: Gears) -> tuple[float, float]:
 
 
 def pitch_radii(pair: Gears) -> list[tuple[float, float]]:
-    """Return least and greatest radius of the pitch curves of driven gear and driver, mm.
-
-    Raises GenevaError where one is so near to its axis that it is no gear.
-    """
+    """Return least and greatest radius of the pitch curves of driven gear and driver, mm."""
     C = pair.distance_mm
     driver, driven = _radii(pair, ratio_and_turn(pair, np.linspace(-np.pi, np.pi, SAMPLES))[0])
     for name, r in zip(GEARS, (driven, driver), strict=True):

@@ -108,10 +108,7 @@ class _Unbored(NamedTuple):
 
 
 def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
-    """Return the links of a machine as plates; ``parts`` are its outlines, if it has any.
-
-    Raises GenevaError, naming the key, for sizes that leave no plate around a hole.
-    """
+    """Return the links of a machine as plates; ``parts`` are its outlines, if it has any."""
     links = links_at(mechanism, turn_deg(mechanism))
     if not links:
         return Links()

@@ -27,10 +27,7 @@ from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends
 
 
 def crank_hub(parts: Outlines) -> Plate | None:
-    """Return the crank's hub above the locking disc or the arm; None if omitted or not higher.
-
-    Raises GenevaError, naming the key, if there is neither disc nor arm to carry it.
-    """
+    """Return the crank's hub above the locking disc or the arm; None if omitted or not higher."""
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     if not (size.has_hub("crank") and sizes.crank_hub > sizes.crank_bore):
         return None

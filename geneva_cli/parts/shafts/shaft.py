@@ -50,10 +50,7 @@ class Shaft(NamedTuple):
 
     @property
     def member(self) -> Member:
-        """The shaft in the machine.
-
-        Raises GenevaError, naming the key, where its lower end is not below its upper one.
-        """
+        """The shaft in the machine."""
         if not self.low < self.high:
             key = f"{self.part}_shaft_low_mm"
             raise GenevaError(
