@@ -547,7 +547,7 @@ class Design:
 
     @answer
     def life(self) -> dict[str, float | None]:
-        """Stresses of pin and horn, the roller's life and the slots' wear; None if unknown.
+        """Stresses of pin and horn, and the roller's life; None if unknown.
 
         >>> held = Design(External(6), size=Size(200, 8), load=Load(inertia_kgm2=0.4, torque_Nm=15))
         >>> round(held.life["roller_turns_per_motion"], 12)

@@ -527,10 +527,6 @@ class WheelMaterial(Material):
 
     TABLE: ClassVar[str] = "material.wheel"
 
-    wear_mm3_Nm: Annotated[
-        Positive, "Archard: volume worn per force and distance, against the roller"
-    ] = None
-
 
 class RollerMaterial(Material):
     """``[material.roller]``: material of rollers, their pins, and shafts.
@@ -697,9 +693,6 @@ class Limits(SpecTable):
     contact_stress_max_MPa: Annotated[Positive, "Hertz stress, roller on slot"] = None
     pv_max_W_m2: Annotated[Positive, "contact stress times sliding speed"] = None
     roller_life_min_h: Annotated[Positive, "least L10 life of the roller"] = None
-    slot_wear_max_mm_per_million: Annotated[
-        Positive, "greatest wear depth of a slot's walls in a million passages"
-    ] = None
     lock_stress_max_MPa: Annotated[Positive, "Hertz stress, disc on wheel"] = None
     stop_stress_max_MPa: Annotated[Positive, "Hertz stress at a stop"] = None
     lock_deflection_max_deg: Annotated[

@@ -1,4 +1,4 @@
-"""Strength and life of designs: pin, horn, lock, shafts, arm, keys, and the roller's wear."""
+"""Strength and life of designs: pin, horn, lock, shafts, arm, keys, and the roller's life."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from geneva_cli.loads.strength import arm_strength as arms
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength import roller, shaft_stress
 from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
-from geneva_cli.loads.strength.roller import wears_mm
 from geneva_cli.loads.strength.shaft_stress import LoadedShaft, ShaftForces
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
@@ -245,7 +244,7 @@ def bending(of: Designs) -> Columns:
 
 
 def wear(of: Designs) -> Columns:
-    """The roller as a bearing, the work of friction, and the slot's walls."""
+    """The roller as a bearing, and the work of friction."""
     friction = np.ravel(of.load_case.friction)
     passages = roller.passages(of.machine)
     paired = any(one.paired for one in of.machine.engagements)
@@ -262,12 +261,6 @@ def wear(of: Designs) -> Columns:
         "roller_life_turns": lasts.turns,
         "roller_life_motions": lasts.motions,
         "roller_life_h": lasts.hours,
-        # a roller that turns on its pin does not rub in the slot
-        "slot_wear_mm_per_million": (
-            wears_mm(of.machine, [passage.rubbing_N for passage in passages])
-            if of.spec.load.rubs_in_slot
-            else None
-        ),
     }
     bound = np.where(np.isfinite(force), of.loaded, np.inf * of.loaded)
     out: dict[str, Number | None] = {

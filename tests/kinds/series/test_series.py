@@ -269,7 +269,7 @@ def test_an_input_crank_passes_the_spacers_of_a_sun():
     outline = next(one.part.outline for one in flat.links.cut if one.part.name == "coulisse")
     reach = bounds(outline).x1  # its far end is round, about a point of its axis
     radius = flat.spacers[0].part.outline.radius
-    gap = planes(flat.outlines, flat.links, flat.spacers).nearest.gap
+    gap = planes(flat.outlines, flat.links, flat.spacers)[0].gap
     # 1e-3: the gap is sampled at 1441 angles, and its error is quadratic in their distance
     assert gap == pytest.approx(away - radius - reach, abs=1e-3)
     long = Design.of(spec.with_("drive.before.input_crank_mm", 30.0))
