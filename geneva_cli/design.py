@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from functools import wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
@@ -48,7 +48,7 @@ from geneva_cli.spec.tables import (
 if TYPE_CHECKING:
     from geneva_cli.extras.certify.certificate import Certificate
     from geneva_cli.figure import Figure
-    from geneva_cli.geometry.mass import MassProperties
+    from geneva_cli.geometry.plates import MassProperties
     from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.loads.cycle import Cycle
     from geneva_cli.loads.load_peaks import LoadSummary
@@ -249,20 +249,30 @@ class Design:
     def backwards(self) -> Design:
         """The same machine turning the other way, as one that turns forwards seen from behind.
 
-        Entry and exit change places. Sizes that the spec leaves out hold the loads of both
-        directions; warnings are those of this one.
+        In a mirror about the line of centres psi at theta is -psi at -theta: entry and exit change
+        places, slots are offset to the other side, and a law s(u) becomes 1 - s(1 - u). Sizes that
+        the load chose stay. What resists the motion resists it in both directions.
 
         >>> offset = Design(External(6, offset_mm=12.0))
         >>> [round(d.peaks.ends.acceleration_entry, 4) for d in (offset, offset.backwards)]
         [0.5342, 0.6281]
         """
-        from geneva_cli.motion.both_ways import backwards
-
-        both = self.spec.with_("drive.both_ways", True)
-        title = ", ".join(text for text in (self.spec.title, "backwards") if text)
-        turned = Design.of(backwards(build(both)).spec.replace(title=title), self._text)
-        turned.is_backwards = True
-        return turned
+        spec, plan = self.spec, self.mechanism.plan
+        loaded = {}
+        with suppress(GenevaError):  # sizes that leave no parts: the checks say why
+            loaded = {k.partition(".")[2]: c.value for k, c in self.chosen_by_load.sizes.items()}
+        turned = spec.replace(
+            wheel=spec.wheel.backwards,
+            drive=spec.drive.backwards(plan),
+            drive_before=spec.drive_before and spec.drive_before.backwards(plan),
+            motion=spec.motion and spec.motion.backwards,
+            mass=tuple(one.backwards for one in spec.mass),
+            size=spec.size.replace(**loaded),
+            title=", ".join(text for text in (spec.title, "backwards") if text),
+        )
+        design = Design.of(turned, self._text)
+        design.is_backwards = True
+        return design
 
     @answer
     def size(self) -> Size:
@@ -600,16 +610,13 @@ class Design:
         >>> round(Design(External(3)).vibration(0.5, damping=0.02)["residual_share"], 12)
         0.871288725706
         """
-        from geneva_cli.loads.vibration.oscillator import oscillator
-        from geneva_cli.loads.vibration.vibration_answers import vibration_table
+        from geneva_cli.loads.vibration.vibration import oscillator, values
+        from geneva_cli.table import record_table
 
-        own = oscillator(self.mechanism, period_ratio, damping)
-        table = vibration_table(self.mechanism, own)
-        noted = [
-            ((*self.ideal_notes, *column[0]),) if name == "warnings" else column
-            for name, column in zip(table.names, table.columns, strict=True)
-        ]
-        return table.replaced(columns=noted)
+        found = values(self.mechanism, oscillator(self.mechanism, period_ratio, damping))
+        found["warnings"] = (*self.ideal_notes, *found["warnings"])
+        head = {"spec": self.spec.path, "title": self.spec.title}
+        return record_table(head | found, self.spec.title)
 
     @question
     def spectrum(
@@ -620,8 +627,7 @@ class Design:
         >>> Design(External(6)).spectrum(3, period_ratio=10.0)["n_rpm"].round(9)
         array([ 30.,  60., 120.])
         """
-        from geneva_cli.loads.vibration.oscillator import required_oscillator
-        from geneva_cli.loads.vibration.vibration_answers import spectrum
+        from geneva_cli.loads.vibration.vibration import required_oscillator, spectrum
 
         shaft = required_oscillator(self.mechanism, period_ratio, damping)
         return spectrum(self.mechanism, shaft, samples)
@@ -707,7 +713,7 @@ class Design:
         if kerf_mm is None:
             return picture
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.geometry.kerf import paths
+        from geneva_cli.geometry.offsets import paths
 
         require_cut(part)
         return paths(picture, kerf_mm)
@@ -894,24 +900,10 @@ class Design:
         >>> indexed.tolerance().to_dict()["dwell_position.worst_arcsec"]
         72.0
         """
-        from geneva_cli.verdict.tolerance.study import tolerance_table
+        from geneva_cli.verdict.tolerance import tolerance_table
 
         self.refuse_drawn("tolerances are those")
         return tolerance_table(self.mechanism, self.parts, samples, seed, radius_mm)
-
-    @question
-    def tolerance_histogram(self, samples: int = 65536, seed: int = 0) -> Table:
-        """Histogram of the machines of ``tolerance``: middles of bins, and fractions in each.
-
-        >>> from geneva_cli import Design, External, Tolerance
-        >>> indexed = Design(External(6), tolerance=Tolerance(slot_angle_deg=0.02))
-        >>> float(sum(indexed.tolerance_histogram(1024).to_dict()["dwell_position_share"]))
-        1.0
-        """
-        from geneva_cli.verdict.tolerance.study import histogram_table
-
-        self.refuse_drawn("tolerances are those")
-        return histogram_table(self.mechanism, self.parts, samples, seed)
 
     @answer
     def motion_warnings(self) -> list[Notice]:
@@ -931,12 +923,9 @@ class Design:
         >>> [text.name for text in Design(External(30)).warnings]
         ['many-slots']
         """
-        from geneva_cli.verdict.both_directions import all_warnings
         from geneva_cli.verdict.warnings import warnings
 
-        # the other direction's would be called backwards, which this one is
-        every = (warnings if self.is_backwards else all_warnings)(self.parts)
-        own = self.spec.accept.applied(every)
+        own = self.spec.accept.applied(warnings(self.parts))
         return [*self.ideal_notes, *self.check_warnings, *own] if self.is_drawn else own
 
     @answer

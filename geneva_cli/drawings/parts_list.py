@@ -16,9 +16,8 @@ from functools import partial
 from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.mass import MM, mass_properties
 from geneva_cli.geometry.measure import bounds_of
-from geneva_cli.geometry.plates import Part, Shell, Solid
+from geneva_cli.geometry.plates import MM, Part, Shell, Solid, mass_properties
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot

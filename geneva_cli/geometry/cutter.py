@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.geometry.inset import lines_and_arcs
-from geneva_cli.geometry.kerf import Closed, offset
 from geneva_cli.geometry.measure import at, directions
 from geneva_cli.geometry.moments import with_material_left
+from geneva_cli.geometry.offsets import Closed, lines_and_arcs, offset
 from geneva_cli.geometry.pieces import prepared
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point

@@ -68,7 +68,7 @@ def _numbers(piece: Segment | Circle) -> Iterator[tuple[str, float]]:
 def prepared(drawing: Drawing) -> Drawing:
     """Drawing without duplicate shapes and pieces shorter than ``SHORTEST_MM``.
 
-    The other pieces stay end to end. Raises GenevaError for a coordinate that is not finite.
+    Raises GenevaError for a coordinate that is not finite.
     """
     shapes = dict.fromkeys(shape for original in drawing.shapes for shape in _cleaned(original))
     return drawing._replace(shapes=tuple(shapes))

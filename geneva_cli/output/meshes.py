@@ -11,7 +11,6 @@ import manifold3d as m3
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.inset import inset, lines_and_arcs
 from geneva_cli.geometry.measure import STRAIGHT, points
 from geneva_cli.geometry.moments import oriented
 from geneva_cli.geometry.plates import Group, Part, Plate, Shell, Solid
@@ -93,36 +92,23 @@ def _surface(solid: Solid, tolerance: float) -> tuple[Array, Numbers]:
 
 
 def _plate(plate: Plate, tolerance: float) -> m3.Manifold:
-    """Return a plate: a ring of corners at each level of its edges, strips, and two faces."""
+    """Return a plate: a ring of corners around each face, strips, and two faces."""
     shapes = plate_contours(plate)
     if not shapes:  # its outline is rounding
         raise _no_wall(plate.name)
     outline, *holes = shapes
-    contours, edge = oriented(outline, holes), plate.edge
-    steps = arc_chords(edge.size, 0.5 * math.pi, tolerance) if edge.rounded and edge.size else 1
-    sections = [edge.at(k / steps) for k in range(steps + 1)] if edge.size else [(0.0, 0.0)]
-    levels = [(depth, plate.low + edge.size - high) for depth, high in sections[::-1]]
-    levels += [(depth, plate.high - edge.size + high) for depth, high in sections]
-    insets = [[contour.segments] for contour in contours]
-    if edge.size:
-        walls = [lines_and_arcs(contour) for contour in contours]
-        deeper = [depth for depth, _ in sections[1:]]
-        insets = [[tuple(w), *(inset(w, "", d).segments for d in deeper)] for w in walls]
-    counts = [[_chords(piece, tolerance) for piece in contour[0]] for contour in insets]
+    contours = [contour.segments for contour in oriented(outline, holes)]
+    counts = [[_chords(piece, tolerance) for piece in contour] for contour in contours]
     around = sum(map(sum, counts))
-    _require_few(around * len(levels), plate.name)
-    rings = {
-        depth: np.concatenate([_corners(one[k], n) for one, n in zip(insets, counts, strict=True)])
-        for k, (depth, _) in enumerate(sections)
-    }
-    corners = np.concatenate([_raised(rings[depth], z) for depth, z in levels])
+    _require_few(2 * around, plate.name)
+    ring = np.concatenate([_corners(one, n) for one, n in zip(contours, counts, strict=True)])
+    corners = np.concatenate((_raised(ring, plate.low), _raised(ring, plate.high)))
     starts = np.cumsum([0, *map(sum, counts)])
     loops = [np.arange(a, b) for a, b in pairwise(starts)]
-    top = _triangles([rings[sections[-1][0]][loop] for loop in loops], plate.name)
-    triangles = [top[:, ::-1], top + around * (len(levels) - 1)]
-    for level in range(len(levels) - 1):
-        for loop in loops:
-            triangles += _strips(loop + level * around, around)
+    top = _triangles([ring[loop] for loop in loops], plate.name)
+    triangles = [top[:, ::-1], top + around]
+    for loop in loops:
+        triangles += _strips(loop, around)
     return _manifold(corners, triangles)
 
 

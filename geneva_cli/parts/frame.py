@@ -14,9 +14,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, farthest
-from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -86,7 +85,7 @@ def framed(
             on_crank = at in [one.at for one in mechanism.crank_places]
             diameter = table.crank_diameter_mm if on_crank else table.wheel_diameter_mm
             holes.append(hole_without_shaft(diameter, at, L))
-    # the clearance holes of screws into the frame, and the parts that they fix
+    # clearance holes of screws into the frame, and the parts that they fix
     fixed: list[tuple[Circle, Plate]] = []
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:

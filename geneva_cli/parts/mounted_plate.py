@@ -7,9 +7,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point, convex_hull
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.shafts.bores import around
 from geneva_cli.parts.shafts.screws import Screws, screw_through, tapped

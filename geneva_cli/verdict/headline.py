@@ -147,7 +147,6 @@ def compared_text(check: Check, unit: str) -> str:
     assert check.value is not None
     assert check.limit is not None
     where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
-    where += f" {check.direction}" if check.direction else ""
     limit = measured(check.limit, unit) if unit == "deg" else bare(check.limit, unit)
     return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
 
@@ -158,21 +157,6 @@ def proof_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     for check in checks:
         if check.is_proof:
             yield SummaryLine(labels.get(check.name, "turn"), check.why)
-
-
-def both_ways_lines(checks: Sequence[Check]) -> Iterator[SummaryLine]:
-    """The line on a machine that must turn both ways: whether it may, and what is worse."""
-    worse = [spoken(check.name)[0] for check in checks if check.direction == "backwards"]
-    better = any(check.direction == "forwards" for check in checks)
-    shown = 3  # the table has them all
-    names = ", ".join(worse[:shown]) + (f" and {len(worse) - shown} more" * (len(worse) > shown))
-    text = "every check is the same in both directions"
-    if worse:
-        text = f"backwards is worse for {names}"
-    elif better:
-        text = "forwards is worse"
-    failing = any(check.passes is False for check in checks)
-    yield SummaryLine("both ways", f"{'no' if failing else 'yes'}: {text}")
 
 
 def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:

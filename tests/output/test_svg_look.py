@@ -10,8 +10,7 @@ from shapely.geometry import Polygon
 from words import Drive, Spec, Wheel
 
 from geneva_cli.design import Design
-from geneva_cli.geometry.mass import face
-from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.plates import face, plates
 from geneva_cli.output.svg import chunks
 from geneva_cli.spec.tables import Size
 

@@ -37,9 +37,8 @@ from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry import mass
 from geneva_cli.geometry.measure import bounds
-from geneva_cli.geometry.plates import Group, Plate
+from geneva_cli.geometry.plates import Group, Plate, mass_properties
 from geneva_cli.geometry.shapes import Contour, Cubic
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.step import chunks
@@ -53,10 +52,6 @@ NEARLY = 1e-5
 # Along splines the kernel makes its steps finer until the volume is known; where that comes early,
 # as in a cam's ring, centroid and inertia are 1e-8 off. Of the same parts in arcs they are exact.
 SPLINED = 1e-7
-# Along a cone the kernel's steps end early, too: its volume is exact, its inertia is 1e-4 off.
-EDGED = 2e-4
-# The edge between two roundings is a spline, 1e-8 mm off.
-ROUNDED = 1e-9
 
 
 def placed(part, at=(0.0, 0.0, 0.0), turn=((1, 0, 0), (0, 1, 0), (0, 0, 1))):
@@ -144,7 +139,7 @@ def properties(one):
     """Volume, centroid and polar moment of a solid in its own frame, and its reach."""
     if not isinstance(one, Plate):
         return one.volume, one.centroid, one.inertia((0.0, 0.0, 1.0)), one.outer
-    body = mass.mass_properties(one, 1e9)  # mm³ and, by 1e6, mm⁵
+    body = mass_properties(one, 1e9)  # mm³ and, by 1e6, mm⁵
     centre = (*body.centroid_mm, 0.5 * (one.low + one.high))
     reach = max(map(abs, (*bounds(one.outline), one.low, one.high)))
     return body.mass_kg, centre, 1e6 * body.inertia_kgm2, reach
@@ -218,11 +213,7 @@ def one(design, name, part, curves):
     ]
     splined = curves == "spline" or any(has_cubics(plate) for plate, *_ in wanted)
     beside = SPLINED if splined else SAME  # of centroid and inertia
-    flat = [p for p, *_ in wanted if isinstance(p, Plate)]
-    exact = ROUNDED if any(p.edge.rounded and p.edge.size for p in flat) else SAME
-    edges = any(p.edge.size for p in flat)
-    beside = max(beside, exact, EDGED if edges else 0.0)
-    limits = 3 * (NEARLY,) if drawing.shells else (exact, beside, beside)
+    limits = 3 * (NEARLY,) if drawing.shells else (SAME, beside, beside)
     good = all(error < limit for error, limit in zip(worst, limits, strict=True))
     if part == "assembly" and curves == "arcs":
         for text in overlaps(found, design.spec.size.allowances.press_fit_mm > 0.0):

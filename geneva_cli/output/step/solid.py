@@ -30,7 +30,6 @@ from geneva_cli.output.step.entities import (
     real,
     unit_of,
 )
-from geneva_cli.output.step.step_edges import edge_faces
 
 
 def solid(file: Entities, plate: Plate) -> str:
@@ -41,26 +40,17 @@ def solid(file: Entities, plate: Plate) -> str:
     faces, lower, upper = [], [], []
     outside = True
     shapes = plate_contours(plate)
-    taken = plate.edge.size
-    walled = plate._replace(low=plate.low + taken, high=plate.high - taken)
     for shape in shapes:
         if isinstance(shape, Circle):
-            walls = [_round(file, walled, shape, outside)]
+            walls = [_round(file, plate, shape, outside)]
         else:
             contour = with_material_left(shape, outside)
             own = pieces(contour.segments)
-            ends = [_place(file, walled, piece.start) for piece in own]
+            ends = [_place(file, plate, piece.start) for piece in own]
             walls = [
-                _wall(file, walled, piece, pair)
+                _wall(file, plate, piece, pair)
                 for piece, pair in zip(own, pairwise([*ends, ends[0]]), strict=True)
             ]
-            if taken:
-                edges, lows, highs = edge_faces(file, plate, contour, ends, walls)
-                faces += edges
-                walls = [
-                    WallFace(wall.face, low, high, True)
-                    for wall, low, high in zip(walls, lows, highs, strict=True)
-                ]
         faces += [wall.face for wall in walls]
         lower.append(loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
         upper.append(loop(file, [(wall.high, wall.along) for wall in walls]))

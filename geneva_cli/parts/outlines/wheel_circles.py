@@ -15,10 +15,7 @@ from geneva_cli.spec.tables import Size
 
 
 def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
-    """Return the outside of an internal wheel, the bore in its shape, and the dial's bolts.
-
-    Raises GenevaError for a shape or keyway that the bore cannot have.
-    """
+    """Return the outside of an internal wheel, the bore in its shape, and the dial's bolts."""
     circles: list[Shape] = [Circle("WHEEL", (0.0, 0.0), sizes.outer)] if sizes.outer else []
     size = assembly.mechanism.spec.size
     if sizes.wheel_bore or has_shape(size, "wheel"):
@@ -33,10 +30,7 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
 
 
 def dial_circle(assembly: Assembly, sizes: Sizes) -> BoltCircle:
-    """Return the bolts of the dial.
-
-    By default their circle is in the middle between the bore and the slots and recesses.
-    """
+    """Return the bolts of the dial, by default midway between bore and slots or recesses."""
     size = assembly.mechanism.spec.size
     ring = sizes.wheel_reach, sizes.slot_end
     if sizes.outer:
