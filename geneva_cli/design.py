@@ -692,13 +692,12 @@ class Design:
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
         kerf_mm: float | None = None,
-        centre_marks: bool = False,
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics, for DXF or SVG.
 
         Parts are ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove``,
         ``gears`` or ``plate``; lengths in millimetres. ``kerf_mm`` gives the paths of a cut of that
-        width, ``centre_marks`` crosses in circles. Raises GenevaError if the kerf does not fit.
+        width. Raises GenevaError if the kerf does not fit.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
@@ -706,10 +705,6 @@ class Design:
         from geneva_cli.drawings.catalogue import part_drawing
 
         picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
-        if centre_marks:
-            from geneva_cli.parts.projection import with_centre_marks
-
-            picture = with_centre_marks(picture)
         if kerf_mm is None:
             return picture
         from geneva_cli.drawings.catalogue import require_cut
