@@ -24,15 +24,14 @@ from geneva_cli.parts.sizes import (
     KeySizes,
     Sizes,
     arm_bore,
-    crank_reach_and_hub,
     drawn_thicknesses,
     hole_radius,
     pin_radius,
+    reach_and_hub,
     refuse_stepped_shaft,
     refuse_thin_hub,
     refuse_wide_pin,
     wheel_bore,
-    wheel_reach_and_hub,
     within_hub,
 )
 from geneva_cli.parts.slots.roller_paths import RollerPaths, mouth, roller_paths, roller_reaches
@@ -140,12 +139,28 @@ def built(mechanism: Mechanism) -> Size:
 
 
 def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
-    """Return the keys of sizes that the load of a machine chooses; ``locked`` if it has a lock."""
-    if not mechanism.spec.is_loaded:
-        return ()
-    from geneva_cli.parts.sized_by_load import chosen_keys
+    """Return the keys of sizes that the load of a machine chooses, which the spec leaves out.
 
-    return chosen_keys(mechanism, locked)
+    ``locked`` is True for a wheel with recesses for a lock. A load without a bound chooses none.
+    """
+    spec, size = mechanism.spec, mechanism.spec.size
+    if not spec.is_loaded:
+        return ()
+    from geneva_cli.loads.strength.part_loads import single_loads
+
+    if not all(map(math.isfinite, single_loads(mechanism))):
+        return ()
+    on_crank = size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm
+    rubbed = spec.load.friction and not spec.load.rubs_in_slot  # loads depend on the usual pin
+    free = {
+        "crank_bore_mm arm_bore_mm": not any(own is not None for own in on_crank),
+        "wheel_bore_mm": size.wheel_bore_mm is None and spec.shaft.wheel_diameter_mm is None,
+        "pin_mm": size.pin_mm is None and not rubbed,
+        "arm_thickness_mm": size.arm_thickness_mm is None,
+        "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
+        "link_thickness_mm": bool(mechanism.first_wheel) and size.link_thickness_mm is None,
+    }
+    return tuple(key for keys, chosen in free.items() if chosen for key in keys.split())
 
 
 def drawn_pin_radius(mechanism: Mechanism) -> float:
@@ -191,8 +206,8 @@ def _usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
         elif 0.45 * within >= L / 40.0:
             bore = bore_radius(min(0.45 * within, within_hub(full.size, "crank")))
     axle = wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
-    wheel_reach, wheel_hub = wheel_reach_and_hub(size, axle, wall, end)
-    crank_reach, crank_hub = crank_reach_and_hub(size, bore, wall)
+    wheel_reach, wheel_hub = reach_and_hub(size, "wheel", axle, wall, end)
+    crank_reach, crank_hub = reach_and_hub(size, "crank", bore, wall)
     thick, pin, reaches = drawn_thicknesses(size, L), pin_radius(size, r), roller_reaches(assembly)
     armed = 0.0
     if full.drive.ONE_ARM and pin:  # without pins there is no arm

@@ -43,11 +43,10 @@ from geneva_cli.parts.assembly import Assembly, links_at
 from geneva_cli.parts.sizes import (
     FirstSizes,
     Sizes,
-    crank_reach_and_hub,
     drawn_thicknesses,
     hole_radius,
     largest_hub,
-    wheel_reach_and_hub,
+    reach_and_hub,
     within_hub,
 )
 from geneva_cli.parts.stressed import ShaftSize, Stressed, Unloaded, stressed
@@ -115,32 +114,6 @@ def load_sizes(
     return arm_that_holds(spec, wide, trial, lambda one: stressed(assembly, one), loads)
 
 
-def chosen_keys(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
-    """Return the keys of the sizes that the load chooses, which the spec leaves out.
-
-    ``locked`` is True for a wheel with recesses for a lock. A load without a bound chooses none.
-    """
-    spec, size = mechanism.spec, mechanism.spec.size
-    if not all(map(math.isfinite, single_loads(mechanism))):
-        return ()
-    diameters = spec.shaft.wheel_diameter_mm, spec.shaft.crank_diameter_mm
-    on_crank = size.crank_bore_mm, size.arm_bore_mm, diameters[1]
-    free = {
-        "crank_bore_mm arm_bore_mm": not any(own is not None for own in on_crank),
-        "wheel_bore_mm": size.wheel_bore_mm is None and diameters[0] is None,
-        "pin_mm": size.pin_mm is None and not _rubs_on_pin(spec),
-        "arm_thickness_mm": size.arm_thickness_mm is None,
-        "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
-        "link_thickness_mm": bool(mechanism.first_wheel) and size.link_thickness_mm is None,
-    }
-    return tuple(key for keys, chosen in free.items() if chosen for key in keys.split())
-
-
-def _rubs_on_pin(spec: Spec) -> bool:
-    """Return True with friction on the pin: the loads depend on the pin, which stays the usual."""
-    return bool(spec.load.friction) and not spec.load.rubs_in_slot
-
-
 def arm_that_holds(
     spec: Spec,
     wheel: float,
@@ -151,8 +124,7 @@ def arm_that_holds(
     """Return the first trial whose arm and its key hold, from an arm as thick as the wheel on.
 
     A trial is asked whether the crank's bore is sized by its key, and for the arm's thickness: a
-    thicker arm, up to twice the wheel, is better for a key than a thicker shaft. A shaft that does
-    not hold needs no thicker arm.
+    thicker arm, up to twice the wheel, is better for a key than a thicker shaft.
     """
 
     def holds(one: T) -> bool:
@@ -205,7 +177,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
         return sizes
 
     def bored(d: float) -> Sizes:
-        reach, hub = wheel_reach_and_hub(spec.size, 0.5 * d, wall, end)
+        reach, hub = reach_and_hub(spec.size, "wheel", 0.5 * d, wall, end)
         return sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
 
     def holds(trial: Sizes) -> bool:
@@ -233,7 +205,7 @@ def _crank_bored(
         return sizes
 
     def bored(bore: float) -> Sizes:
-        reach, hub = crank_reach_and_hub(size, bore, sizes.wall_min)
+        reach, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
         arm = bore if sizes.arm_bore else 0.0
         return sizes._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
 
@@ -269,7 +241,8 @@ def pin_that_holds(
     usual one, on which the loads depend.
     """
     spec, size = mechanism.spec, mechanism.spec.size
-    if size.pin_mm is not None or _rubs_on_pin(spec) or not usual:
+    on_pin = spec.load.friction and not spec.load.rubs_in_slot
+    if size.pin_mm is not None or on_pin or not usual:
         return usual
     contact = value_or(size.face_width_mm, wide)
     # the roller keeps three tenths of its radius as a wall about the hole for its pin

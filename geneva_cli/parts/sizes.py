@@ -241,23 +241,15 @@ def largest_hub(end: float) -> float:
     return 0.75 * end
 
 
-def wheel_reach_and_hub(size: Size, bore: float, wall: float, end: float) -> tuple[float, float]:
-    """Return how far the wheel's bore reaches with its shape, and the radius of its hub.
-
-    ``end`` is the distance of the slots' ends from the axis.
-    """
-    return _reach_and_hub(size, "wheel", bore, wall, min(HUB * bore, largest_hub(end)))
-
-
-def crank_reach_and_hub(size: Size, bore: float, wall: float) -> tuple[float, float]:
-    """Return how far the crank's bore reaches with its shape, and the radius of its hub."""
-    return _reach_and_hub(size, "crank", bore, wall, 1.5 * bore)
-
-
-def _reach_and_hub(
-    size: Size, part: str, bore: float, wall: float, usual: float
+def reach_and_hub(
+    size: Size, part: str, bore: float, wall: float, end: float = 0.0
 ) -> tuple[float, float]:
-    """Return reach and hub; by default the usual radius, or a wall around the bore's keyway."""
+    """Return how far a part's bore reaches with its shape, and the radius of its hub.
+
+    ``end`` is the distance of a wheel's slots' ends from the axis. By default the hub has the usual
+    radius, or a wall around the bore's keyway.
+    """
+    usual = min(HUB * bore, largest_hub(end)) if part == "wheel" else 1.5 * bore
     reach, usual = reach_or_bore(size, part, bore), rounded_radius(usual)
     default = max(usual, reach + wall) if reach > bore else usual
     return reach, half_or(vars(size)[f"{part}_hub_mm"], default)

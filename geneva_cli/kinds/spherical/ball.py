@@ -20,9 +20,9 @@ from geneva_cli.parts.sizes import (
     drawn_thicknesses,
     hole_radius,
     pin_radius,
+    reach_and_hub,
     refuse_wide_pin,
     wheel_bore,
-    wheel_reach_and_hub,
 )
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import wall_min
@@ -264,7 +264,7 @@ def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     Where a default hub would leave no wall around the bore there is none: it is the bore's.
     """
     wall = wall_min(size, L)
-    bored, hub = wheel_reach_and_hub(size, bore, wall, end)
+    bored, hub = reach_and_hub(size, "wheel", bore, wall, end)
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
 
 
