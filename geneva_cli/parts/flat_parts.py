@@ -197,15 +197,11 @@ class FlatParts(EdgedParts):
         """Thickness of the horns between slots and recesses; None without a lock."""
         return self.sizes.horn if self.outlines.crank else None
 
-    def hub_radii(self, part: str) -> tuple[float, float]:
-        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
-        sizes = self.sizes
-        wheel, crank = (sizes.wheel_bore, sizes.wheel_hub), (sizes.crank_bore, sizes.crank_hub)
-        return wheel if part == "wheel" else crank
-
     def axle_radius(self, part: str) -> float:
         """Return the radius of a part's shaft, or of its hub if the spec has one, mm; 0 if none."""
-        bore, hub = self.hub_radii(part)
+        sizes = self.sizes
+        bore = sizes.wheel_bore if part == "wheel" else sizes.crank_bore
+        hub = sizes.wheel_hub if part == "wheel" else sizes.crank_hub
         return max(bore, hub) if self.mechanism.spec.size.has_hub(part) else bore
 
     @cached_property
@@ -337,7 +333,7 @@ class FlatParts(EdgedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of dial, locking disc, and what is fixed to the frame."""
-        framed, drawn = self.frame_screws, self.drawn
+        framed, drawn = self._framed.screws, self.drawn
         if not drawn:
             return framed
         holes = {"dial": (dial_bolts(drawn.assembly, drawn.sizes), "the dial")}

@@ -212,11 +212,6 @@ class EdgedParts(Parts):
         return self._framed.threads
 
     @property
-    def frame_screws(self) -> tuple[Screws, ...]:
-        """The screws that fix parts to the frame, and those of its mounting holes."""
-        return self._framed.screws
-
-    @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
         return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
@@ -230,10 +225,6 @@ class EdgedParts(Parts):
     def required(self) -> tuple[Member, ...]:
         """The parts without which the machine is not built."""
         return self.members
-
-    def require(self) -> None:
-        """Raise GenevaError for a part that cannot be built."""
-        _ = self.required
 
 
 def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:

@@ -151,7 +151,7 @@ class RackParts(EdgedParts):
             )
             if holes
         ]
-        return (*own, *(self.frame_screws if self.mechanism.spec.has_parts else ()))
+        return (*own, *(self._framed.screws if self.mechanism.spec.has_parts else ()))
 
     @property
     def standing(self) -> tuple[Member, ...]:

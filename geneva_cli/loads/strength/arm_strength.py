@@ -1,18 +1,14 @@
 """The crank arm as a beam between shaft and pin, under the force on the roller.
 
-The force F acts at a distance c from the arm's mid-plane, in any direction. Across the arm it
-bends it in its plane, by F x at a distance x from the pin, and twists it by F c. Along the arm it
-pulls, and bends it out of its plane by F c. Let A be the bending stress of the first, tau its
-torsion, B the stress of the second. At an angle beta to the arm's normal, the von Mises stress
-squared is (A cos beta + B sin beta)² + 3 tau² cos² beta. Its greatest value over beta is
-(S + sqrt(S² - 12 tau² B²))/2 with S = A² + B² + 3 tau².
+The force F acts at a distance c from the arm's mid-plane, in any direction. Across the arm it bends
+it in its plane, by F x at a distance x from the pin (stress A), and twists it by F c (tau). Along
+the arm it pulls, and bends it out of its plane by F c (B). The greatest von Mises stress squared,
+over the direction of F, is (S + sqrt(S² - 12 tau² B²))/2 with S = A² + B² + 3 tau²: an upper bound,
+as bending is greatest at corners and torsion in the middle of a side.
 
-Bending is greatest at corners, torsion in the middle of a side, so their sum is an upper bound.
-The arm's width changes evenly between eye and hub. Sections through the pin's hole and the shaft's
-bore, beside these, and where the arm is twice as wide as its eye can be the weakest: 6 F x/(h w²)
-is greatest there. A section through a hole carries half the twist, since the near half of the hole
-passes its share to the arm beside it. Its two walls bear it as a couple of shear forces. Notches
-are neglected.
+The arm's width changes evenly between eye and hub. Weakest are sections through the pin's hole and
+the shaft's bore, beside these, or where the arm is twice as wide as its eye. A section through a
+hole carries half the twist, as a couple of shear forces in its two walls. Notches are neglected.
 """
 
 from __future__ import annotations

@@ -153,7 +153,7 @@ def cut_width(name: str, mechanism: Mechanism, wide: float, thick: float) -> Che
 
 def plates_built(name: str, parts: EdgedParts) -> Check | None:
     """The check that fails if a plate of a machine cannot be built; else None."""
-    return built(name, parts.require)
+    return built(name, lambda: parts.required)
 
 
 def built(name: str, build: Callable[[], object]) -> Check | None:
