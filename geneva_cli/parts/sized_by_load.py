@@ -24,10 +24,14 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import lock
-from geneva_cli.loads.strength.arm_strength import arm_stress_MPa
+from geneva_cli.loads.strength.arm_and_key import (
+    KeyDimensions,
+    arm_stress_MPa,
+    key_stress,
+    shear_allowed_MPa,
+)
 from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import HornStress, greatest_stress, single_stress
-from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.pin import PinSize, pin
 from geneva_cli.loads.strength.shaft_stress import shear_MPa
@@ -279,8 +283,8 @@ def shaft_holds(spec: Spec, part: str, diameter: float, moment_Nm: float) -> boo
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
     """Return True if a key holds a torque, or where there is none."""
     sides, shear = wheel_material(spec).allowed_MPa, shear_allowed_MPa(spec.shaft)
-    stress = key_stress(key, spec.shaft.torsion_factor * torque_Nm, sides, shear)
-    least = float(stress.least_length_mm)
+    torque = spec.shaft.torsion_factor * torque_Nm
+    least = float(key_stress(key, torque, sides, shear)[2])
     return math.isnan(least) or keeps(float(key.length), "at least", least)
 
 

@@ -13,8 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
-from geneva_cli.loads.strength.key_strength import NO_KEY, KeyDimensions
+from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions, KeyDimensions
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at

@@ -31,7 +31,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.strength.arm_strength import torsion_MPa
+from geneva_cli.loads.strength.arm_and_key import torsion_MPa
 from geneva_cli.loads.strength.horn_search import SlotEnd, slot_ends, squeezed
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number, parameter

@@ -8,10 +8,10 @@ import numpy as np
 
 from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N
-from geneva_cli.loads.strength import arm_strength as arms
+from geneva_cli.loads.strength import arm_and_key as arms
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength import roller, shaft_stress
-from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength.arm_and_key import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.shaft_stress import LoadedShaft, ShaftForces
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
@@ -219,16 +219,16 @@ def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
     most = most * np.ravel(of.spec.shaft.torsion_factor)
     sides = np.ravel(wheel_material(of.spec).allowed_MPa)
     shear = np.ravel(shear_allowed_MPa(of.spec.shaft))
-    stress = key_stress(key, most, sides, shear)
+    pressed, sheared, least = key_stress(key, most, sides, shear)
     allowed = np.minimum(sides, shear * key.width / key.bearing)
-    pressure = _known(stress.pressure_MPa)
+    pressure = _known(pressed)
     return {
         "length_mm": _known(key.length),
         "pressure_MPa": pressure,
-        "shear_MPa": _known(stress.shear_MPa),
+        "shear_MPa": _known(sheared),
         "allowed_MPa": _known(allowed),
         "margin": margin(pressure, _known(allowed)),
-        "least_length_mm": _known(stress.least_length_mm),
+        "least_length_mm": _known(least),
     }
 
 
