@@ -130,10 +130,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
 
 
 def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
-    """Return the radius at which bolts in some directions leave the widest walls in the disc.
-
-    The second number is the least distance of their axes from the walls, 0 or more.
-    """
+    """Return the radius at which bolts leave the widest walls in the disc, and half of these."""
     own = parts.assembly.mechanism.spec.size.lock_bolt_circle_mm
     # 400 radii: their spacing is far below a wall
     radii = np.linspace(0.0, parts.sizes.lock, 400) if own is None else np.array([0.5 * own])
@@ -146,10 +143,7 @@ def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
 
 
 def walls(arm: CrankArm, parts: Outlines) -> float:
-    """Return the least wall around the arm's holes, and around the disc's bolts and keyway.
-
-    Sectors that do not reach the crank's axis have no wall around its bore.
-    """
+    """Return the least wall around the arm's holes, and around the disc's bolts and keyway."""
     in_disc: list[Shape] = [*bolts(parts)]
     if parts.sizes.crank_bore and is_whole(parts.assembly, parts.sizes):
         in_disc += [s for s in crank_circles(parts.assembly, parts.sizes) if s.layer == "BORE"]

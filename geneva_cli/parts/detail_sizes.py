@@ -18,7 +18,7 @@ from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import dial_circle, wheel_hub_length
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
+from geneva_cli.parts.shafts.shaft import crank_hub
 
 Values = dict[str, float | str]
 

@@ -40,8 +40,8 @@ from geneva_cli.parts.outlines.slot_ends import wall_lost
 from geneva_cli.parts.outlines.wheel_circles import dial_bolts, wheel_part, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, NamedBuilds
-from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
 from geneva_cli.parts.shafts.screws import Screws
+from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres
 

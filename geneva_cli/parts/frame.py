@@ -33,9 +33,15 @@ from geneva_cli.parts.mounted_plate import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub
-from geneva_cli.parts.shafts.hub_and_shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, tapped
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft
+from geneva_cli.parts.shafts.shaft import (
+    Ends,
+    Seat,
+    Shaft,
+    crank_shaft_radius,
+    shafts,
+    wheel_shaft_radius,
+)
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.least_wall import wall_min
 

@@ -27,8 +27,8 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.links.link_sizes import LinkSizes
 from geneva_cli.parts.shafts.bores import Bore
-from geneva_cli.parts.shafts.hub_and_shafts import ShaftBore
 from geneva_cli.parts.shafts.screws import BoltCircle, bolt_circle
+from geneva_cli.parts.shafts.shaft import ShaftBore
 
 
 class Gear(NamedTuple):

@@ -22,8 +22,7 @@ from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore, round_bore
-from geneva_cli.parts.shafts.hub_and_shafts import ShaftBore, bore_at
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
+from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, ShaftBore, bore_at, shaft_ends
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Writer

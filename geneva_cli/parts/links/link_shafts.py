@@ -30,8 +30,16 @@ from geneva_cli.parts.links.link_sizes import LinkSizes, places
 from geneva_cli.parts.links.links import Links, joined, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
-from geneva_cli.parts.shafts.hub_and_shafts import bore_at, wheel_shaft_ends, wheel_shaft_radius
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, seat_of, shaft_ends
+from geneva_cli.parts.shafts.shaft import (
+    Ends,
+    Seat,
+    Shaft,
+    bore_at,
+    seat_of,
+    shaft_ends,
+    wheel_shaft_ends,
+    wheel_shaft_radius,
+)
 
 if TYPE_CHECKING:
     from geneva_cli.parts.links.links import LinkAxis

@@ -32,8 +32,8 @@ from geneva_cli.parts.links.link_sizes import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import round_bore
-from geneva_cli.parts.shafts.hub_and_shafts import ShaftBore, bore_at
 from geneva_cli.parts.shafts.screws import screw_through
+from geneva_cli.parts.shafts.shaft import ShaftBore, bore_at
 
 if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear
