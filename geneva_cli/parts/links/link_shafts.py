@@ -3,11 +3,9 @@
 Fixed shafts end in the frame's lower face. A planet's shaft moves, and joins the parts on it. A
 link without a bore is one piece with its shaft, which ends at the link's faces.
 
-Each plane below the wheel's has one link, or gears. Four kinds of round parts pass through: the
-wheel's hub and shaft; the spacer on a pin that joins links of distant planes; pivots and spacers on
-the frame, where another drive is below; the crank's shaft between the planes in which it carries
-something. That leaves the machine below all links, or above through the locking disc; else it has
-no bearing.
+Each plane below the wheel's has one link, or gears. Through it pass the wheel's hub and shaft,
+spacers on pins that join links of distant planes, pivots and spacers on the frame where another
+drive is below, and the crank's shaft, which leaves the machine below all links, or above.
 """
 
 from __future__ import annotations
