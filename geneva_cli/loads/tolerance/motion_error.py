@@ -12,13 +12,11 @@ The slopes are those of a plain crank. e is the distance of the slot's axis from
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.impacts.entry import arm_mm, first_contacts
-from geneva_cli.loads.tolerance.built_jump import built_jumps
+from geneva_cli.loads.impacts.entry import arm_mm
 from geneva_cli.loads.tolerance.dimensions import (
     Deviations,
     corners,
@@ -54,7 +52,7 @@ class WorstErrors(NamedTuple):
     side: Array
 
     def beyond(self, other: WorstErrors) -> WorstErrors:
-        """Select the greater error of this and another result, in each design."""
+        """The greater error of this and another result, in each design."""
         return choose_record(self.error > other.error, self, other)
 
 
@@ -112,7 +110,6 @@ class MotionError(NamedTuple):
 
         The machines are a first axis of the deviations, (k,) or for n designs (k, n, 1).
         """
-        # (k, n, 1), with n = 1 for one design
         values = [np.atleast_1d(jet.c[0]) for jet in by]
         each = deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
         return self._greatest(
@@ -127,8 +124,10 @@ class MotionError(NamedTuple):
         none, which = deviations([0.0] * len(sizes)), [i for i, x in enumerate(sizes) if np.any(x)]
 
         def root(at: Array, side: float) -> Array:
-            slopes = [array(self(slope_of(i), at, side).c[1]) * sizes[i] for i in which]
-            squares = sum((slope * slope for slope in slopes), 0.0 * at)
+            squares = 0.0 * at
+            for i in which:
+                slope = array(self(slope_of(i), at, side).c[1]) * sizes[i]
+                squares = squares + slope * slope
             return np.asarray(abs(array(self(none, at, side).c[0])) + np.sqrt(squares))
 
         return self._greatest(root)
@@ -180,21 +179,21 @@ def used(mechanism: Mechanism) -> dict[str, float]:
 
 def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
     """Greatest errors of m designs; None for curved slots, which are solved for."""
-    errors, sizes = motion_errors(mechanism), list(used(mechanism).values())
-    if not errors:
+    if mechanism.engagements[0].slot.curved:
         return None
-    m, machines = mechanism.designs, 2 ** sum(bool(np.any(size)) for size in sizes)
+    m, machines = mechanism.designs, 2 ** sum(bool(np.any(x)) for x in used(mechanism).values())
     # a million places of machines with deviations are computed together
     group = max(1, (1 << 20) // (machines * MOTION_SAMPLES))
-    return joined([_of(taken(mechanism, b), b.stop - b.start) for b in blocks(m, group)])
+    return joined([_plays(taken(mechanism, b), b.stop - b.start) for b in blocks(m, group)])
 
 
-def _of(mechanism: Mechanism, n: int) -> MotionPlays:
+def _plays(mechanism: Mechanism, n: int) -> MotionPlays:
     use = used(mechanism)
     sizes = list(use.values())
     best = WorstErrors(*np.full((3, n), -1.0))
     rss, shown = np.zeros((2, n))
     known = sum(sizes) > np.zeros((n, 1))
+    both = use["center_distance_mm"] + use["crank_radius_mm"]
     for engagement, error in zip(mechanism.engagements, motion_errors(mechanism), strict=True):
         worst = WorstErrors(*(np.resize(row, n) for row in error.greatest(corners(sizes))))
         more = worst.error > best.error
@@ -202,30 +201,6 @@ def _of(mechanism: Mechanism, n: int) -> MotionPlays:
         rss = np.maximum(rss, error.greatest_rss(sizes).error)
         at_deg = mechanism.shown_deg(parameter(engagement.mid_deg + worst.at_deg[:, None]))
         shown = np.where(more, np.ravel(at_deg), shown)
-        both = use["center_distance_mm"] + use["crank_radius_mm"]
         known = known & (both < error.margin_mm(mechanism.spec, use))
     rows = (np.degrees(best.error), np.degrees(rss), shown)
     return MotionPlays(*(np.where(known[:, 0], row, np.nan) for row in rows))
-
-
-def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array | None:
-    """Greatest jump of velocity at entry for any of the deviations, over the input's speed.
-
-    (m,) for m designs; 0 if the roller always misses the slot's axis. None for slots and grooves
-    that are solved for.
-    """
-    worst: Array | None = None
-    if built := built_jumps(mechanism):
-        sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]
-        jumps = [one(corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
-        return np.asarray(np.concatenate(jumps).max(axis=0))
-    for engagement in mechanism.engagements:
-        crank = use["crank_radius_mm"] / arm_mm(mechanism, engagement)
-        center = use["center_distance_mm"] / mechanism.center_distance_mm
-        for one, other in product((-1.0, 1.0), repeat=2):
-            contacts = first_contacts(engagement, one * crank, other * center)
-            if contacts is None:
-                return None
-            jump = np.nan_to_num(abs(contacts.jump))
-            worst = jump if worst is None else np.maximum(worst, jump)
-    return worst
