@@ -45,8 +45,7 @@ def mass_inertia_kgm2(mass: Mass) -> float:
 def inertia_kgm2(spec: Spec) -> float:
     """Inertia of everything the wheel turns, at the wheel's shaft.
 
-    It is ``inertia_kgm2`` of [load], plus the masses behind the support's gears. A rack has m R²,
-    as it is driven through a pinion of the crank's radius R.
+    A rack has m R², as it is driven through a pinion of the crank's radius R.
     """
     ratio, lever = spec.support.gear_ratio, spec.given_distance_mm * MM
     own = spec.load.inertia_kgm2 + spec.load.mass_kg * (lever * lever)

@@ -1,7 +1,6 @@
-"""The roller in its slot at one or many input angles: levers, sliding speed, curvature.
+"""The roller in its slot at one or many input angles: jets by it in radians, lengths over L.
 
-Jets by the input angle in radians; lengths are in units of the centre distance L. The slot's
-tangent t points away from the wheel's axis: M . t > 0, M being the roller's centre in the wheel.
+The slot's tangent t points away from the wheel's axis: M . t > 0, M being the roller's centre.
 """
 
 from __future__ import annotations
@@ -23,8 +22,7 @@ def contact(
 ) -> Contact[Jet]:
     """The contact at input angles, degrees from an engagement's mid-motion, one or an array.
 
-    Without ``reactions`` those of the joints are None. At mid-motion of a curved slot only the
-    values have a limit, that of entry: there ``order`` must be 0.
+    At mid-motion of a curved slot only the values have a limit, that of entry: ``order`` must be 0.
     """
     if not engagement.slot.curved or all_true(input_deg != 0.0):
         return _moving(engagement, input_deg, order, reactions)
@@ -62,8 +60,7 @@ def _moving(engagement: Engagement, x: Number, order: int, reactions: bool) -> C
 def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
     """Lever, offset, speed along and curvature of a curved slot, from the path p on the wheel.
 
-    The axes are the fixed ones at the instant. Each vector's rate is its own less the wheel's
-    rotation. Products of two vectors are equal in all axes, so the wheel's angle is not needed.
+    The axes are the fixed ones at the instant: each vector's rate is its own less the wheel's turn.
     """
     path = engagement.path(x, order + 2)
     dx, dy = (jet.derivative() for jet in path)

@@ -1,9 +1,7 @@
 """The whole cycle under load: states at any input angle, extremes and integrals.
 
-The cycle is a period of the machine from the first entry: every engagement, and the dwells between.
-With several wheels on a carrier it ends at the entry of the next wheel.
-All loads are 0 in a dwell: nothing moves, the lock holds the wheel, and resistance to motion does
-not act at rest.
+The cycle is a period of the machine from the first entry; with several wheels on a carrier it ends
+at the entry of the next wheel. All loads are 0 in a dwell.
 """
 
 from __future__ import annotations
@@ -46,11 +44,7 @@ class Stretch(NamedTuple):
 
 
 class Cycle:
-    """A machine under its load, over one period.
-
-    ``case`` are the data that the loads depend on besides the motion. All values are exact to some
-    units in the last place of a quantity's peak; none is taken from samples.
-    """
+    """A machine under its load, over one period, to some units in the last place of a peak."""
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.machine, self.mechanism = mechanism, mechanism.under_load
@@ -64,8 +58,7 @@ class Cycle:
     def states(self, input_deg: Array) -> Instant[Array]:
         """Arrays at ascending input angles of a period from the first entry; 0 in the dwells.
 
-        A force without a bound is infinite. It is so where friction alone holds the wheel, and at
-        mid-motion of a curved slot that lies across the roller's path.
+        A force without a bound is infinite, as where friction alone holds the wheel.
         """
         from geneva_cli.motion.motion_table import local_deg, spans
 
@@ -103,10 +96,7 @@ class Cycle:
         return out
 
     def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
-        """Arrays (n,) at input angles of a stretch, degrees from its engagement's mid-motion.
-
-        The signs are the stretch's, so that its ends have the limits from inside.
-        """
+        """Arrays (n,) at input angles of a stretch from mid-motion, with the stretch's signs."""
         with np.errstate(all="ignore"):
             at = contact_values(contact(engagement, input_deg))
         return bounded(Instant(self.case, at, stretch.drives, stretch.slides, stretch.feeds))

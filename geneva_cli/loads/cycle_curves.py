@@ -1,7 +1,6 @@
 """The curves of a machine over a cycle, in pieces, with their marks.
 
-Each smooth piece of a curve is sampled separately, with both ends from inside, so that a jump has
-both its values. Peaks are those of the analysis, never the highest of the samples.
+Each smooth piece is sampled with both ends from inside, so that a jump has both its values.
 """
 
 from __future__ import annotations

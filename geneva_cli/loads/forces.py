@@ -124,11 +124,7 @@ def hertz_MPa(modulus_GPa: float, line_N_mm: N, radius_mm: float) -> N:
 
 
 class QuantityValue(NamedTuple, Generic[V]):
-    """A quantity, and the margin that must be above 0 for the quantity to be bounded.
-
-    Without a margin the quantity is always bounded. ``sign`` is that of the infinity that replaces
-    an unbounded value.
-    """
+    """A quantity, the margin that bounds it where above 0, and the sign of its infinity."""
 
     value: V
     margin: V | None = None

@@ -1,7 +1,4 @@
-"""The greatest loads and pressure angle of a machine, and the highest speed that keeps the limits.
-
-The formulas of loads are in ``instant``. Forces are in newtons, torques in newton metres.
-"""
+"""The greatest pressure angle of a machine, and the highest speed that keeps its limits."""
 
 from __future__ import annotations
 
@@ -38,8 +35,8 @@ def slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
 def greatest_pressure(mechanism: Mechanism) -> PeakArray:
     """The greatest pressure angles of m designs, degrees, and their input angles: (m,).
 
-    It is 90 at mid-motion if the pin crosses the radius there. It is NaN for all designs of a batch
-    of which only some cross it: they must be computed alone.
+    It is 90 at mid-motion if the pin crosses the radius there; NaN for a batch whose designs
+    differ.
     """
     for engagement in mechanism.engagements:
         crosses = np.logical_not(retraces(engagement)) & engagement.slot.curved
@@ -82,8 +79,8 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
 class Slowness(NamedTuple):
     """1 / (highest speed that a place allows)², for a load with a factor per unit of wheel torque.
 
-    The load of a torque M is q1 M, with a factor q1 that does not depend on speed. The load of an
-    inertia is w² times that at 1 rad/s, q. So the limit holds up to w² = (limit - q1 M) / q.
+    The load of a torque M is q1 M, that of an inertia w² q: the limit holds to w² = (limit - q1 M)
+    / q.
     """
 
     of: Callable[[Instant[Jet]], Jet | None]
@@ -119,10 +116,9 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
 
 
 def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
-    """Peak power that the inertia takes from the input, W.
+    """Peak power that the inertia takes from the input, W: I epsilon omega / eta.
 
-    It is I epsilon omega / eta, with the peak of epsilon omega as an invariant; on a carrier omega
-    is that from the ground, and its peak is searched.
+    ``power_invariant`` is the peak of epsilon omega; on a carrier it is searched from the ground.
     """
     spec, w = mechanism.spec, omega(mechanism.spec.drive.n_rpm)
     if not mechanism.frame:

@@ -1,7 +1,6 @@
 """Sizing by the formula of cam-indexer makers, for any cam curve; the standard motor.
 
-The formula assumes the greatest torque on the wheel during the whole motion, and the curve's
-factor Qm for its transfer to the input. The exact cycle is in ``cycle``.
+It assumes the greatest torque on the wheel during the whole motion, and the curve's factor Qm.
 """
 
 from __future__ import annotations
@@ -25,11 +24,7 @@ class ShaftLoad(NamedTuple):
 
 
 class IndexerFormula(NamedTuple):
-    """The lines of the formula: rad/s², N m at the wheel, and Tc at the input.
-
-    Ti = J alpha, Tt = Ti + Tf + Tw, Te = fc Tt, Tc = step/motion Qm Te. A carrier that turns the
-    wheel's frame also takes fc Ti, which need not be greatest where the rest is.
-    """
+    """The lines of the formula: rad/s², N m at the wheel, and Tc at the input."""
 
     alpha: float
     Ti: float
@@ -41,14 +36,11 @@ class IndexerFormula(NamedTuple):
 def indexer_formula(
     factors: CamFactors, step_deg: float, motion_deg: float, n_rpm: float, load: ShaftLoad
 ) -> IndexerFormula:
-    """The formula for a wheel's step in an input angle at a speed: alpha = Am step / t2².
+    """The formula for a wheel's step in an input angle at a speed.
 
-    A maker's example: six stops in 270 degrees at 80 rpm, modified trapezoid.
-
-    >>> turret = ShaftLoad(inertia=0.319, friction=4.49, work=0.0, service_factor=2.0)
-    >>> found = indexer_formula(CamFactors(4.89, 2.0, 1.655), 60.0, 270.0, 80.0, turret)
-    >>> round(found.alpha, 3), round(found.Ti, 2), round(found.Tc, 2)
-    (16.184, 5.16, 7.1)
+    alpha = Am step / t2², Ti = J alpha, Tt = Ti + Tf + Tw, Te = fc Tt, Tc = step/motion Qm Te. A
+    carrier that turns the wheel's frame also takes fc Ti, which need not be greatest where the rest
+    is.
     """
     t2 = motion_deg / (6.0 * n_rpm)
     alpha = factors.Am * radians(step_deg) / (t2 * t2)
@@ -76,20 +68,12 @@ class RecommendedMotor(NamedTuple):
 
     @property
     def needed_W(self) -> float:
-        """The greater of both powers.
-
-        >>> RecommendedMotor(118.3, 88.5, 1400.0, 22.8).needed_W
-        118.3
-        """
+        """The greater of both powers."""
         return max(self.formula_W, self.peak_W)
 
     @property
     def rated_kW(self) -> float | None:
-        """The least standard power that is enough; None if even the greatest is not.
-
-        >>> RecommendedMotor(118.3, 88.5, 1400.0, 22.8).rated_kW
-        0.12
-        """
+        """The least standard power that is enough; None if even the greatest is not."""
         return next((rated for rated in RATED_kW if 1e3 * rated >= self.needed_W), None)
 
     @property
@@ -99,11 +83,7 @@ class RecommendedMotor(NamedTuple):
 
     @property
     def is_small(self) -> bool:
-        """True if the needed power is below the least standard one.
-
-        >>> RecommendedMotor(0.025, 0.028, 15.0, 0.016).is_small
-        True
-        """
+        """True if the needed power is below the least standard one."""
         return self.needed_W < 1e3 * RATED_kW[0]
 
 

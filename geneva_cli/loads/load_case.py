@@ -47,19 +47,11 @@ def load_case(mechanism: Mechanism) -> LoadCase:
 def rubbing(mechanism: Mechanism) -> float:
     """Ratio of the force along the wall to the force on it, for a roller that moves along it.
 
-    A roller fixed to its pin rubs in the slot, with the coefficient itself. A roller that turns on
-    its pin rolls, held back by the pin. The load passes a circle with the pin's radius times sin
-    rho, tan rho being the coefficient (the friction circle of a journal). So its angle to the
-    wall's normal has the sine: sin rho times pin over roller. The sliding speed on the pin is
-    smaller in the same ratio. In either case the friction work is N times the speed along the wall
-    times the value returned here.
-
-    >>> from geneva_cli import External, Load
-    >>> from geneva_cli.motion.mechanism import build
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> turning = Load(torque_Nm=1.0, friction=0.1, friction_at="pin")  # on a pin half as thick
-    >>> round(rubbing(build(Spec(External(6), load=turning))), 6)
-    0.049814
+    A roller fixed to its pin rubs in the slot, with the coefficient itself. One that turns on its
+    pin rolls, held back by the pin: the load passes a circle with the pin's radius times sin rho,
+    tan rho being the coefficient. So its angle to the wall's normal has the sine: sin rho times pin
+    over roller. In either case the friction work is N times the speed along the wall times this
+    ratio.
     """
     load = mechanism.spec.load
     if all_true(load.friction == 0.0) or load.rubs_in_slot:

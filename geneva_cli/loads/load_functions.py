@@ -1,7 +1,6 @@
 """Loads of a batch of one engagement, as functions for searches and sums.
 
-They have a kink or a jump where a sign changes, and at breaks of the motion itself: where the
-roller bears on the other wall, where friction reverses, where the wheel drives the input.
+They have a kink or a jump where a sign changes, and at breaks of the motion itself.
 """
 
 from __future__ import annotations
@@ -59,8 +58,8 @@ class SignedInstant(NamedTuple):
 class LoadFunctions:
     """Designs of one engagement under their load, with the functions that ``search`` takes.
 
-    Quantities are named: those in ``own``, or else of the cycle. ``kinds`` are the signs that
-    matter: those at which quantities jump, those in ``more``, and with ``wanted`` that of the first
+    Quantities are those in ``own``, or else of the cycle. ``kinds`` are the signs that matter:
+    those at which quantities jump, those in ``more``, and with ``wanted`` that of the first
     quantity.
     """
 
@@ -95,9 +94,8 @@ class LoadFunctions:
     def spread(self) -> Array:
         """Approximate distance from mid-motion of the nearest pole of the loads, degrees: (n, 1).
 
-        It follows from their behaviour near mid-motion: a velocity as v / (1 + x²/w²), a wall's
-        lever as l sqrt(1 + x²/w²). Where friction holds a lever that vanishes there, w is the
-        distance from mid-motion at which it no longer does.
+        Near mid-motion a velocity is as v / (1 + x²/w²), a wall's lever as l sqrt(1 + x²/w²). Where
+        friction holds a lever that vanishes there, w is the distance at which it no longer does.
         """
         engagement = self.engagement
         # not at mid-motion itself, where a curved slot may have no slopes
@@ -126,11 +124,10 @@ class LoadFunctions:
 
     @property
     def repeats(self) -> bool:
-        """Return True if the second half of the motion has no greater sizes than the first.
+        """True if the second half of the motion has no greater sizes than the first.
 
-        It is so without friction, and without a torque or without an inertia. Forces are then equal
-        in both halves, and the input gives at least as much as it gets back. In a curved slot a
-        torque alone presses on one wall throughout, whose two halves differ in curvature.
+        It is so without friction, for an inertia alone or a torque alone. In a curved slot a torque
+        alone presses on one wall throughout, whose two halves differ in curvature.
         """
         case, engagement = self.case, self.engagement
         radial = all_true(engagement.slot.offset == 0.0)

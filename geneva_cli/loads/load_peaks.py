@@ -1,17 +1,4 @@
-"""The greatest, least and mean loads of designs; a single design is a batch of one.
-
-Every machine is supported: friction, curved slots, linkages, several rollers. All stretches of the
-designs are searched together, one block of designs after the other.
-
-    >>> import numpy as np
-    >>> from geneva_cli import External, Load, SideCrank
-    >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> spec = Spec(External(6), SideCrank(A=0.0), load=Load(inertia_kgm2=2.0, friction=0.1))
-    >>> batch = many(spec, {"drive.A": np.array([0.0, 0.6])})
-    >>> load_peaks(batch.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
-    array([1905.0702,  731.1404])
-"""
+"""The greatest, least and mean loads of designs; a single design is a batch of one."""
 
 from __future__ import annotations
 
@@ -51,10 +38,9 @@ S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of 
 
 
 class LoadSummary(NamedTuple, Generic[S]):
-    """Greatest and least over the motions, mean and root mean square over a period.
+    """Greatest and least over the motions, mean and root mean square over a period: (m,) each.
 
-    Input angles are as shown; values are infinite if unbounded. Each is (m,) for m designs, or a
-    number of one; as it is printed, None for a value that is not known.
+    Input angles are as shown; values are infinite if unbounded, and None if unknown as printed.
     """
 
     max: S
@@ -128,9 +114,8 @@ def load_summaries(
 ) -> Mapping[str, LoadSummary[Array]]:
     """The summaries of quantities over a period, by their names; signs kept.
 
-    Extremes are exact to some units in the last place of a quantity's greatest size. Means and root
-    mean squares are within 1e-12 of that size: quadrature errors of 2e-13 add up over stretches
-    that may cancel. ``requested`` selects mean and rms; the other is None.
+    Extremes are exact to some units in the last place of a quantity's greatest size, means and root
+    mean squares to 1e-12 of it. ``requested`` selects mean and rms; the other is None.
     """
     if isinstance(mechanism.design, int) and set(names) <= sources(mechanism).keys():
         known_ones = single_summaries(mechanism)
@@ -183,8 +168,8 @@ def _summaries(
 def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
     """Greatest and least of a quantity, from those of its square or of itself.
 
-    Where the torque changes sign, rounding may leave a size below 0. Either value is replaced by 0
-    if it is below 1e-14 of the other.
+    Where the torque changes sign, rounding may leave a size below 0, or 1e-14 of the other: it is
+    0.
     """
     ends = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else x for x in (most, least)]
     if name in SQUARED and name not in PRESSED:
@@ -200,9 +185,8 @@ def _means(
 ) -> dict[str, tuple[Array | None, Array]]:
     """Mean and root mean square of quantities over a period, dwells included: (m,) each.
 
-    ``each`` are the results of ``_sums_of`` over each engagement. Of bearings they are the greatest
-    crank's, of wheels one wheel's: the cranks work in turn, and so do the wheels on a carrier.
-    Without ``plain`` the mean is None.
+    ``each`` are the results of ``_sums_of``. Of bearings they are the greatest crank's, of wheels
+    one wheel's: the cranks work in turn, and so do the wheels on a carrier.
     """
     of_wheel = ("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N")
     drive = mechanism.spec.drive
@@ -237,9 +221,8 @@ def shown_deg(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
 def _sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
     """The integrals by the angle in radians of the squares and, with ``plain``, of the quantities.
 
-    They are over the stretches of a search, (names, n) for each, and infinite for quantities
-    without a bound. Only quantities that are searched by their squares behave as a root at the ends
-    of their stretches.
+    They are over the stretches of a search, (names, n), and infinite for quantities without a
+    bound. Those searched by their squares behave as a root at the ends of their stretches.
     """
     pieces, n = result.stretches, load.n
     bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))

@@ -33,10 +33,9 @@ SHOWN_QUANTITIES = (
 
 @lru_cache(maxsize=16)
 def summaries(cycle: Cycle) -> Mapping[str, LoadSummary[float | None]]:
-    """The summary of each quantity, by its name.
+    """The summary of each quantity, by its name; None for an unbounded or unknown value.
 
-    None for an unbounded value, or if its inputs are not known. ``max`` is the greatest size of
-    the quantities whose size is limited, as everywhere; ``cycle.extremes`` has their signs.
+    ``max`` is the greatest size of the quantities whose size is limited.
     """
     known, none = cycle.extremes, [None] * len(LoadSummary._fields)
     out = {name: LoadSummary(*map(_finite, known.get(name, none))) for name in SHOWN_QUANTITIES}
@@ -70,8 +69,7 @@ def loads_table(
 ) -> Table:
     """The summary of the loads, with the impact of a reversal, sizing, life and warnings.
 
-    ``life``, ``reversal`` and some of ``sizing`` are known from the machine's parts. For people the
-    quantities that have a value are rows of a table.
+    For people the quantities that have a value are rows of a table.
     """
     spec = cycle.mechanism.spec
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}

@@ -1,7 +1,6 @@
 """Loads at mid-motion of curved slots, where slopes nearby are lost to rounding.
 
-There the pin reverses in a cusp of its pitch curve, or crosses the radius. Stretches stop short of
-it.
+There the pin reverses in a cusp of its pitch curve, or crosses the radius.
 """
 
 from __future__ import annotations
@@ -29,13 +28,10 @@ def at_mid_motion(
 ) -> list[Known]:
     """The quantities of n designs at mid-motion, and nearer to it than any stretch.
 
-    Where the pin crosses the radius, its lever is 0 and a torque takes an unbounded force. Instead
+    Where the pin crosses the radius, its lever is 0 and a torque takes an unbounded force; instead
     of 0/0 the limits from both sides are returned. At a cusp the wall turns away from the roller on
-    one side. A quantity without margin on the other side goes to 0 there. So does a quantity of a
-    torque that changes sign nearer to mid-motion than the stretches.
-
-    A law that jumps at its middle, as ``s-curve`` without cruise and ramp, has another acceleration
-    after it. The slot then has a corner there, whose two sides are mirror images.
+    one side. A law that jumps at its middle has another acceleration after it: the slot then has a
+    corner there, whose two sides are mirror images.
     """
     out: list[Known] = []
 

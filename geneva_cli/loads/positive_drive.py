@@ -1,9 +1,7 @@
 """Positive drive: the input angles at which a curved slot lacks the wall that its load needs.
 
-The roller passes each radius of the wheel twice, in and out. Both tracks are equal only if the odd
-part of the motion is the straight slot's (the one-track theorem). Otherwise the slot has two
-branches, and each keeps only its outer wall. Where the other wall would have to carry the torque,
-only the play between the branches limits the wheel.
+The roller passes each radius of the wheel twice. Unless both tracks are equal, the slot has two
+branches, and each keeps only its outer wall.
 """
 
 from __future__ import annotations
@@ -49,8 +47,8 @@ class PositiveDrives(NamedTuple):
 def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
     """The positive drive of m designs; None for straight slots.
 
-    The torque is inertia plus resistance. The wall ahead is needed where the torque is positive. A
-    branch keeps that wall where its roller leads the other branch at the same radius.
+    The wall ahead is needed where the torque is positive. A branch keeps it where its roller leads
+    the other branch at the same radius.
     """
     engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
     if not engagement.slot.curved:

@@ -1,20 +1,9 @@
 """What the product on the dial feels: travel, speed, acceleration and jerk in SI units.
 
-A product at the radius r on a dial that turns i times as far as the wheel has, with V = psi',
-A = psi'' and J = psi''' by the input's angle and the input's speed w,
-
-    speed        r w i V
-    acceleration r w² sqrt((i A)² + (i V)^4)     along its path, and towards the axis
-    jerk         r w³ i J                        along its path
-
-A chain, belt or film on a sprocket of N teeth of pitch p has r = N p / (2 pi), so that a step moves
-it by whole pitches, and has no acceleration towards an axis.
-
-A wheel on a carrier of the radius L turns at 1 + V from the ground, or at 1 - V inside. The product
-is taken where it feels most: there the speed is greater by w L, the acceleration by w² L.
-
-Source: circular motion. Between peaks of speed and of acceleration along the path, the resultant
-has peaks of its own, so that its square is searched.
+At the radius r on a dial that turns i times as far as the wheel its speed is r w i V, its jerk r w³
+i J along its path, and its acceleration r w² sqrt((i A)² + (i V)^4), along the path and towards the
+axis. A chain on a sprocket of N teeth of pitch p has r = N p / (2 pi) and no part towards an axis.
+On a carrier the wheel turns at 1 + V from the ground, and w L and w² L add to the greatest.
 """
 
 from __future__ import annotations
@@ -55,13 +44,7 @@ class ProductMotion(NamedTuple):
 def product_motion(mechanism: Mechanism) -> ProductMotion | None:
     """The motion of the products of m designs; None if their place is not known.
 
-    Nothing is said of slipping on a dial that stands upright, where the product's weight acts along
-    its seat.
-
-    >>> from geneva_cli import Design, External, Product
-    >>> dial = Design(External(6), product=Product(radius_mm=300.0)).mechanism
-    >>> round(product_motion(dial).travel_mm.item(), 6)
-    314.159265
+    Nothing is said of slipping on a dial that stands upright, where the weight acts along its seat.
     """
     spec, product, m = mechanism.spec, mechanism.spec.product, mechanism.designs
     if not product.lies:
@@ -107,10 +90,7 @@ def product_motion(mechanism: Mechanism) -> ProductMotion | None:
 
 
 def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
-    """The peak of sqrt(A² + i² V^4) over all engagements, which is a fraction 1/i of the above.
-
-    On a carrier V is the velocity from the ground.
-    """
+    """The peak of sqrt(A² + i² V^4) over all engagements; on a carrier V is from the ground."""
 
     def greatest(engagement: Engagement) -> PeakArray:
         some = selection(engagement.motion)

@@ -1,14 +1,4 @@
-"""Sizing of motor and flywheel: the cam-indexer formula, and the exact cycle.
-
->>> import numpy as np
->>> from geneva_cli import External, Load
->>> from geneva_cli.motion.many import many
->>> from geneva_cli.motion.machine_spec import Spec
->>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
->>> batch = many(spec, {"load.torque_Nm": np.array([0.0, 20.0])})
->>> sizings(batch.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
-array([26.8019, 28.3356])
-"""
+"""Sizing of motor and flywheel: the cam-indexer formula, and the exact cycle."""
 
 from __future__ import annotations
 
@@ -184,8 +174,8 @@ def _exact(
 ) -> dict[str, Number]:
     """Motor and flywheel from the exact cycle; NaN if the torque is unbounded.
 
-    The reducer's losses count whether it drives or is driven. At constant speed the rotor's own
-    inertia takes no torque. A flywheel keeps the variation Cs of the mean speed: dE / (Cs w²).
+    The reducer's losses count whether it drives or is driven. A flywheel keeps the variation Cs of
+    the mean speed: dE / (Cs w²).
     """
     motor, w = mechanism.spec.motor, omega(mechanism.spec.drive.n_rpm)
     eta, bounded = motor.gear_efficiency, np.isfinite(torque.max) & np.isfinite(torque.min)
@@ -253,16 +243,8 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> tuple[Array, Array]:
     """The fluctuation of designs, from the means (m,) of their input torque: (m,) each.
 
     It is the greatest minus the least of the cumulated work less its mean line, J, and the integral
-    over the period of the torque's square where the wheel drives.
-
-    The work has its extremes where the torque equals its mean. Motions are divided there too, and
-    integrated between to the last digits. The mean of an unbounded torque must be infinite.
-
-    >>> from geneva_cli import External, Load
-    >>> from geneva_cli.motion.mechanism import build
-    >>> machine = build(Spec(External(4), load=Load(inertia_kgm2=2.0)))
-    >>> fluctuations(machine, np.zeros(1))[0].round(6)  # I (w psi1max)²/2
-    array([230.09708])
+    over the period of the torque's square where the wheel drives. Motions are divided where the
+    torque equals its mean. The mean of an unbounded torque must be infinite.
     """
     bounded = np.isfinite(mean)
     mean = np.where(bounded, mean, 0.0)[:, None]

@@ -168,7 +168,7 @@ def test_steady_state_is_where_marching_ends(damping):
 def test_a_maximum_is_where_the_slope_of_the_closed_form_vanishes():
     """Of |sin pi l|/(pi l (l² - 1)): pi l cot pi l = 1 + 2 l²/(l² - 1), between two integers."""
     form = law_shape(load_law("cycloidal"))
-    l = local_maxima(lambda ratio: shares(form, ratio, 0.0), 0.6, 30.0)
+    l = local_maxima(lambda ratio: shares(form, ratio, 0.0)[None], 0, 0.6, 30.0)
     assert np.floor(l).tolist() == list(range(2, 30))
     slope = math.pi * l / np.tan(math.pi * l) - 1.0 - 2.0 * l * l / (l * l - 1.0)
     # its own slope is -pi² l there and steeper: the places are right to 1e-12

@@ -32,10 +32,7 @@ class Impact(NamedTuple):
 
 
 class Struck(NamedTuple):
-    """An impact: the jump of the wheel's velocity over the input's, and what it causes.
-
-    Force and moment are None without an inertia; the force also where no roller strikes.
-    """
+    """An impact: the jump of the wheel's velocity over the input's, and what it causes, or None."""
 
     jump: float
     at_deg: float
@@ -82,11 +79,7 @@ def _after(impact: Impact) -> tuple[Array, Array]:
 
 
 def struck_by(mechanism: Mechanism, result: Turned, impact: Impact) -> Struck:
-    """What an impact causes.
-
-    The force is that of an elastic impact on the roller's pin (``shock_force``), the moment that of
-    a plastic one.
-    """
+    """What an impact causes: the force of an elastic one, the moment of a plastic one."""
     machine = result.machine
     at_deg = machine.assembly.to_input(math.degrees(impact.crank))
     rate = np.ravel(crank_jet(mechanism, np.array([at_deg]))[0].c[1]).item(0)

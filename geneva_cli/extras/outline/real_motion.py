@@ -1,8 +1,7 @@
 """The motion that drawn outlines give: a table over a turn of the crank, and its peaks.
 
-It is piecewise: at rest, or pushed by one contact after the other. Velocity, acceleration and jerk
-follow from the geometry of the contact. At the beginning of a push the velocity may leap: that is
-an impact, at which the acceleration has no bound.
+It is at rest, or pushed by one contact after the other. At the beginning of a push the velocity may
+leap: that is an impact, at which the acceleration has no bound.
 """
 
 from __future__ import annotations
@@ -59,10 +58,9 @@ def steady_turn(result: Turned) -> LazyTurn:
 
 
 def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = None) -> Table:
-    """``samples`` rows, evenly spaced in the input angle, over a period from the entry.
+    """``samples`` rows, evenly spaced in the input angle over a period, or at ``at_deg``.
 
-    With ``at_deg`` they are at those input angles from mid-motion instead. Raises GenevaError for a
-    number of samples out of range, angles that are no numbers, and if the wheel does not turn.
+    Raises GenevaError for a number of samples out of range, and if the wheel does not turn.
     """
     if at_deg is None:
         check_samples(samples)
@@ -136,12 +134,12 @@ def peaks(mechanism: Mechanism) -> Table:
         even[[0, -1]] = inside(push)
         known = quantities(even)
         for name in QUANTITIES:
-            grid, values = even, known[name]
+            grid, row = even, known[name]
             for k in range(ROUNDS):
                 if k:
-                    values = quantities(grid)[name]
-                top = int(np.argmax(np.abs(values)))
-                size = abs(float(values[top]))
+                    row = quantities(grid)[name]
+                top = int(np.argmax(np.abs(row)))
+                size = abs(float(row[top]))
                 if size > best[name][0]:
                     best[name] = size, float(grid[top])
                 grid = np.linspace(grid[max(top - 1, 0)], grid[min(top + 1, len(grid) - 1)], FINE)

@@ -90,8 +90,7 @@ def _one_sense(
 ) -> SenseResult:
     """Turn the crank until the wheel has made a turn, jams, or rests as a turn before.
 
-    Something may put it back to the middle of its dwell after each turn of the crank. Without
-    ``exact`` the angles at which pushes begin and end are those of the grid.
+    Without ``exact`` the angles at which pushes begin and end are those of the grid.
     """
     z, a_turn = machine.assembly.mechanism.spec.wheel.z, len(machine.assembly.motions)
     is_alike = machine.free.period < 6.0  # one sector stands for all
@@ -159,8 +158,6 @@ def least_slack_mm(result: Turned) -> float | None:
 
     It is known within 2 %, and turns with what is returned. None if it does not turn with 0.02 L,
     or half a roller's radius.
-
-    Source: bisection of the slack's logarithm.
     """
     machine = result.machine
 

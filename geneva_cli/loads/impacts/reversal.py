@@ -1,10 +1,8 @@
 """The change of sides: the wheel coasts through its play and is struck at its end.
 
-If the wheel's torque changes its sign, the roller leaves one wall for the other. The wheel coasts
-through the play and is struck at its difference in speed.
-
-Speeds are in units of the input's. Wheel angles are in radians, input angles in degrees from the
-engagement's own mid-motion.
+If the wheel's torque changes its sign, the roller leaves one wall for the other, which then strikes
+it at their difference in speed. Speeds are in units of the input's, wheel angles in radians, input
+angles in degrees from the engagement's own mid-motion.
 """
 
 from __future__ import annotations
@@ -46,7 +44,7 @@ from geneva_cli.spec.workshops import workshop
 
 
 def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
-    """Designs and input angles (k,) at which the wheel's torque changes sign: psi2 = -drag, (m, 1).
+    """Designs and input angles (k,) at which the wheel's torque changes sign, psi2 = -drag, (m, 1).
 
     They are inside a motion. There are none if a drag holds the roller on one wall.
     """
@@ -77,19 +75,11 @@ def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
 def impacts_of(
     engagement: Engagement, at: tuple[Whole, Array], play: Array, drag: Array
 ) -> tuple[Array, Array]:
-    """Impacts after the changes of sides ``at``, for the play of each, (k,) in radians.
+    """Angles at which wheels are struck after changes of sides ``at``, and the speeds.
 
-    They are the angles at which wheels are struck, and the speeds against the slot; NaN if the play
-    is not used up in the motion. ``drag`` is M_r / (I w²), (m, 1). A wheel coasts from the place
-    where psi2 = -drag, slowed only by the drag. It is struck when it is ahead of the slot by the
-    play, or behind if the torque returns. If the torque returns before that, the wall that it left
-    strikes it.
-
-        >>> from geneva_cli import Design, External
-        >>> [engagement] = Design(External(3)).mechanism.engagements
-        >>> drag = np.array([[0.0]])
-        >>> impacts_of(engagement, changes(engagement, drag), np.array([1e-4]), drag)[0]
-        array([0.55220712])
+    ``play`` is that of each change, (k,) in radians; ``drag`` M_r / (I w²), (m, 1), slows the
+    coasting wheel. It is struck when it is ahead of the slot by the play; if the torque returns
+    before that, by the wall that it left. NaN if the play is not used up in the motion.
     """
     which, start = at
     if not len(start):
@@ -120,7 +110,7 @@ def _coasts(
     """Impacts after changes of sides, up to the next changes ``until`` or, if NaN, to the exits.
 
     They are radians of the input until the wheels are struck, speeds, and masks of the wheels that
-    cross their play. The others may be struck by the wall that they left.
+    cross their play.
     """
     out: Array = np.full((2, len(start)), np.nan)
     nodes, weights = rule(24)  # exact to a double over half a motion
@@ -197,9 +187,8 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     """Hardest impacts of m designs at a change of sides with the greatest play.
 
     Without the ``pin`` as it is drawn, forces are not known. The play is the clearance over the
-    lever where the wheel begins to coast: for the smallest roller in the widest slot, and of the
-    fits of the process where both have nominal sizes. Without an inertia no wheel coasts. With a
-    drag above ``lasting_drag_Nm`` the roller never changes sides.
+    lever, for the smallest roller in the widest slot, with the process's fits where both are
+    nominal.
     """
     spec, case = mechanism.spec, load_case(mechanism)
     given = spec.size.allowances.slot_clearance_mm
@@ -254,8 +243,8 @@ def _reversal(
 class Arrival(NamedTuple):
     """The resisting torque, and the greatest with which the wheel reaches its dwell.
 
-    ``lag`` is the greatest lag, its place, and the place where the wheel meets the wall again, all
-    in degrees. It is None if the wheel does not reach its dwell, or nothing resists.
+    ``lag`` is the greatest lag, its place, and where the wheel meets the wall again, degrees; or
+    None.
     """
 
     torque_Nm: float
@@ -264,26 +253,16 @@ class Arrival(NamedTuple):
 
 
 def arrival(mechanism: Mechanism) -> Arrival | None:
-    """Whether the wheel follows a roller that stops it with one wall only.
+    """Whether the wheel follows a roller that stops it with one wall only; None if there are two.
 
-    None if the slots have both walls, or without a load. If gears drive between two rollers, the
-    slot of the second one has a wall behind its roller only (see ``parts.outlines.wheel_outline``).
-    The wheel's inertia must hold it on that wall, against the torque that resists. From the
-    handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²), while the slot needs less
-    deceleration, psi'' > -m. It lags by
+    If gears drive between two rollers, the slot of the second has a wall behind its roller only.
+    From the handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²), and lags by
 
         d(x) = psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2
 
-    and meets the wall where d is 0 again. -psi'' of a straight slot has one peak, and is not 0 at
-    the exit e. So the wheel reaches its dwell, and stays on the wall until then, if
-
-        m <= -psi''(e)  and  m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
-
-    With a larger m it stops short. Angles are input angles in radians.
-
-    >>> design = Design(External(3), GearSector(sector_deg=60), load=Load(inertia_kgm2=0.01))
-    >>> round(arrival(design.mechanism).most_Nm, 6)  # tan b = 0.57735 of I w²
-    0.227929
+    until d is 0 again. -psi'' of a straight slot has one peak, and is not 0 at the exit e. So the
+    wheel reaches its dwell if m <= -psi''(e) and m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e
+    - s)².
     """
     (engagement, *_), spec = mechanism.engagements, mechanism.spec
     if not engagement.paired or not spec.is_loaded:

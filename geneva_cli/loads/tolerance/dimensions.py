@@ -1,7 +1,6 @@
-"""The dimensions that deviate: the sizes of their deviations, and corners.
+"""The dimensions that deviate: the sizes of their deviations in mm and radians, and corners.
 
-Deviations are in millimetres and radians. They are jets. So one formula gives the values of a
-million machines at once (order 0), or the exact slope by one dimension (order 1).
+They are jets: of order 0 the values of many machines, of order 1 the slope by one dimension.
 """
 
 from __future__ import annotations

@@ -61,8 +61,8 @@ class TrueJump(NamedTuple):
 class BuiltJump(NamedTuple):
     """The jump at one engagement's entry of a crank as built.
 
-    The slot at rest keeps its direction and its offset, which the wheel has. The roller crosses the
-    line of centres where the crank has turned by ``at_deg``.
+    The slot at rest keeps its direction and its offset. The roller crosses the line of centres
+    where the crank has turned by ``at_deg``.
     """
 
     built: AsBuilt
@@ -131,10 +131,9 @@ def _branch(axis: RestingAxis, sense: float) -> Branch:
 
 
 def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array | None:
-    """Greatest jump of velocity at entry for any of the deviations, over the input's speed.
+    """Greatest jump at entry for any of the deviations, over the input's speed: (m,).
 
-    (m,) for m designs; 0 if the roller always misses the slot's axis. None for slots and grooves
-    that are solved for.
+    0 if the roller always misses the slot's axis. None for slots and grooves that are solved for.
     """
     if built := _built_jumps(mechanism):
         sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]

@@ -1,18 +1,10 @@
-"""The play of the wheel in its lock during the dwell, for any deviations.
+"""The play of the wheel in its lock in the middle of a dwell, for any deviations.
 
-A recess of radius rho is cut into the wheel about a point at the centre distance L. The locking
-disc of radius k turns about the crank's axis at L + dL. The wheel can turn by d until one of three
-contacts stops it. A corner of a recess, at p from the wheel's axis, meets the disc:
-
-    d = chi(L, rho) - chi(L + dL, k) ,    cos chi = (L² + p² - rho²) / (2 L p) .
-
-Here chi is the corner's angle from the line of centres. For a corner rounded by e this holds for
-its centre, which is nearer by e, with rho + e and k + e. An end of the disc meets the recess, if
-the recess reaches farther round than the disc. The disc meets the recess between their ends, where
-the two centres are rho - k apart, if the disc is too near to the recess's bottom, or if both reach
-farther round than 90 degrees.
-
-The play is computed in the middle of a dwell, where the disc is symmetric to the recess.
+A recess of radius rho is cut about a point at L from the wheel's axis; the disc of radius k turns
+at L + dL. The wheel turns by d until a corner of the recess, at p from the wheel's axis, meets the
+disc, at d = chi(L, rho) - chi(L + dL, k) with cos chi = (L² + p² - rho²) / (2 L p). (Of a corner
+rounded by e that holds for its centre, with rho + e and k + e.) An end of the disc meets the recess
+first if that reaches farther round; or both arcs meet where their centres are rho - k apart.
 """
 
 from __future__ import annotations

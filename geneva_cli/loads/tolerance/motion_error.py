@@ -1,12 +1,8 @@
 """The error of the wheel's angle during a motion of a straight slot, for any deviations.
 
 Deviations dL of the centre distance and dR of the crank's radius move the roller's centre from p to
-p + (dL, 0) + dR/R (p - hub). The slot follows it, off by the error of its own angle. It is also off
-by the clearance c between roller and wall, on one side or the other:
-
-    psi = arg p + asin((e + c) / |p|),    dpsi/dR = L sin(phi) / |p|²,  dpsi/dL = -R sin(phi) / |p|²
-
-The slopes are those of a plain crank. e is the distance of the slot's axis from the wheel's centre.
+p + (dL, 0) + dR/R (p - hub). The slot follows it, off by the error of its own angle and by the
+clearance c on one side or the other: psi = arg p + asin((e + c) / |p|).
 """
 
 from __future__ import annotations
@@ -92,9 +88,8 @@ class MotionError(NamedTuple):
     def margin_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
         """Greatest sum of errors of L and R that every random machine allows, mm.
 
-        With larger errors the roller may reach the wheel's axis, or the crank's. A normal
-        distribution has tails: deviations lie within three times the plus or minus, which is nine
-        standard deviations.
+        With larger ones the roller may reach the wheel's axis, or the crank's. Normal deviations
+        lie within three times the plus or minus, which is nine standard deviations.
         """
         times = 3.0 if spec.tolerance.distribution == "normal" else 1.0
         play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
@@ -106,10 +101,7 @@ class MotionError(NamedTuple):
         return parameter(margin if margin.size > 1 else float(margin[0, 0]))
 
     def greatest(self, by: Deviations) -> WorstErrors:
-        """Greatest error of any of the machines: (n,) for n designs, or (1,) for one.
-
-        The machines are a first axis of the deviations, (k,) or for n designs (k, n, 1).
-        """
+        """Greatest error of any of the machines, the first axis of ``by``: (n,) for n designs."""
         values = [np.atleast_1d(jet.c[0]) for jet in by]
         each = deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
         return self._greatest(
@@ -117,10 +109,7 @@ class MotionError(NamedTuple):
         )
 
     def greatest_rss(self, sizes: Sequence[float]) -> WorstErrors:
-        """Greatest root of the squared effects of the dimensions, over the motion: as ``greatest``.
-
-        ``sizes`` are the plus or minus of each dimension. The error without deviations adds to it.
-        """
+        """The nominal error and the root of the squared effects of dimensions of these sizes."""
         none, which = deviations([0.0] * len(sizes)), [i for i, x in enumerate(sizes) if np.any(x)]
 
         def root(at: Array, side: float) -> Array:

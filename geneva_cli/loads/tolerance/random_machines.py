@@ -66,8 +66,8 @@ def random_machines(
 ) -> RandomMachines:
     """Errors of ``samples`` machines: the play of a lock, the error of a motion, the jump at entry.
 
-    ``error`` is one engagement's motion error, the input angle in degrees, and the side of the slot
-    (1 or -1) on which the roller bears. Arguments that are None are left out.
+    ``error`` is a motion's error, the input angle in degrees, and the side on which the roller
+    bears.
     """
     dwell, motion, jump = (np.zeros(samples) for _ in range(3))
     start = missed = jams = 0
@@ -92,13 +92,7 @@ def random_machines(
 
 
 class Spread(NamedTuple):
-    """Error of the wheel's angle towards one side, degrees.
-
-    ``mean`` and ``std`` are of that angle with its sign. ``p997`` is the size that 99.7 % of the
-    machines keep. ``parts`` has the contribution of each dimension's plus or minus. ``shape`` is
-    the histogram of the random machines: the middles of its bins, and the fraction of the machines
-    in each.
-    """
+    """Error of the wheel's angle towards one side, degrees; mean and std with its sign."""
 
     worst: float
     rss: float
@@ -120,8 +114,7 @@ def likely_place(
 ) -> tuple[MotionError, float, float]:
     """The motion, the input angle and the side with the greatest error of 99.7 % of machines.
 
-    Some thousand machines have mean and deviation at each place, but too few beyond 99.7 %. So the
-    sums of mean and some deviations name places, of which 65536 machines select one.
+    The mean and some deviations of few machines name places, of which many machines select one.
     """
     few, many = (next(machines.blocks(min(samples, count), count)) for count in (4096, 65536))
     places: list[tuple[MotionError, float, float]] = []

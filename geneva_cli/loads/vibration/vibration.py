@@ -1,20 +1,8 @@
 """Vibration of a load on an elastic shaft, for oscillators at several speeds or a batch of designs.
 
-The wheel turns by psi, the load by psi + r, and between them are a spring k and a damper:
-
-    r'' + 2 zeta wn r' + wn² r = -psi'',    wn² = k / I
-
-The period ratio is the motion's time over the natural period 2 pi / wn. A residual is the amplitude
-of the vibration after a motion that began at rest. Its share is the fraction of the wheel's step.
-
-    >>> import numpy as np
-    >>> from geneva_cli import External, Load, Shaft
-    >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> spec = Spec(External(6), load=Load(inertia_kgm2=0.2), shaft=Shaft(stiffness_Nm_rad=5e3))
-    >>> machine = many(spec, {"drive.n_rpm": np.array([60.0, 90.0])}).machine
-    >>> design_vibrations(machine)["residual_share"].round(6)
-    array([0.000708, 0.000695])
+The wheel turns by psi, the load by psi + r: r'' + 2 zeta wn r' + wn² r = -psi'', wn² = k / I. The
+period ratio is the motion's time over 2 pi / wn. A residual is the amplitude after a motion that
+began at rest; its share is the fraction of the wheel's step.
 """
 
 from __future__ import annotations
@@ -127,8 +115,8 @@ def _period_ratio(mechanism: Mechanism, stiffness_Nm_rad: float, inertia_kgm2: f
 class Oscillators:
     """n oscillators on a machine: each on one of its n designs, or all on one design.
 
-    Arrays (stations, n) have a row for each engagement. The load is at rest before it, except in
-    the steady state. ``speed`` is that of each over the mechanism's.
+    Arrays (stations, n) have a row for each engagement. ``speed`` is each one's over the
+    mechanism's.
     """
 
     def __init__(self, mechanism: Mechanism, swing: Oscillator, speed: Array | float = 1.0) -> None:
@@ -185,8 +173,7 @@ class Oscillators:
     def steady_share(self) -> Array:
         """Residuals over the step in the steady state; NaN where there is none.
 
-        A motion adds its own residual to the rest of all earlier ones: a geometric series. Without
-        damping it has no sum, and a stop ends it after z - 1 motions.
+        A motion adds its own residual to the rest of all earlier ones: a geometric series.
         """
         machine, engagements = self.mechanism, self.mechanism.engagements
         stops = np.ravel(machine.stop_deg) * self.speed  # one in each dwell
@@ -256,8 +243,7 @@ def design_vibrations(
 def speeds_to_avoid(own: Oscillators) -> list[tuple[float, float, float, float]]:
     """Rows of ``AVOID_COLUMNS``: speeds where one oscillator's residual has a local maximum.
 
-    The residual is at least ``AVOIDED_SHARE`` of the step. The speeds range from half to twice the
-    design's, ascending. If engagements differ, the greatest residual of all counts.
+    They range from half to twice the design's. If engagements differ, the greatest residual counts.
     """
     n_rpm, ((own_ratio,), damping) = own.mechanism.spec.drive.n_rpm, own.swing
 
@@ -277,7 +263,7 @@ def speeds_to_avoid(own: Oscillators) -> list[tuple[float, float, float, float]]
         high = min(own_ratio / SLOWER, float(omega.min()) / (2.0 * math.pi) / scale)
         if low >= high:
             continue
-        ratios = local_maxima(lambda ratio, k=k: shares(ratio)[k], low, high)
+        ratios = local_maxima(shares, k, low, high)
         every = shares(ratios)
         # a maximum within 1e-12 of the greatest residual is equal to it
         kept = (every[k] >= AVOIDED_SHARE) & (every[k] >= every.max(axis=0) * (1.0 - 1e-12))
@@ -299,7 +285,7 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     factor, steady = own.swung_deg / windup, own.steady_share()
     rows = (own.ratio, own.share, own.residual_deg, factor, windup, steady)
     each = [tuple(map(_known, row)) for row in np.array(rows)[:, :, 0].T.tolist()]
-    warnings = []
+    warnings = list[Notice]()
     if (least := float(own.ratio.min())) < 1.0:
         text = (
             f"a motion takes only {least:.4g} natural periods of the load, too few to follow: "
