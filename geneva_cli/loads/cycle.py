@@ -60,16 +60,15 @@ class Cycle:
 
         A force without a bound is infinite, as where friction alone holds the wheel.
         """
-        from geneva_cli.motion.motion_table import local_deg, spans
+        from geneva_cli.motion.motion_table import spans
 
         out: dict[str, Array | None] = {
             name: np.zeros(len(input_deg)) for name in INSTANT_QUANTITIES
         }
         for span in spans(self.mechanism, input_deg):
-            local = local_deg(span, input_deg)
-            if not len(local):
+            if not len(span.local):
                 continue
-            for name, row in self.moving(span.engagement, local).quantities().items():
+            for name, row in self.moving(span.engagement, span.local).quantities().items():
                 total = out[name]
                 if row is None or total is None:
                     out[name] = None

@@ -8,7 +8,7 @@ from typing import Generic, NamedTuple, Protocol
 import numpy as np
 
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import Mask, N, Whole, all_true, choose, designs_of, library
+from geneva_cli.numerics.arrays import Mask, N, Whole, all_true, choose, library
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 from geneva_cli.spec.workshops import Stock
 
@@ -74,7 +74,7 @@ class LoadCase(NamedTuple):
     @property
     def designs(self) -> int:
         """The number of designs in the load case."""
-        return designs_of(self.design)
+        return 1 if isinstance(self.design, int) else len(self.design)
 
     def at_speed(self, ratio: float) -> LoadCase:
         """The case at another speed, over its own: inertia grows with the square."""

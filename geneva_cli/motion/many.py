@@ -70,8 +70,7 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     """Build the machine of a spec with some of its keys varied.
 
     ``varied`` has keys as in the file (``drive.A``, ``wheel.z``, ``motion.lambda``), with arrays
-    (n,) of numbers or with one value for all designs. Raises GenevaError for a key that the spec
-    does not have. Raises ValueError for arrays of different lengths or keys that cannot be arrays.
+    (n,) of numbers or with one value for all designs.
     """
     arrays = {key: np.asarray(v) for key, v in varied.items() if is_array(v)}
     lengths = {len(values) for values in arrays.values()}
@@ -100,10 +99,7 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
 
 
 def may_vary(spec: Spec, key: str) -> bool:
-    """True if a key of this spec may be an array: a number whose kind takes arrays.
-
-    Raises GenevaError for a key that the spec does not have.
-    """
+    """True if a key of this spec may be an array: a number whose kind takes arrays."""
     table, _, name = key.rpartition(".")
     if table not in TABLES:
         return False

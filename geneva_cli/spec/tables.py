@@ -128,9 +128,6 @@ class Size(SpecTable):
         NotNegative,
         "diameter by which bores are wider than their shafts and pins; default 0, or by process",
     ] = None
-    shafts: Annotated[
-        str, OneOf(("plain", "turned")), "turned: with bearing seat, shoulder and circlip grooves"
-    ] = "plain"
     arm_bore_mm: Annotated[
         Positive, "diameter of the crank's shaft in the arm; default crank_bore_mm, or by load"
     ] = None
@@ -163,18 +160,6 @@ class Size(SpecTable):
     ] = "round"
     wheel_flat_mm: Annotated[
         Positive, "depth of the flat in the wheel's D bore; default bore/10"
-    ] = None
-    wheel_screw_mm: Annotated[
-        Positive, "set screw through the wheel's hub: its thread's diameter"
-    ] = None
-    crank_screw_mm: Annotated[
-        Positive, "set screw through the crank's hub: its thread's diameter"
-    ] = None
-    wheel_clamp_mm: Annotated[
-        Positive, "clamp screw of the wheel's slit hub: its thread's diameter"
-    ] = None
-    crank_clamp_mm: Annotated[
-        Positive, "clamp screw of the crank's slit hub: its thread's diameter"
     ] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[

@@ -198,7 +198,7 @@ def tolerances(parts: Parts) -> Values:
     mechanism, tolerance = parts.mechanism, parts.mechanism.spec.tolerance
     if tolerance == Tolerance(distribution=tolerance.distribution):
         return {"warnings": None}
-    from geneva_cli.verdict.tolerance.study import tolerance_table
+    from geneva_cli.verdict.tolerance import tolerance_table
 
     # micrometres need a radius
     L = mechanism.center_distance_mm
@@ -244,7 +244,7 @@ def _cut_radii(parts: Parts) -> Values:
 
         where = assembly(parts.mechanism)
         ends = roller_paths(where).ends
-        mouth = max(where.L * scalar(s.entry_reach) for s in where.kinds)
+        mouth = max(where.L * scalar(s.reach(s.entry_deg)) for s in where.kinds)
         bottom = max(ends) if inside else min(ends)
         with suppress(GenevaError):  # ``parts.none`` gives the reason
             rim = machine_sizes(parts.mechanism)[1].rim

@@ -15,9 +15,8 @@ from words import LAWS, Spec, Wheel, named, points
 
 from geneva_cli.errors import marking
 from geneva_cli.motion.batch import taken
-from geneva_cli.motion.laws.law_peaks import greatest
-from geneva_cli.motion.laws.scca import SineConstantCosine
-from geneva_cli.motion.laws.standard import SineGroup
+from geneva_cli.motion.laws.law import greatest
+from geneva_cli.motion.laws.standard import SineConstantCosine, SineGroup
 from geneva_cli.motion.laws.table_law import TableLaw
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion

@@ -100,7 +100,6 @@ class Spread(NamedTuple):
     std: float
     p997: float
     parts: tuple[float, ...]
-    shape: tuple[tuple[float, float], ...] = ()
 
     @property
     def fractions(self) -> tuple[float, ...]:
@@ -145,8 +144,6 @@ def spread(
         float(np.ravel(angle(slope_of(i)).c[1])[0]) * size if size else 0.0
         for i, size in enumerate(sizes)
     ]
-    counts, edges = np.histogram(np.degrees(drawn), bins=60)
-    middles = 0.5 * (edges[:-1] + edges[1:])
     return Spread(
         math.degrees(worst),
         math.degrees(abs(middle) + math.sqrt(math.fsum(part * part for part in parts))),
@@ -154,5 +151,4 @@ def spread(
         math.degrees(drawn.std()),
         math.degrees(_p997(drawn)),
         tuple(math.degrees(abs(part)) for part in parts),
-        tuple(zip(middles.tolist(), (counts / len(drawn)).tolist(), strict=True)),
     )

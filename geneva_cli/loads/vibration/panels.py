@@ -16,6 +16,7 @@ import numpy as np
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.peak_search import breaks
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Number, Whole, matrix_product, read_only
 
@@ -85,7 +86,7 @@ def motion_shapes(motion: WheelMotion, m: int = 1) -> Panels:
         angle = some(some.entry_deg + u * whole, order)
         return [v / step for v in angle.c], whole * DEGREE
 
-    every = np.hstack(motion.breaks(m))
+    every = np.hstack(breaks(motion, m))
     return _panels(taylor, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
 
 
