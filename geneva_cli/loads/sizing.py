@@ -12,17 +12,15 @@ import numpy as np
 from geneva_cli.loads.carried import inertia_kgm2, support_torque_Nm, working_torque_Nm
 from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.forces import QuantityValue
-from geneva_cli.loads.indexer_formula import ShaftLoad, indexer_formula
 from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
-from geneva_cli.motion.timing import cam_factors
-from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.motion.timing import CamFactors, cam_factors
+from geneva_cli.numerics.angles import DEGREE, omega, radians
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, choose_record, parameter
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
@@ -36,8 +34,6 @@ CYCLE_SUMS = (
     *("energy_fluctuation_J", "flywheel_kgm2"),
     *("flywheel_to_add_kgm2", "motor_torque_rms_Nm"),
 )
-EXTREMES = ("motor_torque_max_Nm", "input_torque_ratio")
-ROTOR = ("inertia_ratio", "coasting_speed_share")
 WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizings``
 # In the order shown: the inertia at the wheel's shaft, and the wheel's own; the cam-indexer
 # formula, for the engagement with the greatest torque at the input; the exact cycle.
@@ -46,8 +42,7 @@ SHOWN_SIZING = (
     *("inertia_torque_Nm", "friction_torque_Nm"),
     *("total_torque_Nm", "design_torque_Nm", "input_torque_Nm", "power_W", "Am", "Vm", "Qm"),
     *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
-    *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2", "coasting_speed_share"),
-    "input_torque_ratio",
+    *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2"),
 )
 SIZING_NAMES = tuple(name for name in SHOWN_SIZING if name != WHEEL_INERTIA)
 
@@ -80,19 +75,15 @@ def sizing(
     if spec.motor.speed_variation is None:
         needs.append("flywheel_kgm2, flywheel_to_add_kgm2: need speed_variation in [motor]")
     if not spec.motor.inertia_kgm2:
-        needs.append("inertia_ratio, coasting_speed_share: need inertia_kgm2 in [motor]")
+        needs.append("inertia_ratio: needs inertia_kgm2 in [motor]")
     if wheel_inertia_kgm2 is None:
-        needs.append(f"{WHEEL_INERTIA}: {_unweighed(spec)}")
+        why = "needs a wheel that can be cut; `geneva profile` shows why it cannot"
+        if not spec.is_flat:
+            why = "computed for flat wheels only"
+        elif spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
+            why = "needs face_width_mm in [size]"
+        needs.append(f"{WHEEL_INERTIA}: {why}")
     return out, tuple(needs)
-
-
-def _unweighed(spec: Spec) -> str:
-    """The reason why the wheel's own inertia is not known."""
-    if not spec.is_flat:
-        return "computed for flat wheels only"
-    if spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
-        return "needs face_width_mm in [size]"
-    return "needs a wheel that can be cut; `geneva profile` shows why it cannot"
 
 
 def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> dict[str, Array]:
@@ -107,14 +98,13 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
         "inertia_kgm2": _some(inertia_kgm2(spec)),
         "motor_rpm": spec.drive.n_rpm * spec.motor.ratio,
     }
-    if names - {*CARRIED, *CYCLE_SUMS, *ROTOR, "motor_torque_max_Nm"}:
+    if names - {*CARRIED, *CYCLE_SUMS, "inertia_ratio", "motor_torque_max_Nm"}:
         values |= _by_formula(whole)
-    if names & {*CYCLE_SUMS, *EXTREMES}:
+    if names & {*CYCLE_SUMS, "motor_torque_max_Nm"}:
         means = ("mean", "rms") if names & set(CYCLE_SUMS) else ()
-        torque = load_summaries(mechanism, [TORQUE], means)[TORQUE]
-        values |= _exact(whole, torque, values.get("input_torque_Nm"))
-    if names & set(ROTOR):
-        values |= _rotor(whole)
+        values |= _exact(whole, load_summaries(mechanism, [TORQUE], means)[TORQUE])
+    if "inertia_ratio" in names:
+        values["inertia_ratio"] = _inertia_ratio(whole)
     return {
         name: np.ravel(row) if name in KNOWN_UNLOADED else np.where(loaded, np.ravel(row), np.nan)
         for name, row in values.items()
@@ -130,6 +120,43 @@ def _peaks(engagement: Engagement, *names: str) -> list[float]:
     """The greatest values of quantities of a motion, as invariants: (m, 1) each."""
     peaks = motion_peaks(engagement.motion, names)
     return [parameter(peaks[name].max[:, None]) for name in names]
+
+
+class ShaftLoad(NamedTuple):
+    """Load of the wheel's shaft: kg m², N m, and the service factor fc on all of it."""
+
+    inertia: float
+    friction: float
+    work: float
+    service_factor: float
+    frame: float = 0.0  # turns of the wheel's frame in one turn of the input
+
+
+class IndexerFormula(NamedTuple):
+    """The lines of the formula: rad/s², N m at the wheel, and Tc at the input."""
+
+    alpha: float
+    Ti: float
+    Tt: float
+    Te: float
+    Tc: float
+
+
+def indexer_formula(
+    factors: CamFactors, step_deg: float, motion_deg: float, n_rpm: float, load: ShaftLoad
+) -> IndexerFormula:
+    """The formula of cam-indexer makers for a wheel's step in an input angle at a speed.
+
+    It assumes the greatest torque on the wheel during the whole motion, and the curve's factor Qm.
+    A carrier that turns the wheel's frame also takes fc Ti, which need not be greatest there.
+    """
+    t2 = motion_deg / (6.0 * n_rpm)
+    alpha = factors.Am * radians(step_deg) / (t2 * t2)
+    Ti = load.inertia * alpha
+    Tt = Ti + load.friction + load.work
+    Te = load.service_factor * Tt
+    carried = abs(load.frame) * load.service_factor * Ti
+    return IndexerFormula(alpha, Ti, Tt, Te, step_deg / motion_deg * factors.Qm * Te + carried)
 
 
 def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
@@ -169,9 +196,7 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     }
 
 
-def _exact(
-    mechanism: Mechanism, torque: LoadSummary[Array], formula_torque: Number | None
-) -> dict[str, Number]:
+def _exact(mechanism: Mechanism, torque: LoadSummary[Array]) -> dict[str, Number]:
     """Motor and flywheel from the exact cycle; NaN if the torque is unbounded.
 
     The reducer's losses count whether it drives or is driven. A flywheel keeps the variation Cs of
@@ -182,8 +207,6 @@ def _exact(
     most, least = (np.where(bounded, x, np.nan)[:, None] for x in (torque.max, torque.min))
     driven = np.maximum(most / eta, -least * eta)
     out: dict[str, Number] = {"motor_torque_max_Nm": driven / motor.ratio}
-    if formula_torque is not None:
-        out["input_torque_ratio"] = formula_torque / _some(np.maximum(most, -least))
     if torque.mean is None or torque.rms is None:
         return out
     square = np.where(bounded, torque.rms, np.nan) ** 2
@@ -207,26 +230,19 @@ def _exact(
     return out
 
 
-def _rotor(mechanism: Mechanism) -> dict[str, Number]:
-    """The values of ``ROTOR``; NaN for designs whose motor's own inertia is not known.
+def _inertia_ratio(mechanism: Mechanism) -> Number:
+    """The wheel's inertia at its fastest over the motor's; NaN where that is not known.
 
-    They are the ratio of the wheel's inertia at its fastest to the motor's, and the coasting speed.
-    Let psi1 be the greatest velocity. While coasting without losses, I_input w²/2 + I psi1² w²/2 is
-    constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0. On a carrier all wheels have
-    the frame's speed, and psi1 is added to that of one.
+    On a carrier all wheels have the frame's speed, and the velocity is added to that of one.
     """
     spec, frame = mechanism.spec, mechanism.frame
     own, motor = inertia_kgm2(spec), spec.motor.inertia_kgm2 * spec.motor.ratio**2
     others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
     velocities = [_peaks(engagement, "velocity")[0] for engagement in mechanism.engagements]
-    fastest = np.max(np.broadcast_arrays(*velocities), axis=0)
+    fastest = np.max(np.broadcast_arrays(*velocities), axis=0) + frame
     with np.errstate(all="ignore"):
-        still, mu = (
-            np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest + frame)
-        )
-        ratio = np.maximum(mu, still), np.sqrt((1.0 + still) / (1.0 + mu))
-    known = np.asarray(spec.motor.inertia_kgm2) > 0.0
-    return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
+        ratios = [np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest)]
+    return np.where(np.asarray(spec.motor.inertia_kgm2) > 0.0, np.maximum(*ratios), np.nan)
 
 
 class Unevenness(NamedTuple):

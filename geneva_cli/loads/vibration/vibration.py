@@ -277,8 +277,8 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     """Named values of one design, with equal names for every machine; None without a load."""
     names = (*NAMES, "speeds_to_avoid_rpm", "avoid", "stations")
     if load is None:
-        why = Notice("not-known", f"no value is computed: {NO_INERTIA}")
-        return dict.fromkeys(names) | {"warnings": (why,)}
+        note = Notice("not-known", f"no value is computed: {NO_INERTIA}")
+        return dict.fromkeys(names) | {"warnings": (note,)}
     own, lacks = Oscillators(mechanism, load), mechanism.output.lacks
     avoid, numbers = speeds_to_avoid(own), vibrations(own)
     windup = own.windup_deg

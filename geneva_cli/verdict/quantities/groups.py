@@ -346,8 +346,7 @@ STUDY = (
         "sizing",
         "inertia_kgm2 acceleration_rad_s2 inertia_torque_Nm friction_torque_Nm total_torque_Nm "
         "design_torque_Nm input_torque_Nm power_W Am Vm Qm energy_fluctuation_J flywheel_kgm2 "
-        "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2 "
-        "coasting_speed_share input_torque_ratio",
+        "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2",
         "load_quantities:sizing",
     ),
     *(
