@@ -153,7 +153,7 @@ def beyond(batch, places, seed, names=NAMES, ends=None):
             x = np.asfortranarray(a + (b - a) * np.clip(share, 1e-9, 1.0 - 1e-9))
             load = LoadFunctions(here, case, names)
             with np.errstate(all="ignore"):
-                instant = load.at(x, slice(0, len(x)))[0].instant
+                instant = load.at(x, slice(0, len(x)))[0]
             for k, name in enumerate(names):
                 one = LoadSummary(*[v if v is None else v[part] for v in together[name]])
                 out[part, k] = np.maximum(out[part, k], _passed(instant, name, one, x.shape))

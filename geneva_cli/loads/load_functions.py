@@ -9,8 +9,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from types import MappingProxyType
-from typing import NamedTuple
 
 import numpy as np
 
@@ -25,7 +23,7 @@ from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.peak_search import breaks, motion_peaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, Number, Which, all_true, array
+from geneva_cli.numerics.arrays import Mask, Which, all_true, array
 from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
 from geneva_cli.numerics.jet import Array, Jet
 
@@ -44,17 +42,6 @@ MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is un
 FEWEST_DIGITS = 1e-10
 
 
-NO_MORE: Mapping[str, LoadQuantity] = MappingProxyType({})  # no quantities besides the named ones
-
-
-class SignedInstant(NamedTuple):
-    """An instant, the signs that matter, and the functions that have them."""
-
-    instant: Instant[Jet]
-    signs: list[Array]
-    jets: list[Jet]
-
-
 class LoadFunctions:
     """Designs of one engagement under their load, with the functions that ``search`` takes.
 
@@ -68,11 +55,12 @@ class LoadFunctions:
         engagement: Engagement,
         case: LoadCase,
         names: Sequence[str],
-        own: Mapping[str, LoadQuantity] = NO_MORE,
+        own: Mapping[str, LoadQuantity] | None = None,
         more: Sequence[str] = (),
     ) -> None:
         self.engagement, self.case, self.names, self.n = engagement, case, names, case.designs
-        self.quantities: list[LoadQuantity] = [own.get(name) or QUANTITIES[name] for name in names]
+        each: Mapping[str, LoadQuantity] = {**QUANTITIES, **(own or {})}
+        self.quantities = [each[name] for name in names]
         matters = {
             "drives": not all_true(case.inertia_Nm == 0.0),
             # p v is 0 where the sliding is, in a notch that may be near a pole
@@ -161,14 +149,15 @@ class LoadFunctions:
 
     def at(
         self, x: Array, which: Which, order: int = 0, held: Array | None = None
-    ) -> tuple[SignedInstant, list[LoadQuantity]]:
+    ) -> tuple[Instant[Jet], list[LoadQuantity], list[tuple[Array, Jet]]]:
         """The instants of some designs at places (m, k), degrees, and the quantities there.
 
-        Signs are known where ``held`` is not NaN.
+        Behind them are the signs that matter, with their functions. They are known where ``held``
+        is not NaN.
         """
         engagement, case, quantities = self._some(which)
         instant = Instant(case, contact(engagement, x, order, self.reactions))
-        out = SignedInstant(instant, [], [])
+        signs = []
         if "drives" not in self.kinds:
             instant.drives = np.copysign(1.0, instant.wheel_torque_Nm.c[0])
         for i, kind in enumerate(self.kinds):
@@ -180,9 +169,8 @@ class LoadFunctions:
                 sign = np.where(np.isnan(held[i]), sign, held[i])
             if kind in ("drives", "slides", "feeds"):
                 setattr(instant, kind, sign)
-            out.signs.append(sign)
-            out.jets.append(jet)
-        return out, quantities
+            signs.append((sign, jet))
+        return instant, quantities, signs
 
     def __call__(
         self,
@@ -193,40 +181,35 @@ class LoadFunctions:
         requested: Sequence[int] | None = None,
     ) -> tuple[Mask, list[Array]]:
         """Signs, and Taylor coefficients of the functions that have them and of the quantities."""
-        signed, every = self.at(x, which, order, held)
-        wanted = every if requested is None else [every[k] for k in requested]
-        rows = [QuantityValue(jet) for jet in signed.jets]
-        rows += [quantity(signed.instant) for quantity in wanted]
+        instant, every, signs = self.at(x, which, order, held)
+        rows = [QuantityValue(jet) for _, jet in signs]
+        rows += [every[k](instant) for k in (range(len(every)) if requested is None else requested)]
         # designs lie side by side in memory
         shape = (len(rows), *x.shape[::-1])
         values = [np.empty(shape).swapaxes(1, 2) for _ in range(order + 1)]
         for i, (jet, margin, sign) in enumerate(rows):
             for k, own in enumerate(values):
                 own[i] = jet.c[k] * DEGREE**k if k else jet.c[0]
-            unbounded = None if margin is None else self._lost(margin, signed)
-            if unbounded is not None and unbounded.any():
+            if margin is None:
+                continue
+            value, level = array(margin.c[0]), NEGLIGIBLE
+            if margin is instant.grip:
+                # without friction a lever has all its digits, however short
+                level = np.where(instant.case.all_friction == 0.0, 0.0, NEGLIGIBLE)
+            unbounded: Mask = value <= level
+            # a margin that is known to be negative may have a rounding error above 0
+            for kind, (known, other) in zip(self.kinds, signs, strict=True):
+                if kind in MARGINS:
+                    unbounded = unbounded | ((known < 0.0) & (value == other.c[0]))
+            if unbounded.any():
                 unbounded = np.broadcast_to(unbounded, x.shape)
                 values[0][i] = np.where(unbounded, np.inf * sign, values[0][i])
                 for own in values[1:]:
                     own[i][unbounded] = 0.0
         positive = np.empty((self.signs, *x.shape[::-1]), dtype=bool).swapaxes(1, 2)
-        for i, sign in enumerate(signed.signs):
-            positive[i] = sign > 0.0
+        for i, (known, _) in enumerate(signs):
+            positive[i] = known > 0.0
         return positive, values
-
-    def _lost(self, margin: Jet, signed: SignedInstant) -> Mask:
-        """Masks of the places where a quantity with this margin is unbounded."""
-        value = array(margin.c[0])
-        level: Number = NEGLIGIBLE
-        if margin is signed.instant.grip:
-            # without friction a lever has all its digits, however short
-            level = np.where(signed.instant.case.all_friction == 0.0, 0.0, NEGLIGIBLE)
-        lost: Mask = value <= level
-        # a margin that is known to be negative may have a rounding error above 0
-        for kind, sign, jet in zip(self.kinds, signed.signs, signed.jets, strict=True):
-            if kind in MARGINS:
-                lost = lost | ((sign < 0.0) & (value == jet.c[0]))
-        return lost
 
 
 def on_breaks(x: Array, engagement: Engagement) -> Array:

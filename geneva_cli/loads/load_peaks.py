@@ -23,7 +23,7 @@ from geneva_cli.loads.cycle_quantities import (
 from geneva_cli.loads.forces import LoadCase
 from geneva_cli.loads.instant import LoadQuantity
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import NO_MORE, LoadFunctions, on_breaks
+from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
@@ -54,7 +54,7 @@ class LoadSummary(NamedTuple, Generic[S]):
 def load_peaks(
     mechanism: Mechanism,
     names: Sequence[str],
-    own: Mapping[str, LoadQuantity] = NO_MORE,
+    own: Mapping[str, LoadQuantity] | None = None,
     case: LoadCase | None = None,
 ) -> dict[str, PeakArray]:
     """The greatest sizes of quantities, and the first input angles that have them: (m,).
@@ -256,7 +256,7 @@ def _sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
 
 def _powers(load: LoadFunctions, x: Array, which: Which, signs: Array | None, plain: bool) -> Array:
     """The squares of the quantities and, with ``plain``, the quantities themselves after them."""
-    (here, *_), wanted = load.at(x, which, 0, signs)
+    here, wanted, _ = load.at(x, which, 0, signs)
     count = len(load.names)
     out = np.empty((2 * count if plain else count, *x.shape[::-1])).swapaxes(1, 2)
     for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):

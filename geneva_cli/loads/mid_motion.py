@@ -15,7 +15,6 @@ from geneva_cli.loads.forces import NEGLIGIBLE, LoadCase, value
 from geneva_cli.loads.instant import Instant, LoadQuantity, bounded
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pitch_curve import retraces
-from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Number, array
 from geneva_cli.numerics.jet import Array, Jet
 
@@ -74,41 +73,7 @@ def at_mid_motion(
                     none = np.where(loaded, np.inf * sign, none)
                     limited = np.where((bar > NEGLIGIBLE) & finite, known, none)
                     add(k, middle, limited, crosses | jumps | (sense > 0.0))
-            # where the torque changes sign between mid-motion and the nearest stretch
-            changes, x = _torque_free(engagement, case, torque, near * sense)
-            if not changes.any():
-                continue
-            at_x = contact(engagement, x)
-            signs = Instant(case, at_x).signed()
-            unforced = at_x._replace(lever=at_x.lever + np.inf)  # the rest takes no force
-            for drives in (1.0, -1.0):  # the torque is 0 on both sides
-                with_force, without = (
-                    Instant(case, one, drives, signs.slides, signs.feeds)
-                    for one in (at_x, unforced)
-                )
-                for k, of in enumerate(quantities):
-                    margin, known = of(with_force).margin, value(of(without).value)
-                    bar = np.inf if margin is None else value(margin)
-                    add(k, x, known, (bar > NEGLIGIBLE) & np.isfinite(known) & changes)
     return out
-
-
-def _torque_free(
-    engagement: Engagement, case: LoadCase, middle: Number, near: Array
-) -> tuple[Mask, Array]:
-    """Masks of designs whose torque is 0 between mid-motion and a place near it, and where."""
-
-    def torque(x: Array) -> tuple[Array, Array]:
-        _, _, acceleration, jerk = engagement.motion(x, 3).derivatives()
-        left = acceleration * case.inertia_Nm + case.resists_Nm
-        return array(left), array(jerk * (case.inertia_Nm * DEGREE))
-
-    end = torque(near)[0]
-    x = near * (middle / (middle - end))
-    for _ in range(2):  # Newton steps from a chord of 1e-4 of the motion: the rest is rounding
-        left, rise = torque(x)
-        x = np.clip(x - left / rise, np.minimum(near, 0.0), np.maximum(near, 0.0))
-    return np.asarray(middle * end < 0.0), x
 
 
 def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | None:

@@ -286,7 +286,7 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
     signs, n = np.where(positive, 1.0, -1.0), len(bounded)
 
     def rows(x: Array, which: Whole) -> Array:
-        (here, *_), (uneven,) = load.at(x, design[which], 0, signs[:, which, None])
+        here, (uneven,), _ = load.at(x, design[which], 0, signs[:, which, None])
         back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
         return np.stack(np.broadcast_arrays(uneven(here).value.c[0], back * back))
 

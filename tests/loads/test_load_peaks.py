@@ -270,27 +270,6 @@ def test_beside_a_cusp_the_stress_goes_to_nought():
     assert (found.min, found.min_at_deg) == (0.0, 0.0)
 
 
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize("friction", [0.0, 0.1])
-@pytest.mark.parametrize("share", [0.3, 0.9])
-def test_a_torque_that_changes_its_sign_beside_mid_motion_leaves_no_stress_there(share, friction):
-    """Nearer to it than stretches of a curved slot come: at ``share`` of a ten-thousandth.
-
-    A harmonic motion's torque is I w² (step/2) (pi/beta)² cos(pi u) + M: 0 there, and nowhere else.
-    """
-    machine = build(curved("harmonic"))
-    beta, step = math.radians(machine.engagements[0].motion_deg), math.pi / 3.0
-    x = share * 1e-4 * beta / 2.0
-    resists = OMEGA**2 * 0.5 * step * (math.pi / beta) ** 2 * math.sin(math.pi * x / beta)
-    spec = curved("harmonic", load=Load(1.0, resists, friction=friction))
-    cycle = Cycle(build(spec))
-    for name in ("contact_stress_MPa", "wheel_bearing_N"):
-        one = cycle.extremes[name]
-        assert one.min == 0.0
-        # of a torque that all but is 0
-        assert one.min_at_deg == pytest.approx(math.degrees(x), rel=1e-9)
-
-
 @pytest.mark.parametrize(("law", "alpha0"), [("cycloidal", 10.0), ("harmonic", 5.0)])
 def test_an_inertia_alone_slides_as_far_on_either_side_of_mid_motion(law, alpha0):
     """The pin crosses the radius where the torque is a rounding, whose sign chose a wall.
