@@ -21,7 +21,6 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater, search_motion
-from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import Array, Which, parameter
 from geneva_cli.numerics.extremes import Smooth
@@ -38,7 +37,6 @@ class ProductMotion(NamedTuple):
     acceleration_m_s2: PeakArray  # of both together
     jerk_m_s3: PeakArray  # along the path
     friction_needed: Array  # friction coefficient at which the product just does not slip
-    swing_mm: Array  # amplitude that a step leaves of a product that hangs or sloshes
 
 
 def product_motion(mechanism: Mechanism) -> ProductMotion | None:
@@ -85,7 +83,6 @@ def product_motion(mechanism: Mechanism) -> ProductMotion | None:
         acceleration,
         scaled(jerk, scale * w * w),
         acceleration.max / G if spec.support.axis == "vertical" else none,
-        r_mm * ratio * _swing(mechanism),
     )
 
 
@@ -106,22 +103,3 @@ def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
         return PeakArray(np.sqrt(most[0]), np.ravel(mechanism.shown_deg(place)))
 
     return reduce(greater, map(greatest, mechanism.engagements))
-
-
-def _swing(mechanism: Mechanism) -> Array:
-    """The amplitude that a step leaves, in radians of the dial; NaN without a swing_Hz.
-
-    It is NaN too where the motion's time over the natural period is out of the range computed.
-    """
-    from geneva_cli.loads.vibration.swing import Oscillator
-    from geneva_cli.loads.vibration.vibration import PERIOD_RATIO, Oscillators
-
-    product, m = mechanism.spec.product, mechanism.designs
-    if product.swing_Hz is None:
-        return np.full(m, np.nan)
-    periods = timings(mechanism)[0].motion_s * product.swing_Hz
-    ratio, zeta = (np.broadcast_to(np.ravel(x), m) for x in (periods, product.swing_damping))
-    known = (ratio >= PERIOD_RATIO.low) & (ratio <= PERIOD_RATIO.high)
-    swing = Oscillator(np.where(known, ratio, 1.0), zeta)
-    left_deg = Oscillators(mechanism, swing).residual_deg.max(axis=0)
-    return np.where(known, np.radians(left_deg), np.nan)

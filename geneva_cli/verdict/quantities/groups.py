@@ -225,7 +225,7 @@ _REPORT = (
     )._replace(batch="verdict.quantities.load_quantities:vibration", one_by_one=("none",)),
     _batch(
         "product",
-        "travel_mm chord_mm friction_needed swing_mm "
+        "travel_mm chord_mm friction_needed "
         "speed_m_s,acceleration_m_s2,tangential_m_s2,centripetal_m_s2,jerk_m_s3.{max at_deg}",
         "motion_quantities:product",
     ),
