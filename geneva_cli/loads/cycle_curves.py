@@ -168,10 +168,10 @@ def _pieces(
             else:
                 last = b
 
-            def of(x: Array, stage: Stage = stage, shift: float = shift, up: Array = up) -> Array:
+            def here(x: Array, stage: Stage = stage, shift: float = shift, up: Array = up) -> Array:
                 return stage.of(x - shift) + up
 
-            placed.append((of, stage.flat, a, b))
+            placed.append((here, stage.flat, a, b))
     rough = [of(places(a, b) if b > a else np.array([a])) for of, _, a, b in placed]
     heights = np.ptp(np.concatenate(rough, axis=1), axis=1)
     heights[heights == 0.0] = 1.0

@@ -95,7 +95,7 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         for design, cycle in cycles.items()
     }
     panels = tuple(_panel(name, machines, curves) for name in shown)
-    left = []
+    left = list[LeftOut]()
     for design, cycle in cycles.items():
         names = requested if cycle.is_loaded else shown  # forces are not expected without a load
         reasons: dict[str, list[str]] = {}

@@ -133,7 +133,9 @@ class Instant(Generic[V]):
     def leaning(self) -> V | None:
         """A value at whose changes of sign the friction in a guide has a corner."""
         guide = self.case.guide
-        return guide and guide.leaning(self.case, self.at, self.drives, self.slides)
+        if guide is None:
+            return None
+        return guide.leaning(self.case, self.at, self.drives, self.slides)
 
     @cached_property
     def friction_margin(self) -> V | None:
