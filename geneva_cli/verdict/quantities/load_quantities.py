@@ -107,11 +107,7 @@ def vibration(of: Designs) -> Columns:
     from geneva_cli.loads.vibration.vibration import NAMES, design_vibrations
 
     shaken = design_vibrations(of.machine, of.requested("vibration"))
-    if shaken is None:
-        return dict.fromkeys(NAMES)
-    # without damping there is no steady state; without a period ratio the design says why
-    steady, ratio = shaken["steady_share"], shaken["period_ratio"]
-    return {**shaken, "steady_share": np.where(np.isnan(steady), ratio + np.inf, steady)}
+    return {**dict.fromkeys(NAMES), **(shaken or {})}
 
 
 def entry(of: Designs) -> Columns:
