@@ -114,10 +114,7 @@ def _middle(engagement: Engagement) -> list[Number]:
 
 
 def _crossing(engagement: Engagement) -> list[Number]:
-    """The contact where the pin crosses the radius.
-
-    The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
-    """
+    """The contact where the pin crosses the radius."""
     values, before = (
         [jet.c[0] for jet in _moving(engagement, x, 0, False)[:-1]]
         for x in (0.0, NEAR_CUSP * engagement.entry_deg)

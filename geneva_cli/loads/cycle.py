@@ -56,10 +56,7 @@ class Cycle:
         return self.mechanism.spec.is_loaded
 
     def states(self, input_deg: Array) -> Instant[Array]:
-        """Arrays at ascending input angles of a period from the first entry; 0 in the dwells.
-
-        A force without a bound is infinite, as where friction alone holds the wheel.
-        """
+        """Arrays at ascending input angles of a period from the first entry; 0 in the dwells."""
         from geneva_cli.motion.motion_table import spans
 
         out: dict[str, Array | None] = {

@@ -146,11 +146,7 @@ def _dwell(mechanism: Mechanism, i: int, values: Sequence[float]) -> Iterator[St
 def _pieces(
     stages: Sequence[Stage], period: float, window: Ends, rise: Sequence[float]
 ) -> list[list[Piece]]:
-    """The pieces of each curve over a window, with the period's stages repeated.
-
-    ``rise`` is the rise of each curve in a period. A stage that only touches the window is a
-    single point, at which the curve jumps.
-    """
+    """The pieces of each curve over a window, with the period's stages repeated."""
     start, end = window
     placed: list[tuple[Callable[[Array], Array], bool, float, float]] = []
     tiny, last = ROUNDED * period, -math.inf

@@ -114,10 +114,7 @@ def contact_modulus_GPa(one: Stock, other: Stock) -> float:
 
 
 def hertz_MPa(modulus_GPa: float, line_N_mm: N, radius_mm: float) -> N:
-    """Hertz stress on a line, from E*, the force per length and the effective radius.
-
-    p0² = F E* / (pi b R)
-    """
+    """Hertz stress on a line, from E*, the force per length and the effective radius."""
     modulus = modulus_GPa * 1e3
     out: N = library(line_N_mm, radius_mm).sqrt(line_N_mm * modulus / (math.pi * radius_mm))
     return out

@@ -77,11 +77,7 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
 
 
 class Slowness(NamedTuple):
-    """1 / (highest speed that a place allows)², for a load with a factor per unit of wheel torque.
-
-    The load of a torque M is q1 M, that of an inertia w² q: the limit holds to w² = (limit - q1 M)
-    / q.
-    """
+    """1 / (highest speed that a place allows)²: w² = (limit - q1 M) / q, q1 the load of M = 1."""
 
     of: Callable[[Instant[Jet]], Jet | None]
     limit: float
@@ -116,10 +112,7 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
 
 
 def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
-    """Peak power that the inertia takes from the input, W: I epsilon omega / eta.
-
-    ``power_invariant`` is the peak of epsilon omega; on a carrier it is searched from the ground.
-    """
+    """Peak power that the inertia takes from the input, W: I epsilon omega / eta."""
     spec, w = mechanism.spec, omega(mechanism.spec.drive.n_rpm)
     if not mechanism.frame:
         return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency

@@ -169,11 +169,7 @@ class Instant(Generic[V]):
 
     @cached_property
     def edge(self) -> V | None:
-        """1 - curvature of the bearing wall's pitch curve times the roller's radius, or None.
-
-        A wall at the roller's radius r from its pitch curve has 1/R_e = 1/r + k/(1 - k r) = 1/(r (1
-        - k r)).
-        """
+        """1 - curvature of the bearing wall's pitch curve times the roller's radius, or None."""
         if self.case.hertz is None:
             return None
         return 1.0 - self.at.curvature * (self.drives * self.case.radius)
@@ -252,10 +248,7 @@ class Instant(Generic[V]):
         return None if self.at.reactions is None else self._reaction(1)
 
     def _reaction(self, joint: int) -> V:
-        """The square of the reaction of a joint that holds the roller's body.
-
-        The pin pushes the wall along d i t + f s t, which has a couple about the pin's centre too.
-        """
+        """The square of the reaction of a joint that holds the roller's body."""
         assert self.at.reactions is not None
         normal, tangent, couple = self.at.reactions
         rub = self._rub * self.slides
@@ -288,10 +281,7 @@ def bounded(here: Instant[Array]) -> Instant[Array]:
 def bounded_loads(
     case: LoadCase, at: Contact[Array], drives: Array | None = None
 ) -> Instant[Array]:
-    """The values at a contact with the signs that they have there, as ``bounded`` has them.
-
-    ``drives`` is the sign of the wheel's torque, if known.
-    """
+    """The values at a contact with the signs that they have there, as ``bounded`` has them."""
     with np.errstate(all="ignore"):
         return bounded(Instant(case, at).signed(drives))
 

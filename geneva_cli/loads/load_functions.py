@@ -43,12 +43,7 @@ FEWEST_DIGITS = 1e-10
 
 
 class LoadFunctions:
-    """Designs of one engagement under their load, with the functions that ``search`` takes.
-
-    Quantities are those in ``own``, or else of the cycle. ``kinds`` are the signs that matter:
-    those at which quantities jump, those in ``more``, and with ``wanted`` that of the first
-    quantity.
-    """
+    """Designs of one engagement under their load, with the functions that ``search`` takes."""
 
     def __init__(
         self,
@@ -134,10 +129,7 @@ class LoadFunctions:
         return search(self, spans, sized, known, self.spread)
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:
-        """The motion, divided where signs change: as in a search, or without one.
-
-        In curved slots, where searches stop short of mid-motion, they reach it.
-        """
+        """The motion, divided where signs change: as in a search, or without one."""
         pieces = result.stretches if result else cuts(self, self.spans)
         if not self.engagement.slot.curved:
             return pieces
@@ -150,11 +142,7 @@ class LoadFunctions:
     def at(
         self, x: Array, which: Which, order: int = 0, held: Array | None = None
     ) -> tuple[Instant[Jet], list[LoadQuantity], list[tuple[Array, Jet]]]:
-        """The instants of some designs at places (m, k), degrees, and the quantities there.
-
-        Behind them are the signs that matter, with their functions. They are known where ``held``
-        is not NaN.
-        """
+        """The instants of some designs at places (m, k), degrees, and the quantities there."""
         engagement, case, quantities = self._some(which)
         instant = Instant(case, contact(engagement, x, order, self.reactions))
         signs = []

@@ -38,10 +38,7 @@ S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of 
 
 
 class LoadSummary(NamedTuple, Generic[S]):
-    """Greatest and least over the motions, mean and root mean square over a period: (m,) each.
-
-    Input angles are as shown; values are infinite if unbounded, and None if unknown as printed.
-    """
+    """Greatest and least over the motions, mean and root mean square over a period: (m,) each."""
 
     max: S
     max_at_deg: S
@@ -57,10 +54,7 @@ def load_peaks(
     own: Mapping[str, LoadQuantity] | None = None,
     case: LoadCase | None = None,
 ) -> dict[str, PeakArray]:
-    """The greatest sizes of quantities, and the first input angles that have them: (m,).
-
-    ``own`` are further quantities by name; ``case`` replaces the machine's own load case.
-    """
+    """The greatest sizes of quantities, and the first input angles that have them: (m,)."""
     mechanism = mechanism.under_load
     case, best = case or load_case(mechanism), dict[str, PeakArray]()
     flat = all(e.slot.walls_flat for e in mechanism.engagements)
@@ -85,10 +79,7 @@ def load_peaks(
 def reported_peaks(
     mechanism: Mechanism, names: Iterable[str] = REPORTED_PEAKS
 ) -> Mapping[str, PeakArray]:
-    """The greatest sizes of those of ``REPORTED_PEAKS`` that a machine has, by their names there.
-
-    Those of a single design are all computed together, so that digits do not depend on ``names``.
-    """
+    """The greatest sizes of those of ``REPORTED_PEAKS`` that a machine has, by their names."""
     single = isinstance(mechanism.design, int)
     return _single_peaks(mechanism) if single else _reported(mechanism, names)
 
@@ -166,11 +157,7 @@ def _summaries(
 
 
 def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
-    """Greatest and least of a quantity, from those of its square or of itself.
-
-    Where the torque changes sign, rounding may leave a size below 0, or 1e-14 of the other: it is
-    0.
-    """
+    """Greatest and least of a quantity, from those of its square or of itself."""
     ends = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else x for x in (most, least)]
     if name in SQUARED and name not in PRESSED:
         ends = [np.sqrt(x) for x in ends]

@@ -33,10 +33,7 @@ SHOWN_QUANTITIES = (
 
 @lru_cache(maxsize=16)
 def summaries(cycle: Cycle) -> Mapping[str, LoadSummary[float | None]]:
-    """The summary of each quantity, by its name; None for an unbounded or unknown value.
-
-    ``max`` is the greatest size of the quantities whose size is limited.
-    """
+    """The summary of each quantity, by its name; None for an unbounded or unknown value."""
     known, none = cycle.extremes, [None] * len(LoadSummary._fields)
     out = {name: LoadSummary(*map(_finite, known.get(name, none))) for name in SHOWN_QUANTITIES}
     for name, (most, at_deg) in cycle.peaks.items():
@@ -67,10 +64,7 @@ def loads_table(
     warnings: Sequence[str],
     for_people: bool = False,
 ) -> Table:
-    """The summary of the loads, with the impact of a reversal, sizing, life and warnings.
-
-    For people the quantities that have a value are rows of a table.
-    """
+    """The summary of the loads, with the impact of a reversal, sizing, life and warnings."""
     spec = cycle.mechanism.spec
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}
     loads = summaries(cycle)
@@ -120,10 +114,7 @@ def missing(cycle: Cycle) -> list[Notice]:
 
 
 def cycle_table(cycle: Cycle, samples: int) -> Table:
-    """``samples`` rows, evenly spaced in the input angle over one period from the first entry.
-
-    A value that is unbounded or not known is None.
-    """
+    """``samples`` rows, evenly spaced in the input angle over one period from the first entry."""
     from geneva_cli.motion.motion_table import check_samples
 
     check_samples(samples)

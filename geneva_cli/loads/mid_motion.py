@@ -77,10 +77,7 @@ def at_mid_motion(
 
 
 def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | None:
-    """The quantities of ``Instant`` at mid-motion, where the pin crosses the slot without a torque.
-
-    They are arrays of one, with the limits of entry. None in all other cases.
-    """
+    """The quantities of ``Instant`` where the pin crosses the slot without a torque; else None."""
     if not engagement.slot.curved or retraces(engagement):
         return None
     with np.errstate(all="ignore"):

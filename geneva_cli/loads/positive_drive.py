@@ -17,10 +17,7 @@ from geneva_cli.numerics.arrays import Array, Mask
 
 
 class PositiveDrives(NamedTuple):
-    """Where m designs' slots lack the needed wall, and the distance of their branches, (m,) each.
-
-    ``loose`` (m, k) is a mask of the places ``input_deg`` without positive drive.
-    """
+    """Where m designs' slots lack the needed wall, and the distance of their branches."""
 
     fraction: Array  # of the motion without it
     gap_mm: Array  # greatest distance of the two branches, along the wheel's circumference
@@ -45,11 +42,7 @@ class PositiveDrives(NamedTuple):
 
 
 def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
-    """The positive drive of m designs; None for straight slots.
-
-    The wall ahead is needed where the torque is positive. A branch keeps it where its roller leads
-    the other branch at the same radius.
-    """
+    """The positive drive of m designs; None for straight slots."""
     engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
     if not engagement.slot.curved:
         return None

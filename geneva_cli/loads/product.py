@@ -40,10 +40,7 @@ class ProductMotion(NamedTuple):
 
 
 def product_motion(mechanism: Mechanism) -> ProductMotion | None:
-    """The motion of the products of m designs; None if their place is not known.
-
-    Nothing is said of slipping on a dial that stands upright, where the weight acts along its seat.
-    """
+    """The motion of the products of m designs; None if their place is not known."""
     spec, product, m = mechanism.spec, mechanism.spec.product, mechanism.designs
     if not product.lies:
         return None

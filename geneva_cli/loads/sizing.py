@@ -51,10 +51,7 @@ SIZING_NAMES = tuple(name for name in SHOWN_SIZING if name != WHEEL_INERTIA)
 def sizing(
     cycle: Cycle, wheel_inertia_kgm2: float | None = None
 ) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
-    """The values of one design in the order shown, and the keys that missing values need.
-
-    The wheel's own inertia is known from its parts.
-    """
+    """The values of one design in the order shown, and the keys that missing values need."""
     spec, lacks = cycle.mechanism.spec, cycle.mechanism.output.lacks
     torque = cycle.known[TORQUE] if cycle.is_loaded else None
     rows = sizings(cycle.machine, SIZING_NAMES if torque else KNOWN_UNLOADED)
@@ -87,10 +84,7 @@ def sizing(
 
 
 def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> dict[str, Array]:
-    """Values of ``SIZING_NAMES``: (m,), or (1,) for values equal in all designs; NaN if undefined.
-
-    Names that are not ``requested`` may be included.
-    """
+    """Values of ``SIZING_NAMES``, and perhaps more: (m,) or (1,); NaN if undefined."""
     whole, names = mechanism.under_load, set(requested)
     spec, case = whole.spec, load_case(whole)
     loaded = np.ravel(case.inertia_Nm + case.resists_Nm > 0.0)
@@ -197,11 +191,7 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
 
 
 def _exact(mechanism: Mechanism, torque: LoadSummary[Array]) -> dict[str, Number]:
-    """Motor and flywheel from the exact cycle; NaN if the torque is unbounded.
-
-    The reducer's losses count whether it drives or is driven. A flywheel keeps the variation Cs of
-    the mean speed: dE / (Cs w²).
-    """
+    """Motor and flywheel from the exact cycle; NaN if the torque is unbounded."""
     motor, w = mechanism.spec.motor, omega(mechanism.spec.drive.n_rpm)
     eta, bounded = motor.gear_efficiency, np.isfinite(torque.max) & np.isfinite(torque.min)
     most, least = (np.where(bounded, x, np.nan)[:, None] for x in (torque.max, torque.min))
@@ -231,10 +221,7 @@ def _exact(mechanism: Mechanism, torque: LoadSummary[Array]) -> dict[str, Number
 
 
 def _inertia_ratio(mechanism: Mechanism) -> Number:
-    """The wheel's inertia at its fastest over the motor's; NaN where that is not known.
-
-    On a carrier all wheels have the frame's speed, and the velocity is added to that of one.
-    """
+    """The wheel's inertia at its fastest over the motor's; NaN where that is not known."""
     spec, frame = mechanism.spec, mechanism.frame
     own, motor = inertia_kgm2(spec), spec.motor.inertia_kgm2 * spec.motor.ratio**2
     others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame

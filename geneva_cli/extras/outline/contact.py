@@ -24,10 +24,7 @@ FIXED = 1e-9  # of L: a point so near to the crank's axis, as a disc's centre, m
 
 
 class Side(NamedTuple):
-    """What touches on one side, in the fixed frame, (n,) each: a point, or an edge's foot.
-
-    ``far`` and ``ahead`` are polar coordinates about the wheel's axis, ``radius`` is of the circle.
-    """
+    """What touches on one side, in the fixed frame, (n,) each: a point, or an edge's foot."""
 
     far: Array
     ahead: Array

@@ -64,11 +64,7 @@ class DrawnMachine(NamedTuple):
 
 
 def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
-    """A machine with the drawings of its ``[outline]``.
-
-    Raises GenevaError for what is no outline, that no crank turns, or where no part meets the
-    other.
-    """
+    """A machine with the drawings of its ``[outline]``."""
     spec, place = mechanism.spec, _assembly(mechanism)
     notes = list[Notice]()
     wheel, crank = (_drawn(spec, part, notes) for part in ("wheel", "crank"))

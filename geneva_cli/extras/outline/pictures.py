@@ -28,10 +28,7 @@ DRAWN: Layer = "OUTLINE"
 
 
 def drawn_scene(design: Design) -> Scene:
-    """The scene of a design with its drawings in place of the computed outlines.
-
-    Raises GenevaError if the wheel jams.
-    """
+    """The scene of a design with its drawings in place of the computed outlines."""
     result, shown = turned(design.mechanism), scene(design)
     turn, machine = steady_turn(result), result.machine
     start, entry = (
@@ -109,10 +106,7 @@ def _layered(contours: tuple[Contour, ...], layer: Layer) -> tuple[Contour, ...]
 
 
 def over(mechanism: Mechanism, drawing: Drawing) -> Drawing:
-    """A drawing of our own part with that of somebody else over it, on layer OUTLINE.
-
-    Drawings of other parts than wheel, crank and assembly are returned as they are.
-    """
+    """A drawing of our own part with that of somebody else over it, on layer OUTLINE."""
     machine, outline = drawn_machine(mechanism), mechanism.spec.outline
     shapes: list[Contour] = []
     has_wheel, has_crank = (layer in drawing.layers for layer in ("WHEEL", "CRANK"))

@@ -36,10 +36,7 @@ QUANTITIES = ("velocity", "acceleration", "jerk", "power")
 
 
 def steady_turn(result: Turned) -> LazyTurn:
-    """The last turn of the crank forwards, after which the wheel rests as before.
-
-    Raises GenevaError if the wheel jams or is not turned.
-    """
+    """The last turn of the crank forwards, after which the wheel rests as before."""
     if not result.turns:
         raise GenevaError(
             "the wheel does not turn, so there is no motion: `geneva check` says where it jams",
@@ -58,10 +55,7 @@ def steady_turn(result: Turned) -> LazyTurn:
 
 
 def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = None) -> Table:
-    """``samples`` rows, evenly spaced in the input angle over a period, or at ``at_deg``.
-
-    Raises GenevaError for a number of samples out of range, and if the wheel does not turn.
-    """
+    """``samples`` rows, evenly spaced in the input angle over a period, or at ``at_deg``."""
     if at_deg is None:
         check_samples(samples)
         input_deg = inputs(mechanism, samples, 0, samples)
@@ -111,10 +105,7 @@ def _by_input(wheel: Array, rates: Sequence[Array], crank: Jet) -> tuple[Array, 
 
 
 def peaks(mechanism: Mechanism) -> Table:
-    """The greatest velocity, acceleration, jerk and power, as ``geneva peaks`` prints them.
-
-    They are those inside the pushes; the hardest impact at a beginning is apart, as ``impact``.
-    """
+    """The greatest velocity, acceleration, jerk and power, as ``geneva peaks`` prints them."""
     result = turned(mechanism)
     turn, place = steady_turn(result), result.machine.assembly
 

@@ -111,10 +111,7 @@ def _one_sense(
 
 
 def turning(result: Turned) -> tuple[float, float] | None:
-    """The places of rest around the middle from which the wheel turns; None without any.
-
-    It tries many turns, which costs more than everything else of a drawing.
-    """
+    """The places of rest around the middle from which the wheel turns; None without any."""
     machine, turner = result.machine, result.turner
     is_free, low, high = result.rest
     if not is_free:

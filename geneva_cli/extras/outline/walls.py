@@ -67,10 +67,7 @@ def smallest_wall(contours: Sequence[Contour], some: Whole | None = None) -> Wal
         return is_sharp & (np.minimum(*between) > SLANT) & (np.minimum(*nearer) <= SLANT)
 
     def feet(points: Array) -> tuple[Whole, Array]:
-        """The nearest points of pieces to points: rows and feet.
-
-        The line from the foot back to the point leads into the material, at a right angle.
-        """
+        """The nearest points of pieces to points: rows and feet."""
         seen = outline.distances(points.real[:, None], points.imag[:, None])
         row, piece = np.nonzero(seen.distance > LEAST_MM)
         facing, along = seen.facing[row, piece], seen.along[row, piece]

@@ -57,10 +57,7 @@ class RestingAxis(NamedTuple):
 
     @staticmethod
     def of(engagement: Engagement) -> RestingAxis | None:
-        """The axis of an engagement's straight slot.
-
-        None for a slot that is solved for, and for a crank as built, which crosses it at once.
-        """
+        """The axis of an engagement's straight slot."""
         engagement = engagement.through
         anchor = engagement.motion.entry
         if anchor is None or engagement.built is not None:
@@ -120,10 +117,7 @@ def first_contacts(
 def _first_roots(
     f: Callable[[Array, Whole], tuple[Array, Array]], places: Array, passed: Mask
 ) -> Array:
-    """The roots before the first places (m, k) that are passed, (m, 1); NaN if there is none.
-
-    ``f(x, which)`` returns value and slope of some designs at places (k, 1).
-    """
+    """The roots before the first places (m, k) that are passed, (m, 1); NaN if there is none."""
     out, first = np.full((len(places), 1), np.nan), np.argmax(passed, axis=1)
     there = np.flatnonzero(passed.any(axis=1) & (first > 0))
     ends = np.sort([places[there, first[there] - k] for k in (0, 1)], axis=0)
@@ -137,11 +131,7 @@ def _first_roots(
 
 
 class _Corner(NamedTuple):
-    """A corner of the mouth, and the roller that meets it with errors of R and L.
-
-    Places are from the wheel's centre: along the slot, across it, and along the wheel's axis, over
-    L.
-    """
+    """A corner of the mouth, and the roller that meets it with errors of R and L."""
 
     axis: RestingAxis
     crank: Number
@@ -255,11 +245,7 @@ def entry_impacts(
 def _errors(
     mechanism: Mechanism, engagement: Engagement, fraction: float
 ) -> Iterator[tuple[float, float]]:
-    """Greatest relative errors of R and L that act across the slot, in both directions.
-
-    A longer crank acts as a shorter centre distance, or as a longer one where the crank's axis lies
-    between the slot's axis and the wheel's centre.
-    """
+    """Greatest relative errors of R and L that act across the slot, in both directions."""
     spec, L, axis = mechanism.spec, mechanism.center_distance_mm, RestingAxis.of(engagement)
     if axis is None:  # a slot that is solved for has no contacts
         return

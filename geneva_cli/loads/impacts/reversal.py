@@ -44,10 +44,7 @@ from geneva_cli.spec.workshops import workshop
 
 
 def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
-    """Designs and input angles (k,) at which the wheel's torque changes sign, psi2 = -drag, (m, 1).
-
-    They are inside a motion. There are none if a drag holds the roller on one wall.
-    """
+    """Designs and input angles (k,) at which the wheel's torque changes sign: psi2 = -drag."""
     motion, m = engagement.motion, len(drag)
     if engagement.paired:  # gears hold the wheel until another roller stops it
         begins = np.broadcast_to(np.ravel(motion.breaks_deg[-2]), m)
@@ -107,11 +104,7 @@ def impacts_of(
 def _coasts(
     motions: WheelMotion, start: Array, until: Array, play: Array, drags: Array
 ) -> tuple[Array, Array, Mask]:
-    """Impacts after changes of sides, up to the next changes ``until`` or, if NaN, to the exits.
-
-    They are radians of the input until the wheels are struck, speeds, and masks of the wheels that
-    cross their play.
-    """
+    """Impacts after changes of sides, up to the next changes ``until`` or, if NaN, to the exits."""
     out: Array = np.full((2, len(start)), np.nan)
     nodes, weights = rule(24)  # exact to a double over half a motion
 
@@ -174,10 +167,7 @@ def drag_over(mechanism: Mechanism) -> float:
 
 
 def lasting_drag_Nm(mechanism: Mechanism) -> float:
-    """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r.
-
-    0 if it stays there already; (m, 1) for m designs.
-    """
+    """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r."""
     inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
     most = reduce(larger, map(braking, mechanism.engagements))
     return larger(inertia * w * w * most - resisting_torque_Nm(mechanism.spec), 0.0)
@@ -215,10 +205,7 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
 def _reversal(
     engagement: Engagement, L: Array, drag: Array, play_mm: Array, radius: Array
 ) -> Array:
-    """Input angles, jumps and edges of one engagement's hardest impacts, (3, m).
-
-    The edge is 1 - k r, for a wall of curvature k under the roller (see ``instant``).
-    """
+    """Input angles, jumps and edges of one engagement's hardest impacts, (3, m)."""
     out = np.full((3, len(drag)), np.nan)
     of, x = at = changes(engagement, drag)
     if not len(x):
@@ -241,11 +228,7 @@ def _reversal(
 
 
 class Arrival(NamedTuple):
-    """The resisting torque, and the greatest with which the wheel reaches its dwell.
-
-    ``lag`` is the greatest lag, its place, and where the wheel meets the wall again, degrees; or
-    None.
-    """
+    """The resisting torque, and the greatest with which the wheel reaches its dwell."""
 
     torque_Nm: float
     most_Nm: float

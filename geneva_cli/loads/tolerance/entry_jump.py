@@ -22,10 +22,7 @@ from geneva_cli.numerics.arrays import Array, Mask, array, parameter
 
 
 class Branch(NamedTuple):
-    """The true path on one side of its entry, for crossings of the axis by paths with errors.
-
-    ``side`` is the side of the axis on which the true path is; the others are arrays along it.
-    """
+    """The true path on one side of its entry, for crossings of the axis by paths with errors."""
 
     side: float
     root: Array  # square root of its distance from the axis, over L
@@ -59,11 +56,7 @@ class TrueJump(NamedTuple):
 
 
 class BuiltJump(NamedTuple):
-    """The jump at one engagement's entry of a crank as built.
-
-    The slot at rest keeps its direction and its offset. The roller crosses the line of centres
-    where the crank has turned by ``at_deg``.
-    """
+    """The jump at one engagement's entry of a crank as built."""
 
     built: AsBuilt
     sign: float
@@ -131,10 +124,7 @@ def _branch(axis: RestingAxis, sense: float) -> Branch:
 
 
 def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array | None:
-    """Greatest jump at entry for any of the deviations, over the input's speed: (m,).
-
-    0 if the roller always misses the slot's axis. None for slots and grooves that are solved for.
-    """
+    """Greatest jump at entry for any of the deviations, over the input's speed: (m,)."""
     if built := _built_jumps(mechanism):
         sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]
         jumps = [one(corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
