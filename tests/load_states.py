@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.contact import contact
-from geneva_cli.loads.forces import contact_values
+from geneva_cli.loads.contact import contact, contact_values
 from geneva_cli.loads.instant import bounded_loads
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks

@@ -6,15 +6,40 @@ The slot's tangent t points away from the wheel's axis: M . t > 0, M being the r
 from __future__ import annotations
 
 import math
+from typing import Generic, NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.forces import Contact
 from geneva_cli.motion.engagement import Engagement, Vector
 from geneva_cli.numerics.arrays import all_true, choose, library
-from geneva_cli.numerics.jet import Jet, Number, sqrt
+from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
 
 NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
+
+
+class Contact(NamedTuple, Generic[V]):
+    """The state of roller and slot that the loads depend on: jets of one order, or values."""
+
+    velocity: V
+    acceleration: V
+    lever: V  # M . t: of the walls' normal about the wheel's axis
+    offset: V  # M x t: of the slot's tangent from the wheel's axis
+    along: V  # the roller centre's speed along t
+    curvature: V  # of the pitch curve, positive to the left of t: 0 in a straight slot
+    spin: V  # rate of the roller's body relative to the wheel
+    arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
+    touches: V  # 0 while gears drive and no roller does, else 1
+    crank: V  # rate of the shaft that carries the crank
+    # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
+    # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
+    reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
+
+
+def contact_values(at: Contact[Jet]) -> Contact[Array]:
+    """The values of a contact's jets."""
+    *jets, joints = at
+    reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
+    return Contact._make([*[jet.c[0] for jet in jets], reactions])
 
 
 def contact(
@@ -114,18 +139,22 @@ def _middle(engagement: Engagement) -> list[Number]:
 
 
 def _crossing(engagement: Engagement) -> list[Number]:
-    """The contact where the pin crosses the radius."""
-    values, before = (
-        [jet.c[0] for jet in _moving(engagement, x, 0, False)[:-1]]
+    """The contact where the pin crosses the radius.
+
+    The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
+    """
+    here, before = (
+        contact_values(_moving(engagement, x, 0, False))
         for x in (0.0, NEAR_CUSP * engagement.entry_deg)
     )
-    lever, along = (Contact._fields.index(name) for name in ("lever", "along"))
-    turned = values[along] * before[along] < 0.0
-    for name in ("offset", "along", "curvature"):
-        i = Contact._fields.index(name)
-        values[i] = choose(turned, -values[i], values[i])
-    values[lever] = 0.0
-    return values
+    sense = choose(here.along * before.along < 0.0, -1.0, 1.0)
+    same = here._replace(
+        lever=0.0 * here.lever,
+        offset=here.offset * sense,
+        along=here.along * sense,
+        curvature=here.curvature * sense,
+    )
+    return list(same[:-1])
 
 
 def _cusp(engagement: Engagement) -> list[Number]:

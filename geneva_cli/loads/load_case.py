@@ -1,20 +1,130 @@
-"""The load case of a machine, from its spec."""
+"""What the loads depend on besides the motion: the load case of a machine, from its spec."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol
 
 import numpy as np
 
 from geneva_cli.loads.carried import carried_kg, inertia_kgm2, resisting_torque_Nm
-from geneva_cli.loads.forces import LoadCase, contact_modulus_GPa
 from geneva_cli.loads.strength.pin import pin_diameter_mm
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import Array, all_true, choose, library
+from geneva_cli.numerics.arrays import Array, Mask, N, Whole, all_true, choose, library
+from geneva_cli.numerics.jet import Jet, Number, V
 from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.workshops import Stock
+
+if TYPE_CHECKING:
+    from geneva_cli.loads.contact import Contact
+
+NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
+
+
+class Guide(Protocol):
+    """A guide in which the output slides."""
+
+    @property
+    def friction(self) -> float:
+        """Friction in it, (m, 1) for m designs."""
+
+    def drag(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+        """Friction in it over the pin's force."""
+
+    def leaning(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+        """A smooth value, at whose changes of sign the drag has a corner."""
+
+
+class LoadCase(NamedTuple):
+    """The data that the loads depend on besides the motion; floats, or (m, 1) for m designs."""
+
+    speed_rad_s: float  # of the input
+    inertia_Nm: float  # inertia times the square of the input speed
+    resists_Nm: float  # torque at the wheel that resists its motion
+    L: float  # metres
+    radius: float  # of the roller, over L
+    friction: float  # ratio of the force along the wall to the force on it
+    efficiency: float
+    # square of the stress on a flat wall, MPa² per newton; None without a face width
+    hertz: float | None
+    # turns of the wheel's frame in one turn of the input, positive as the wheel turns in it
+    frame: float = 0.0
+    guide: Guide | None = None  # in which the output slides
+    design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
+
+    @property
+    def designs(self) -> int:
+        """The number of designs in the load case."""
+        return 1 if isinstance(self.design, int) else len(self.design)
+
+    def at_speed(self, ratio: float) -> LoadCase:
+        """The case at another speed, over its own: inertia grows with the square."""
+        return self._replace(inertia_Nm=self.inertia_Nm * (ratio * ratio))
+
+    @property
+    def rubs(self) -> bool:
+        """True if there is friction along the wall in any of the designs."""
+        return not all_true(self.friction == 0.0)
+
+    def is_loaded(self, engagement: Engagement, torque: Number) -> Mask:
+        """True where a torque at the wheel is more than rounding."""
+        usual = self.inertia_Nm * engagement.usual_acceleration + self.resists_Nm
+        loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
+        return loaded
+
+    @property
+    def frictionless(self) -> LoadCase:
+        """The case without friction."""
+        return self._replace(friction=0.0, guide=None)
+
+    @property
+    def guided(self) -> bool:
+        """True if there is friction in the output's guide in any of the designs."""
+        return self.guide is not None and not all_true(self.guide.friction == 0.0)
+
+    @property
+    def all_friction(self) -> float:
+        """A number that is above 0 for a design with any friction, which may hold the wheel."""
+        return self.friction + self.guide.friction if self.guide else self.friction
+
+
+def contact_modulus_GPa(one: Stock, other: Stock) -> float:
+    """E* of two materials in contact, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2."""
+    each = ((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in (one, other))
+    return 1.0 / sum(each)
+
+
+def hertz_MPa(modulus_GPa: float, line_N_mm: N, radius_mm: float) -> N:
+    """Hertz stress on a line, from E*, the force per length and the effective radius."""
+    modulus = modulus_GPa * 1e3
+    out: N = library(line_N_mm, radius_mm).sqrt(line_N_mm * modulus / (math.pi * radius_mm))
+    return out
+
+
+class QuantityValue(NamedTuple, Generic[V]):
+    """A quantity, the margin that bounds it where above 0, and the sign of its infinity."""
+
+    value: V
+    margin: V | None = None
+    sign: Number = 1.0
+
+
+def value(quantity: V) -> Number:
+    """The value of a jet; a value unchanged."""
+    return quantity.c[0] if isinstance(quantity, Jet) else quantity
+
+
+def lesser(a: V, b: V) -> V:
+    """The lesser of two jets, or of their values, element by element."""
+    first = value(a) < value(b)
+    if not isinstance(a, Jet) or not isinstance(b, Jet):
+        out: V = choose(first, a, b)
+        return out
+    return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])
 
 
 def load_case(mechanism: Mechanism) -> LoadCase:

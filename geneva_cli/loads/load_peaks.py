@@ -20,9 +20,8 @@ from geneva_cli.loads.cycle_quantities import (
     plain_values,
     sources,
 )
-from geneva_cli.loads.forces import LoadCase
 from geneva_cli.loads.instant import LoadQuantity
-from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.load_case import LoadCase, load_case
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.carried import MM, inertia_kgm2
-from geneva_cli.loads.forces import contact_modulus_GPa
+from geneva_cli.loads.load_case import contact_modulus_GPa
 from geneva_cli.loads.strength.pin import Pin, PinSize, stiffness_N_mm
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
