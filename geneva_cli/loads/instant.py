@@ -122,8 +122,8 @@ class Instant(Generic[V]):
     @cached_property
     def _drag(self) -> V:
         """Friction in the guide over the pin's force."""
-        assert self.case.guide is not None  # known to be there
-        return self.case.guide.drag(self.case, self.at, self.drives, self.slides)
+        drag: V = self.case.guide.drag(self.case, self.at, self.drives, self.slides)
+        return drag
 
     @cached_property
     def grip(self) -> V:
@@ -133,10 +133,10 @@ class Instant(Generic[V]):
     @property
     def leaning(self) -> V | None:
         """A value at whose changes of sign the friction in a guide has a corner."""
-        guide = self.case.guide
-        if guide is None:
+        if self.case.guide is None:
             return None
-        return guide.leaning(self.case, self.at, self.drives, self.slides)
+        leaning: V = self.case.guide.leaning(self.case, self.at, self.drives, self.slides)
+        return leaning
 
     @cached_property
     def friction_margin(self) -> V | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol
+from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
@@ -19,24 +19,7 @@ from geneva_cli.numerics.jet import Jet, Number, V
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.workshops import Stock
 
-if TYPE_CHECKING:
-    from geneva_cli.loads.contact import Contact
-
 NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
-
-
-class Guide(Protocol):
-    """A guide in which the output slides."""
-
-    @property
-    def friction(self) -> float:
-        """Friction in it, (m, 1) for m designs."""
-
-    def drag(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
-        """Friction in it over the pin's force."""
-
-    def leaning(self, case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
-        """A smooth value, at whose changes of sign the drag has a corner."""
 
 
 class LoadCase(NamedTuple):
@@ -53,7 +36,7 @@ class LoadCase(NamedTuple):
     hertz: float | None
     # turns of the wheel's frame in one turn of the input, positive as the wheel turns in it
     frame: float = 0.0
-    guide: Guide | None = None  # in which the output slides
+    guide: Any = None  # in which the output slides: a rack's, with its friction and drag
     design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
 
     @property
