@@ -1,19 +1,21 @@
-"""The roller in its slot at one or many input angles: jets by it in radians, lengths over L.
+"""The roller in its slot at input angles, and what else the loads there depend on.
 
+Jets are by the input angle in radians, lengths over L.
 The slot's tangent t points away from the wheel's axis: M . t > 0, M being the roller's centre.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Generic, NamedTuple
+from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
 from geneva_cli.motion.engagement import Engagement, Vector
-from geneva_cli.numerics.arrays import all_true, choose, library
+from geneva_cli.numerics.arrays import Mask, Whole, all_true, choose, library
 from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
 
+NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
 NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
 
 
@@ -40,6 +42,81 @@ def contact_values(at: Contact[Jet]) -> Contact[Array]:
     *jets, joints = at
     reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
     return Contact._make([*[jet.c[0] for jet in jets], reactions])
+
+
+class LoadCase(NamedTuple):
+    """The data that the loads depend on besides the motion; floats, or (m, 1) for m designs."""
+
+    speed_rad_s: float  # of the input
+    inertia_Nm: float  # inertia times the square of the input speed
+    resists_Nm: float  # torque at the wheel that resists its motion
+    L: float  # metres
+    radius: float  # of the roller, over L
+    friction: float  # ratio of the force along the wall to the force on it
+    efficiency: float
+    # square of the stress on a flat wall, MPa² per newton; None without a face width
+    hertz: float | None
+    # turns of the wheel's frame in one turn of the input, positive as the wheel turns in it
+    frame: float = 0.0
+    guide: Any = None  # in which the output slides: a rack's, with its friction and drag
+    design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
+
+    @property
+    def designs(self) -> int:
+        """The number of designs in the load case."""
+        return 1 if isinstance(self.design, int) else len(self.design)
+
+    def at_speed(self, ratio: float) -> LoadCase:
+        """The case at another speed, over its own: inertia grows with the square."""
+        return self._replace(inertia_Nm=self.inertia_Nm * (ratio * ratio))
+
+    @property
+    def rubs(self) -> bool:
+        """True if there is friction along the wall in any of the designs."""
+        return not all_true(self.friction == 0.0)
+
+    def is_loaded(self, engagement: Engagement, torque: Number) -> Mask:
+        """True where a torque at the wheel is more than rounding."""
+        usual = self.inertia_Nm * engagement.usual_acceleration + self.resists_Nm
+        loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
+        return loaded
+
+    @property
+    def frictionless(self) -> LoadCase:
+        """The case without friction."""
+        return self._replace(friction=0.0, guide=None)
+
+    @property
+    def guided(self) -> bool:
+        """True if there is friction in the output's guide in any of the designs."""
+        return self.guide is not None and not all_true(self.guide.friction == 0.0)
+
+    @property
+    def all_friction(self) -> float:
+        """A number that is above 0 for a design with any friction, which may hold the wheel."""
+        return self.friction + self.guide.friction if self.guide else self.friction
+
+
+class QuantityValue(NamedTuple, Generic[V]):
+    """A quantity, the margin that bounds it where above 0, and the sign of its infinity."""
+
+    value: V
+    margin: V | None = None
+    sign: Number = 1.0
+
+
+def value(quantity: V) -> Number:
+    """The value of a jet; a value unchanged."""
+    return quantity.c[0] if isinstance(quantity, Jet) else quantity
+
+
+def lesser(a: V, b: V) -> V:
+    """The lesser of two jets, or of their values, element by element."""
+    first = value(a) < value(b)
+    if not isinstance(a, Jet) or not isinstance(b, Jet):
+        out: V = choose(first, a, b)
+        return out
+    return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])
 
 
 def contact(

@@ -14,10 +14,10 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import contact, contact_values
+from geneva_cli.loads.contact import LoadCase, contact, contact_values
 from geneva_cli.loads.cycle_quantities import FORCE, QUANTITIES, WALL_FORCE, multiples, plain_values
 from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads
-from geneva_cli.loads.load_case import LoadCase, load_case
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks, refuse_noise, refuse_rounding
 from geneva_cli.loads.load_peaks import LoadSummary, reported_peaks, single_summaries
 from geneva_cli.loads.mid_motion import at_crossing

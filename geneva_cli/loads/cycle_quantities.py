@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from geneva_cli.loads.load_case import QuantityValue, lesser, load_case
+from geneva_cli.loads.contact import QuantityValue, lesser
+from geneva_cli.loads.load_case import load_case
 
 if TYPE_CHECKING:
     from geneva_cli.loads.instant import Instant

@@ -10,9 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2
+from geneva_cli.loads.contact import LoadCase, QuantityValue
 from geneva_cli.loads.cycle_quantities import FORCE, STRESS, TORQUE
 from geneva_cli.loads.instant import Instant, LoadQuantity
-from geneva_cli.loads.load_case import LoadCase, QuantityValue, load_case
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.motion.engagement import Engagement

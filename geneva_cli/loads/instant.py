@@ -17,8 +17,7 @@ from typing import Generic, Protocol, Self
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import Contact, contact_values
-from geneva_cli.loads.load_case import LoadCase, QuantityValue, value
+from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, contact_values, value
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 

@@ -14,10 +14,9 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import NEAR_CUSP, contact
+from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, QuantityValue, contact
 from geneva_cli.loads.cycle_quantities import PV, QUANTITIES
 from geneva_cli.loads.instant import Instant, LoadQuantity
-from geneva_cli.loads.load_case import NEGLIGIBLE, LoadCase, QuantityValue
 from geneva_cli.loads.mid_motion import at_mid_motion
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement

@@ -8,7 +8,7 @@ from typing import Generic, NamedTuple, TypeVar, cast
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP
+from geneva_cli.loads.contact import NEAR_CUSP, LoadCase
 from geneva_cli.loads.cycle_quantities import (
     FORCE,
     NEVER_NEGATIVE,
@@ -21,7 +21,7 @@ from geneva_cli.loads.cycle_quantities import (
     sources,
 )
 from geneva_cli.loads.instant import LoadQuantity
-from geneva_cli.loads.load_case import LoadCase, load_case
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism

@@ -10,9 +10,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP, contact
+from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact, value
 from geneva_cli.loads.instant import Instant, LoadQuantity, bounded
-from geneva_cli.loads.load_case import NEGLIGIBLE, LoadCase, value
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.arrays import Mask, Number, array

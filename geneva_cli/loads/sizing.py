@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2, support_torque_Nm, working_torque_Nm
+from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.instant import Instant, LoadQuantity
-from geneva_cli.loads.load_case import QuantityValue, load_case
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.engagement import Engagement

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, TypeAlias, cast
 
-from geneva_cli.loads.contact import Contact, contact
+from geneva_cli.loads.contact import Contact, LoadCase, contact
 from geneva_cli.loads.cycle_quantities import FORCE, QUANTITIES, TORQUE
 from geneva_cli.loads.instant import Instant
-from geneva_cli.loads.load_case import LoadCase, load_case
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.numerics.arrays import Undecided, enclosed
 from geneva_cli.numerics.jet import Jet, Number
 

@@ -31,9 +31,8 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.kinds.linear.motion import guided
-from geneva_cli.loads.contact import Contact
+from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, lesser
 from geneva_cli.loads.instant import Instant
-from geneva_cli.loads.load_case import LoadCase, QuantityValue, lesser
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.engagement import Peak

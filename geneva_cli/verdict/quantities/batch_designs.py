@@ -16,7 +16,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.load_limits import LIMITED, limits_by_key
 
 if TYPE_CHECKING:
-    from geneva_cli.loads.load_case import LoadCase
+    from geneva_cli.loads.contact import LoadCase
     from geneva_cli.numerics.arrays import Array, Mask, Number
     from geneva_cli.table import Table
 
