@@ -1,4 +1,4 @@
-"""The whole cycle under load: states at any input angle, extremes and integrals.
+"""The whole cycle under load: states at any input angle, and extremes.
 
 The cycle is a period of the machine from the first entry; with several wheels on a carrier it ends
 at the entry of the next wheel. All loads are 0 in a dwell.
@@ -6,10 +6,10 @@ at the entry of the next wheel. All loads are 0 in a dwell.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,12 +24,8 @@ from geneva_cli.loads.mid_motion import at_crossing
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray
-from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Whole, array
+from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Array
-from geneva_cli.numerics.quadrature import Integrands, span_integrals
-
-Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
 
 
 class Stretch(NamedTuple):
@@ -51,7 +47,7 @@ class Cycle:
 
     @property
     def is_loaded(self) -> bool:
-        """Return True if an inertia or a resisting torque is known."""
+        """True if an inertia or a resisting torque is known."""
         return self.mechanism.spec.is_loaded
 
     def states(self, input_deg: Array) -> Instant[Array]:
@@ -97,7 +93,7 @@ class Cycle:
         return bounded(Instant(self.case, at, stretch.drives, stretch.slides, stretch.feeds))
 
     def plain(self, states: Instant[Array], name: str) -> Array:
-        """Return a quantity of ``known``, or a multiple of one, at states of the cycle."""
+        """A quantity of ``known``, or a multiple of one, at states of the cycle."""
         source, factor, _ = multiples(self.mechanism).get(name, (name, 1.0, ""))
         assert factor is not None  # known quantities have a factor
         signed = WALL_FORCE if source == FORCE else source
@@ -123,32 +119,6 @@ class Cycle:
     def peaks(self) -> Mapping[str, PeakArray]:
         """The greatest sizes of ``REPORTED_PEAKS``, (1,) each."""
         return reported_peaks(self.machine)
-
-    def integrals(self, *of: Integrand) -> list[float]:
-        """The integral of each function over a period by the input angle in radians.
-
-        For a torque it is work in joules. The integral of an unbounded function is infinite.
-        """
-        total = np.zeros((len(of), 1))
-        for engagement in self.mechanism.engagements:
-            pieces = [piece for owner, piece in self.stretches if owner is engagement]
-            start, end, *signs = np.array(pieces).T
-
-            def rows(
-                x: Array,
-                which: Whole,
-                engagement: Engagement = engagement,
-                signs: list[Array] = signs,
-            ) -> Array:
-                at = contact_values(contact(engagement, x))
-                here = Instant(self.case, at, *(sign[which, None] for sign in signs))
-                return np.stack([np.broadcast_to(f(here), x.shape) for f in of])
-
-            one, needed = np.zeros(len(pieces), dtype=int), np.full(total.shape, True)
-            with np.errstate(all="ignore"):
-                total += span_integrals(Integrands(rows, start, end, ends=True), one, needed)
-        refuse_noise([total])
-        return [float(x) for x in total[:, 0] * DEGREE]
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:

@@ -179,11 +179,12 @@ class LoadFunctions:
                 own[i] = jet.c[k] * DEGREE**k if k else jet.c[0]
             if margin is None:
                 continue
-            value, level = array(margin.c[0]), NEGLIGIBLE
+            value = array(margin.c[0])
+            unbounded: Mask = value <= NEGLIGIBLE
             if margin is instant.grip:
                 # without friction a lever has all its digits, however short
-                level = np.where(instant.case.all_friction == 0.0, 0.0, NEGLIGIBLE)
-            unbounded: Mask = value <= level
+                free = instant.case.all_friction == 0.0
+                unbounded = value <= np.where(free, 0.0, NEGLIGIBLE)
             # a margin that is known to be negative may have a rounding error above 0
             for kind, (known, other) in zip(self.kinds, signs, strict=True):
                 if kind in MARGINS:
