@@ -142,7 +142,7 @@ def beyond(batch, places, seed, names=NAMES, ends=None):
     """
     random = np.random.default_rng(seed)
     machine, n = batch.machine, len(batch.which)
-    together = ends or load_summaries(machine, names, requested=())
+    together = ends or load_summaries(machine, names, means=False)
     out = np.full((n, len(names)), -np.inf)
     for engagement in machine.engagements:
         for i in range(0, n, BLOCK):

@@ -59,7 +59,7 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
     if loads:
         ends = {name: cycle.extremes[name] for name in loads}
         if FORCE in ends:  # drawn with the sign of the wall that bears
-            force = load_summaries(machine, [WALL_FORCE], ())[WALL_FORCE]
+            force = load_summaries(machine, [WALL_FORCE], means=False)[WALL_FORCE]
             ends[FORCE] = LoadSummary(*(float(row[0]) for row in force[:4]))
         bounds = _bounds(cycle, ends)
         stages = list(_load_stages(cycle, loads, bounds))

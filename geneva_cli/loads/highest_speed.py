@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -16,7 +16,6 @@ from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
 from geneva_cli.loads.load_peaks import load_peaks
-from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray
 from geneva_cli.motion.pitch_curve import retraces
@@ -26,8 +25,8 @@ from geneva_cli.numerics.jet import Jet
 from geneva_cli.spec.load_limits import load_limits
 
 
-def slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
-    """The square of the pressure angle's tangent, bounded where its denominator is not 0."""
+def _slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
+    """The square of the pressure angle's tangent."""
     slope = i.at.offset / i.at.lever
     return QuantityValue(slope * slope)
 
@@ -44,7 +43,7 @@ def greatest_pressure(mechanism: Mechanism) -> PeakArray:
             at_deg = np.ravel(mechanism.shown_deg(engagement.mid_deg))
             known = np.full(mechanism.designs, 0.0 if np.all(crosses) else np.nan)
             return PeakArray(90.0 + known, at_deg + known)
-    own: dict[str, LoadQuantity] = {"slope": slope_squared}
+    own: dict[str, LoadQuantity] = {"slope": _slope_squared}
     case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0).frictionless
     peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
     angle = np.degrees(np.arctan(np.sqrt(peak.max)))
@@ -65,7 +64,19 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
         limited.pop(STRESS, None)
     if not limited:
         return math.inf
-    least = max(_slowness(engagement, at_one, limited) for engagement in mechanism.engagements)
+    own, eta = dict[str, LoadQuantity](), at_one.efficiency
+    for name, limit in limited.items():
+        if name == FORCE:
+            own[name] = Slowness(lambda i: i.force_N, limit, at_one)
+        elif name == STRESS:
+            own[name] = Slowness(lambda i: i.stress_squared, limit * limit, at_one)
+        else:
+            own[TORQUE] = Slowness(lambda i: i.lossless_torque_Nm * (1.0 / eta), limit, at_one)
+            own["driven"] = Slowness(lambda i: -i.lossless_torque_Nm, limit, at_one)
+    still, least = at_one._replace(resists_Nm=0.0), 0.0
+    for engagement in mechanism.engagements:
+        result = LoadFunctions(engagement, still, tuple(own), own).search()
+        least = max(least, float(result.most[: len(own)].max()))
     rpm = math.sqrt(1.0 / least) / omega(1.0) if least > 0.0 else math.inf
     # Lower speeds may break a limit where inertia helps against the resistance, and so may this
     # speed.
@@ -93,22 +104,6 @@ class Slowness(NamedTuple):
         # it, as at rest the load's sign is rounding.
         over = (np.asarray(load.c[0]) <= 0.0) & (np.asarray(left.c[0]) < 0.0)
         return QuantityValue(load / left, Jet([np.where(over, -c, c) for c in left.c]))
-
-
-def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float]) -> float:
-    """The greatest of 1 / (highest speed that a place allows)²; infinite if one allows no speed."""
-    own, eta = dict[str, LoadQuantity](), case.efficiency
-    for name, limit in limits.items():
-        if name == FORCE:
-            own[name] = Slowness(lambda i: i.force_N, limit, case)
-        elif name == STRESS:
-            own[name] = Slowness(lambda i: i.stress_squared, limit * limit, case)
-        else:
-            own[TORQUE] = Slowness(lambda i: i.lossless_torque_Nm * (1.0 / eta), limit, case)
-            own["driven"] = Slowness(lambda i: -i.lossless_torque_Nm, limit, case)
-    still = case._replace(resists_Nm=0.0)
-    result = LoadFunctions(engagement, still, tuple(own), own).search()
-    return max(0.0, float(result.most[: len(own)].max()))
 
 
 def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Generic, NamedTuple, TypeVar, cast
 
@@ -100,39 +100,39 @@ def _reported(mechanism: Mechanism, names: Iterable[str]) -> dict[str, PeakArray
 
 
 def load_summaries(
-    mechanism: Mechanism, names: Sequence[str], requested: Collection[str] = ("mean", "rms")
+    mechanism: Mechanism, names: Sequence[str], means: bool = True
 ) -> Mapping[str, LoadSummary[Array]]:
     """The summaries of quantities over a period, by their names; signs kept.
 
     Extremes are exact to some units in the last place of a quantity's greatest size, means and root
-    mean squares to 1e-12 of it. ``requested`` selects mean and rms; the other is None.
+    mean squares to 1e-12 of it.
     """
     if isinstance(mechanism.design, int) and set(names) <= sources(mechanism).keys():
         known_ones = single_summaries(mechanism)
         return {name: known_ones[name] for name in names}
-    return _summaries(mechanism.under_load, names, requested)
+    return _summaries(mechanism.under_load, names, means)
 
 
 @lru_cache(maxsize=16)
 def single_summaries(mechanism: Mechanism) -> Mapping[str, LoadSummary[Array]]:
     """The summaries of all quantities that a single design has, which are computed together."""
-    return _summaries(mechanism.under_load, [*sources(mechanism)], ("mean", "rms"))
+    return _summaries(mechanism.under_load, [*sources(mechanism)], means=True)
 
 
 def _summaries(
-    mechanism: Mechanism, names: Sequence[str], requested: Collection[str]
+    mechanism: Mechanism, names: Sequence[str], means: bool
 ) -> dict[str, LoadSummary[Array]]:
     known = multiples(mechanism)
     every = {name: known.get(name, (name, 1.0, ""))[:2] for name in names}
     sources = list(dict.fromkeys(source for source, _ in every.values()))
-    case, plain, ends, totals = load_case(mechanism), "mean" in requested, [], []
+    case, ends, totals = load_case(mechanism), [], []
     for engagement in mechanism.engagements:
         load = LoadFunctions(engagement, case, sources)
         result = load.search()
         ends.append(np.stack((result.most, shown_deg(mechanism, engagement, result.x))))
-        if requested:
-            totals.append(_sums_of(load, result, plain))
-    means = _means(mechanism, sources, totals, plain) if requested else {}
+        if means:
+            totals.append(_sums_of(load, result))
+    each = _means(mechanism, sources, totals) if means else {}
     best = {}
     for i, name in enumerate(sources):
         # the greatest values of the quantities' negatives follow
@@ -143,8 +143,15 @@ def _summaries(
         (most, most_at), (less, less_at) = (
             first_greatest(*side, size) for side in ((most, most_at), (less, less_at))
         )
-        most, least = _ends_of(name, most, -less)
-        best[name] = LoadSummary(most, most_at, least, less_at, *means.get(name, (None, None)))
+        pair = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else x for x in (most, -less)]
+        if name in SQUARED and name not in PRESSED:
+            pair = [np.sqrt(x) for x in pair]
+        # where the torque changes sign, rounding may leave a size of 1e-14 of the other
+        level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in pair])
+        most, least = (np.where(np.abs(x) > level, x, 0.0) for x in pair)
+        if name in PRESSED:  # the square of a stress goes with the force, and has its rounding
+            most, least = np.sqrt(most), np.sqrt(least)
+        best[name] = LoadSummary(most, most_at, least, less_at, *each.get(name, (None, None)))
     out = {}
     for name, (source, ratio) in every.items():
         if ratio is not None:
@@ -155,20 +162,9 @@ def _summaries(
     return out
 
 
-def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
-    """Greatest and least of a quantity, from those of its square or of itself."""
-    ends = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else x for x in (most, least)]
-    if name in SQUARED and name not in PRESSED:
-        ends = [np.sqrt(x) for x in ends]
-    level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in ends])
-    ends = [np.where(np.abs(x) > level, x, 0.0) for x in ends]
-    # the square of a stress goes with the force, and has its rounding
-    return [np.sqrt(x) for x in ends] if name in PRESSED else ends
-
-
 def _means(
-    mechanism: Mechanism, names: Sequence[str], each: Sequence[Array], plain: bool
-) -> dict[str, tuple[Array | None, Array]]:
+    mechanism: Mechanism, names: Sequence[str], each: Sequence[Array]
+) -> dict[str, tuple[Array, Array]]:
     """Mean and root mean square of quantities over a period, dwells included: (m,) each.
 
     ``each`` are the results of ``_sums_of``. Of bearings they are the greatest crank's, of wheels
@@ -185,15 +181,11 @@ def _means(
             own = [sum(one[i] for one in each[k::cranks]) for k in range(min(cranks, len(each)))]
             total[i] = np.max(own, axis=0) * min(1.0, len(each) / cranks)
     total /= np.ravel(mechanism.lasting_deg) * DEGREE
-    out: dict[str, tuple[Array | None, Array]] = {}
-    for i, name in enumerate(names):
-        square, mean = total[i], None
-        if plain:
-            mean = total[len(names) + i]
-            # a mean whose square is so small a fraction of the mean square is rounding
-            nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
-            mean = np.where(nought, 0.0, mean)
-        out[name] = mean, np.sqrt(square)
+    out = {}
+    for name, square, mean in zip(names, total, total[len(names) :], strict=False):
+        # a mean whose square is so small a fraction of the mean square is rounding
+        nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
+        out[name] = np.where(nought, 0.0, mean), np.sqrt(square)
     return out
 
 
@@ -204,8 +196,8 @@ def shown_deg(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
     return np.hstack([np.broadcast_to(row, (x.shape[1], 1)) for row in shown]).T
 
 
-def _sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
-    """The integrals by the angle in radians of the squares and, with ``plain``, of the quantities.
+def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
+    """The integrals by the angle in radians of the squares of the quantities, and of them.
 
     They are over the stretches of a search, (names, n), and infinite for quantities without a
     bound. Those searched by their squares behave as a root at the ends of their stretches.
@@ -222,10 +214,10 @@ def _sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
         width = w[which, None]
         x, rate = gathered(u, width), np.hypot(1.0, np.sinh(u / width))
         x = np.clip(x, a[which, None], b[which, None])
-        return _powers(load, x, design[which], signs[:, which, None], plain) * rate
+        return _powers(load, x, design[which], signs[:, which, None]) * rate
 
-    rooted = plain and any(name in SQUARED for name in load.names)
-    needed = np.tile(bounded, (2 if plain else 1, 1))
+    rooted = any(name in SQUARED for name in load.names)
+    needed = np.tile(bounded, (2, 1))
     with np.errstate(all="ignore"):
         total = span_integrals(Integrands(rows, spread(a, w), spread(b, w), rooted), design, needed)
         if load.engagement.slot.curved:
@@ -234,20 +226,19 @@ def _sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
             places, weights = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
             for end in (load.engagement.entry_deg, load.engagement.exit_deg):
                 near = np.broadcast_to(np.reshape(NEAR_CUSP * end, (-1, 1)), (n, 1))
-                values = _powers(load, near * places, slice(0, n), None, plain)
+                values = _powers(load, near * places, slice(0, n), None)
                 total = total + matrix_product(values, weights) * np.abs(near[:, 0])
     total[~needed] = np.inf
     return total * DEGREE
 
 
-def _powers(load: LoadFunctions, x: Array, which: Which, signs: Array | None, plain: bool) -> Array:
-    """The squares of the quantities and, with ``plain``, the quantities themselves after them."""
+def _powers(load: LoadFunctions, x: Array, which: Which, signs: Array | None) -> Array:
+    """The squares of the quantities, and the quantities themselves after them."""
     here, wanted, _ = load.at(x, which, 0, signs)
     count = len(load.names)
-    out = np.empty((2 * count if plain else count, *x.shape[::-1])).swapaxes(1, 2)
+    out = np.empty((2 * count, *x.shape[::-1])).swapaxes(1, 2)
     for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
         value = array(quantity(here).value.c[0])
         out[i] = value if name in SQUARED else value * value
-        if plain:
-            out[count + i] = plain_values(value, name)
+        out[count + i] = plain_values(value, name)
     return out

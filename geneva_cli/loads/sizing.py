@@ -95,8 +95,8 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
     if names - {*CARRIED, *CYCLE_SUMS, "inertia_ratio", "motor_torque_max_Nm"}:
         values |= _by_formula(whole)
     if names & {*CYCLE_SUMS, "motor_torque_max_Nm"}:
-        means = ("mean", "rms") if names & set(CYCLE_SUMS) else ()
-        values |= _exact(whole, load_summaries(mechanism, [TORQUE], means)[TORQUE])
+        torque = load_summaries(mechanism, [TORQUE], bool(names & set(CYCLE_SUMS)))[TORQUE]
+        values |= _exact(whole, torque)
     if "inertia_ratio" in names:
         values["inertia_ratio"] = _inertia_ratio(whole)
     return {

@@ -10,15 +10,17 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.extras.outline.contact import contacts
-from geneva_cli.extras.outline.impacts import hardest_impact, moving, struck_by
 from geneva_cli.extras.outline.machine import DrawnMachine
 from geneva_cli.extras.outline.turning import (
     LOOSE,
     SenseResult,
     Turned,
+    hardest_impact,
     least_slack_mm,
     most_slack_mm,
+    moving,
     put_back,
+    struck_by,
     turned,
     turning,
 )

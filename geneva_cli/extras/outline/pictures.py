@@ -8,10 +8,9 @@ import numpy as np
 
 from geneva_cli.design import Design
 from geneva_cli.extras.outline.contact import contacts
-from geneva_cli.extras.outline.impacts import moving
 from geneva_cli.extras.outline.machine import drawn_machine
 from geneva_cli.extras.outline.real_motion import at_crank, inside, motion, steady_turn
-from geneva_cli.extras.outline.turning import turned
+from geneva_cli.extras.outline.turning import moving, turned
 from geneva_cli.figure import Curve
 from geneva_cli.geometry.plates import placed
 from geneva_cli.geometry.shapes import Contour, Layer

@@ -13,9 +13,16 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.contact import contacts
-from geneva_cli.extras.outline.impacts import Struck, hardest_impact, moving, struck_by
 from geneva_cli.extras.outline.machine import crank_jet
-from geneva_cli.extras.outline.turning import LOOSE, Turned, turned
+from geneva_cli.extras.outline.turning import (
+    LOOSE,
+    Struck,
+    Turned,
+    hardest_impact,
+    moving,
+    struck_by,
+    turned,
+)
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import (
     check_samples,

@@ -62,8 +62,8 @@ def summaries(of: Designs) -> Columns:
     requested = {load: own for load, own in ends.items() if load in known}
     if not requested:
         return out
-    sums = {end for own in requested.values() for end in own} & {"mean", "rms"}
-    for load, one in load_summaries(of.machine, list(requested), sums).items():
+    means = any({"mean", "rms"} & set(own) for own in requested.values())
+    for load, one in load_summaries(of.machine, list(requested), means).items():
         values, moves = one._asdict(), known[load][0] in OF_MOTION
         for end in requested[load]:
             out[f"{load}.{end}"] = _where_loaded(of, values[end], moves)

@@ -352,7 +352,7 @@ def test_loads_on_both_sides_of_a_jump_at_mid_motion(eccentricity, friction):
     loaded = Load(inertia_kgm2=1.0, torque_Nm=2.0, friction=friction)
     design = Design.of(Spec(External(6), motion=law, load=loaded, drive_before=before))
     names = ["input_torque_Nm", "wall_force_N"]  # both with signs
-    both = load_summaries(design.mechanism, names, ())
+    both = load_summaries(design.mechanism, names, means=False)
     torque, force = (LoadSummary(*(float(row[0]) for row in both[n][:4])) for n in names)
     if not (eccentricity or friction):
         # 1e-9: the digits of a matched R/L
