@@ -66,10 +66,6 @@ class LoadCase(NamedTuple):
         """The number of designs in the load case."""
         return 1 if isinstance(self.design, int) else len(self.design)
 
-    def at_speed(self, ratio: float) -> LoadCase:
-        """The case at another speed, over its own: inertia grows with the square."""
-        return self._replace(inertia_Nm=self.inertia_Nm * (ratio * ratio))
-
     @property
     def rubs(self) -> bool:
         """True if there is friction along the wall in any of the designs."""

@@ -8,7 +8,7 @@ from typing import Generic, NamedTuple, TypeVar, cast
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP, LoadCase
+from geneva_cli.loads.contact import NEAR_CUSP, LoadCase, QuantityValue
 from geneva_cli.loads.cycle_quantities import (
     FORCE,
     NEVER_NEGATIVE,
@@ -20,17 +20,18 @@ from geneva_cli.loads.cycle_quantities import (
     plain_values,
     sources,
 )
-from geneva_cli.loads.instant import LoadQuantity
+from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
+from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Which, Whole, array, matrix_product
 from geneva_cli.numerics.cuts import gathered, spread
 from geneva_cli.numerics.extremes import SearchResult, first_greatest
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array, Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
 S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of a batch
@@ -73,6 +74,31 @@ def load_peaks(
             one = one._replace(max=one.max * np.ravel(case.hertz))
         out[name] = one._replace(max=np.sqrt(one.max)) if name in SQUARED else one
     return out
+
+
+def _slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
+    """The square of the pressure angle's tangent."""
+    slope = i.at.offset / i.at.lever
+    return QuantityValue(slope * slope)
+
+
+def greatest_pressure(mechanism: Mechanism) -> PeakArray:
+    """The greatest pressure angles of m designs, degrees, and their input angles: (m,).
+
+    It is 90 at mid-motion if the pin crosses the radius there; NaN for a batch whose designs
+    differ.
+    """
+    for engagement in mechanism.engagements:
+        crosses = np.logical_not(retraces(engagement)) & engagement.slot.curved
+        if np.any(crosses):
+            at_deg = np.ravel(mechanism.shown_deg(engagement.mid_deg))
+            known = np.full(mechanism.designs, 0.0 if np.all(crosses) else np.nan)
+            return PeakArray(90.0 + known, at_deg + known)
+    own: dict[str, LoadQuantity] = {"slope": _slope_squared}
+    case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0).frictionless
+    peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
+    angle = np.degrees(np.arctan(np.sqrt(peak.max)))
+    return PeakArray(angle, np.where(angle > 0.0, peak.at_deg, 0.0))  # 0 throughout a radial slot
 
 
 def reported_peaks(

@@ -15,7 +15,7 @@ from geneva_cli.loads.cycle_quantities import TORQUE
 from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
-from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
+from geneva_cli.loads.load_peaks import LoadSummary, load_peaks, load_summaries
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
@@ -286,3 +286,14 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
     returned = np.zeros(n)
     np.add.at(returned, design, each[1])
     return works, returned
+
+
+def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
+    """Peak power that the inertia takes from the input, W: I epsilon omega / eta."""
+    spec, w = mechanism.spec, omega(mechanism.spec.drive.n_rpm)
+    if not mechanism.frame:
+        return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
+    case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0).frictionless
+    torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
+    one = isinstance(power_invariant, float)
+    return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency

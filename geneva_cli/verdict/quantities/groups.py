@@ -184,7 +184,6 @@ _REPORT = (
         "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm",
         "motion_quantities:timing",
     ),
-    _alone("timing", "shortest_motion_s", "shortest_motion"),
     _batch("timing", "k_r", "motion_quantities:timing"),
     _batch(
         "input_stop",

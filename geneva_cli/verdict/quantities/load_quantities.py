@@ -6,11 +6,15 @@ import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
-from geneva_cli.loads.highest_speed import greatest_pressure, kinetic_power_W
 from geneva_cli.loads.impacts.entry import entry_impacts
 from geneva_cli.loads.impacts.reversal import lasting_drag_Nm, reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts
-from geneva_cli.loads.load_peaks import LoadSummary, load_summaries, reported_peaks
+from geneva_cli.loads.load_peaks import (
+    LoadSummary,
+    greatest_pressure,
+    load_summaries,
+    reported_peaks,
+)
 from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.numerics.arrays import Array, Number, parameter
@@ -30,6 +34,8 @@ def greatest(of: Designs) -> Columns:
         most, at_deg = peaks.get(name, (np.inf, np.inf))
         out |= {f"{name}.max": most * of.loaded, f"{name}.at_deg": at_deg * of.loaded}
     if "kinetic_power_W" in requested:
+        from geneva_cli.loads.sizing import kinetic_power_W
+
         power = worst_peaks(of.machine, ["power"])["power"].max
         kinetic = np.ravel(kinetic_power_W(of.machine, parameter(power[:, None])))
         moved = np.ravel(of.load_case.inertia_Nm) > 0.0

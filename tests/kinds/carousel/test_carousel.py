@@ -27,9 +27,8 @@ from geneva_cli import (
     Support,
 )
 from geneva_cli.geometry.plates import plates
-from geneva_cli.loads.highest_speed import kinetic_power_W
 from geneva_cli.loads.product import product_motion
-from geneva_cli.loads.sizing import sizing
+from geneva_cli.loads.sizing import kinetic_power_W, sizing
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
