@@ -116,16 +116,6 @@ def _peaks(engagement: Engagement, *names: str) -> list[float]:
     return [parameter(peaks[name].max[:, None]) for name in names]
 
 
-class ShaftLoad(NamedTuple):
-    """Load of the wheel's shaft: kg m², N m, and the service factor fc on all of it."""
-
-    inertia: float
-    friction: float
-    work: float
-    service_factor: float
-    frame: float = 0.0  # turns of the wheel's frame in one turn of the input
-
-
 class IndexerFormula(NamedTuple):
     """The lines of the formula: rad/s², N m at the wheel, and Tc at the input."""
 
@@ -137,37 +127,37 @@ class IndexerFormula(NamedTuple):
 
 
 def indexer_formula(
-    factors: CamFactors, step_deg: float, motion_deg: float, n_rpm: float, load: ShaftLoad
+    factors: CamFactors,
+    step_deg: float,
+    motion_deg: float,
+    n_rpm: float,
+    load: tuple[float, float, float],
+    service_factor: float,
 ) -> IndexerFormula:
     """The formula of cam-indexer makers for a wheel's step in an input angle at a speed.
 
     It assumes the greatest torque on the wheel during the whole motion, and the curve's factor Qm.
-    A carrier that turns the wheel's frame also takes fc Ti, which need not be greatest there.
+    ``load`` are the inertia, kg m², and the torques of friction and work, N m.
     """
-    t2 = motion_deg / (6.0 * n_rpm)
+    t2, (inertia, friction, work) = motion_deg / (6.0 * n_rpm), load
     alpha = factors.Am * radians(step_deg) / (t2 * t2)
-    Ti = load.inertia * alpha
-    Tt = Ti + load.friction + load.work
-    Te = load.service_factor * Tt
-    carried = abs(load.frame) * load.service_factor * Ti
-    return IndexerFormula(alpha, Ti, Tt, Te, step_deg / motion_deg * factors.Qm * Te + carried)
+    Ti = inertia * alpha
+    Tt = Ti + friction + work
+    Te = service_factor * Tt
+    return IndexerFormula(alpha, Ti, Tt, Te, step_deg / motion_deg * factors.Qm * Te)
 
 
 def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     """The cam-indexer formula, for the engagement with the greatest torque at the input."""
-    spec, best = mechanism.spec, None
-    load = ShaftLoad(
-        inertia_kgm2(spec),
-        support_torque_Nm(spec),
-        working_torque_Nm(spec),
-        spec.motor.service_factor,
-        mechanism.frame,
-    )
+    spec, fc, best = mechanism.spec, mechanism.spec.motor.service_factor, None
+    load = inertia_kgm2(spec), support_torque_Nm(spec), working_torque_Nm(spec)
     for number, engagement in enumerate(mechanism.engagements):
         step, motion = mechanism.index_deg(number), engagement.motion_deg
         velocity, acceleration, power = _peaks(engagement, "velocity", "acceleration", "power")
         factors = cam_factors(velocity, acceleration, power, motion, step)
-        line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load)
+        line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load, fc)
+        # a carrier also turns the wheel's frame, whose torque need not be greatest there
+        line = line._replace(Tc=line.Tc + abs(mechanism.frame) * fc * line.Ti)
         if best is None:
             best = line, factors
             continue
@@ -180,7 +170,7 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
         "acceleration_rad_s2": line.alpha,
         **factors._asdict(),
         "inertia_torque_Nm": _some(line.Ti),
-        "friction_torque_Nm": _some(load.friction),
+        "friction_torque_Nm": _some(load[1]),
         "total_torque_Nm": line.Tt,
         "design_torque_Nm": line.Te,
         "input_torque_Nm": line.Tc,

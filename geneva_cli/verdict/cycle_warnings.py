@@ -81,11 +81,11 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
             "the input. There the play of slot and reducer changes sides, and a self-locking worm "
             f"jams: use a brake or a motor that brakes, {helps}",
         )
-    if stop and stop.lag:
-        lag, at_deg, struck = stop.lag
+    if stop and stop[2]:
+        torque_Nm, _, (lag, at_deg, struck) = stop
         yield Notice(
             "lags-behind",
-            f"a torque of {stop.torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
+            f"a torque of {torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
             f"Once the gears let go the wheel lags, by up to {lag:.4g}° at {at_deg:.4g}°, "
             f"and the roller strikes it at {struck:.4g}°. Less torque, more inertia or more "
             "speed reduces the lag",

@@ -9,7 +9,7 @@ import pytest
 import repo
 
 from geneva_cli import Design, External, Load, Mass, Motor, Support, load
-from geneva_cli.loads.sizing import ShaftLoad, indexer_formula, sizing
+from geneva_cli.loads.sizing import indexer_formula, sizing
 from geneva_cli.motion.timing import CamFactors
 from geneva_cli.numerics.angles import omega
 
@@ -35,8 +35,8 @@ PARTS = Mass("point", mass_kg=0.25, count=6, radius_mm=100.0)
 def turret(Am, Vm, Qm):
     g = 9.807  # the maker's
     friction = 0.15 * (11.026 + 18.0 + 1.5) * g * 0.1
-    carried = ShaftLoad(0.124 + 0.18 + 0.015, friction, 0.0, 2.0)
-    return indexer_formula(CamFactors(Am, Vm, Qm), 60.0, 270.0, 80.0, carried)
+    carried = 0.124 + 0.18 + 0.015, friction, 0.0
+    return indexer_formula(CamFactors(Am, Vm, Qm), 60.0, 270.0, 80.0, carried, 2.0)
 
 
 def test_the_published_indexer():

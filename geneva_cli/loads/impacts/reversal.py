@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import reduce
-from typing import NamedTuple
+from typing import TypeAlias
 
 import numpy as np
 
@@ -227,16 +227,14 @@ def _reversal(
     return out
 
 
-class Arrival(NamedTuple):
-    """The resisting torque, and the greatest with which the wheel reaches its dwell."""
-
-    torque_Nm: float
-    most_Nm: float
-    lag: tuple[float, float, float] | None
+Lag: TypeAlias = tuple[float, float, float]  # degrees: the greatest, its place, the end
 
 
-def arrival(mechanism: Mechanism) -> Arrival | None:
+def arrival(mechanism: Mechanism) -> tuple[float, float, Lag | None] | None:
     """Whether the wheel follows a roller that stops it with one wall only; None if there are two.
+
+    The resisting torque, the greatest with which the wheel reaches its dwell, and its greatest lag
+    with its place and where the wheel meets the wall again, degrees; None if it does not lag.
 
     If gears drive between two rollers, the slot of the second has a wall behind its roller only.
     From the handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²), and lags by
@@ -258,7 +256,7 @@ def arrival(mechanism: Mechanism) -> Arrival | None:
     span = (exit_deg - begin) * DEGREE
     most = unit * max(0.0, min(-last, 2.0 * (u * span - (end - start)) / (span * span)))
     if not 0.0 < torque <= most:
-        return Arrival(torque, most, None)
+        return torque, most, None
     drag = torque / unit
 
     def lags(x: float) -> tuple[float, float]:
@@ -270,4 +268,4 @@ def arrival(mechanism: Mechanism) -> Arrival | None:
     farthest = boundary(lambda x: lags(x)[1] > 0.0, begin, exit_deg)
     struck = boundary(lambda x: lags(x)[0] > 0.0, farthest, exit_deg)
     at_deg, struck_deg = (mechanism.shown_deg(engagement.mid_deg + x) for x in (farthest, struck))
-    return Arrival(torque, most, (lags(farthest)[0] / DEGREE, at_deg, struck_deg))
+    return torque, most, (lags(farthest)[0] / DEGREE, at_deg, struck_deg)
