@@ -11,8 +11,8 @@ roller, fixed to its body, rubs along the wall.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Generic, Self, TypeAlias
+from collections.abc import Mapping
+from typing import Generic, Protocol, Self
 
 import numpy as np
 
@@ -286,5 +286,8 @@ def bounded_loads(
         return bounded(Instant(case, at).signed(drives))
 
 
-# holds no numbers, or is a tuple whose numbers may be arrays (m, 1)
-LoadQuantity: TypeAlias = "Callable[[Instant[Jet]], QuantityValue[Jet]]"
+class LoadQuantity(Protocol):
+    """A function that holds no numbers, or a tuple whose numbers may be arrays (m, 1)."""
+
+    def __call__(self, i: Instant[Jet], /) -> QuantityValue[Jet]:
+        """A quantity, and the margin that bounds it."""

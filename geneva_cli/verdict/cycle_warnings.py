@@ -81,8 +81,9 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
             "the input. There the play of slot and reducer changes sides, and a self-locking worm "
             f"jams: use a brake or a motor that brakes, {helps}",
         )
-    if stop and stop[2]:
-        torque_Nm, _, (lag, at_deg, struck) = stop
+    torque_Nm, _, lagging = stop or (0.0, 0.0, None)
+    if lagging:
+        lag, at_deg, struck = lagging
         yield Notice(
             "lags-behind",
             f"a torque of {torque_Nm:.4g} N m takes the wheel off the roller that stops it. "

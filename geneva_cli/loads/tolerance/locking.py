@@ -10,8 +10,8 @@ first if that reaches farther round; or both arcs meet where their centres are r
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias, cast
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol, cast
 
 import numpy as np
 
@@ -38,8 +38,11 @@ class LockPlay(NamedTuple):
     jams: Mask  # True if they do not fit together
 
 
-# a lock of parts as they are cut: its play by deviations
-CutLock: TypeAlias = "Callable[[Deviations], LockPlay]"
+class CutLock(Protocol):
+    """A lock of parts as they are cut, whose play deviations change."""
+
+    def __call__(self, by: Deviations) -> LockPlay:
+        """Play of the wheel to one side."""
 
 
 class LockContact(NamedTuple):
