@@ -18,7 +18,7 @@ from geneva_cli.loads.contact import LoadCase, contact, contact_values
 from geneva_cli.loads.cycle_quantities import FORCE, QUANTITIES, WALL_FORCE, multiples, plain_values
 from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadFunctions, on_breaks, refuse_noise, refuse_rounding
+from geneva_cli.loads.load_functions import LoadFunctions, on_breaks, refuse_noise
 from geneva_cli.loads.load_peaks import LoadSummary, reported_peaks, single_summaries
 from geneva_cli.loads.mid_motion import at_crossing
 from geneva_cli.motion.engagement import Engagement
@@ -102,7 +102,6 @@ class Cycle:
     @cached_property
     def known(self) -> Mapping[str, LoadSummary[Array]]:
         """The summaries of all quantities that have a value, (1,) each."""
-        refuse_rounding(self.mechanism.engagements)
         every = single_summaries(self.machine)
         refuse_noise([one.rms for one in every.values()])
         return every
@@ -123,7 +122,6 @@ class Cycle:
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
         """The motions, divided at breaks and where torque, sliding or input torque change sign."""
-        refuse_rounding(self.mechanism.engagements)
         out = []
         for engagement in self.mechanism.engagements:
             load = LoadFunctions(engagement, self.case, (), more=("slides", "feeds"))

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -20,7 +19,7 @@ from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.mid_motion import at_mid_motion
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.peak_search import breaks, motion_peaks, pole_deg, spans
+from geneva_cli.motion.peak_search import breaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Which, all_true, array
 from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
@@ -37,8 +36,6 @@ SIGN_FUNCTIONS: dict[str, Callable[[Instant[Jet]], Jet | None]] = {
     "along": lambda i: i.at.along,
 }
 MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is unbounded
-# The greatest fraction of the step between two adjacent angles: the loads then keep six digits.
-FEWEST_DIGITS = 1e-10
 
 
 class LoadFunctions:
@@ -217,31 +214,3 @@ def refuse_noise(integrals: Sequence[Array | None]) -> None:
             "be rounding: make the drive more even",
             ("drive", "kind"),
         )
-
-
-@lru_cache(maxsize=16)  # the cycle, the strength and the checks of a design need the same answer
-def refuse_rounding(engagements: tuple[Engagement, ...]) -> None:
-    """Raise GenevaError for a design that is too fast for the digits of its angles."""
-    for engagement in engagements:
-        (fastest,), (fraction,) = _digits(engagement)
-        if fraction > FEWEST_DIGITS:
-            raise GenevaError(
-                f"the wheel moves {fastest:.2g} times as fast as the input. The last digit of the "
-                f"input angle is {fraction:.1g} of its step, so the loads would be rounding. Make "
-                "the drive more even (elliptical gears: an eccentricity up to 0.999999)",
-                ("drive", "kind"),
-            )
-
-
-def too_fast(engagements: Sequence[Engagement]) -> Mask:
-    """True for designs whose motion is too fast for the digits of its angles: (m,) or (1,)."""
-    fractions = [_digits(engagement)[1] for engagement in engagements]
-    return np.asarray(np.max(np.broadcast_arrays(*fractions), axis=0) > FEWEST_DIGITS)
-
-
-def _digits(engagement: Engagement) -> tuple[Array, Array]:
-    """The greatest velocity, and the step between two adjacent angles there over the whole step."""
-    fastest = motion_peaks(engagement.motion, ["velocity"])["velocity"].max
-    furthest = np.fmax(np.abs(engagement.entry_deg), np.abs(engagement.exit_deg))
-    step = np.ravel(np.spacing(furthest) * DEGREE / (2.0 * np.asarray(engagement.half_step)))
-    return fastest, fastest * step
