@@ -101,27 +101,21 @@ class LoadFunctions:
             out.append((start, end))
         return out
 
-    @property
-    def repeats(self) -> bool:
-        """True if the second half of the motion has no greater sizes than the first.
-
-        It is so without friction, for an inertia alone or a torque alone. In a curved slot a torque
-        alone presses on one wall throughout, whose two halves differ in curvature.
-        """
-        case, engagement = self.case, self.engagement
-        radial = all_true(engagement.slot.offset == 0.0)
-        alone = all_true(case.inertia_Nm == 0.0) and not engagement.slot.curved
-        alone = alone or all_true(case.resists_Nm == 0.0)
-        alone = alone and not (case.rubs or case.guided or self.reactions)
-        return radial and engagement.mirrored and alone
-
     def search(self, sized: bool = False) -> SearchResult:
         """The extremes of the quantities over the motion, and its stretches."""
-        spans, known = self.spans, []
-        if sized and self.repeats:
+        spans, known, case, engagement = self.spans, [], self.case, self.engagement
+        is_curved = engagement.slot.curved
+        # Without friction, for an inertia or a torque alone, the second half of the motion has no
+        # greater sizes than the first. In a curved slot a torque alone presses on one wall
+        # throughout, whose two halves differ in curvature.
+        alone = all_true(case.inertia_Nm == 0.0) and not is_curved
+        alone = alone or all_true(case.resists_Nm == 0.0)
+        alone = alone and not (case.rubs or case.guided or self.reactions)
+        radial = all_true(engagement.slot.offset == 0.0)
+        if sized and alone and radial and engagement.mirrored:
             spans = spans[: len(spans) // 2]
-        if self.engagement.slot.curved:  # no span reaches mid-motion
-            known = at_mid_motion(self.engagement, self.case, self.quantities, self.n)
+        if is_curved:  # no span reaches mid-motion
+            known = at_mid_motion(engagement, case, self.quantities, self.n)
         return search(self, spans, sized, known, self.spread)
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:

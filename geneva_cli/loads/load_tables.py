@@ -115,29 +115,24 @@ def missing(cycle: Cycle) -> list[Notice]:
 
 def cycle_table(cycle: Cycle, samples: int) -> Table:
     """``samples`` rows, evenly spaced in the input angle over one period from the first entry."""
-    from geneva_cli.motion.motion_table import check_samples
+    from geneva_cli.motion.motion_table import check_samples, derivatives, inputs, times_s
 
     check_samples(samples)
-    names = ("time_s", "input_deg", cycle.mechanism.output.column, *SHOWN_QUANTITIES)
-    return computed_table(names, samples, lambda i, j: _rows(cycle, samples, i, j))
+    machine, known = cycle.mechanism, sources(cycle.mechanism)
+    names = ("time_s", "input_deg", machine.output.column, *SHOWN_QUANTITIES)
 
+    def rows(begin: int, end: int) -> list[Any]:
+        input_deg = inputs(machine, samples, begin, end)
+        states = cycle.states(input_deg)
+        turned = derivatives(machine, input_deg, (0,))[0] * machine.output.per_radian
+        out = [times_s(machine, input_deg), input_deg, turned]
+        for name in SHOWN_QUANTITIES:
+            column: Any = [None] * len(input_deg)
+            if name in known:
+                column = cycle.plain(states, name)
+                if not np.isfinite(column).all():
+                    column = [x if math.isfinite(x) else None for x in column.tolist()]
+            out.append(column)
+        return out
 
-def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
-    from geneva_cli.motion.motion_table import derivatives, inputs, times_s
-
-    input_deg = inputs(cycle.mechanism, samples, begin, end)
-    states = cycle.states(input_deg)
-    known = sources(cycle.mechanism)
-    out = [
-        times_s(cycle.mechanism, input_deg),
-        input_deg,
-        derivatives(cycle.mechanism, input_deg, (0,))[0] * cycle.mechanism.output.per_radian,
-    ]
-    for name in SHOWN_QUANTITIES:
-        column: Any = [None] * len(input_deg)
-        if name in known:
-            column = cycle.plain(states, name)
-            if not np.isfinite(column).all():
-                column = [x if math.isfinite(x) else None for x in column.tolist()]
-        out.append(column)
-    return out
+    return computed_table(names, samples, rows)

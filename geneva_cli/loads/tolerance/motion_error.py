@@ -80,11 +80,6 @@ class MotionError(NamedTuple):
         """Clearance per side, mm; negative if the roller does not fit into the slot."""
         return (by.slot_width_mm - by.roller_diameter_mm) * 0.5 + self.clearance
 
-    @property
-    def ends_deg(self) -> tuple[float, float]:
-        """Entry and exit, input angles from mid-motion."""
-        return self.engagement.entry_deg, self.engagement.exit_deg
-
     def margin_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
         """Greatest sum of errors of L and R that every random machine allows, mm.
 
@@ -93,7 +88,7 @@ class MotionError(NamedTuple):
         """
         times = 3.0 if spec.tolerance.distribution == "normal" else 1.0
         play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
-        entry, exit_ = map(np.ravel, self.ends_deg)
+        entry, exit_ = np.ravel(self.engagement.entry_deg), np.ravel(self.engagement.exit_deg)
         x, y = self.engagement.path(np.linspace(entry, exit_, MOTION_SAMPLES, axis=-1), 0)
         near = np.atleast_2d(np.hypot(x.c[0], y.c[0])).min(axis=-1, keepdims=True)
         nearest = self.L * (near - size(self.engagement.slot.offset))
@@ -123,7 +118,7 @@ class MotionError(NamedTuple):
 
     def _greatest(self, of: Callable[[Array, float], Array]) -> WorstErrors:
         """Greatest of a function of input angles (n, k) and a side, in each design."""
-        entry, exit_ = map(np.ravel, self.ends_deg)
+        entry, exit_ = np.ravel(self.engagement.entry_deg), np.ravel(self.engagement.exit_deg)
         best: WorstErrors | None = None
         for side in (1.0, -1.0):
             low, high = entry, exit_

@@ -118,8 +118,7 @@ def likely_place(
     few, many = (next(machines.blocks(min(samples, count), count)) for count in (4096, 65536))
     places: list[tuple[MotionError, float, float]] = []
     for one, side in product(errors, (1.0, -1.0)):
-        (entry,), (exit_,) = map(np.ravel, one.ends_deg)
-        grid = np.linspace(entry, exit_, 121)
+        grid = np.linspace(one.engagement.entry_deg, one.engagement.exit_deg, 121)
         drawn = [one(few, at_deg, side).c[0] for at_deg in grid]
         mean, deviation = (np.array([f(row) for row in drawn]) for f in (np.mean, np.std))
         # 99.7 % lie within 1.7 deviations of one uniform dimension, and 2.7 of a normal one
