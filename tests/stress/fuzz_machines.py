@@ -22,7 +22,7 @@ WHEELS_ONLY = (
     *("dwell_torque_Nm", "product_acceleration_max_m_s2", "dwell_position_max_deg"),
     *("index_play_max_deg", "dwell_play_max_deg"),
 )
-PRODUCT = {"radius_mm": 300.0, "friction": 0.5, "swing_Hz": 2.0}
+PRODUCT = {"radius_mm": 300.0, "friction": 0.5}
 
 
 def in_range(rng, rule, whole):

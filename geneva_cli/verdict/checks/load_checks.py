@@ -179,8 +179,9 @@ def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
     stop = arrival(mechanism)
     if stop is None:
         return None
-    check = compared(name, stop.torque_Nm, "at most", stop.most_Nm)
-    if check.passes or stop.most_Nm > 0.0:
+    torque_Nm, most_Nm, _ = stop
+    check = compared(name, torque_Nm, "at most", most_Nm)
+    if check.passes or most_Nm > 0.0:
         return check
     return check._replace(why="no inertia carries the wheel on: set inertia_kgm2 in [load]")
 
