@@ -65,7 +65,6 @@ ALONE = {
     "specfile.keys",
     "specfile.meanings",
     "specfile.json_schema",
-    "geometry.pieces",
     "drawings.catalogue",
     "verdict.quantities.quantity_names",
 }

@@ -39,10 +39,6 @@ class Crank(Direct, kw_only=True):
     def cranks(self) -> tuple[float, ...]:
         return self.crank_steps or super().cranks
 
-    def may_vary(self, table: str, key: str) -> bool:
-        placed = self.crank_steps and self.both_ways
-        return not placed or (table, key) != ("wheel", "z")
-
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
         return self.straight(wheel, alike(wheel, self, place), L)
 

@@ -5,19 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.moments import area, oriented, with_material_left
+from geneva_cli.geometry.moments import area, with_material_left
 from geneva_cli.geometry.plates import Plate, Stack
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape, as_contour
-
-if TYPE_CHECKING:
-    from geneva_cli.geometry.plates import Edge
-
 
 Side: TypeAlias = Line | Arc
 
@@ -38,10 +33,7 @@ class Run(NamedTuple):
 
 
 class Level(NamedTuple):
-    """A face across the axis: its loops of edges, the outer one first.
-
-    Seen against its normal, the face lies to the left of its edges.
-    """
+    """A face across the axis, to the left of its loops of edges; the outer one is the first."""
 
     z: float
     loops: tuple[tuple[Run, ...], ...]
@@ -59,14 +51,7 @@ def sides(contour: Contour) -> tuple[Side, ...]:
 
 
 def levels(stack: Stack) -> list[Level]:
-    """Return the faces across the axis of a turned part, from the lowest up.
-
-    >>> from geneva_cli.geometry.shapes import Circle
-    >>> wide, thin = Circle("", (0.0, 0.0), 5.0), Circle("", (0.0, 0.0), 4.0)
-    >>> plates = Plate("", "", wide, (), 0.0, 3.0), Plate("", "", thin, (), 3.0, 9.0)
-    >>> [(level.z, len(level.loops), level.up) for level in levels(Stack("", "", plates))]
-    [(0.0, 1, False), (3.0, 2, True), (9.0, 1, True)]
-    """
+    """Return the faces across the axis of a turned part, from the lowest up."""
     outlines = [outline_of(plate) for plate in stack.plates]
     heights = [stack.low, *(plate.high for plate in stack.plates)]
     pairs = zip([None, *outlines], [*outlines, None], heights, strict=True)
@@ -96,11 +81,7 @@ FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is
 
 
 def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
-    """Return the least wall between holes, and to an outline; negative where they overlap.
-
-    >>> least_wall([Circle("", (0.0, 0.0), 2.0), Circle("", (9.0, 0.0), 3.0)])
-    4.0
-    """
+    """Return the least wall between holes, and to an outline; negative where they overlap."""
     least = [apart(one, two) for one, two in combinations(holes, 2)]
     if outline:
         whole = _boundary(outline)
@@ -138,27 +119,3 @@ def _points(hole: Shape) -> np.ndarray:
 
 def _boundary(shapes: Iterable[Shape]) -> Polyarc:
     return Polyarc([with_material_left(as_contour(shape), True) for shape in shapes])
-
-
-def require_faces(plate: Plate) -> None:
-    """Raise GenevaError, naming the key, where the plate's edge cuts off a piece of a face."""
-    edge = plate.edge
-    if not edge.size:
-        return
-    from geneva_cli.geometry.inset import inset, lines_and_arcs
-
-    try:
-        for contour in oriented(plate.outline, plate.holes):
-            inset(lines_and_arcs(contour), "", edge.size)
-    except GenevaError as error:
-        raise _no_edge(edge, str(error)) from None
-    wall = plate_wall(plate)
-    if wall <= 0.0:
-        raise _no_edge(edge, f"holes of the {plate.name} leave no wall to round or chamfer")
-    if wall <= 2.0 * edge.size:
-        says = f"the {plate.name} has a wall of {wall:.4g} mm; it must be below {0.5 * wall:.4g}"
-        raise _no_edge(edge, says)
-
-
-def _no_edge(edge: Edge, says: str) -> GenevaError:
-    return GenevaError(f"{edge.key} = {edge.size:g}: {says}", ("size", edge.key))

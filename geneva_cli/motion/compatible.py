@@ -86,7 +86,7 @@ def _of_drive_before(spec: Spec) -> Iterator[Conflict]:
     text = 'kind = "{spec.drive_before.NAME}" cannot stand before kind = "{spec.drive.NAME}": '
     yield Conflict(drive.FIRST, key, text + "{spec.drive.FIRST}")
     text = (
-        "n_rpm, rollers, roller_angles_deg and both_ways belong to the machine: set them in "
+        "n_rpm, rollers and roller_angles_deg belong to the machine: set them in "
         "[drive], not in [drive.before]"
     )
     yield Conflict(is_set(before, Drive), key, text)

@@ -74,7 +74,7 @@ class Drive(SpecTable, kw_only=True):
     n_rpm: Annotated[
         float,
         SPEED,
-        "constant speed of the input shaft; to turn it the other way: both_ways, --reverse",
+        "constant speed of the input shaft; to turn it the other way: --reverse",
     ] = 60.0
     rollers: Annotated[int, Range(1, Z_MAX), "number of rollers (pins) on the crank, m"] = 1
     roller_angles_deg: Annotated[
@@ -82,9 +82,6 @@ class Drive(SpecTable, kw_only=True):
         Range(0.0, 360.0, "[)"),
         "angles of the rollers on the crank, if not evenly spaced or with equal dwells",
     ] = None
-    both_ways: Annotated[
-        bool, None, "the input shaft turns in either direction, forwards or in reverse"
-    ] = False
     stop_s: Annotated[
         float, NOT_NEGATIVE, "time by which a stop of the input lengthens each dwell"
     ] = 0.0

@@ -29,10 +29,9 @@ _DRAWINGS = {
     "gears": "drawings.part_drawings:gears",
     "groove": "drawings.part_drawings:groove",
     "groove-plate": "drawings.part_drawings:groove_plate",
-    "coupon": "drawings.coupon:coupon",
-    "plate": "drawings.coupon:plate",
-    "sheet": "drawings.sheet.machine_sheet:sheet",
+    "plate": "drawings.single_parts:plate",
 }
+_SHEET = {"sheet": "drawings.sheet.machine_sheet:sheet"}
 _TABLES = {
     "slot": "parts.slots.slot_profile:profile_table",
     "gears": "parts.gears.gear_curves:gears_table",
@@ -44,7 +43,7 @@ _FLAT = Kind(
     "",
     parts="parts.flat_parts:FlatParts",
     frame="parts.frame:framed",
-    drawings=_DRAWINGS,
+    drawings=_DRAWINGS | _SHEET,
     tables=_TABLES,
 )
 # The kinds of the core; those in ``kinds`` follow.

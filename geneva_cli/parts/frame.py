@@ -14,9 +14,8 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, farthest
-from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -115,7 +114,7 @@ def framed(
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
         plate = mounted_plate(holes, within, eye, (bottom, top))
     whole = {name for axis in bars.axes for name in axis.one_piece}
-    to_fix = (name for one in own for name in one.to_fix(size) if name not in whole)
+    to_fix = (name for one in own for name in one.to_fix if name not in whole)
     return FrameAndShafts(
         plate,
         tuple(outside_links(axles, bars, L)),

@@ -9,9 +9,8 @@ from itertools import combinations
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate, Stack
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point, convex_hull
 from geneva_cli.geometry.stacks import apart
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.shafts.bores import around

@@ -47,8 +47,6 @@ class Accept(SpecTable):
     unlikely_material: Reason = None
     nothing_to_act_on: Reason = None
     driven_by_one_wall: Reason = None
-    differs_backwards: Reason = None
-    tuned_forwards_only: Reason = None
     lags_behind: Reason = None
     roller_overtakes: Reason = None
     short_motion: Reason = None

@@ -164,18 +164,6 @@ class Size(SpecTable):
     wheel_flat_mm: Annotated[
         Positive, "depth of the flat in the wheel's D bore; default bore/10"
     ] = None
-    wheel_screw_mm: Annotated[
-        Positive, "set screw through the wheel's hub: its thread's diameter"
-    ] = None
-    crank_screw_mm: Annotated[
-        Positive, "set screw through the crank's hub: its thread's diameter"
-    ] = None
-    wheel_clamp_mm: Annotated[
-        Positive, "clamp screw of the wheel's slit hub: its thread's diameter"
-    ] = None
-    crank_clamp_mm: Annotated[
-        Positive, "clamp screw of the crank's slit hub: its thread's diameter"
-    ] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[
         Positive, "dial's bolt holes: diameter; default for a screw, up to L/40"

@@ -50,12 +50,9 @@ def designs_of(texts: Mapping[str, Text], reverse: bool) -> dict[str, Design]:
     """The designs of texts by their names; with ``reverse`` each also turns the other way."""
     out: dict[str, Design] = {}
     for name, text in texts.items():
-        spec = text.spec()
-        if not reverse:
-            out[name] = Design.of(spec, text)
-            continue
-        out[name] = Design.of(spec.with_("drive.both_ways", True), text)
-        out[f"{name} backwards"] = out[name].backwards
+        out[name] = Design.of(text.spec(), text)
+        if reverse:
+            out[f"{name} backwards"] = out[name].backwards
     return out
 
 

@@ -15,7 +15,7 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.spec.tables import Motor
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.mass import MassProperties
+    from geneva_cli.geometry.plates import MassProperties
 
 
 def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> list[Notice]:

@@ -126,7 +126,7 @@ def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
 
 def _holes(solid: Solid) -> Iterator[tuple[float, float]]:
     """Yield the widths of a part's holes and its thickness, if it is cut out of a plate."""
-    from geneva_cli.drawings.coupon import is_cut
+    from geneva_cli.drawings.single_parts import is_cut
     from geneva_cli.geometry.plates import Plate, Shell
 
     if isinstance(solid, Shell):
@@ -157,7 +157,7 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
         if getattr(size, key) is not None:
             why = (
                 f'is less than process = "{size.process}" holds at these sizes, so that the parts '
-                "may not go together; a fit coupon shows what your machine holds"
+                "may not go together"
             )
         yield Notice("narrow-for-process", f"{key} = {own:g} {why}: set {key} to {needed:g}")
 

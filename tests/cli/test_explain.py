@@ -126,7 +126,7 @@ def quantities() -> set[str]:
         *CamFactors._fields,
     }
     out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR}
-    out |= set(checks_table([], directed=True).names)
+    out |= set(checks_table([]).names)
     out |= {*WALLED, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
     out |= {"dwell_position_share", "motion_play_share"}  # of a histogram
     return out | {f"tolerance.{name}" for name in tolerance_names()}

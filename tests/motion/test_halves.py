@@ -9,7 +9,6 @@ from witness import mp
 
 from geneva_cli import Cam, Design, External, Motion, NoncircularGears, SineGroup, Tuned
 from geneva_cli.design import Size
-from geneva_cli.drawings.sheet.points import tables
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.peaks import worst
@@ -95,8 +94,3 @@ def test_a_curved_slot_behind_such_a_ratio_has_two_branches_of_its_own():
         x = nodes(uneven, tolerance)
         assert chord_errors(uneven, x).max() <= tolerance
         assert 0.0 in x
-    even = Design(External(6), NoncircularGears(A=0.2), law, size=size)
-    for one, half in ((design, False), (even, True)):
-        (table,) = tables(one.parts.outlines, 0.01)
-        words = " ".join(label.text for label in table.labels)
-        assert ("mirror image" in words) is half

@@ -131,10 +131,6 @@ def usual(rng, key, L, R, r, outside):
         "dial_bolt_circle_mm": L / 2.0,
         "wheel_flat_mm": 0.02 * L,
         "crank_flat_mm": 0.02 * R,
-        "wheel_screw_mm": 0.02 * L,
-        "crank_screw_mm": 0.02 * R,
-        "wheel_clamp_mm": 0.02 * L,
-        "crank_clamp_mm": 0.02 * R,
         "edge_chamfer_mm": 0.05 * r,
         "edge_fillet_mm": 0.05 * r,
     }

@@ -64,7 +64,7 @@ def draw_frame(
 def draw_groove(
     view: View, flanks: tuple[Shape, ...], half: float, plate: Plate | None = None
 ) -> None:
-    """Draw a cam's groove, in its plate if there is one; a table has the groove's points."""
+    """Draw a cam's groove, in its plate if there is one."""
     round_ = (plate.outline, *plate.holes) if plate else ()
     mounts = [hole for hole in round_[1:] if isinstance(hole, Circle) and math.hypot(*hole.centre)]
     for shape in (*round_, *flanks):
@@ -76,6 +76,7 @@ def draw_groove(
     outer = max(places, key=lambda p: math.hypot(*p))
     view.cross((0.0, 0.0), math.hypot(*outer))
     view.note(outer, f"groove {sized.fitted(view.fits, 2.0 * half, '', 'H7')} wide")
+    view.remark("flanks as in the groove's dxf")
     for hole in round_:
         if isinstance(hole, Circle) and hole not in mounts:
             text = sized.plain(2.0 * hole.radius, "Ø ")
@@ -83,13 +84,11 @@ def draw_groove(
     bolted(view, mounts)
 
 
-def draw_hub(view: View, hub: Plate, screw: str) -> None:
-    """Draw the diameter of a hub that is already drawn, and note its screw, if it has one."""
+def draw_hub(view: View, hub: Plate) -> None:
+    """Draw the diameter of a hub that is already drawn."""
     radius = around(hub.outline)
     whole = Circle(hub.layer, ORIGIN, radius)
     view.diameter([whole], f"{hub.name} {sized.plain(2.0 * radius, 'Ø ')}")
-    if screw:
-        view.remark(screw)
 
 
 def draw_shaft(view: View, shaft: Plate | Stack) -> None:

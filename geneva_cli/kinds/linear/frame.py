@@ -98,7 +98,7 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     within = [*bored, *(tapped(one.hole) for one in screwed)]
     holes, screwed = [one for one in within if one.radius], screwed if _bolt(sizes) else ()
     frame = mounted_plate(holes, within, corner_radius(size, L), (bottom, heights.top))
-    to_fix = tuple(name for one in own for name in one.to_fix(size))
+    to_fix = tuple(name for one in own for name in one.to_fix)
     return FrameAndShafts(frame, tuple(axles), screwed=screwed, to_fix=to_fix)
 
 

@@ -56,7 +56,7 @@ class Linkage(PinPath, kw_only=True):
                 ("size", "center_distance_mm"),
             ),
         )
-        from geneva_cli.kinds.linkages.path_engagement import solve
+        from geneva_cli.kinds.linkages.path_wheels import solve
 
         wanted = None if self.entry_deg is None else radians(self.entry_deg)
         engagement, L = solve(self.roller_path, wheel.step, wanted)

@@ -140,14 +140,13 @@ def _space(file: Entities) -> str:
     )
 
 
-def chunks(drawing: Drawing, units: str) -> Iterator[str]:
+def chunks(drawing: Drawing) -> Iterator[str]:
     """The file's text.
 
-    Raises GenevaError for a drawing without solids, for a unit other than mm, and for a coordinate
-    that is not finite.
+    Raises GenevaError for a drawing without solids, and for a coordinate that is not finite.
     """
     file = Entities()
-    Products(file, solid_part(drawing, units, "STEP"))
+    Products(file, solid_part(drawing, "STEP"))
     yield (
         "ISO-10303-21;\nHEADER;\n"
         f"FILE_DESCRIPTION(({words(clean(drawing.title))}),'2;1');\n"

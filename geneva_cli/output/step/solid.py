@@ -31,7 +31,6 @@ from geneva_cli.output.step.entities import (
     real,
     unit_of,
 )
-from geneva_cli.output.step.step_edges import bored_walls, edge_faces
 
 
 def solid(file: Entities, plate: Plate) -> str:
@@ -42,32 +41,21 @@ def solid(file: Entities, plate: Plate) -> str:
     faces, lower, upper = [], [], []
     outside = True
     shapes = plate_contours(plate)
-    bored, openings = bored_walls(file, plate, shapes)
-    taken = plate.edge.size
-    walled = plate._replace(low=plate.low + taken, high=plate.high - taken)
     for shape in shapes:
         if isinstance(shape, Circle):
-            walls = [_round(file, walled, shape, outside)]
+            walls = [_round(file, plate, shape, outside)]
         else:
             contour = with_material_left(shape, outside)
             own = pieces(contour.segments)
-            ends = [_place(file, walled, piece.start) for piece in own]
+            ends = [_place(file, plate, piece.start) for piece in own]
             walls = [
-                _wall(file, walled, piece, pair, openings.get(piece, []))
+                _wall(file, plate, piece, pair)
                 for piece, pair in zip(own, pairwise([*ends, ends[0]]), strict=True)
             ]
-            if taken:
-                edges, lows, highs = edge_faces(file, plate, contour, ends, walls)
-                faces += edges
-                walls = [
-                    WallFace(wall.face, low, high, True)
-                    for wall, low, high in zip(walls, lows, highs, strict=True)
-                ]
         faces += [wall.face for wall in walls]
         lower.append(loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
         upper.append(loop(file, [(wall.high, wall.along) for wall in walls]))
         outside = False
-    faces += bored
     faces.append(face(file, lower, level(file, plate.low), False))
     faces.append(face(file, upper, level(file, plate.high), True))
     return closed_solid(file, faces)
@@ -84,7 +72,6 @@ def _wall(
     plate: Plate,
     piece: Piece,
     ends: tuple[SolidCorner, SolidCorner],
-    holes: list[str],
 ) -> WallFace:
     start, end = ends
     curves = [curve(file, piece, z) for z in (plate.low, plate.high)]
@@ -93,7 +80,7 @@ def _wall(
     high = edge(file, start.high, end.high, curves[1], along)
     sides = loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
     # a cylinder's own normal points away from its axis, that of the others to the right
-    wall = face(file, [sides, *holes], surface(file, piece, plate), along)
+    wall = face(file, [sides], surface(file, piece, plate), along)
     return WallFace(wall, low, high, True)
 
 

@@ -76,7 +76,7 @@ class Bore(NamedTuple):
         cut = self.radius + self.loose
         if self.key:
             over = length(cut + self.reach)
-            wide = length(self.key.width, fine=True)
+            wide = length(self.key.width)
             return f"keyway {wide} JS9, {over} over bore ({self.standard})"
         if self.form == "hex":
             return f"hexagon {length(2.0 * cut)} across flats"
@@ -86,7 +86,7 @@ class Bore(NamedTuple):
     def shaft_note(self) -> str:
         """What a drawing of the shaft says besides the diameter."""
         if self.key:
-            wide = length(self.key.width, fine=True)
+            wide = length(self.key.width)
             return f"keyway {wide} P9, {length(self.key.in_shaft)} deep ({self.standard})"
         return self._replace(loose=0.0).note
 
@@ -250,7 +250,7 @@ def section_note(section: Shape) -> str:
     far, bottom = min((math.hypot(*at(line, 0.5)), line) for line in lines)
     if len(lines) == 1:
         return Bore(radius, 0.0, "D", radius - far).note
-    wide = length(math.dist(bottom.start, bottom.end), fine=True)
+    wide = length(math.dist(bottom.start, bottom.end))
     return f"keyway {wide} P9, {length(radius - far)} deep"
 
 

@@ -154,12 +154,10 @@ class Shaft(NamedTuple):
         own = f"{self.part}_bore_mm"
         return own if hasattr(Size, own) else "link_bore_mm"
 
-    def to_fix(self, size: Size) -> Iterator[str]:
-        """Yield the names of parts that turn with the shaft, but that nothing holds on it."""
-        for seat in self.seats:
-            screws = (vars(size).get(f"{seat.part}_{key}_mm") for key in ("screw", "clamp"))
-            if seat.held and self.bore.is_plain and not any(screws):
-                yield seat.part
+    @property
+    def to_fix(self) -> list[str]:
+        """The names of parts that turn with the shaft, but that nothing holds on it."""
+        return [seat.part for seat in self.seats if seat.held and self.bore.is_plain]
 
     def plain(self) -> Member:
         """Return the shaft with one section all along.

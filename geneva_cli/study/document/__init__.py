@@ -63,7 +63,6 @@ def document(design: Design) -> Document:
         *sections.sizes(left),
         *sections.strength(left),
         *sections.checks(design),
-        *sections.both_ways(left),
         *sections.swinging(left),
         *sections.parts(left),
         *sections.remarks(design, left),

@@ -229,16 +229,6 @@ def checks(design: Design) -> Iterator[Block]:
     yield Grid("Every check with its verdict", tuple(heads), tuple(rows))
 
 
-def both_ways(left: RemainingValues) -> Iterator[Block]:
-    """What differs between the directions of a machine that turns both ways."""
-    table: Table | None = left.one("both_ways")
-    if table is not None:
-        yield Heading("Both ways")
-        rows = [(fact(name).name, fact(name).unit, *values) for name, *values in table.rows()]
-        heads = ("Quantity", "Unit", "Forwards", "Backwards")
-        yield Grid("What differs between the directions", heads, tuple(rows))
-
-
 def swinging(left: RemainingValues) -> Iterator[Block]:
     """Vibration and tolerances, if the report has them."""
     for text, group in (("Vibration", "vibration"), ("Tolerances", "tolerance")):

@@ -17,7 +17,7 @@ from geneva_cli.parts.turn.turn_certificate import one_motion
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.study.synth.fast_parts import SPARE, USUAL, exact, parts, with_roller
 from geneva_cli.study.synth.parts_data import parts_data
-from geneva_cli.verdict.both_directions import worst_checks
+from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.all_checks import (
     LIMITS,
     MOTION,
@@ -90,7 +90,7 @@ def _failing(checks: Iterable[Check]) -> list[Check]:
 
 
 def _of_motion(machine: Mechanism) -> list[Check]:
-    return _failing(worst_checks(machine, parts=False))
+    return _failing(checks(machine, parts=False))
 
 
 def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Spec]:
