@@ -28,7 +28,6 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.kinds.linkages.four_bar import FourBar as FourBar
     from geneva_cli.kinds.linkages.slider_crank import SliderCrank as SliderCrank
     from geneva_cli.kinds.series.geneva_pair import GenevaPair as GenevaPair
-    from geneva_cli.loads.vibration.tuned import Tuned as Tuned
     from geneva_cli.motion.laws.standard import Cycloidal as Cycloidal
     from geneva_cli.motion.laws.standard import Harmonic as Harmonic
     from geneva_cli.motion.laws.standard import ModifiedConstantVelocity as ModifiedConstantVelocity

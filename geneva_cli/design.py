@@ -617,16 +617,13 @@ class Design:
         >>> round(Design(External(3)).vibration(0.5, damping=0.02)["residual_share"], 12)
         0.871288725706
         """
-        from geneva_cli.loads.vibration.oscillator import oscillator
-        from geneva_cli.loads.vibration.vibration_answers import vibration_table
+        from geneva_cli.loads.vibration.vibration import oscillator, values
+        from geneva_cli.table import record_table
 
-        own = oscillator(self.mechanism, period_ratio, damping)
-        table = vibration_table(self.mechanism, own)
-        noted = [
-            ((*self.ideal_notes, *column[0]),) if name == "warnings" else column
-            for name, column in zip(table.names, table.columns, strict=True)
-        ]
-        return table.replaced(columns=noted)
+        found = values(self.mechanism, oscillator(self.mechanism, period_ratio, damping))
+        found["warnings"] = (*self.ideal_notes, *found["warnings"])
+        head = {"spec": self.spec.path, "title": self.spec.title}
+        return record_table(head | found, self.spec.title)
 
     @question
     def spectrum(
@@ -637,8 +634,7 @@ class Design:
         >>> Design(External(6)).spectrum(3, period_ratio=10.0)["n_rpm"].round(9)
         array([ 30.,  60., 120.])
         """
-        from geneva_cli.loads.vibration.oscillator import required_oscillator
-        from geneva_cli.loads.vibration.vibration_answers import spectrum
+        from geneva_cli.loads.vibration.vibration import required_oscillator, spectrum
 
         shaft = required_oscillator(self.mechanism, period_ratio, damping)
         return spectrum(self.mechanism, shaft, samples)

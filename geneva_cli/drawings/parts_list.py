@@ -17,7 +17,7 @@ from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds_of
-from geneva_cli.geometry.plates import MM, Part, Shell, Solid, solid_properties
+from geneva_cli.geometry.plates import MM, Part, Shell, Solid, mass_properties
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
@@ -119,7 +119,7 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
         low, high = solid.low, solid.high
         x0, y0, x1, y1 = bounds_of(outlines_of(solid))
         wide, deep = x1 - x0, y1 - y0
-        body = solid_properties(solid, density)
+        body = mass_properties(solid, density)
         mass, inertia = body.mass_kg, body.inertia_kgm2
         if outside is None:
             # a centroid within 1e-13 of a part's size of its axis is on it

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from geneva_cli.drawings.sheet.composed import packed_apart
 from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.geometry.measure import bounds_of
-from geneva_cli.geometry.plates import Group, Member, Plate, Shell, Solid, Stack, lowered, solids
+from geneva_cli.geometry.plates import Group, Member, Plate, Shell, Solid, lowered, solids
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.parts.parts import EdgedParts, Parts
 from geneva_cli.parts.projection import Missing, alike, built_of, outlines_of, titled
@@ -28,7 +28,7 @@ def plate(parts: EdgedParts) -> Drawing:
     return Drawing(title, outlines_of(solid), solid=solid)
 
 
-def _laid(whole: list[Plate | Stack]) -> list[Member]:
+def _laid(whole: list[Plate]) -> list[Member]:
     """Return parts at z = 0 side by side, on a square bed that is as small as they allow."""
     blocks = [Block(*bounds_of(outlines_of(one)), (), ()) for one in whole]
     side = math.sqrt(sum((b.width + APART) * (b.height + APART) for b in blocks))

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -39,46 +38,6 @@ class Plate(NamedTuple):
     def thickness(self) -> float:
         """Thickness along the axis."""
         return self.high - self.low
-
-    @property
-    def plates(self) -> tuple[Plate, ...]:
-        """The plate itself, as those of a ``Stack``."""
-        return (self,)
-
-    def of_plates(self, plates: Iterable[Plate]) -> Plate:
-        """Return the only plate, as a part in place of this one."""
-        (only,) = plates
-        return only
-
-
-class Stack(NamedTuple):
-    """A turned part: plates without holes, each on the one before, as one solid.
-
-    Of two neighbours one lies within the other, with the same pieces where they coincide.
-    """
-
-    name: str
-    layer: Layer
-    plates: tuple[Plate, ...]
-
-    @property
-    def low(self) -> float:
-        """Lower end along the axis."""
-        return self.plates[0].low
-
-    @property
-    def high(self) -> float:
-        """Upper end along the axis."""
-        return self.plates[-1].high
-
-    @property
-    def thickness(self) -> float:
-        """Length along the axis."""
-        return self.high - self.low
-
-    def of_plates(self, plates: Iterable[Plate]) -> Stack:
-        """Return a part with other plates."""
-        return self._replace(plates=tuple(plates))
 
 
 class Shell(NamedTuple):
@@ -143,7 +102,7 @@ class Member(NamedTuple):
     frame: Rotation | None = None  # in place of a turn: the directions of its x, y and z
 
 
-Solid: TypeAlias = Plate | Stack | Shell
+Solid: TypeAlias = Plate | Shell
 Part: TypeAlias = Solid | Group
 
 
@@ -155,38 +114,18 @@ def solids(part: Part) -> list[Solid]:
 
 
 def plates(part: Part) -> list[Plate]:
-    """The flat solids of a part; turned ones are left out."""
+    """The flat solids of a part."""
     return [one for one in solids(part) if isinstance(one, Plate)]
 
 
-def between(part: Plate | Stack, low: float, high: float) -> Plate | Stack:
-    """The length of a flat or turned part that lies between two heights."""
-    inside = (one for one in part.plates if one.low < high and one.high > low)
-    return part.of_plates(
-        one._replace(low=max(low, one.low), high=min(high, one.high)) for one in inside
-    )
+def inwards(plate: Plate, outside: float) -> Plate:
+    """A plate whose heights count inwards from ``outside``, by distances instead."""
+    return plate._replace(low=outside - plate.high, high=outside - plate.low)
 
 
-def inwards(part: Part, outside: float) -> Plate | Stack:
-    """A flat or turned part whose heights count inwards from ``outside``, by distances instead."""
-    assert isinstance(part, Plate | Stack)
-    return part.of_plates(
-        one._replace(low=outside - one.high, high=outside - one.low) for one in part.plates[::-1]
-    )
-
-
-def steps_of(part: Part) -> list[Plate]:
-    """A flat part, or the steps of a turned one, under the part's name."""
-    assert isinstance(part, Plate | Stack)
-    return [step._replace(name=part.name) for step in part.plates]
-
-
-def lowered(part: Plate | Stack) -> Plate | Stack:
-    """A flat or turned part with its lower face at z = 0."""
-    down = part.low
-    return part.of_plates(
-        one._replace(low=one.low - down, high=one.high - down) for one in part.plates
-    )
+def lowered(plate: Plate) -> Plate:
+    """A plate with its lower face at z = 0."""
+    return plate._replace(low=0.0, high=plate.high - plate.low)
 
 
 def placed(shape: S, at: Point, turn: float) -> S:
@@ -197,12 +136,13 @@ def placed(shape: S, at: Point, turn: float) -> S:
 
 
 def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
-    """Yield each plate, and each step of a turned part, in its own frame and at its position."""
+    """Yield each plate in its own frame and at its position."""
     for one in members:
         if isinstance(one.part, Group):
             inner = in_place(one.part.members)
         else:
-            inner = ((step, step) for step in steps_of(one.part))
+            assert isinstance(one.part, Plate)
+            inner = iter([(one.part, one.part)])
         for own, plate in inner:
             outline, *holes = (
                 placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)
@@ -222,11 +162,6 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     """Mass, centroid and inertia J = rho h Ip of a plate."""
     whole, per = face(plate).times(plate.thickness), density_kgm3 * MM**3
     return MassProperties(per * whole.area, whole.centroid, per * MM**2 * whole.polar)
-
-
-def solid_properties(solid: Plate | Stack, density_kgm3: float) -> MassProperties:
-    """Mass, centroid and inertia of a flat or a turned part."""
-    return reduce(added, (mass_properties(one, density_kgm3) for one in solid.plates))
 
 
 def added(one: MassProperties, other: MassProperties) -> MassProperties:

@@ -17,7 +17,7 @@ import numpy as np
 
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.contact import contact
-from geneva_cli.loads.cycle_quantities import multiples, plain_of
+from geneva_cli.loads.cycle_quantities import FORCE, QUANTITIES, WALL_FORCE, multiples, plain_values
 from geneva_cli.loads.forces import LoadCase, contact_values
 from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads
 from geneva_cli.loads.load_case import load_case
@@ -114,7 +114,8 @@ class Cycle:
         """Return a quantity of ``known``, or a multiple of one, at states of the cycle."""
         source, factor, _ = multiples(self.mechanism).get(name, (name, 1.0, ""))
         assert factor is not None  # known quantities have a factor
-        return plain_of(states, source) * factor
+        signed = WALL_FORCE if source == FORCE else source
+        return plain_values(QUANTITIES[signed](states).value, source) * factor
 
     @cached_property
     def known(self) -> Mapping[str, LoadSummary[Array]]:

@@ -55,7 +55,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "curved-slots": "why curved slots cannot do everything; Am, Vm, Qm of a cam curve",
         "cycle": "forces, torques and power over the cycle, from the load to the motor",
         "strength": "pins, horns, shafts, lock and slot: stresses and life",
-        "vibration": "a load on an elastic shaft, and the law made for it",
+        "vibration": "a load on an elastic shaft",
         "tolerances": "what errors of dimensions do to place, play and entry; R/L",
         "accuracy": "what is promised, tested and proved, of peaks and of the full turn; run time",
         "numbers": "compare with published tables, and why ours differ",

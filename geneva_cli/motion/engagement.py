@@ -285,9 +285,8 @@ class Engagement(Batchable):
     or else ``body`` does, which ``reactions`` hold; ``crank_sense`` is then the crank's direction:
     -1 with the wheel, 1 against it. ``groove`` is the path if a fixed groove guides the roller
     along the crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a
-    sphere. ``mid_angle`` is the wheel's angle at mid-motion, radians from the first mid-motion, if
-    the loads depend on it (``Mechanism.unbalanced``). ``built`` describes a crank as built, whose
-    R/L is not what the slots need: the wheel's velocity then jumps at entry and exit.
+    sphere. ``built`` describes a crank as built, whose R/L is not what the slots need: the wheel's
+    velocity then jumps at entry and exit.
     """
 
     mid_deg: float
@@ -299,7 +298,6 @@ class Engagement(Batchable):
     crank_sense: float = 0.0
     groove: Groove | None = None
     hub: float = 1.0
-    mid_angle: float | None = None
     built: AsBuilt | None = None
 
     @property
@@ -356,7 +354,7 @@ class Engagement(Batchable):
     @property
     def mirrored(self) -> bool:
         """True if motion, slot and loads are symmetric about mid-motion."""
-        return self.motion.symmetric and self.slot.mirrored and self.mid_angle is None
+        return self.motion.symmetric and self.slot.mirrored
 
     def reach(self, input_deg: float) -> Number:
         """Pin distance from the wheel's axis, in units of L."""

@@ -105,14 +105,12 @@ def may_vary(spec: Spec, key: str) -> bool:
         return False
     numeric = bool({int, float} & set(_field(spec, key).types))
     of_law = spec.motion is None or spec.motion.law.may_vary(table, name)
-    # the number of rollers decides how many engagements a machine has; under load that of slots
-    # does too, where a body stands off the axis of a wheel on a carrier
-    counts = {"rollers", "z"} if spec.drive.wheels_on_carrier and spec.unbalanced else {"rollers"}
     # a drive before sees its own table as that of a drive
     of = "drive" if table == BEFORE else table
     before = spec.drive_before is None or spec.drive_before.may_vary(of, name)
     own = spec.drive.may_vary(table, name)
-    return numeric and name not in counts and of_law and own and before
+    # the number of rollers decides how many engagements a machine has
+    return numeric and name != "rollers" and of_law and own and before
 
 
 def changed(spec: Spec, values: Mapping[str, object]) -> Spec:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from typing import NamedTuple
 
@@ -135,9 +134,7 @@ class Mechanism(NamedTuple):
     @property
     def whole_deg(self) -> float:
         """Input angle after which all is as before: a turn of the crank."""
-        # under load it is the period of an unbalanced wheel on a carrier
-        carried = self.engagements[0].mid_angle is not None
-        return self.period_deg if carried else 360.0 * self.spec.turns
+        return 360.0 * self.spec.turns
 
     @property
     def stop_deg(self) -> float:
@@ -172,11 +169,6 @@ class Mechanism(NamedTuple):
         return self.spec.wheel.SIGN if self.spec.drive.wheels_on_carrier else 0.0
 
     @property
-    def unbalanced(self) -> bool:
-        """True if the loads differ in each motion: a body stands off a carried wheel's axis."""
-        return bool(self.spec.drive.wheels_on_carrier) and self.spec.unbalanced
-
-    @property
     def wheel_places(self) -> tuple[AxisPlace, ...]:
         """Places of all wheels; more than one only on a carrier."""
         count = max(1, self.spec.drive.wheels_on_carrier)
@@ -194,30 +186,9 @@ class Mechanism(NamedTuple):
 
     @property
     def under_load(self) -> Mechanism:
-        """The machine with the period of its loads: up to the entry of the next wheel.
-
-        If a body stands off the axis of a wheel on a carrier, it is a whole turn of all wheels, as
-        the body's direction is another one in each motion.
-        """
-        wheels, own = self.spec.drive.wheels_on_carrier, self.engagements
-        if not self.unbalanced:
-            return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
-        if own[0].mid_angle is not None:  # it is under load already
-            return self
-        z, count = self.spec.wheel.z, len(own)
-        angles, angle = [], 0.0  # the wheel's angle at each mid-motion of its turn
-        for i in range(z):
-            angles.append(angle)
-            angle += own[i % count].half_step + own[(i + 1) % count].half_step
-        spacing, each = self.period_deg / wheels, []
-        # each finger meets the wheel in every direction that it can
-        for k in range(math.lcm(z, count, self.spec.drive.rollers) * wheels):
-            number, behind = divmod(k, count)
-            later = copy.copy(own[behind])
-            later.mid_deg += number * spacing
-            later.mid_angle = angles[k // wheels % z]
-            each.append(later)
-        return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / count)
+        """The machine with the period of its loads: up to the entry of the next wheel."""
+        wheels = self.spec.drive.wheels_on_carrier
+        return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
 
     @property
     def no_turn(self) -> str:

@@ -36,7 +36,6 @@ for _folder in EXTRAS:
     LAWS.update(load_named(f"extras.{_folder}:EXTRA").laws)
 LAWS |= {
     "scca": "motion.laws.standard:SineConstantCosine",
-    "tuned": "loads.vibration.tuned:Tuned",
     "table": "motion.laws.table_law:TableLaw",
 }
 

@@ -83,11 +83,7 @@ def placed(corners: Array, place: Place) -> Array:
 def _surface(solid: Solid, tolerance: float) -> tuple[Array, Numbers]:
     if not tolerance > 0.0:
         raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
-    if isinstance(solid, Shell):
-        body = _shell(solid, tolerance)
-    else:
-        steps = [_plate(plate, tolerance) for plate in solid.plates]
-        body = m3.Manifold.batch_boolean(steps, m3.OpType.Add)
+    body = _shell(solid, tolerance) if isinstance(solid, Shell) else _plate(solid, tolerance)
     mesh = body.to_mesh64()
     corners = _rounded(np.asarray(mesh.vert_properties)[:, :3])
     if body.is_empty() or not np.ptp(corners, axis=0).all():  # thinner than the decimals

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.shapes import Circle
     from geneva_cli.motion.pivots import Dimension
     from geneva_cli.parts.gears.gear_blanks import Gear
-    from geneva_cli.parts.mounted_plate import FrameAndShafts, Unborne
+    from geneva_cli.parts.mounted_plate import FrameAndShafts
     from geneva_cli.parts.outlines.outlines import Outlines
     from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.shafts.screws import Screws
@@ -58,8 +58,8 @@ class Parts(TurnedParts):
         return ()
 
     @property
-    def unborne(self) -> tuple[Unborne, ...]:
-        """The shafts that turn and have no bearing."""
+    def unborne(self) -> tuple[tuple[str, str], ...]:
+        """The shafts that turn and have no bearing, each with the reason."""
         return ()
 
     @property
@@ -233,8 +233,8 @@ class EdgedParts(Parts):
         return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
 
     @property
-    def unborne(self) -> tuple[Unborne, ...]:
-        """The shafts that turn and have no bearing."""
+    def unborne(self) -> tuple[tuple[str, str], ...]:
+        """The shafts that turn and have no bearing, each with the reason."""
         return self._framed.unborne
 
     @property

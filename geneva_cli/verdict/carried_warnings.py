@@ -117,12 +117,6 @@ def _keys_without_effect(spec: Spec) -> Iterator[Notice]:
             "[motor] has no load to drive, so no motor or flywheel is computed: set "
             f"{spec.load_keys}",
         )
-    if not spec.drive.wheels_on_carrier and any(one.angle_deg for one in spec.mass):
-        yield Notice(
-            "nothing-to-act-on",
-            "angle_deg in [[mass]] has an effect on a carrier only: remove it, or set "
-            'kind = "carousel" in [drive]',
-        )
     support = spec.support
     if bool(support.friction) != bool(support.radius_mm):
         present, lacking = (

@@ -184,8 +184,7 @@ def vibration(parts: Parts) -> Values:
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
         return none
     # only for elastic shafts: the modules of vibration take a twentieth of a short report
-    from geneva_cli.loads.vibration.oscillator import required_oscillator
-    from geneva_cli.loads.vibration.vibration_answers import values
+    from geneva_cli.loads.vibration.vibration import required_oscillator, values
 
     try:
         results = values(mechanism, required_oscillator(mechanism))

@@ -80,11 +80,11 @@ def _bearing_warnings(parts: Parts) -> Iterator[Notice]:
         unborne = parts.built.unborne
     except GenevaError:  # the check of the parts has the reason
         return
-    for one in unborne:
-        part = one.name.partition("'")[0]
+    for name, reason in unborne:
+        part = name.partition("'")[0]
         yield Notice(
             "no-bearing",
-            f"the {one.name} has no bearing: {one.reason}. Hold it from above: "
+            f"the {name} has no bearing: {reason}. Hold it from above: "
             f"{part}_shaft_high_mm makes it longer",
         )
 

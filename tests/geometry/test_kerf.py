@@ -5,7 +5,6 @@ import math
 import pytest
 import repo
 from drawing_witness import polygon, vertices
-from geneva_cli.geometry.offsets import offset, paths
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sampling import some
@@ -13,6 +12,7 @@ from shapely.geometry import LinearRing
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.offsets import offset, paths
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.shapes import Arc, Circle, Line, about, backwards, closed
 from geneva_cli.geometry.sheet import Drawing

@@ -121,7 +121,7 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: Parts) -> 
     Its fits are those of the process, for the thickness of the first part.
     """
     process, to_fix = parts.mechanism.spec.size.process, parts.to_fix
-    unborne = {one.name for one in parts.unborne}
+    unborne = {name for name, _ in parts.unborne}
 
     def begin(*names: str, thick: bool = True) -> View:
         titles: list[str] = []

@@ -32,8 +32,6 @@ def not_proved(mechanism: Mechanism, quantity: str) -> str:
     """The reason why a load has no certificate; empty if it has one."""
     if not mechanism.spec.is_loaded:
         return f"no load: set {mechanism.spec.load_keys}"
-    if mechanism.unbalanced:
-        return "a body stands off the axis of a wheel on a carrier"
     if quantity != WHEEL_TORQUE and load_case(mechanism).guided:
         return "friction in a rack's guide"
     if quantity == WHEEL_TORQUE or mechanism.engagements[0].slot.walls_flat:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.plates import Plate, plates, steps_of
+from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.sphere import POLE
 from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kinds.spherical.parts import SphereParts
@@ -109,7 +109,7 @@ def _shaft_gaps(parts: SphereParts) -> Iterator[float]:
     ball, arm, sectors = parts.ball, parts.arm, parts.shells.crank
     wheel, crank = ([p for p in plates(m.part) if p.layer != "ROLLER"] for m in parts.members[:2])
     for shaft in parts.shafts:
-        (wheel if shaft.frame is None else crank).extend(steps_of(shaft.part))
+        (wheel if shaft.frame is None else crank).extend(plates(shaft.part))
     on_wheel, on_crank = ([s for p in some for s in _round(p)] for some in (wheel, crank))
     # what arm, locking sectors and rollers sweep about the crank's axis
     low, high = ball.arm - ball.roller, ball.arm + ball.roller

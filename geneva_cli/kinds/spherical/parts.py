@@ -39,7 +39,7 @@ from geneva_cli.parts.assembly import Assembly, assembled
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends, shoulder_length, turned_shaft
+from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends
 from geneva_cli.parts.sizes import refuse_thin_hub
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.materials import wheel_material
@@ -161,18 +161,15 @@ class SphereParts(Parts):
     def shafts(self) -> tuple[Member, ...]:
         """The shafts of wheel and crank: as wide as the bores, and as long as on a plane.
 
-        There is no frame. Shafts end the arm's thickness beyond the parts that they carry, turned
-        ones at the circlip of a bearing there.
+        There is no frame. Shafts end the arm's thickness beyond the parts that they carry.
         """
         ball, size = self.ball, self.mechanism.spec.size
         outside, (under, over) = ball.span_mm[1], ball.arm_span_mm
-        face = outside - ball.shafts_end_mm(size)
-        lowest = face - (over - under)
+        lowest = outside - ball.shafts_end_mm(size) - (over - under)
         members = []
         for one, frame in self._axles(lowest):
-            turned = size.shafts == "turned" and one.low <= lowest
-            bearing = face - shoulder_length(size, ball.radius_mm)
-            part = (turned_shaft(size, one, bearing) if turned else one.plain()).part
+            part = one.member.part
+            assert isinstance(part, Plate)
             members.append(Member(inwards(part, outside), frame=frame))
         return tuple(members)
 
@@ -185,8 +182,10 @@ class SphereParts(Parts):
             bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
             seat = Seat("wheel", high - ball.hub_length_mm(size) if hub else 0.0, high)
             low, high = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
-            one = Shaft("wheel's shaft", "wheel", bore, (seat,), low, high, ORIGIN, ball.half_step)
-            yield one._replace(ends_here=False), None
+            yield (
+                Shaft("wheel's shaft", "wheel", bore, (seat,), low, high, ORIGIN, ball.half_step),
+                None,
+            )
         if arm:
             seat = Seat("crank", outside - over, outside - under)
             low, high = shaft_ends(size, "crank", lowest, outside - under)

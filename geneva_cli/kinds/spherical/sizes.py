@@ -250,7 +250,7 @@ def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
     """
     size, L, (under, over) = spec.size, ball.radius_mm, ball.arm_span_mm
     thick, arm, bore = over - under, NO_ARM, ball.arm_bore_mm
-    end = ball.shafts_end_mm(size) - L, thick, L
+    end = ball.shafts_end_mm(size) - L, thick
     if bore:
         middle, wall, hole = 0.5 * (under + over), wall_min(size, L), hole_radius(size, ball.pin_mm)
         bored = reach_or_bore(size, "crank", bore)

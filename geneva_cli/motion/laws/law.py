@@ -55,11 +55,6 @@ class Law(SpecTable):
         """True if a number of a table may be an array along a design axis with this law."""
         return True
 
-    @property
-    def tuned_to(self) -> float | None:
-        """Period ratio at which the law leaves a load at rest; None for a law that is not tuned."""
-        return None
-
     def doubt(self) -> Doubt | None:
         """Decimals of a law of points, and the effect of their rounding on d³s/du³; else None."""
         return None

@@ -60,19 +60,18 @@ def shafts(
     """Yield the shafts of wheel and crank.
 
     ``lowest`` is the frame's lower face, and ``carried`` returns what sits on a shaft below wheel
-    or crank. The crank's shaft ends at ``stop`` if links block it (``turn.planes``).
+    or crank. The crank's shaft ends at ``stop`` if links block it.
     """
     assembly, sizes, still = parts.assembly, parts.sizes, np.zeros(1)
     size = assembly.mechanism.spec.size
     if sizes.wheel_bore:
-        bore, at = bore_of(size, "wheel", sizes.wheel_bore), (0.0, 0.0)
+        bore, at = bore_of(size, "wheel", sizes.wheel_bore), ORIGIN
         low, high = wheel_shaft_ends(parts, lowest)
         turn = 0.0 if bore.is_plain else float(assembly.wheel(still)[0])
         hub = wheel_hub(assembly, sizes)
         seat = Seat("wheel", hub.low if hub else 0.0, sizes.wheel_thickness)
         seats, direction = (*carried(at), seat), assembly.rests[0]
-        one = Shaft("wheel's shaft", "wheel", bore, seats, low, high, at, direction, turn)
-        yield one._replace(ends_here=False)
+        yield Shaft("wheel's shaft", "wheel", bore, seats, low, high, at, direction, turn)
     radius = crank_shaft_radius(parts)
     if radius:
         bore, at = bore_of(size, "crank", radius), (assembly.L, 0.0)
@@ -85,8 +84,7 @@ def shafts(
         low, high = shaft_ends(size, "crank", lowest if stop is None else stop, top)
         turn = 0.0 if bore.is_plain else float(assembly.crank(still)[0])
         seats, direction = (*carried(at), seat), keyway_direction(assembly)
-        one = Shaft("crank's shaft", "crank", bore, seats, low, high, at, direction, turn)
-        yield one._replace(ends_here=sizes.crank_bore == 0.0)
+        yield Shaft("crank's shaft", "crank", bore, seats, low, high, at, direction, turn)
 
 
 def wheel_shaft_radius(parts: Outlines) -> float:

@@ -56,7 +56,7 @@ def passing_parts(name: str, parts: FlatParts) -> Check | None:
         for part in ("wheel", "crank")
         for key in ("hub", "hub_length", "shaft_low", "shaft_high")
     ]
-    own = size["shafts"] == "turned" or any(size[key] is not None for key in keys)
+    own = any(size[key] is not None for key in keys)
     if not (parts.mechanism.first_wheel or own):
         return None
     from geneva_cli.verdict.shaft_gap import shaft_gaps  # which few machines need

@@ -4,10 +4,9 @@ import math
 
 import pytest
 from test_parts_by_hand import L
-from test_turned_shafts import steps
 from words import Spec, Wheel
 
-from geneva_cli import Design, Size, Spherical
+from geneva_cli import Design, Size
 from geneva_cli.geometry.plates import solids
 from geneva_cli.parts.parts import parts_of
 
@@ -48,27 +47,3 @@ def test_the_crank_of_a_sphere():
     # a cap about a hub leaves a wall as thick as the hub's, or the least one
     for bore, edge in ((50.0, 70.0), (59.0, 62.0)):
         assert parts.ball.cap(60.0, bore, 2.0) == pytest.approx(math.asin(edge / 105.5))
-
-
-def test_steps_on_a_sphere():
-    """Seen from its axis each shaft is one of a plane: the sphere's outside is the height 0."""
-
-    size = Size(80.0, 5.0, shafts="turned", wheel_bore_mm=16.0, wheel_hub_mm=24.0, arm_bore_mm=10.0)
-    parts = parts_of(Design(Spherical(6), size=size).mechanism)
-    wheel, crank = (m.part for m in parts.shafts)
-    (inside, _), (under, over) = parts.ball.span_mm, parts.ball.arm_span_mm
-    n, m = 1.5 * (15.0 - 14.3), 1.1
-    bearing = over + 80.0 / 50.0  # the hub ends at the arm's outside
-    wanted = [
-        ("end", 16.0, inside - 2.3, inside - 1.1),
-        ("circlip groove, DIN 471", 15.2, inside - 1.1, inside),
-        ("seat of wheel", 16.0, inside, over),
-        ("shoulder", 20.0, over, bearing),
-        ("seat of bearing 6002", 15.0, bearing, bearing + 9.0),
-        ("circlip groove, DIN 471", 14.3, bearing + 9.0, bearing + 9.0 + m),
-        ("end", 15.0, bearing + 9.0 + m, bearing + 9.0 + m + n),
-    ]
-    for step, (name, wide, low, high) in zip(steps(wheel), wanted, strict=True):
-        assert step == (name, wide, pytest.approx(low), pytest.approx(high))
-    # the wheel turns inside the arm: no circlip there
-    assert steps(crank)[0] == ("seat of crank", 10.0, pytest.approx(under), pytest.approx(over))
