@@ -50,19 +50,6 @@ def test_splines_are_those_of_mpmath(count, period):
         assert found(0.0, 2) == [0.0, 0.0, 0.0]
 
 
-def test_an_integral_is_that_of_its_pieces():
-    x, y = [0.0, 0.2, 0.5, 0.6, 1.0, 1.7, 2.0], [1.0, 1.4, 0.9, 0.7, 0.9, 1.2, 1.0]
-    spline = periodic(x, y)
-    whole = spline.integral()
-    nodes, weights = np.polynomial.legendre.leggauss(3)  # exact up to the fifth degree
-    sum_ = 0.0
-    for a, b in zip(x, x[1:], strict=False):
-        assert whole(a, 0)[0] == pytest.approx(sum_, rel=0, abs=1e-15)
-        at = 0.5 * (a + b) + 0.5 * (b - a) * nodes
-        sum_ += 0.5 * (b - a) * float(weights @ spline(at, 0)[0])
-    assert whole(2.0, 0)[0] == pytest.approx(sum_, rel=1e-15)
-
-
 @pytest.mark.parametrize("n", [11, 101, 301])
 def test_the_jerk_moves_with_the_third_power_of_the_points(n):
     u = [k / (n - 1) for k in range(n)]
