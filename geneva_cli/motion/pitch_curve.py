@@ -13,14 +13,8 @@ from geneva_cli.numerics.roots import boundary
 
 # table columns for a pitch curve with a wall on either side
 WALLED = (
-    "x_mm",
-    "y_mm",
-    "left_x_mm",
-    "left_y_mm",
-    "right_x_mm",
-    "right_y_mm",
-    "pressure_deg",
-    "curvature_radius_mm",
+    *("x_mm", "y_mm", "left_x_mm", "left_y_mm", "right_x_mm", "right_y_mm"),
+    *("pressure_deg", "curvature_radius_mm"),
 )
 
 
@@ -65,15 +59,9 @@ def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
     m = library(x.c[0])
     (x0, x1, x2), (y0, y1, y2) = x.derivatives(), y.derivatives()
     speed = m.hypot(x1, y1)
-    return Pitch(
-        x0,
-        y0,
-        x1 / speed,
-        y1 / speed,
-        speed,
-        (x1 * y2 - y1 * x2) / (speed * speed),
-        m.atan2(size(x0 * y1 - y0 * x1), size(x0 * x1 + y0 * y1)),
-    )
+    turning = (x1 * y2 - y1 * x2) / (speed * speed)
+    pressure = m.atan2(size(x0 * y1 - y0 * x1), size(x0 * x1 + y0 * y1))
+    return Pitch(x0, y0, x1 / speed, y1 / speed, speed, turning, pressure)
 
 
 def opposites(engagement: Engagement, input_deg: Array) -> Array:
@@ -105,12 +93,6 @@ def pitch_at_retrace(engagement: Engagement) -> Pitch:
     m = library(x.c[0])
     (x0, _, x2, x3), (y0, _, y2, y3) = x.derivatives(), y.derivatives()
     bend = m.hypot(x2, y2)
-    return Pitch(
-        x0,
-        y0,
-        -x2 / bend,
-        -y2 / bend,
-        0.0,
-        (x2 * y3 - y2 * x3) / (2.0 * bend * bend),
-        m.atan2(size(x0 * y2 - y0 * x2), size(x0 * x2 + y0 * y2)),
-    )
+    turning = (x2 * y3 - y2 * x3) / (2.0 * bend * bend)
+    pressure = m.atan2(size(x0 * y2 - y0 * x2), size(x0 * x2 + y0 * y2))
+    return Pitch(x0, y0, -x2 / bend, -y2 / bend, 0.0, turning, pressure)
