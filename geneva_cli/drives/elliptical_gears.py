@@ -75,8 +75,14 @@ class EllipticalGears(Transmission, kw_only=True):
         return Mesh(path, self.gear_distance_mm / L)
 
     def about(self, crank_deg: float) -> LocalTransmission:
-        slow = self.phase == "slow"
-        return _about(self.eccentricity if slow else -self.eccentricity, crank_deg)
+        e = self.eccentricity if self.phase == "slow" else -self.eccentricity
+        sin_h, cos_h = sin_cos_deg(0.5 * crank_deg)
+        a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
+        m = library(e, crank_deg)
+        size, phi = m.hypot(a, b), 2.0 * m.degrees(m.atan2(a, b))
+        turns = (crank_deg - phi) / 720.0  # half angles repeat after two turns
+        phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
+        return LocalTransmission(phi, Focal(e, sin_h, cos_h, a / size, b / size, size))
 
 
 class Focal(NamedTuple):
@@ -109,20 +115,3 @@ class Focal(NamedTuple):
         cosines = cosines_after(sin_phi, cos_phi, max(order, 1) - 1)
         rate = least / Jet((W, *[2.0 * e * t for t in cosines[1:]]))
         return sine_versine_of(rate, y, x, order)
-
-
-def _focal(e: float, sin_h: float, cos_h: float) -> Focal:
-    """The gears about an angle of the driven one, from half that angle."""
-    a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
-    size = library(a, b).hypot(a, b)
-    return Focal(e, sin_h, cos_h, a / size, b / size, size)
-
-
-def _about(e: float, crank_deg: float) -> LocalTransmission:
-    m = library(e, crank_deg)
-    focal = _focal(e, *sin_cos_deg(0.5 * crank_deg))
-    a, b = (1.0 + e) * focal.sin_h, (1.0 - e) * focal.cos_h
-    phi = 2.0 * m.degrees(m.atan2(a, b))
-    turns = (crank_deg - phi) / 720.0  # half angles repeat after two turns
-    phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
-    return LocalTransmission(phi, focal)

@@ -86,11 +86,9 @@ class NoncircularGears(Transmission, kw_only=True):
         return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        law: Dimension = (
-            Dimension("gears' ratio", self.ratio.file)
-            if self.ratio is not None
-            else Dimension("gears' ratio as of side-crank A", self.A or 0.0)
-        )
+        law = Dimension("gears' ratio as of side-crank A", self.A or 0.0)
+        if self.ratio is not None:
+            law = Dimension("gears' ratio", self.ratio.file)
         return (
             Pivot("driver gear axis", plan.center_distance_mm + self.gear_distance_mm, 0.0),
             Dimension("gears' axes", self.gear_distance_mm, "mm"),
@@ -128,13 +126,11 @@ def _turned(points: tuple[tuple[float, float], ...]) -> PiecewisePolynomial:
     key = ("drive", "ratio_file")
     x, i = zip(*points, strict=True)
     if x[0] != 0.0 or x[-1] != 360.0 or i[0] != i[-1]:
-        raise GenevaError(
-            "the ratio must run from 0 to 360 deg, and end at the value it began with", key
-        )
+        text = "the ratio must run from 0 to 360 deg, and end at the value it began with"
+        raise GenevaError(text, key)
     if min(i) <= 0.0:
-        raise GenevaError(
-            f"not realisable as gears: the ratio falls to {min(i):g}, and must stay above 0", key
-        )
+        text = f"not realisable as gears: the ratio falls to {min(i):g}, and must stay above 0"
+        raise GenevaError(text, key)
     whole = periodic([math.radians(v) for v in x], i).integral()
     mean = whole(math.tau, 0)[0] / math.tau
     # a smaller error of the mean ratio is scaled away
@@ -164,21 +160,14 @@ class CrankRotation(NamedTuple):
 def _through(
     crank: PiecewisePolynomial, points: tuple[tuple[float, float], ...], crank_deg: float
 ) -> LocalTransmission:
-    turns, wanted = divmod(math.radians(crank_deg), math.tau)
-    phi = boundary(lambda x: crank(x, 0)[0] < wanted, 0.0, math.tau)
-    since = _since(crank, [at for at, _ in points[:-1]], phi)
-    return LocalTransmission(
-        math.degrees(phi + turns * math.tau), CrankRotation(since), False, since.seams
-    )
-
-
-def _since(crank: PiecewisePolynomial, starts_deg: list[float], phi: float) -> PiecewisePolynomial:
-    """The crank's rotation since the input angle phi, by the input's rotation, over three turns."""
+    """The gears about a crank angle, with the crank's rotation since then over three turns."""
     import numpy as np
 
     from geneva_cli.numerics.spline import SPLINE_DEGREE, PiecewisePolynomial, taylor
 
-    here = crank(phi, SPLINE_DEGREE + 1)
+    turns, wanted = divmod(math.radians(crank_deg), math.tau)
+    phi = boundary(lambda x: crank(x, 0)[0] < wanted, 0.0, math.tau)
+    here, starts_deg = crank(phi, SPLINE_DEGREE + 1), [at for at, _ in points[:-1]]
     origins = np.radians(np.add.outer([-360.0, 0.0, 360.0], starts_deg).ravel()) - phi
     cuts = origins[1:].copy()
     middle = len(starts_deg) + int(crank.cuts.searchsorted(phi))
@@ -189,4 +178,5 @@ def _since(crank: PiecewisePolynomial, starts_deg: list[float], phi: float) -> P
     first = taylor(cuts[middle - 1], list(rows[middle]), 0)[0]
     rows[middle + 1 :, 0] = np.cumsum(ends[middle:])
     rows[:middle, 0] = first - np.cumsum(ends[:middle][::-1])[::-1]
-    return PiecewisePolynomial(cuts, origins, rows)
+    since, phi_deg = PiecewisePolynomial(cuts, origins, rows), math.degrees(phi + turns * math.tau)
+    return LocalTransmission(phi_deg, CrankRotation(since), False, since.seams)
