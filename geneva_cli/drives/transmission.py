@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -39,15 +38,11 @@ class LocalTransmission(NamedTuple):
     input_deg: float  # input angle there
     # sin d and 1 - cos d of the crank's rotation d since then, by the input's rotation since then
     advance: Displacement
-    # True if the crank may turn alike before and after; False for an arbitrary ratio
-    even: bool = True
-    # input radians since then at which another formula of ``advance`` takes over
-    cuts: Sequence[float] = ()
 
     def anchor(self, pose: PinPose, middle_deg: float) -> Anchor:
         """A pose at this crank angle as an anchor; mid-motion is at the input ``middle_deg``."""
         travel = PinTravel(pose, self.advance)
-        return Anchor(self.input_deg - middle_deg, pose.wheel, pose.along, travel, self.cuts)
+        return Anchor(self.input_deg - middle_deg, pose.wheel, pose.along, travel)
 
 
 def same(tau: Number, order: int) -> Vector:
@@ -142,7 +137,6 @@ class Transmission(Drive, kw_only=True):
             motion = ClassicMotion(path, place.step.b, *place.closed)
         else:
             motion.closed_peaks = self.closed_peaks(wheel, place)
-            motion.mirrored = motion.mirrored and here.even
         rate = -wheel.SIGN * place.cone
         body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
         reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
@@ -171,7 +165,7 @@ class Transmission(Drive, kw_only=True):
         )
         here = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
-        path = solved.MiddlePath(here.anchor(pose, here.input_deg), here.even)
+        path = solved.MiddlePath(here.anchor(pose, here.input_deg))
         end_deg, b = 0.5 * motion_deg, wheel.step.b
         turned = solved.LawMotion(-end_deg, end_deg, b, motion.law)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None

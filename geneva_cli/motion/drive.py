@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from geneva_cli.motion.motion import Motion
     from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
-    from geneva_cli.numerics.spline import Doubt
 
 
 class Plan(NamedTuple):
@@ -166,13 +165,6 @@ class Drive(SpecTable, kw_only=True):
     def may_vary(self, table: str, key: str) -> bool:
         """True if a number of a table may be an array along a design axis with this drive."""
         return True
-
-    def doubt(self, input_deg: float) -> Doubt | None:
-        """Uncertainty of the crank's jerk from the decimals of a ratio file; None without one.
-
-        It is the change by rounding of the ratio's second derivative, over the ratio.
-        """
-        return None
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
         """Rate of the crank over its input shaft's at crank angles; NaN for a path of its own."""

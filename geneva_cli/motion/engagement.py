@@ -138,8 +138,6 @@ class Slot(Batchable, ABC):
 
     # True for a curve that was solved for: it has two branches and its own walls.
     curved = False
-    # True if its two branches are mirror images when the motion is symmetric.
-    mirrored = True
     # True if something other than the roller drives the wheel for part of the motion.
     relieved = False
     # e: distance between a straight slot's axis and the wheel's centre, over L.
@@ -354,7 +352,7 @@ class Engagement(Batchable):
     @property
     def mirrored(self) -> bool:
         """True if motion, slot and loads are symmetric about mid-motion."""
-        return self.motion.symmetric and self.slot.mirrored
+        return self.motion.symmetric
 
     def reach(self, input_deg: float) -> Number:
         """Pin distance from the wheel's axis, in units of L."""
@@ -426,13 +424,6 @@ class Anchor(NamedTuple):
     wheel: float  # direction of the ray from the wheel's axis to the pin there, radians
     along: float  # distance from the wheel's axis to the pin there
     displacement: Displacement  # since then, along the ray and across it
-    # input radians since then, in order, at which another formula of the displacement takes over
-    cuts: Sequence[float] = ()
-
-    @property
-    def seams_deg(self) -> list[float]:
-        """Input angles at which another formula of the displacement takes over, degrees."""
-        return [self.input_deg + math.degrees(cut) for cut in self.cuts]
 
     def displacement_at(self, input_deg: Number, order: int) -> Vector:
         """Pin displacement (along the ray, across it) at an input angle in degrees."""

@@ -16,13 +16,10 @@ from geneva_cli.numerics.jet import Jet, Number, piecewise
 
 
 class MiddlePath(Batchable):
-    """The pin's path, written about mid-motion.
+    """The pin's path, written about mid-motion."""
 
-    ``mirrored`` is True if its second half is the mirror image of its first.
-    """
-
-    def __init__(self, middle: Anchor, mirrored: bool = True) -> None:
-        self.middle, self.mirrored = middle, mirrored
+    def __init__(self, middle: Anchor) -> None:
+        self.middle = middle
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) on its circle at input angles in degrees."""
@@ -36,7 +33,6 @@ class SolvedSlot(Slot):
 
     def __init__(self, path: MiddlePath, motion: WheelMotion) -> None:
         self.path, self.motion = path, motion
-        self.mirrored = path.mirrored
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         return in_wheel(self.path(input_deg, order), self.motion(input_deg, order))

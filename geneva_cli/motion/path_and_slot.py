@@ -130,7 +130,7 @@ class StraightSlotMotion(WheelMotion):
     @property
     def seams_deg(self) -> tuple[float, ...]:
         path = self.path
-        places = {0.0, *path.cuts, *[at for one in path.anchors for at in one.seams_deg]}
+        places = {0.0, *path.cuts}
         inside = sorted(at for at in places if self.entry_deg < at < self.exit_deg)
         return (self.entry_deg, *inside, self.exit_deg)
 

@@ -9,7 +9,6 @@ from typing import NamedTuple, cast
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, library, size
 from geneva_cli.numerics.jet import Number
-from geneva_cli.numerics.roots import boundary
 
 # table columns for a pitch curve with a wall on either side
 WALLED = (
@@ -65,25 +64,8 @@ def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
 
 
 def opposites(engagement: Engagement, input_deg: Array) -> Array:
-    """Input angles on the other branch at which the roller is as far from the wheel's axis.
-
-    NaN beyond the end of the other branch. The roller moves on the crank's circle, so its distance
-    only rises, or only falls, from mid-motion on.
-    """
-    import numpy as np
-
-    if engagement.slot.mirrored:
-        return engagement.inputs_deg(-engagement.own_deg(input_deg))
-
-    def beyond_middle(at: Array) -> Array:
-        (x, y), (x0, y0) = engagement.path(at, 0), engagement.path(0.0, 0)
-        away: Array = np.hypot(x.c[0], y.c[0]) - np.hypot(x0.c[0], y0.c[0])
-        return np.abs(away)
-
-    far = np.where(input_deg < 0.0, engagement.exit_deg, engagement.entry_deg)
-    here = beyond_middle(input_deg)
-    other = boundary(lambda at: beyond_middle(at) <= here, 0.0 * far, far)
-    return np.where(beyond_middle(far) < here, np.nan, other)
+    """Input angles on the other branch at which the roller is as far from the wheel's axis."""
+    return engagement.inputs_deg(-engagement.own_deg(input_deg))
 
 
 @lru_cache(maxsize=16)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pitch_curve import opposites, pitch, retraces
+from geneva_cli.motion.pitch_curve import pitch, retraces
 from geneva_cli.numerics.arrays import Array, Mask, Number
 from geneva_cli.numerics.tolerances import TIE
 
@@ -91,14 +91,9 @@ def outer_walls(
     with np.errstate(all="ignore"):
         curves, back = [pitch(own, x) for x in ends], np.atleast_2d(retraces(own))
         for x, at, other, way in zip(ends, curves, curves[::-1], (1.0, -1.0), strict=True):
-            # the angle of one branch over the other at equal radii; that at its end where none is
-            u, v = other.x, other.y
-            if not own.slot.mirrored:
-                u, v = (jet.c[0] for jet in own.slot(opposites(own, x), 0))
-            lead = np.atleast_2d(np.arctan2(at.y, at.x) - np.arctan2(v, u))
-            known = ~np.isnan(lead)
-            first = np.take_along_axis(lead, np.argmax(known, axis=1)[:, None], axis=1)
-            lead = way * np.where(known, lead, first)
+            # the angle of one branch over the other at equal radii
+            lead = np.arctan2(at.y, at.x) - np.arctan2(other.y, other.x)
+            lead = way * np.atleast_2d(lead)
             lead[:, far + 1 :] = lead[:, far : far + 1]
             # Left (1) or right (-1) of the travel. Outside, the pin travels inwards first; inside,
             # outwards.

@@ -213,19 +213,13 @@ def _overtaken(mechanism: Mechanism) -> Iterator[Notice]:
 def _rounded_points(mechanism: Mechanism) -> Iterator[Notice]:
     """A warning about the uncertainty of the jerk from the rounding of a file's points."""
     engagement, law = mechanism.engagements[0], mechanism.law
-    # the place where the jerk of a ratio has the greatest effect
-    top = peak(engagement.motion, "velocity")
-    spec = mechanism.spec
-    ratio = (spec.drive_before or spec.drive).doubt(engagement.mid_deg + top.at_deg)
-    points = law.doubt() if law else None
-    if ratio:
-        decimals, move = ratio.decimals, ratio.move * top.max
-    elif points:
-        engagement = engagement.own  # the law holds by the angle of its shaft
-        whole = (engagement.motion_deg * DEGREE) ** 3
-        decimals, move = points.decimals, points.move * 2.0 * engagement.half_step / whole
-    else:
+    doubt = law.doubt() if law else None
+    if doubt is None:
         return
+    decimals, move = doubt
+    engagement = engagement.own  # the law holds by the angle of its shaft
+    whole = (engagement.motion_deg * DEGREE) ** 3
+    move *= 2.0 * engagement.half_step / whole
     fraction = move / peak(engagement.motion, "jerk").max
     if not fraction < 0.01:  # less is not worth a warning
         yield Notice(

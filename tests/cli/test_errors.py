@@ -80,13 +80,6 @@ HUGE = [
     key("long-law", f'[motion]\nlaw = "{LONG}"\n', 2, "law must be one of", "and 7 more"),
     key("long-file", TABLE.replace("law.csv", LONG), 3, "cannot read", "too long"),
     key("nul-in-a-file", TABLE.replace("law.csv", r"a\u0000b"), 3, "cannot read", "null byte"),
-    key(
-        "nul-in-a-ratio-file",
-        '[drive]\nkind = "noncircular-gears"\nratio_file = "a\\u0000b"\n',
-        3,
-        "cannot read",
-        "null byte",
-    ),
 ]
 
 UNKNOWN = [

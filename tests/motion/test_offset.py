@@ -6,15 +6,10 @@ place of the input angle, or of ``offset_mm``, moves.
 
 import math
 
-import design_arrays
-import numpy as np
 import pytest
-from design_arrays import RATIO
 from exact.machines import compare_machine, read
 from exact.table import DIGITS, LIMIT, Table
 from witness import mp
-
-from geneva_cli.motion.mechanism import build
 
 NEAR = (1e-4, 1e-9)  # much nearer, peaks lie between two doubles of the input angle
 
@@ -43,12 +38,3 @@ def test_the_limit_itself_is_refused():
     for z in (3, 4, 6):  # 25, 50 and 75 mm are doubles
         assert read(spec(z, math.nextafter(round(limit(z)), 0.0)))
         assert read(spec(z, float(round(limit(z))))) is None
-
-
-def test_gears_by_points():
-    """Their anchors differ in more than numbers: angles as of many designs are cut up, too."""
-    keys = design_arrays.machine(6, "noncircular-gears", own={"offset_mm": 15.0}, ratio=RATIO)
-    (s,) = build(keys).engagements
-    x = np.linspace(s.entry_deg, s.exit_deg, 41)
-    for one, row in zip(s.motion(x).arrays(), s.motion(x[:, None]).arrays(), strict=True):
-        assert np.array_equal(one[:, None], row)

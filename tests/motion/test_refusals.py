@@ -157,15 +157,7 @@ SLIDES = [
 ]
 
 NONCIRCULAR = [
-    case("neither", WHEEL + drive("@"), "noncircular-gears", 4, "A", "ratio_file"),
-    case("no-file", WHEEL + drive("noncircular-gears", "ratio_file = @"), '"gone.csv"', 5, "gone"),
-    case(
-        "both",
-        WHEEL + drive("@", 'A = 0.2\nratio_file = "ratio.csv"'),
-        "noncircular-gears",
-        4,
-        "both",
-    ),
+    case("neither", WHEEL + drive("@"), "noncircular-gears", 3, "needs A"),
 ]
 
 SECTORS = [
@@ -257,8 +249,6 @@ NAMED = [
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    rows = "".join(f"{x},1\n" for x in range(0, 361, 30))
-    (tmp_path / "ratio.csv").write_text(rows, encoding="utf-8")
 
 
 def built(spec, value):

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from shapely.affinity import rotate, translate
 from shapely.geometry import LineString, Point, Polygon
-from words import Drive, Keys, Motion, Spec, Wheel, points
+from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import Design, External, Internal, NoncircularGears
-from geneva_cli.motion import registry
 from geneva_cli.motion.groove_path import distances
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.assembly import assembly
@@ -22,8 +21,8 @@ from geneva_cli.verdict.checks import checks
 TOL = 0.001
 
 
-def gears(A=None, ratio=None):
-    keys = Keys("noncircular-gears", A, ratio, 120.0)
+def gears(A):
+    keys = Keys("noncircular-gears", A, 120.0)
     return build(Spec(Wheel(6), Drive("noncircular-gears"), keys))
 
 
@@ -84,29 +83,6 @@ def test_drawn_gears_mesh_as_the_crank_turns(gearing):
         other = translate(rotate(driver, -sense * x, (0, 0), use_radians=True), C)
         assert one.distance(other) < 5e-5
         assert one.intersection(other).area < 1e-4
-
-
-def ratio_file(tmp_path, change=lambda ratio: ratio):
-    lines = ["input_deg,ratio"]
-    for k in range(0, 361, 2):
-        phi = math.radians(k % 360)
-        ratio = 0.91 / (1.09 + 0.6 * math.cos(phi))
-        lines.append(f"{k},{change(ratio)!r}")
-    path = tmp_path / "ratio.csv"
-    path.write_text("\n".join(lines))
-    return points(path, registry.drive("noncircular-gears"), "ratio")
-
-
-def test_a_ratio_from_a_file(tmp_path):
-    """The elliptical gears' ratio at 181 points; a quintic spline of 2 degrees is good to 1e-10."""
-    ours = gears(ratio=ratio_file(tmp_path)).engagements[0]
-    keys = Keys("elliptical-gears", 0.3)
-    theirs = build(Spec(Wheel(6), Drive("elliptical-gears"), keys)).engagements[0]
-    assert ours.entry_deg == pytest.approx(theirs.entry_deg, abs=1e-9)
-    x = np.linspace(-90.0, 90.0, 19)
-    for order, digits in ((0, 1e-11), (1, 1e-10), (2, 1e-8), (3, 1e-6)):
-        a, b = (s.motion(x).derivatives()[order] for s in (ours, theirs))
-        assert a == pytest.approx(b, abs=digits)
 
 
 def test_the_groove_against_the_law_of_sines():
