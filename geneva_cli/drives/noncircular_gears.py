@@ -10,9 +10,9 @@ from geneva_cli.drives import whitworth
 from geneva_cli.drives.pushed import Mesh, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.drive import Gears, Plan
-from geneva_cli.motion.engagement import ClosedPeaks, Path
+from geneva_cli.motion.engagement import Path
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
-from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.spec.rules import POSITIVE, Range
 from geneva_cli.spec.schema import Example
 
@@ -58,5 +58,6 @@ class NoncircularGears(Transmission, kw_only=True):
     def about(self, crank_deg: float) -> LocalTransmission:
         return whitworth.about(self.A, crank_deg)
 
-    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
-        return whitworth.closed_peaks(self.A, wheel, place)
+    @property
+    def side_crank(self) -> float:
+        return self.A

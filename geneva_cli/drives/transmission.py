@@ -10,14 +10,13 @@ from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
-    ClosedPeaks,
     ConstantRate,
     Displacement,
     Engagement,
     Path,
     Vector,
 )
-from geneva_cli.motion.path_and_slot import AnchoredPath, ClassicMotion
+from geneva_cli.motion.path_and_slot import AnchoredPath, ClassicMotion, SideCrankMotion
 from geneva_cli.motion.rollers import places
 from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
@@ -85,8 +84,9 @@ class Transmission(Drive, kw_only=True):
         """Greatest crank angle from mid-motion at which the crank may move the wheel, degrees."""
         return 180.0
 
-    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
-        """Peaks behind this transmission that need no general search; None if there are none."""
+    @property
+    def side_crank(self) -> float | None:
+        """A of the side-crank whose ratio it has; None for another ratio."""
         return None
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
@@ -133,10 +133,11 @@ class Transmission(Drive, kw_only=True):
         )
         path = AnchoredPath(anchors)
         slot, motion = wheel.follow(path, place, here.advance)
+        first = isinstance(place.crank_deg, float) and place.crank_deg == 0.0 and not wheel.steps
         if place.closed and self.direct:
             motion = ClassicMotion(path, place.step.b, *place.closed)
-        else:
-            motion.closed_peaks = self.closed_peaks(wheel, place)
+        elif place.closed and self.side_crank is not None and first:
+            motion = SideCrankMotion(path, place.step.b, self.side_crank, *place.closed)
         rate = -wheel.SIGN * place.cone
         body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
         reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None

@@ -57,12 +57,6 @@ class Rate(Protocol):
     def __call__(self, tau: Number, order: int) -> Jet: ...
 
 
-class ClosedPeaks(Protocol):
-    """Peak of a quantity in closed form, or by a quicker search than the general one; else None."""
-
-    def __call__(self, quantity: str) -> Peak[float] | None: ...
-
-
 class Reactions(Protocol):
     """Reactions on the body that carries the roller, held by links without mass or friction.
 
@@ -205,7 +199,6 @@ class WheelMotion(Batchable, ABC):
 
     # False if the two halves of the path differ
     mirrored = True
-    closed_peaks: ClosedPeaks | None = None
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
     BREAKS_TO: ClassVar[float] = 0.0
 
@@ -247,7 +240,7 @@ class WheelMotion(Batchable, ABC):
 
         None if there is neither; in a batch NaN for each design that has neither.
         """
-        return self.closed_peaks(quantity) if self.closed_peaks else None
+        return None
 
     def end_rates(self, input_deg: float) -> tuple[float, float]:
         """Sizes of acceleration and jerk at entry or exit, from inside the motion."""
