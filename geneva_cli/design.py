@@ -273,7 +273,6 @@ class Design:
             drive=spec.drive.backwards(plan),
             drive_before=spec.drive_before and spec.drive_before.backwards(plan),
             motion=spec.motion and spec.motion.backwards,
-            mass=tuple(one.backwards for one in spec.mass),
             size=spec.size.replace(**loaded),
             title=", ".join(text for text in (spec.title, "backwards") if text),
         )

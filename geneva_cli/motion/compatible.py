@@ -48,8 +48,8 @@ def refuse_conflicts(spec: Spec) -> None:
         concerned = (kind.drive and kind.name == spec.drive.NAME) or (
             kind.wheel and kind.name == spec.wheel.NAME
         )
-        for key in kind.keys:
-            table, _, name = key.partition(".")
+        for own in kind.keys:
+            table, _, name = own.partition(".")
             of = vars(spec)[attribute(table)]
             value, default = vars(of).get(name), getattr(type(of), name, None)
             if value is not default and (is_array(value) or value != default):
