@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import Mesh, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion.drive import Gears, Plan
 from geneva_cli.motion.engagement import Path
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
@@ -45,14 +45,10 @@ class EllipticalGears(Transmission, kw_only=True):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        refuse(
-            self.eccentricity > 1.0 - 0.999e-12,  # 1 - 1e-12, as a double, passes
-            lambda: GenevaError(
-                f"eccentricity = {self.eccentricity!r}: too close to 1 to be computed; it "
-                "must be at most 1 - 1e-12",
-                ("drive", "eccentricity"),
-            ),
-        )
+        e, text = self.eccentricity, "eccentricity = {e!r}: too close to 1 to be computed; it must "
+        # 1 - 1e-12, as a double, passes
+        near, key = e > 1.0 - 0.999e-12, ("drive", "eccentricity")
+        refuse_text(near, key, text + "be at most 1 - 1e-12", e=e)
 
     @property
     def gears(self) -> Gears:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
@@ -156,14 +156,9 @@ class Transmission(Drive, kw_only=True):
         solved.refuse_alpha0(motion.alpha0_deg, natural)
         refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
         ratio = self._ratio(wheel, motion, motion_deg)
-        refuse(
-            ratio != ratio,
-            lambda: GenevaError(
-                'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
-                "below 1; set a number, or change alpha0_deg or the law",
-                ("motion", "ratio"),
-            ),
-        )
+        text = 'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
+        text += "below 1; set a number, or change alpha0_deg or the law"
+        refuse_text(ratio != ratio, ("motion", "ratio"), text)
         here = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         path = solved.MiddlePath(here.anchor(pose, here.input_deg))
@@ -188,14 +183,10 @@ class Transmission(Drive, kw_only=True):
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
         """Raise GenevaError if the transmission does not cover the whole motion."""
-        refuse(
-            farthest_deg > self.reach_deg * (1.0 + 1e-12),
-            lambda: GenevaError(
-                f"z = {wheel.z}: the crank must turn {farthest_deg:.6g} deg to either side, but "
-                f'kind = "{self.NAME}" turns it only {self.reach_deg:.6g}: reduce z or first_z',
-                ("wheel", "z"),
-            ),
-        )
+        text = "z = {z}: the crank must turn {far:.6g} deg to either side, but kind = "
+        text += '"{name}" turns it only {most:.6g}: reduce z or first_z'
+        values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": self.reach_deg}
+        refuse_text(farthest_deg > self.reach_deg * (1.0 + 1e-12), ("wheel", "z"), text, **values)
 
 
 class Direct(Transmission, kw_only=True):

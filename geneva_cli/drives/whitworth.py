@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion.engagement import Vector
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, enclosed, library
@@ -18,13 +18,9 @@ from geneva_cli.numerics.jet import Jet, Number, cosines_after, sin_cos, sine_ve
 
 def refuse_rounding(A: float) -> None:
     """Raise GenevaError for |A| too close to 1 to be computed."""
-    refuse(
-        abs(A) > 1.0 - 0.999e-12,  # 1 - 1e-12, as a double, passes
-        lambda: GenevaError(
-            f"A = {A!r}: too close to 1 to be computed; its size must be at most 1 - 1e-12",
-            ("drive", "A"),
-        ),
-    )
+    text = "A = {A!r}: too close to 1 to be computed; its size must be at most 1 - 1e-12"
+    # 1 - 1e-12, as a double, passes
+    refuse_text(abs(A) > 1.0 - 0.999e-12, ("drive", "A"), text, A=A)
 
 
 class Coulisse(NamedTuple):

@@ -6,7 +6,7 @@ import math
 from abc import abstractmethod
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.engagement import Displacement, Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
 from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
@@ -90,14 +90,12 @@ class Drive(SpecTable, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         lost_s = 0.5 * (self.start_s + self.brake_s)
-        refuse(
-            lost_s > self.stop_s * (1.0 + 1e-12),
-            lambda: GenevaError(
-                f"stop_s = {self.stop_s:g}: to brake and to start takes {lost_s:g} s longer than "
-                f"to run on, so the input would not come to rest: it must be at least {lost_s:g}",
-                (self.TABLE, "stop_s"),
-            ),
+        text = (
+            "stop_s = {stop_s:g}: to brake and to start takes {lost_s:g} s longer than to run on, "
+            "so the input would not come to rest: it must be at least {lost_s:g}"
         )
+        short, key = lost_s > self.stop_s * (1.0 + 1e-12), (self.TABLE, "stop_s")
+        refuse_text(short, key, text, stop_s=self.stop_s, lost_s=lost_s)
 
     @property
     def stands_s(self) -> float:

@@ -15,17 +15,8 @@ from dataclasses import dataclass
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import (
-    Array,
-    Batchable,
-    Truth,
-    all_true,
-    array,
-    blocks,
-    choose,
-    library,
-)
-from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
+from geneva_cli.numerics.arrays import Batchable, Truth, all_true, array, blocks, choose, library
+from geneva_cli.numerics.jet import Array, Jet, Number, turning
 
 K = TypeVar("K", float, "Array")
 
@@ -426,10 +417,3 @@ class Anchor(NamedTuple):
         """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
         along, across = self.displacement_at(input_deg, order)
         return along + self.along, across
-
-
-def in_wheel(path: Vector, wheel: Jet) -> Vector:
-    """Transform a vector from the fixed frame to that of a wheel at angle ``wheel``, radians."""
-    x, y = path
-    s, c = sin_cos(wheel)
-    return x * c + y * s, y * c - x * s

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Truth, choose, smaller
 
@@ -20,7 +20,7 @@ _IN_CRANK = (
 
 
 def _refuse(when: Truth, key: tuple[str, str], text: str, **values: object) -> None:
-    refuse(when, lambda: GenevaError(text.format(key=key[1], **values), key))
+    refuse_text(when, key, text, key=key[1], **values)
 
 
 def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:

@@ -15,16 +15,7 @@ from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import (
-    Array,
-    Enclosed,
-    Library,
-    Mask,
-    Number,
-    Truth,
-    Undecided,
-    Whole,
-)
+from geneva_cli.numerics.arrays import Array, Enclosed, Library, Number, Truth, Undecided, Whole
 
 if TYPE_CHECKING:
     Bound: TypeAlias = Array | float
@@ -281,7 +272,7 @@ class _Intervals:
         return size if y > 0.0 else -size
 
 
-def _passes(low: Bound, high: Bound, at: float) -> Mask:
+def _passes(low: Bound, high: Bound, at: float) -> Truth:
     """True where ``at``, or a whole number of turns from there, may lie between two angles."""
     below = np.floor((high + NEAR - at) / math.tau) * math.tau + at
     return np.greater_equal(below, low - NEAR)

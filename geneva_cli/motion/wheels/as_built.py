@@ -22,7 +22,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion.engagement import AsBuilt
 from geneva_cli.motion.wheels.gearing import RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, middle
@@ -84,14 +84,9 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     Lengths are over the centre distance. Raises GenevaError where the roller cannot pass the line
     of centres in its slot.
     """
-    refuse(
-        l + abs(e) >= 1.0,
-        lambda: GenevaError(
-            "crank_radius_mm and the slots' offset together must be below center_distance_mm: the "
-            "roller would pass beyond the wheel's axis",
-            ("size", "crank_radius_mm"),
-        ),
-    )
+    text = "crank_radius_mm and the slots' offset together must be below center_distance_mm: the "
+    text += "roller would pass beyond the wheel's axis"
+    refuse_text(l + abs(e) >= 1.0, ("size", "crank_radius_mm"), text)
     # the slot at rest before and after a motion, and if the roller's centre reaches its axis
     sin_b, radial = step.sin_cos[0], isinstance(e, float) and e == 0.0
     reaches: Truth = l >= sin_b
@@ -109,16 +104,11 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     inside = reaches & first.is_inside(e, rim) & last.is_inside(e, rim)
     half, tilt = 0.5 * (last.angle - first.angle), 0.5 * (last.angle + first.angle)
     half = choose(reaches, step.b, half)
-    entry, exit_ = (
-        PinPose(
-            end.crank_deg,
-            wheel,
-            end.along,
-            (sign * end.across, -sign * end.beyond),
-            (-end.beyond, -end.across),
-        )
-        for end, wheel in ((first, -half), (last, half))
-    )
+    poses = []
+    for end, wheel in ((first, -half), (last, half)):
+        x, y = end.beyond, end.across
+        poses.append(PinPose(end.crank_deg, wheel, end.along, (sign * y, -sign * x), (-x, -y)))
+    entry, exit_ = poses
     mid, skew, m = middle(sign, l, 1.0 - sign * l), None, library(l, e, rim)
     if not radial:
         deepest = m.sqrt((1.0 - l - e) * (1.0 - l + e))

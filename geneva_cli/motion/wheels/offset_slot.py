@@ -133,17 +133,9 @@ def skew(step: HalfStep, e: float, spare: float) -> Skew:
     turn = m.atan2(size * (sin_b - cos_d * less), deepest * cos_d + abs(e) * size)
     mid = middle(1.0, l, least)
     gentle = e > 0.0  # at entry
-    poses = (
-        PinPose(
-            choose(gentle, -long, -short),
-            -step.b,
-            choose(gentle, wide, narrow),
-            (-l, 0.0),
-            (0.0, l),
-        ),
-        mid._replace(wheel=choose(gentle, turn, -turn)),
-        PinPose(
-            choose(gentle, short, long), step.b, choose(gentle, narrow, wide), (l, 0.0), (0.0, -l)
-        ),
-    )
-    return Skew(e, m.copysign(d, e), deepest, poses)
+    mid = mid._replace(wheel=choose(gentle, turn, -turn))
+    enters, along = choose(gentle, -long, -short), choose(gentle, wide, narrow)
+    entry = PinPose(enters, -step.b, along, (-l, 0.0), (0.0, l))
+    leaves, along = choose(gentle, short, long), choose(gentle, narrow, wide)
+    exit_ = PinPose(leaves, step.b, along, (l, 0.0), (0.0, -l))
+    return Skew(e, m.copysign(d, e), deepest, (entry, mid, exit_))
