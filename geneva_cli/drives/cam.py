@@ -1,8 +1,4 @@
-"""Cam-Geneva: a fixed groove guides the roller along the crank, and the slots stay straight.
-
-Every law whose velocity at mid-motion is positive can be made in this way. Straight slots then
-drive the wheel positively.
-"""
+"""Cam-Geneva: a fixed groove guides the roller along the crank, and the slots stay straight."""
 
 from __future__ import annotations
 

@@ -1,9 +1,7 @@
 """The shaft between two drives: its rotation as a crank's, and the reactions of its bearings.
 
-The bodies of the second drive load a pin of this shaft, and the drive before pushes it round. A
-load on the roller gives the shaft the power F . p' + C w per radian of input, which is the shaft's
-torque times its speed. So the push follows from that torque and its own lever, whatever links are
-between.
+A load on the roller gives it the power F . p' + C w per radian of input, its torque times its
+speed. So the push of the drive before follows from that and its own lever, whatever the links.
 """
 
 from __future__ import annotations

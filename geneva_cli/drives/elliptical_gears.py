@@ -1,10 +1,7 @@
 """Two equal elliptical gears, each turning about a focus, in front of the crank.
 
-With the driver at phi, the driven gear with the crank is at f: tan(f/2) = (1-e)/(1+e) tan(phi/2),
-slowest at 0. The directions of the half angles are (cos phi/2, sin phi/2) and ((1+e) cos phi/2,
-(1-e) sin phi/2).
-
-Source: the focal property of the ellipse; Kepler's true anomaly follows this law too.
+With the driver at phi the driven gear is at f: tan(f/2) = (1-e)/(1+e) tan(phi/2), as Kepler's true
+anomaly; the directions of the half angles are (cos phi/2, sin phi/2), ((1+e) cos .., (1-e) sin ..).
 """
 
 from typing import Annotated, ClassVar, NamedTuple

@@ -1,10 +1,8 @@
 """Gear-Geneva: the roller sits on a planet that rolls on a fixed sun, or in a fixed ring.
 
-With the carrier R0 at phi the roller is at R0 e^(i phi) + rp e^(i c phi). The rate c is 1 + u on a
-sun and 1 - u in a ring, with u = fixed teeth / planet teeth. At an extreme of this trochoid, where
-both arms are in line, the roller enters its slot without shock: u = 2z/(z-2), R0 - rp = L sin b.
-The jump at entry is (R0 - c² rp)/(L cos b), which is zero for rp = L sin b/(c² - 1). A negative rp
-lowers the peak instead.
+With the carrier R0 at phi it is at R0 e^(i phi) + rp e^(i c phi), c = 1 + u on a sun and 1 - u in a
+ring, u = fixed teeth / planet teeth. It enters without shock at an extreme, where both arms are in
+line: u = 2z/(z-2), R0 - rp = L sin b. The jump is (R0 - c² rp)/(L cos b).
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
-"""A machine whose input shaft another drive turns: gears or a side-crank in front.
+"""A machine whose input shaft another drive turns, by theta = g(phi): gears or a side-crank.
 
-The drive of the spec has engagements by the angle theta of its own input shaft. The drive before it
-turns that shaft by theta = g(phi), where phi is the machine's input. So path, slot and motion are
-p(g(phi)), M(g(phi)) and psi(g(phi)), and their derivatives follow by the chain rule. A law holds by
-theta, for which slot or groove are cut: whatever turns the shaft, wheel and crank stay the same.
+Path, slot and motion are p(g(phi)), M(g(phi)) and psi(g(phi)), derived by the chain rule. A
+law holds by theta: whatever turns the shaft, wheel and crank stay the same.
 """
 
 from __future__ import annotations

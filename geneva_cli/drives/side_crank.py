@@ -1,7 +1,6 @@
-"""Side-crank drive (Whitworth's crank and rotating coulisse) in front of the crank.
+"""Side-crank drive: Whitworth's crank and rotating coulisse, which carries the Geneva crank.
 
-The coulisse carries the Geneva crank. The symbols A and f follow Polyudov and Kandyak, "Kinematics
-of the Maltese cross mechanism with a side-crank drive".
+A and f follow Polyudov and Kandyak, "Kinematics of the Maltese cross mechanism with a side-crank".
 """
 
 from typing import Annotated, ClassVar

@@ -1,8 +1,7 @@
 """Crank and rotating coulisse (Whitworth): the transmission of the side-crank drive.
 
-An input crank of length r turns about an axis at the base offset a from the coulisse's axis; A =
-a/r. With the input at phi the coulisse points along the vector (A + cos phi, sin phi), whose angle
-is f.
+With the input crank, of length 1 and at the offset A, at phi, the coulisse is at f, along
+(A + cos phi, sin phi).
 """
 
 from typing import NamedTuple

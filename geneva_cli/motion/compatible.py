@@ -1,8 +1,4 @@
-"""Which wheels, drives and motions make no machine together.
-
-Each kind names a function of its rules in its record, ``refuses``. Here are the rules on a drive in
-front of another, and on the keys of gears.
-"""
+"""Which kinds make no machine together: each names its rules; here are those of sizes, and more."""
 
 from __future__ import annotations
 

@@ -1,9 +1,8 @@
 """One index of the wheel: pin path, slot and motion; any two determine the third.
 
 An engagement is one roller's passage through one slot. Input angles are in degrees from its own
-mid-motion. Wheel angles are in radians from the middle of the step. Lengths are in units of the
-centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0). Derivatives are by
-the input angle in radians.
+mid-motion, wheel angles in radians from the middle of the step, lengths in units of the centre
+distance L. The wheel's axis is (0, 0), the crank's (1, 0). Derivatives are by input radians.
 """
 
 from __future__ import annotations

@@ -3,13 +3,7 @@
     >>> import numpy as np
     >>> from geneva_cli import External, SideCrank
     >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> spec = Spec(External(6), SideCrank(A=0.0))
-    >>> batch = many(spec, {"drive.A": np.array([0.0, 0.6, 2.0])})
-    >>> batch.refused
-    array([False, False,  True])
-    >>> batch.spread(batch.machine.ratio)
-    array([0.5, 0.5, nan])
+    >>> batch = many(Spec(External(6), SideCrank(A=0.0)), {"drive.A": np.array([0.0, 0.6, 2.0])})
     >>> batch.spread(worst_peaks(batch.machine, ["velocity"])["velocity"].max)
     array([1.   , 0.625,   nan])
 

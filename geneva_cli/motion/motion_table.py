@@ -1,8 +1,4 @@
-"""The wheel's position, velocity, acceleration and jerk over whole periods of the machine.
-
-Tables are of one design, since each design has its own rows of motion and dwell. For a batch, call
-the ``motion`` of an engagement.
-"""
+"""Position, velocity, acceleration and jerk of one design's wheel over whole periods."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Curved slots, which are solved for from a known pin path and motion.
-
-The motion follows a law, as for the groove of a cam.
-"""
+"""Curved slots, which are solved for from a known pin path and a motion by a law."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
-"""The search for peaks of motions; a single design is a batch of one.
+"""The search for peaks of motions, a single design as a batch of one.
 
-A peak is at a root of the next derivative, at an end of the motion, or where the law's derivative
-jumps. It is refined to the last bit, and never the largest sample of a grid.
+A peak is a root of the next derivative, an end or a break, refined to the last bit.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Tangent, curvature and pressure angle of a slot's pitch curve at input angles.
-
-The formulas hold for jets of floats and of arrays. Lengths are in units of the centre distance L.
-"""
+"""Tangent, curvature and pressure angle of a slot's pitch curve, in jets of any numbers."""
 
 from functools import lru_cache
 from typing import NamedTuple, cast

@@ -1,7 +1,4 @@
-"""Pivots and dimensions from which a machine can be rebuilt.
-
-The wheel's axis is the origin, and the crank's axis is on the x axis, as in the assembly drawing.
-"""
+"""Pivots and dimensions from which a machine can be rebuilt, in the frame of the assembly."""
 
 import math
 from enum import Enum

@@ -1,9 +1,7 @@
 """Engagements with a known straight slot and motion, whose roller path is solved for.
 
-The roller slides along the crank, and a fixed groove guides it. With the wheel at psi and the crank
-at phi, the law of sines gives the roller's distances. From the crank's axis it is R = L sin psi /
-sin(phi + psi), from the wheel's axis rho = L sin phi / sin(phi + psi). For an internal wheel phi +
-psi becomes phi - psi.
+With wheel and crank at psi and phi, the law of sines gives the roller's distances from the crank's
+axis, L sin psi / sin(phi + psi), and from the wheel's L sin phi / sin(phi + psi); inside phi - psi.
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
 """Undercut: a roller that is too large for the curvature of the wall along which it runs.
 
-A curved slot has two branches, one for entry and one for exit. Each keeps only its outer wall, the
-one away from the other branch; the inner walls lie in the area that both cut. The outer wall is
-undercut where its centre of curvature is on its own side of the pitch curve, nearer than the
-roller's radius. The flank then runs backwards, and the roller cuts away the wall before it.
+Each branch of a curved slot keeps its outer wall only, away from the other branch. It is undercut
+where its centre of curvature is on its side of the pitch curve, nearer than the roller's radius.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
 """Numbers that are floats or arrays, and helpers for formulas that serve both.
 
-One convention for arrays holds in the whole program. The numbers of a machine (its ratio, its
-offset) are floats, or arrays (n, 1) along a design axis. Input angles are floats, or arrays (k,) or
-(n, k). Results are (k,) for one design, (n, k) for n designs, and (n, 1) without an array of
-angles. To the type checker the numbers of a machine are floats.
+In the whole program the numbers of a machine are floats, or arrays (n, 1) along a design axis.
+Input angles are floats, or arrays (k,) or (n, k). Results are (k,) for one design, (n, k) for n
+designs, and (n, 1) without an array of angles. To the type checker a machine's numbers are floats.
 """
 
 from __future__ import annotations

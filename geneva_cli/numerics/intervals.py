@@ -1,8 +1,5 @@
 """Intervals of doubles: two bounds, rounded outwards at each step, for many numbers at once.
 
-They are wider than balls of Arb (``balls``), and need no library. They never become floats, and
-never answer a comparison whose answer is not the same for all of them.
-
 R. E. Moore, R. B. Kearfott and M. J. Cloud, Introduction to Interval Analysis (2009).
 """
 

@@ -1,8 +1,6 @@
-"""Jets: numbers that carry their first derivatives (truncated Taylor arithmetic).
+"""Jets: numbers that carry their Taylor coefficients c[k] = f^(k)/k!, floats or NumPy arrays.
 
-A jet of order n holds the Taylor coefficients c[k] = f^(k)/k! of a function at a point: floats, or
-NumPy arrays of compatible shapes. The recurrences are those of Griewank and Walther, Evaluating
-Derivatives, 2nd ed., section 13.2.
+The recurrences are those of Griewank and Walther, Evaluating Derivatives, 2nd ed., section 13.2.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Integrals of functions of designs by Gauss-Legendre rules, halved where a series has not ended.
 
-The values at n nodes give the first n terms of a Legendre series. The error of the rule is about
-the size of term 2 n, so the last of the n terms bound it; of a narrow feature they prove nothing.
+The last of the n terms from n nodes bound the rule's error, which has the size of term 2 n.
 """
 
 from __future__ import annotations

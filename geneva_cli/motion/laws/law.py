@@ -1,7 +1,6 @@
 """The base of the motion laws s(u): fraction of the step by fraction of the motion's time.
 
-Both run from 0 to 1. The first half of a law is s by u. The second half is the remainder 1 - s by
-the remaining time w = 1 - u. So both ends are exact, and a symmetric law is written once.
+The second half of a law is the remainder 1 - s by the time w = 1 - u left: both ends are exact.
 """
 
 from __future__ import annotations

@@ -1,8 +1,4 @@
-"""The law ``table``: a motion law from the user's points u,s.
-
-It is a quintic spline through every point, four times continuously differentiable. Its four free
-conditions set velocity and acceleration to zero at both ends.
-"""
+"""The law ``table``: a quintic spline through points u,s of the user, at rest at both ends."""
 
 from __future__ import annotations
 

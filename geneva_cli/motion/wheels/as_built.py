@@ -1,20 +1,14 @@
 """Straight slots on a crank as it was built, whose R/L is not what the slots need.
 
-The roller's centre runs on a circle of l = R/L about the crank's axis. The slot at rest has its
-axis at an angle from the line of centres. Where the centre crosses that axis inside the rim, the
-wheel's velocity jumps from 0 to that of the slot. With a larger l there are two such crossings, w
-to either side of the perpendicular from the crank's axis:
+Where the roller's centre, on a circle of l = R/L, crosses the axis of the slot at rest inside the
+rim, the wheel's velocity jumps from 0. With l above sin b there are two crossings:
 
     w² = l² - (sin b)²,    rho = cos b -+ w,    jump = +- w / rho
 
-The roller comes from outside an external wheel. It crosses the outer one first, which strikes the
-wheel backwards; most rims end before it. With an l below sin b the centre never reaches the axis.
-The roller then turns a slot from -asin l to asin l only, and something else must turn the wheel the
-rest of its step.
-
-An offset slot is made so that it is tangent to the crank's circle at one end. This is the end at
-which it stands farther from the line of centres: sin(angle) = l + e. The other end is one step away
-and has the whole jump. Radial slots rest at b on both sides.
+The roller comes from outside an external wheel: the outer one strikes the wheel backwards. With l
+below sin b the centre never reaches the axis, and turns a slot from -asin l to asin l only. Offset
+slots are tangent to the crank's circle at the end farther from the line of centres, where
+sin(angle) = l + e; the other end, a step away, has the whole jump.
 """
 
 from __future__ import annotations
