@@ -4,7 +4,6 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.completion import fields, keys, listed
 from geneva_cli.cli.options import AlsoReverse, Format, Output, Settings, flag, option, say
 from geneva_cli.errors import GenevaError
 
@@ -18,18 +17,17 @@ def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
     vary: Annotated[
         list[str] | None,
-        option("KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6.", complete=keys),
+        option("KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6."),
     ] = None,
     pick: Annotated[
         str,
-        option("FIELD,...", "Only these, as acceleration.max,dwell_s.", complete=listed(fields)),
+        option("FIELD,...", "Only these, as acceleration.max,dwell_s."),
     ] = "",
     against: Annotated[
         str,
         option(
             "NAME,...",
             "One spec with cam, servo: the same step, time and load.",
-            complete=listed(("cam", "servo")),
         ),
     ] = "",
     ratio: Annotated[bool, flag("--ratio", "Numbers over the first design's.")] = False,

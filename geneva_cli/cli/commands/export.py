@@ -31,7 +31,6 @@ def run(
             "TRADE",
             "What laser, mill or print needs.  [default: all files]",
             name="--for",
-            complete=("laser", "mill", "print"),
         ),
     ] = None,
     force: Annotated[

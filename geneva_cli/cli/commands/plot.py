@@ -4,7 +4,6 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.completion import keys, listed, quantities
 from geneva_cli.cli.options import AlsoReverse, Output, Settings, option, say, warn
 from geneva_cli.errors import GenevaError, cut
 
@@ -22,13 +21,13 @@ def run(
     ],
     pick: Annotated[
         str,
-        option("QUANTITY,...", "Only these, as velocity,pin_force_N.", complete=listed(quantities)),
+        option("QUANTITY,...", "Only these, as velocity,pin_force_N."),
     ] = "",
     x: Annotated[str, option("COLUMN", "Column of a csv for the x axis.", name="--x")] = "",
     y: Annotated[str, option("COLUMN,...", "Columns of a csv for the y axis.", name="--y")] = "",
     vary: Annotated[
         list[str] | None,
-        option("KEY=VALUES", "One spec with several values: wheel.z=4,6,8.", complete=keys),
+        option("KEY=VALUES", "One spec with several values: wheel.z=4,6,8."),
     ] = None,
     reverse: AlsoReverse = False,
     settings: Settings = None,

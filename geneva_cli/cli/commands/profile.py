@@ -12,12 +12,11 @@ from geneva_cli.cli.options import (
     require_written,
     warn,
 )
-from geneva_cli.drawings.catalogue import PARTS, is_sheet, require_tolerance
+from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import draw, draw_sheet, show
 from geneva_cli.output.formats import (
     DRAWN,
-    DXF_VERSIONS,
     FORMATS,
     curve_tolerance,
     is_drawn,
@@ -41,9 +40,7 @@ def run(
     spec: SpecPath,
     part: Annotated[
         str,
-        option(
-            "PART", "slot, wheel, crank, arm, assembly, parts, sheet or another.", complete=PARTS
-        ),
+        option("PART", "slot, wheel, crank, arm, assembly, parts, sheet or another."),
     ] = "slot",
     tolerance: Annotated[
         float | None,
@@ -52,7 +49,7 @@ def run(
     samples: Annotated[int | None, option("N", "Number of rows of a table, evenly spaced.")] = None,
     curves: Annotated[
         str | None,
-        option("KIND", "Curved walls as arcs or spline; .step has spline.", DRAWING, WALLS),
+        option("KIND", "Curved walls as arcs or spline; .step has spline.", DRAWING),
     ] = None,
     kerf: Annotated[float | None, option("MM", "Paths for a cut of this width.", CUT)] = None,
     cutter: Annotated[
@@ -63,16 +60,12 @@ def run(
     ] = False,
     dxf_version: Annotated[
         str | None,
-        option(
-            "VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING, DXF_VERSIONS
-        ),
+        option("VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING),
     ] = None,
     force: Annotated[bool, flag("--force", "Draw even a machine that jams.")] = False,
     settings: Settings = None,
     output: Output = "-",
-    format: Annotated[
-        str, option("FORMAT", one_of(WRITTEN), complete=WRITTEN, name="--format")
-    ] = "",
+    format: Annotated[str, option("FORMAT", one_of(WRITTEN), name="--format")] = "",
 ) -> None:
     """Write a part as a table of points, or as a drawing to cut: csv, dxf, svg, step or pdf.
 

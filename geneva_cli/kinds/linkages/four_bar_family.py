@@ -9,7 +9,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
-from functools import partial
 from itertools import islice
 from typing import Any
 
@@ -54,15 +53,11 @@ def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     if target.rollers not in (None, 1):
         return
     tasks = [task for wheel in wheels if (task := _task(target, wheel))]
-    names = [target.sort.name if target.sort else target.peak, *(b.name for b in target.limits)]
+    names = [target.sort.name if target.sort else target.peak, *(b.name for b in target.bounds)]
     count = 1 if all(map(is_known, names)) else 1 + OTHERS
     for goal, places in _searched(target, tasks):
-        n, make = len(places.of), partial(_spec, target, goal, places)
-        machines = ((i, spec) for i in range(n) if (spec := make(i)))
-        for i, spec in islice(machines, count):
-            alone = Family(spec)
-            listed = alone._replace(make=make, several=n, best=float(i))
-            yield listed if count == 1 else alone
+        made = (_spec(target, goal, places, i) for i in range(len(places.of)))
+        yield from (Family(spec) for spec in islice(filter(None, made), count))
 
 
 def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
@@ -86,7 +81,7 @@ def _searched(target: Target, tasks: Sequence[WheelGoal]) -> list[tuple[Goal, Pl
 
     Where any motion will do, that of the plain crank is tried first.
     """
-    bounds = tuple(b for b in target.limits if is_known(b.name))
+    bounds = tuple(b for b in target.bounds if is_known(b.name))
     goal = Goal(target, (), bounds, target.peak)
     if target.sort and is_known(target.sort.name):
         goal = goal._replace(least=target.sort.name, sign=target.sort.sign)

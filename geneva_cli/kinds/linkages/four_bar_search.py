@@ -34,7 +34,6 @@ from geneva_cli.numerics.arrays import Array, Complex, Number, Whole, parameter
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.optimiser import Places, Zoom, sampled, zoom
-from geneva_cli.study.synth.parts_data import distances_at_rest
 from geneva_cli.study.target import AllowedSpan, Target
 from geneva_cli.verdict.quantities.groups import RATES
 
@@ -235,7 +234,13 @@ def _driven(
     r, half = (roller * L / rho)[which], b[which]
     place = (returns - centre[which]) / (p - centre)[which]
     d, angle = np.abs(place), np.abs((np.angle(place) + half) % (2.0 * half) - half)
-    gap = distances_at_rest(d * np.cos(angle), d * np.sin(angle), np.hypot(1.0, r), r) - r
+    along_slot, across = d * np.cos(angle), d * np.sin(angle)
+    corner = np.where(
+        along_slot >= 1.0, np.hypot(along_slot - 1.0, r - across), r - across
+    )  # in front of a slot
+    gap = (
+        np.where(across < r * along_slot, corner, d - np.hypot(1.0, r)) - r
+    )  # before a slot or not
     touch = 1e-6  # a roller that leaves its slot is this near to it
     passes = np.all((gap >= -touch) & (d > 1.0), axis=1)
     _, ground, coupler, *_ = links.numbers
