@@ -17,15 +17,11 @@ from geneva_cli.spec.schema import SpecTable, fields
 
 
 class Conflict(NamedTuple):
-    """A combination that makes no machine, if ``when`` is true: the key to blame, and the message.
+    """A combination that makes no machine, if ``when`` is true."""
 
-    For a batch of designs ``when`` may be an array of truth values. The message may hold values of
-    the spec, as in ``{spec.wheel.z}``.
-    """
-
-    when: object
-    key: tuple[str, ...]
-    text: str
+    when: object  # a truth value, or an array of them for a batch
+    key: tuple[str, ...]  # to blame
+    text: str  # with values of the spec, as in ``{spec.wheel.z}``
 
 
 # The rules of a drive come first, then those of its wheel, then those of what adds to it.

@@ -162,19 +162,12 @@ class Slot(Batchable, ABC):
 
 
 class AsBuilt(NamedTuple):
-    """What a crank as built has: its R/L is not what its straight slots need.
+    """What a crank as built has: its R/L is not what its straight slots need."""
 
-    ``crosses`` is true if the roller's centre crosses the axis of the slot at rest inside the rim,
-    before and after its motion. ``gained`` is the wheel's angle beyond its next rest, radians, at
-    which the centre leaves the rim. ``angle`` is the direction of the slot at rest before the
-    motion, radians from the line of centres. ``outer`` is true if the roller enters at the crossing
-    beyond the foot of the perpendicular from the crank's axis.
-    """
-
-    crosses: Truth
-    gained: float
-    angle: float
-    outer: Truth
+    crosses: Truth  # the axis of the slot at rest inside the rim, before and after its motion
+    gained: float  # wheel's angle beyond its next rest at which the roller leaves the rim, radians
+    angle: float  # of the slot at rest before the motion, radians from the line of centres
+    outer: Truth  # it enters beyond the foot of the perpendicular from the crank's axis
 
 
 class Peak(NamedTuple, Generic[K]):
@@ -226,10 +219,7 @@ class WheelMotion(Batchable, ABC):
         return self.breaks_deg
 
     def closed_peak(self, quantity: str) -> Peak[float] | None:
-        """Peak of a quantity in closed form, or by a search that is faster than the general one.
-
-        None if there is neither; in a batch NaN for each design that has neither.
-        """
+        """Peak in closed form, or by a quicker search; else None, in a batch NaN."""
         return None
 
     def end_rates(self, input_deg: float) -> tuple[float, float]:
@@ -262,24 +252,19 @@ class WheelMotion(Batchable, ABC):
 class Engagement(Batchable):
     """Pin path, slot and motion of one roller in one slot.
 
-    ``mid_deg`` is the machine's input angle at its mid-motion. The crank's arm carries the roller,
-    or else ``body`` does, which ``reactions`` hold; ``crank_sense`` is then the crank's direction:
-    -1 with the wheel, 1 against it. ``groove`` is the path if a fixed groove guides the roller
-    along the crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a
-    sphere. ``built`` describes a crank as built, whose R/L is not what the slots need: the wheel's
-    velocity then jumps at entry and exit.
+    The crank's arm carries the roller, or else ``body`` does, which ``reactions`` hold.
     """
 
-    mid_deg: float
+    mid_deg: float  # the machine's input angle at its mid-motion
     path: Path
     slot: Slot
     motion: WheelMotion
     body: Rate | None = None
     reactions: Reactions | None = None
-    crank_sense: float = 0.0
-    groove: Groove | None = None
-    hub: float = 1.0
-    built: AsBuilt | None = None
+    crank_sense: float = 0.0  # of a crank that does not carry it: -1 with the wheel, 1 against it
+    groove: Groove | None = None  # the path, if a fixed groove guides the roller along the crank
+    hub: float = 1.0  # the arm's centre of rotation on the line of centres; less on a sphere
+    built: AsBuilt | None = None  # the wheel's velocity then jumps at entry and exit
 
     @property
     def entry_deg(self) -> float:
@@ -295,8 +280,7 @@ class Engagement(Batchable):
     def jumps(self) -> tuple[Number, Number]:
         """Velocities to which the wheel jumps at entry, and from which it stops at exit.
 
-        They are 0 but on a crank as built, and NaN there if the roller's centre never crosses the
-        axis of the slot at rest inside the rim.
+        They are 0 but on a crank as built, and NaN there if the roller never crosses the slot.
         """
         if self.built is None:
             return 0.0, 0.0
@@ -306,10 +290,7 @@ class Engagement(Batchable):
 
     @property
     def gained(self) -> Number:
-        """Wheel angle beyond its next rest at which the roller leaves the rim, radians.
-
-        It is NaN but on a crank as built; negative where the roller leaves before that rest.
-        """
+        """``AsBuilt.gained``, negative where the roller leaves before that rest; else NaN."""
         return math.nan if self.built is None else self.built.gained
 
     def end_deg(self, end: float) -> float:
@@ -343,10 +324,7 @@ class Engagement(Batchable):
         return library(x.c[0], y.c[0]).hypot(x.c[0], y.c[0])
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:
-        """Rate at which the body that carries the roller turns, positive with the wheel.
-
-        About the roller's own axis, in radians per input radian.
-        """
+        """Rate of the body that carries the roller, about its axis, positive with the wheel."""
         if self.body:
             return self.body(radians(input_deg), order)
         x, y = self.path(input_deg, order + 1)

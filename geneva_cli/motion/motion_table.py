@@ -212,13 +212,10 @@ def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -
 
 
 class Stretch(NamedTuple):
-    """A part of the period between two places where a derivative may jump.
+    """A part of the period between two places where a derivative may jump."""
 
-    ``engagement`` is None in a dwell. Master and slave are degrees from the first entry.
-    """
-
-    engagement: Engagement | None
-    begin_deg: float
+    engagement: Engagement | None  # None in a dwell
+    begin_deg: float  # of the master, as the slave's from the first entry
     end_deg: float
     mid_deg: float  # where the engagement's own angle is 0
     base_deg: float  # the slave's angle there; in a dwell everywhere

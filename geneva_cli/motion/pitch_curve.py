@@ -15,18 +15,14 @@ WALLED = (
 
 
 class Pitch(NamedTuple):
-    """The pitch curve M at one input angle or at an array of them.
-
-    ``tangent`` is the direction of travel of the pin in the wheel. ``turning`` is the rate at which
-    it turns left, in radians per input radian. ``speed`` is |M'|. The curvature is turning / speed.
-    """
+    """The pitch curve M at one input angle or at an array of them."""
 
     x: Number
     y: Number
-    tangent_x: Number
+    tangent_x: Number  # direction of travel of the pin in the wheel
     tangent_y: Number
-    speed: Number
-    turning: Number
+    speed: Number  # |M'|
+    turning: Number  # rate at which it turns left, radians per input radian: curvature x speed
     pressure: Number  # radians, 0 to pi/2
 
 

@@ -13,23 +13,17 @@ if TYPE_CHECKING:
 
 
 class Timing(NamedTuple):
-    """One cycle: a motion and the dwell after it. Angles are of the input, index_deg of the wheel.
+    """One cycle: a motion and the dwell after it; numbers, or arrays (n, 1) of a batch."""
 
-    ``index_mm`` is a rack's step, which has no angle; None for a wheel.
-
-    k = motion / dwell (the work coefficient) and tau = motion / cycle are of times, in which a stop
-    of the input counts. For a batch each is a number or an array (n, 1).
-    """
-
-    motion_deg: float
+    motion_deg: float  # of the input
     dwell_deg: float
-    index_deg: float | None
-    k: float
-    tau: float
+    index_deg: float | None  # of the wheel
+    k: float  # motion / dwell, of times, in which a stop of the input counts
+    tau: float  # motion / cycle
     motion_s: float
     dwell_s: float
     cycle_s: float
-    index_mm: float | None = None
+    index_mm: float | None = None  # a rack's step, which has no angle
 
     @property
     def step(self) -> float:

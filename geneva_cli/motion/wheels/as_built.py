@@ -26,18 +26,13 @@ AT_RIM = 1e-6  # of L: a crossing that is not farther outside is at the rim
 
 
 class RestingSlot(NamedTuple):
-    """The axis of a slot at rest, for crank radii l; lengths over the centre distance.
-
-    ``angle`` is its direction from the line of centres, radians. ``across`` is the position of the
-    roller's centre from the crank's axis across the slot, which is that of the axis. ``outer`` is
-    true for the crossing beyond the perpendicular from the crank's axis.
-    """
+    """The axis of a slot at rest, for crank radii l; lengths over the centre distance."""
 
     sign: float  # 1 for an external wheel, -1 for an internal one
     l: float
-    angle: float
-    across: float
-    outer: Truth = False
+    angle: float  # from the line of centres, radians
+    across: float  # position of the axis, and so of the roller's centre, from the crank's axis
+    outer: Truth = False  # the crossing beyond the perpendicular from the crank's axis
 
     @property
     def beyond(self) -> float:
