@@ -76,8 +76,8 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
         text += "at least face_width_mm = {face:g}"
         if isinstance(edge, (int, float)) and edge > 0.0:
             text += " and two edges of {edge:g}"
-        key = ("size", "wheel_thickness_mm")
-        _refuse(face + 2.0 * edge > thick, key, text, thick=thick, face=face, edge=edge)
+        at, values = ("size", "wheel_thickness_mm"), {"thick": thick, "face": face, "edge": edge}
+        _refuse(face + 2.0 * edge > thick, at, text, **values)
     for part in ("wheel", "crank"):
         bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
         if bore is not None and hub is not None:
