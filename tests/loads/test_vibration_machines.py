@@ -9,10 +9,9 @@ import repo
 from bench import truth
 from swings import greatest_acceleration, residuals, shares
 from words import law as load_law
-from words import load, points
+from words import load
 
 from geneva_cli import Crank, Design, External, Shaft, SideCrank
-from geneva_cli.drives.noncircular_gears import NoncircularGears
 from geneva_cli.loads.vibration.panels import law_shape
 from geneva_cli.loads.vibration.panels import motion_shapes as shape
 from geneva_cli.loads.vibration.swing import Oscillator, local_maxima
@@ -79,17 +78,6 @@ def test_straight_slots_to_the_last_digits(z, gearing, A, damping):
         mp.dps = 50
         found = shares(shape(engagement.motion), np.array([ratio]), damping)[0]
         assert abs(found - abs(exact)) <= 1e-13 * abs(exact)
-
-
-def test_gears_by_points(tmp_path):
-    """Behind gears given by points the motion is no polynomial between them, and has kinks."""
-    path = tmp_path / "ratio.csv"
-    rows = [f"{x},{1.0 - 0.2 * math.cos(math.radians(x)):.17g}" for x in range(0, 361, 10)]
-    path.write_text("\n".join(rows) + "\n")
-    ratio = points(path, NoncircularGears, "ratio")
-    engagement = build(Spec(External(6), NoncircularGears(ratio=ratio))).engagements[0]
-    found = residuals(shape(engagement.motion), [3.3], 0.02)[0]
-    assert found == pytest.approx(by_gauss(engagement, 3.3, 0.02, 360), abs=1e-10)
 
 
 @pytest.mark.parametrize(
