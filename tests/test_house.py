@@ -65,9 +65,7 @@ ALONE = {
     "specfile.keys",
     "specfile.meanings",
     "specfile.json_schema",
-    "geometry.pieces",
     "drawings.catalogue",
-    "verdict.quantities.quantity_names",
 }
 # A kind's names; "table" is a law, and also what people are shown.
 NAMES = {*registry.LAWS, *(kind.name for kind in registry.KINDS)} - {"table"}
@@ -175,7 +173,6 @@ ASKS = {
 # Keys and tables of a kind that stand in the core.
 NAMED = {
     "specfile.template": {"stop"},  # to be an example of the kind
-    "study.document.sections": {"carousel", "stop"},  # tables of the report
     "study.synth.reading": {"linear", "stop"},  # --linear; the key of a wheel
     "study.target": {"stop"},  # the key of a wheel
     "verdict.headline": {"stop"},  # a label

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
-from geneva_cli.cli import completion
 from geneva_cli.errors import Notice, clean
 from geneva_cli.output.formats import FORMATS
 
@@ -27,7 +26,6 @@ def option(
     metavar: str,
     help: str,
     heading: str | None = None,
-    complete: completion.Offer | Iterable[str] | None = None,
     *,
     name: str = "",
     default: str | bool = True,
@@ -35,14 +33,12 @@ def option(
     """An option with a value, below a heading of the help.
 
     ``name`` is its name where the parameter's is another, and ``default`` is shown as the default.
-    ``complete`` completes what is typed, or has the words that the value may be.
     """
     return typer.Option(
         *([name] if name else []),
         metavar=metavar,
         help=help,
         rich_help_panel=heading,
-        autocompletion=completion.offer(complete) if complete else None,
         show_default=default,
     )
 
@@ -66,7 +62,6 @@ Settings: TypeAlias = Annotated[
         "KEY=VALUE",
         "Set a key over the file's, as drive.n_rpm=90.",
         name="--set",
-        complete=completion.keys,
     ),
 ]
 Reverse: TypeAlias = Annotated[bool, flag("--reverse", "Turn the input the other way.")]
@@ -74,9 +69,7 @@ AlsoReverse: TypeAlias = Annotated[
     bool, flag("--reverse", "Also each design turning the other way.")
 ]
 Output: TypeAlias = Annotated[str, output_option("FILE", "Write to this file; - prints.")]
-Format: TypeAlias = Annotated[
-    str, option("FORMAT", one_of(FORMATS), name="--format", complete=FORMATS)
-]
+Format: TypeAlias = Annotated[str, option("FORMAT", one_of(FORMATS), name="--format")]
 
 
 def outline_settings(wheel: str | None, crank: str | None, slack: float | None) -> list[str]:
@@ -93,14 +86,12 @@ def warn(design: Design) -> None:
 
 def say(path: str, warnings: Iterable[str]) -> None:
     """Print warnings about a spec on standard error, one a line, with names for `explain`."""
-    from geneva_cli.output import shown_text
-
     for text in warnings:
         named, kind = text, "warning"
         if isinstance(text, Notice):
             named = f"{text.plain} [{text.name}]"
             kind = f"warning, accepted ({text.accepted})" if text.accepted else kind
-        print(clean(f"{path}: {kind}: {shown_text(named)}"), file=sys.stderr)
+        print(clean(f"{path}: {kind}: {named}"), file=sys.stderr)
 
 
 def require_written(design: Design, verdict: tuple[str, list[str]], force: bool) -> None:

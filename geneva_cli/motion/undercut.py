@@ -79,11 +79,6 @@ class OuterWall(NamedTuple):
     left: Mask  # True for the left flank
     retraces: Mask  # True if the branch ends in a cusp; equal at all places
 
-    def of(self, design: int) -> OuterWall:
-        """The wall of one design."""
-        here = slice(design, design + 1)
-        return OuterWall(*(rows[here] for rows in self))  # type: ignore[arg-type]
-
 
 def outer_walls(
     mechanism: Mechanism, samples: int = HALF_SAMPLES
@@ -142,10 +137,10 @@ def _gap(wall: OuterWall, r: Array) -> Array:
     gap = np.full(len(wall.bend), np.inf)
     design, place = np.nonzero(wall.bend * r > 1.0)
     # 32,768 distances at once fit in the cache
-    step, many = (1 << 15) // wall.bend.shape[1], len(np.ravel(r)) > 1
+    step = (1 << 15) // wall.bend.shape[1]
     for i in range(0, len(design), step):
         d, k = design[i : i + step], place[i : i + step]
-        own = r[d, 0] if many else r
+        own = r[d, 0] if r.ndim > 1 else r
         x, y = wall.x[d, k] + own * wall.normal_x[d, k], wall.y[d, k] + own * wall.normal_y[d, k]
         # a single design needs no copy for each place
         own_wall = slice(None) if len(wall.bend) == 1 else d

@@ -1,15 +1,13 @@
 """A file that grows for hours: a stopped run keeps its rows, and can be continued.
 
 The rows go to the state file ``FILE.geneva``; ``FILE`` is replaced at the end, in one step. The
-state's first line names the program and the request. Each block of rows follows a line with its
-numbers of rows and bytes and a digest. The digest covers the first line and all blocks so far, so
-that a changed, lost or repeated block is noticed. A run that may be repeated (``resume``) keeps the
-state: a line with the digest of the whole file then replaces the blocks.
+state's first line names the program and the request. Each block of rows follows a line with the
+numbers of rows before and in it, and of its bytes. A run that may be repeated (``resume``) keeps
+the state: a line with the digest of the whole file then replaces the blocks.
 """
 
 from __future__ import annotations
 
-import hashlib
 import os
 import re
 import stat
@@ -19,7 +17,7 @@ from functools import partial
 from typing import Any, BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import refuse_columns, refuse_inches
+from geneva_cli.output import refuse_columns
 from geneva_cli.output.delimited import one_line, text_of
 from geneva_cli.output.files import digest_of, place, refuse_input, replacing, write_errors
 from geneva_cli.output.finite import refuse_nan
@@ -60,13 +58,13 @@ class GrowingFile:
                 if not (resume and self._continue(key)):
                     self._begin(TITLE + key.encode() + b"\n")
                     if header:
-                        self._append(0, header.encode())
+                        self.append(header.encode(), 0)
             except BaseException:
                 self.file.close()
                 raise
 
     def _begin(self, first: bytes) -> None:
-        self.first, self.end, self.digest = first, len(first), hashlib.sha256(first)
+        self.first, self.end = first, len(first)
         self.file.seek(0)
         self.file.truncate()
         self.file.write(first)
@@ -98,43 +96,28 @@ class GrowingFile:
         return bool(blocks)
 
     def _blocks(self) -> Iterator[tuple[int, bytes]]:
-        """Yield the number of rows and the bytes of each block, up to the first damaged one."""
-        size = os.fstat(self.file.fileno()).st_size
-        self.file.seek(0)
-        self.digest = hashlib.sha256(self.file.read(len(self.first)))
-        self.end = len(self.first)
-        head = re.compile(rb"block (\d{1,18}) (\d{1,18}) ([0-9a-f]{64})\n")
+        """Yield the number of rows and the bytes of each block, up to the first incomplete one."""
+        size, done, self.end = os.fstat(self.file.fileno()).st_size, 0, len(self.first)
+        self.file.seek(self.end)
+        head = re.compile(rb"block (\d{1,18}) (\d{1,18}) (\d{1,18})\n")
         while line := head.fullmatch(self.file.readline(LINE_MAX)):
-            rows, length = int(line[1]), int(line[2])
-            if length > size - self.file.tell():
+            before, rows, length = map(int, line.groups())
+            if before != done or length > size - self.file.tell():
                 return
             data = self.file.read(length)
-            digest = self._digest_with(rows, data)
-            if digest.hexdigest().encode() != line[3]:
-                return
-            self.digest, self.end = digest, self.file.tell()
+            done, self.end = done + rows, self.file.tell()
             yield rows, data
-
-    def _digest_with(self, rows: int, data: bytes) -> hashlib._Hash:
-        digest = self.digest.copy()
-        digest.update(b"%d %d\n" % (rows, len(data)))
-        digest.update(data)
-        return digest
 
     def append(self, data: bytes, rows: int) -> None:
         """Add a block of rows, and hand it to the system before the next is computed."""
         with write_errors(self.path):
-            self._append(rows, data)
+            self.file.seek(self.end)
+            self.file.truncate()
+            self.file.write(b"block %d %d %d\n" % (self.done, rows, len(data)))
+            self.file.write(data)
+            self.file.flush()
+            self.end = self.file.tell()
         self.done += rows
-
-    def _append(self, rows: int, data: bytes) -> None:
-        self.digest = self._digest_with(rows, data)
-        self.file.seek(self.end)
-        self.file.truncate()
-        self.file.write(b"block %d %d %b\n" % (rows, len(data), self.digest.hexdigest().encode()))
-        self.file.write(data)
-        self.file.flush()
-        self.end = self.file.tell()
 
     def finish(
         self, fill: Callable[[Callable[[], Iterator[bytes]], BinaryIO], None] | None = None
@@ -156,7 +139,7 @@ class GrowingFile:
             self.close()
 
     def _lines(self) -> Iterator[bytes]:
-        """Yield the lines, block by block. Raises GenevaError if somebody has changed them."""
+        """Yield the lines, block by block. Raises GenevaError if some are not there."""
         rows = 0
         for count, data in self._blocks():
             rows += count
@@ -186,7 +169,6 @@ def _open_locked(path: str, inputs: Iterable[str]) -> BinaryIO:
         busy = (
             f"{name}: another run is writing this file; wait until it ends, or give -o another name"
         )
-        # Without locks the digests reveal mixed rows of two runs.
         lock_or_refuse(file.fileno(), busy, alone=True)
         if not os.fstat(file.fileno()).st_nlink:  # the run with the lock has just removed it
             raise GenevaError(busy)
@@ -207,21 +189,18 @@ def _not_ours(path: str) -> GenevaError:
 class GrowingTable:
     """The destination of the rows of ``names``, ``done`` of which exist already.
 
-    ``key`` is all that they depend on, for ``resume``; ``message`` says what that does. A later
-    shard of a table has no ``header``.
+    ``key`` is all that they depend on, for ``resume``; ``message`` says what that does.
     """
 
     def __init__(
         self,
         names: Sequence[str],
         key: str,
-        header: bool,
         output: str,
         resume: bool = False,
         inputs: Iterable[str] = (),
     ) -> None:
         refuse_columns()
-        refuse_inches("csv and parquet are for programs, and in SI units")
         self.names, self.done, self.is_whole, self.message = names, 0, False, ""
         self.file: GrowingFile | None = None
         self.parquet = output.endswith(".parquet")
@@ -231,7 +210,7 @@ class GrowingTable:
             from geneva_cli.output.parquet import refuse_without
 
             refuse_without()
-        first = one_line(names) if header and not self.parquet else ""
+        first = one_line(names) if not self.parquet else ""
         if output != "-":
             self.file = GrowingFile(output, first, key, resume, inputs)
             self.done = self.file.done

@@ -1,6 +1,5 @@
 """Every key of a spec: its unit, type, range, default, and the kinds that have it."""
 
-from itertools import chain
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
@@ -87,22 +86,6 @@ def tables_with(key: str) -> dict[str, str]:
     ['load', 'support', 'product']
     """
     return {k.whole_table: k.meaning for k in all_keys() if k.key == key and k.table}
-
-
-def words_of(name: str) -> tuple[str, ...]:
-    """Words that a key may have, in any kind that has it; none for other keys.
-
-    >>> words_of("load.friction_at")
-    ('slot', 'pin')
-    """
-    table, _, key = name.rpartition(".")
-    own = list(fields(PLAIN[table]) if table in PLAIN else ())
-    for of in kind_tables():
-        if name == f"{of.table}.{of.word.key}":
-            return tuple(of.names)
-        if table == of.table:
-            own += chain(of.shared, *of.keys.values())
-    return tuple(dict.fromkeys(word for field in own if field.key == key for word in field.words))
 
 
 def is_whole(name: str) -> bool:

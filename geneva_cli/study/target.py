@@ -21,6 +21,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.path_and_motion import MOTION_MIN
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.tolerances import ROUNDED
+from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.spec.tables import DISTANCE_MM
 from geneva_cli.study.sweep.constraints import Constraint, Objective
 from geneva_cli.verdict.quantities.quantity_names import in_batch
@@ -45,7 +46,6 @@ class Target(NamedTuple):
     rollers: int | None = None
     laws: tuple[str, ...] = ("modified-sine",)
     spans: dict[str, AllowedSpan] = {}  # noqa: RUF012 - a NamedTuple's default, never changed
-    acceleration_max: float | None = None
     frame: Spec | None = None
     sort: Objective | None = None  # the goal by which rows are sorted
     bounds: tuple[Constraint, ...] = ()
@@ -91,40 +91,23 @@ class Target(NamedTuple):
     @property
     def any_motion(self) -> bool:
         """Return True if any motion is allowed, and there is some bound."""
-        bounded = bool(self.bounds) or self.acceleration_max is not None
-        return bounded and self.allows_any_motion(1)
+        return bool(self.bounds) and self.allows_any_motion(1)
 
     @property
-    def limits(self) -> tuple[Constraint, ...]:
-        """All bounds, the one on the acceleration among them."""
-        most = self.acceleration_max
-        return (*self.bounds, *([Constraint(PEAK, "<=", most)] if most is not None else []))
-
-    @property
-    def known_bounds(self) -> list[Constraint]:
-        """The bounds on quantities that a batch can compute."""
-        return [b for b in self.limits if in_batch([b.name])]
-
-    @property
-    def by_bounds(self) -> Target:
-        """The requirement with the limit on acceleration as an ordinary bound."""
-        return self._replace(acceleration_max=None, bounds=self.limits)
+    def soft_bounds(self) -> dict[str, Constraint]:
+        """The limits of the frame that a batch can compute, by their keys: better kept than not."""
+        values = self.frame.limits.as_dict() if self.frame else {}
+        return {
+            key: Constraint(name, ">=" if "_min" in key else "<=", float(values[key]))
+            for key, name in LIMITED.items()
+            if values.get(key) is not None and in_batch([name])
+        }
 
     @property
     def names(self) -> tuple[str, ...]:
         """The quantities of its goal and its bounds, which are columns of its rows."""
         goal = [self.sort.name] if self.sort else []
         return tuple(dict.fromkeys([*goal, *(bound.name for bound in self.bounds)]))
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """The quantities that it sorts by and bounds, the acceleration among them."""
-        return self._replace(bounds=self.limits).names
-
-    @property
-    def only_acceleration(self) -> bool:
-        """Return True if a peak acceleration is the only requirement on the motion."""
-        return self.any_motion and not self.bounds
 
     def with_times(self) -> Target:
         """The requirement with its bounds on a motion's times and angles as ranges.

@@ -13,7 +13,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.spec.tables import Motor
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.mass import MassProperties
+    from geneva_cli.geometry.plates import MassProperties
 
 
 def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> list[Notice]:
@@ -90,11 +90,6 @@ def _keys_without_effect(spec: Spec) -> Iterator[Notice]:
         said.append(
             "[motor] has no load to drive, so no motor or flywheel is computed: set "
             f"{spec.load_keys}"
-        )
-    if not spec.drive.wheels_on_carrier and any(one.angle_deg for one in spec.mass):
-        said.append(
-            "angle_deg in [[mass]] has an effect on a carrier only: remove it, or set "
-            'kind = "carousel" in [drive]'
         )
     if bool(support.friction) != bool(support.radius_mm):
         keys = ("friction", "radius_mm")

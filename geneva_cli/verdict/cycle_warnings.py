@@ -11,7 +11,7 @@ from geneva_cli.loads.carried import weight_kg
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, STRESS
-from geneva_cli.loads.impacts.arrival import arrival
+from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_tables import summaries
 from geneva_cli.motion.mechanism import Mechanism
@@ -35,8 +35,8 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
     endless = [at for at, value in ends if math.isinf(value)]
     if case.all_friction and endless:
         held, of, more, less = "wheel", f"{case.friction:g}", "torque as the wall", "friction"
-        if case.guided:  # the slot's friction is across the travel, and holds nothing
-            held, of = mechanism.output.noun, f"{case.guide_friction:g} in the guide"
+        if case.guide and case.guided:  # the slot's friction is across the travel, holding nothing
+            held, of = mechanism.output.noun, f"{case.guide.friction:g} in the guide"
             more, less = "force as the roller", "guide_friction"
         yield Notice(
             "friction-holds-the-wheel",

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from geneva_cli.answer import FAILS, PASSES, WARNS, SummaryLine
 from geneva_cli.errors import Notice, is_warning, open_warnings
 from geneva_cli.names import spoken
-from geneva_cli.output import shown, shown_text
 from geneva_cli.output.document.blocks import value_text
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.all_checks import JAMS
@@ -113,7 +112,7 @@ def warning(text: str) -> SummaryLine:
     explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
     if isinstance(text, Notice) and text.accepted:
         return SummaryLine("accepted", f"{text.name}: {text.accepted}", explained)
-    return SummaryLine("warning", shown_text(text), explained, WARNS)
+    return SummaryLine("warning", text, explained, WARNS)
 
 
 def unused_lines(names: Iterable[str]) -> list[SummaryLine]:
@@ -190,7 +189,6 @@ def measured(value: float, unit: str = "", digits: int = 4) -> str:
     >>> measured(8.25622, "mm"), measured(-58.2111, "deg")
     ('8.256 mm', '-58.21°')
     """
-    value, unit = shown(value, unit)
     return value_text(value, "°" if unit == "deg" else unit, digits)
 
 
@@ -200,7 +198,7 @@ def bare(value: float, unit: str, digits: int = 4) -> str:
     >>> bare(8.25622, "mm")
     '8.256'
     """
-    return value_text(shown(value, unit)[0], "", digits)
+    return value_text(value, "", digits)
 
 
 def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
-from geneva_cli.loads.impacts.impacts import arm_mm, mouth_jumps_worst
+from geneva_cli.loads.impacts.entry import arm_mm, mouth_jumps_worst
 from geneva_cli.loads.tolerance.dimensions import Deviations, corners, tolerances, without_effect
 from geneva_cli.loads.tolerance.locking import CutLock, Lock
 from geneva_cli.loads.tolerance.motion_error import entry_jumps_worst, motion_errors, used
@@ -30,7 +30,6 @@ from geneva_cli.loads.tolerance.random_machines import (
 )
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
-from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs
 from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.rules import POSITIVE, require_mm
@@ -220,9 +219,9 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
         text = "motion_play is not known: curved slots are computed for a path without errors"
         warnings.append(Notice("not-known", text))
     if jumps:
-        worst_jump, flat = entry_jumps_worst(mechanism, use), sized(mechanism)
+        worst_jump = entry_jumps_worst(mechanism, use)
         assert worst_jump is not None  # there are slots to enter
-        mouth = mouth_jumps_worst(mechanism, flat[1].recess if flat else 0.0)
+        mouth = mouth_jumps_worst(mechanism)
         values |= {
             "entry_jump.mean": float(drawn.jump.mean()),
             "entry_jump.std": float(drawn.jump.std()),

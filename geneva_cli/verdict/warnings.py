@@ -56,11 +56,11 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
         unborne, named = parts.built.unborne, list(parts.built.by_name())
     except GenevaError:  # the check of the parts has the reason
         unborne, named = (), []
-    for one in unborne:
-        part = one.name.partition("'")[0]
+    for name, reason in unborne:
+        part = name.partition("'")[0]
         yield Notice(
             "no-bearing",
-            f"the {one.name} has no bearing: {one.reason}. Hold it from above: "
+            f"the {name} has no bearing: {reason}. Hold it from above: "
             f"{part}_shaft_high_mm makes it longer",
         )
     if spec.size.process:
@@ -83,7 +83,7 @@ def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
 
 def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
-    from geneva_cli.drawings.coupon import is_cut
+    from geneva_cli.drawings.single_parts import is_cut
     from geneva_cli.geometry.plates import Plate, Shell, solids
     from geneva_cli.parts.projection import built_of
 

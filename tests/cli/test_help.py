@@ -1,13 +1,10 @@
 """What a command says of itself: groups, examples that run, and words that the shell may put."""
 
 import importlib
-import os
 import shutil
-import subprocess
 
 import pytest
 import repo
-from repo import GENEVA
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import COMMANDS, GROUPS, app
@@ -63,38 +60,3 @@ def test_an_example_runs_as_it_stands(name, example, tmp_path, monkeypatch):
     program, *words = example.split()
     assert program == "geneva" and name in words[:1]
     geneva(*words)
-
-
-def offered(line):
-    """What bash is offered for the last word of a line."""
-    words = line.split(" ")
-    asked = {
-        "_GENEVA_COMPLETE": "complete_bash",
-        "COMP_WORDS": line,
-        "COMP_CWORD": str(len(words) - 1),
-    }
-    run = subprocess.run(
-        [GENEVA], env={**os.environ, **asked}, capture_output=True, encoding="utf-8", timeout=60
-    )
-    assert run.stderr == ""
-    return run.stdout.split()
-
-
-@pytest.mark.sampled(6)
-@pytest.mark.parametrize(
-    ("line", "words"),
-    [
-        ("geneva peaks spec.toml --set drive.ec", ["drive.eccentricity="]),
-        ("geneva profile spec.toml --part whe", ["wheel"]),
-        ("geneva synth --law cyc", ["cycloidal"]),
-        ("geneva keys drive.ph", ["drive.phase"]),
-        ("geneva plot spec.toml --pick jerk,veloc", ["jerk,velocity"]),
-        ("geneva loads sp", []),  # files: the shell's own
-    ],
-)
-def test_a_shell_completes_words(line, words):
-    found = offered(line)
-    if words is not None:
-        assert found == words
-    else:
-        assert len(found) >= 2

@@ -84,7 +84,7 @@ def test_a_slot_s_mouth_serves_both_ends():
     for tilt in (-0.05, 0.05):
         of = Design(External(6), Cam(), Motion(SineGroup(tilt)))
         (engagement,) = of.mechanism.engagements
-        entry, exit_ = engagement.entry_reach, engagement.exit_reach
+        entry, exit_ = map(engagement.reach, (engagement.entry_deg, engagement.exit_deg))
         assert abs(entry - exit_) > 1e-3
         rim = math.hypot(100.0 * min(entry, exit_), of.mechanism.roller_radius_mm)
         assert of.size.wheel_radius_mm == pytest.approx(rim, rel=1e-14)

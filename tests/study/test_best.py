@@ -97,7 +97,6 @@ def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_
             "nothing is both",
         ),
         ({"pareto": "jerk.max"}, "min:FIELD or max:FIELD"),
-        ({"pareto": "min:jerk.max", "shard": "1/2"}, "--shard"),
     ],
 )
 def test_what_has_no_best(asked, said):

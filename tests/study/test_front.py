@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.study.sweep.constraints import Objective, objective
-from geneva_cli.study.sweep.front import best, front
+from geneva_cli.study.sweep.front import front
 
 
 def dominates(a, b):
@@ -18,7 +18,7 @@ def dominates(a, b):
     st.integers(1, 3).flatmap(lambda n: st.lists(st.tuples(*[st.integers(0, 6)] * n), min_size=1))
 )
 def test_no_other_row_beats_what_is_left_and_one_beats_the_rest(rows):
-    found = best(np.array(rows, dtype=float))
+    found = front(np.array(rows, dtype=float))
     kept = [i for i, a in enumerate(rows) if not any(dominates(b, a) for b in rows)]
     assert found.tolist() == kept
 
@@ -31,7 +31,7 @@ def test_fronts_of_many_rows(costs, levels):
     rows = np.random.default_rng(costs).integers(0, levels, (1200, costs)).astype(float)
     rows[::7, -1] = np.inf
     better = [((rows <= row).all(axis=1) & (rows != row).any(axis=1)).any() for row in rows]
-    assert best(rows).tolist() == np.flatnonzero(~np.array(better)).tolist()
+    assert front(rows).tolist() == np.flatnonzero(~np.array(better)).tolist()
 
 
 def test_rows_without_a_number_are_none_of_them():

@@ -8,7 +8,7 @@ import repo
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
-from geneva_cli.figure import JOINED
+from geneva_cli.figure import JOINED, POINTS
 from geneva_cli.study.figures import of_table
 
 SPEC = str(repo.DESIGNS / "side-crank-z6.toml")
@@ -29,34 +29,14 @@ def put(text):
     return "rows.csv"
 
 
-def sweep(*options):
-    found = run("sweep", SPEC, *options, "-o", "rows.csv", "--jobs", "1")
-    assert found.exit_code == 0, found.output
-    return "rows.csv"
-
-
-@pytest.mark.long
-def test_a_curve_for_each_combination_of_the_other_keys():
-    file = sweep("--vary", "drive.A=0,0.3,0.6", "--vary", "wheel.z=5,6", "--pick", "dwell_s")
-    figure = of_table(file, "drive.A", ["dwell_s"])
-    (panel,) = figure.panels
-    assert panel.y.name == "timing.dwell_s"
-    assert [curve.name for curve in panel.curves] == ["wheel.z = 5", "wheel.z = 6"]
-    assert {curve.style for curve in panel.curves} == {JOINED}
-    ((x, y),) = panel.curves[1].pieces
-    assert x == [0.0, 0.3, 0.6]
-    assert y[0] == pytest.approx(2.0 / 3.0)
-    # over the other key: a curve for each A
-    assert len(of_table(file, "wheel.z", ["dwell_s"]).panels[0].curves) == 3
-
-
-def test_a_column_by_any_name_of_its_quantity():
-    """A varied limit ends like the peak's other name, and is not meant by it."""
-    swept = put("limits.acceleration_max,acceleration.max\n1,2\n3,5\n")
-    (panel,) = of_table(swept, "limits.acceleration_max", ["acceleration_max"]).panels
-    assert panel.y.label == "acceleration.max"
-    table = put("z,acceleration_max\n5,2\n6,1\n")
-    assert of_table(table, "wheel.z", ["acceleration.max"]).x.label == "z"
+def test_ascending_numbers_make_a_curve_divided_where_a_row_has_none():
+    table = put("z,timing.dwell_s\n5,2\n6,\n7,1\n")
+    (panel,) = of_table(table, "z", ["dwell_s"]).panels
+    (curve,) = panel.curves
+    assert (panel.y.name, curve.style) == ("timing.dwell_s", JOINED)
+    assert [x for x, _ in curve.pieces] == [[5.0], [7.0]]
+    (curve,) = of_table(put("a,b\n2,1\n1,2\n"), "a", ["b"]).panels[0].curves
+    assert curve.style == POINTS
 
 
 @pytest.mark.sampled(3)

@@ -18,9 +18,8 @@ from geneva_cli.cli.app import app
 from geneva_cli.output.growing import GrowingFile
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.pool import possible
-from geneva_cli.study.sweep.plan import Shard, plan
 from geneva_cli.study.sweep.request import request
-from geneva_cli.study.sweep.run import blocks, sweep
+from geneva_cli.study.sweep.run import plan, sweep
 from geneva_cli.study.sweep.values import axis
 
 DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
@@ -34,7 +33,7 @@ def geneva(*args):
 
 
 def rows(found, **options):
-    return [row for block in blocks(found, **options) for row in block]
+    return [row for block in found.blocks(**options) for row in block]
 
 
 def grid(*texts):
@@ -73,8 +72,6 @@ def test_the_same_rows_whatever_the_processes_and_shares():
     some = grid("drive.A=-0.9..0.9:0.05", "wheel.z=4,6")
     alone = rows(sweep(read(SPEC), some), workers=1)
     assert rows(sweep(read(SPEC), some), workers=2) == alone
-    shares = [sweep(read(SPEC), some)._replace(shard=Shard(i, 3)) for i in (1, 2, 3)]
-    assert [row for share in shares for row in rows(share, workers=1)] == alone
 
 
 def test_a_stopped_sweep_goes_on(tmp_path):
@@ -165,7 +162,7 @@ def test_types_of_a_column_follow_from_all_blocks(tmp_path):
     from geneva_cli.output.growing import GrowingTable
 
     path = str(tmp_path / "rows.parquet")
-    with closing(GrowingTable(["a", "b", "c", "d"], "key", True, path)) as rows:
+    with closing(GrowingTable(["a", "b", "c", "d"], "key", path)) as rows:
         rows.append([np.array([4, 6]), [True, None], [None, None], np.array([1, 2])])
         rows.append([["x", None], [None, None], [1.0, None], np.array([0.5, np.inf])])
         rows.finish()
@@ -188,7 +185,6 @@ def test_types_of_a_column_follow_from_all_blocks(tmp_path):
         (["--vary", "drive.A=0.1", "--pick", "acceleration.mx"], "did you mean"),
         (["--vary", "drive.A=0.1", "-o", "rows.xlsx"], "it must end in .csv or .parquet"),
         (["--vary", "drive.A=0.1", "--resume", "--format", "json"], "--resume continues all"),
-        (["--vary", "drive.A=0.1", "--shard", "3/2"], "--shard 3/2"),
         (["--vary", "drive.A=0.1", "--seed", "1"], "--seed 1: it needs --random"),
         (["--vary", "drive.A=0.1", "--pareto", "min:wheel.gearing"], "a word has no order"),
         (["--vary", "drive.A=0.1", "--best", "min:k", "-o", "all.csv"], "--best writes a spec"),

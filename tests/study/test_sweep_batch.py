@@ -10,8 +10,7 @@ from geneva_cli import load
 from geneva_cli.cli.app import app
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.specfile.reader import read
-from geneva_cli.study.sweep.plan import plan
-from geneva_cli.study.sweep.run import Sweep, sweep
+from geneva_cli.study.sweep.run import Sweep, plan, sweep
 from geneva_cli.study.sweep.values import axis
 
 DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")

@@ -4,11 +4,9 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.study.sweep.plan import BLOCK, plan, shard
+from geneva_cli.study.sweep.run import BLOCK, plan
 from geneva_cli.study.sweep.values import VariedKey, axis
 
 GRID = [axis("wheel.z=3..7"), axis("drive.A=0,0.3"), axis("motion.law=cycloidal,3-4-5")]
@@ -38,19 +36,6 @@ def test_a_cloud_is_the_same_wherever_it_is_cut():
     assert found.rows(BLOCK - 5, BLOCK + 5) == whole[BLOCK - 5 : BLOCK + 5]
     assert found.rows(len(found) - 3, len(found)) == whole[-3:]
     assert len(set(whole)) == len(whole)
-
-
-@given(st.integers(0, 10**6), st.integers(1, 500))
-def test_shares_make_the_whole(length, of):
-    spans = [shard(f"{i}/{of}").span(length) for i in range(1, of + 1)]
-    assert spans[0][0] == 0 and spans[-1][1] == length
-    assert all(a[1] == b[0] for a, b in itertools.pairwise(spans))
-
-
-@pytest.mark.parametrize("text", ["0/4", "5/4", "3", "1/0", "a/b", "-1/4", "1/1e3", "/"])
-def test_no_share(text):
-    with pytest.raises(GenevaError, match="--shard"):
-        shard(text)
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,7 @@ import os
 import pytest
 
 from geneva_cli.specfile.reader import read
-from geneva_cli.study.sweep.plan import plan
-from geneva_cli.study.sweep.run import sweep
+from geneva_cli.study.sweep.run import plan, sweep
 from geneva_cli.study.sweep.values import axis
 
 DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")

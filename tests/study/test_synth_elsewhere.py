@@ -11,8 +11,8 @@ from geneva_cli.design import load
 from geneva_cli.motion.laws.standard import ModifiedSine
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.study.synth.fast_parts import machine_and_parts
 from geneva_cli.study.synth.reading import read_target
+from geneva_cli.study.synth.suiting import with_rollers
 from geneva_cli.study.synth.synth_search import search
 from geneva_cli.study.synth.synth_table import turned
 from geneva_cli.verdict.checks import checks
@@ -41,7 +41,8 @@ def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
         alpha0 = natural - (found + (200.0 - found) * k / steps)
         spec = other.spec.replace(motion=Motion(ModifiedSine(), alpha0_deg=alpha0, ratio="matched"))
         spec = spec.with_("size.roller_radius_mm", None)
-        assert machine_and_parts(spec)[1].why, alpha0
+        ((_, entry),) = with_rollers([spec])
+        assert entry.startswith("no"), alpha0
 
 
 @pytest.mark.long

@@ -8,7 +8,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.study.synth.built import built
-from geneva_cli.study.synth.fast_parts import USUAL, exact, with_roller
+from geneva_cli.study.synth.suiting import USUAL, with_roller
 from geneva_cli.verdict.checks import checks
 
 MENDED = [  # what is found to fail with the usual roller, and the roller that mends it, mm
@@ -24,7 +24,7 @@ def test_the_first_roller_that_passes_every_check_is_taken(drive, wheel, name, r
     spec = Spec(wheel, drive())
     assert name in [c.name for c in checks(build(spec)) if c.passes is False]
     L = build(spec).center_distance_mm
-    sized = (with_roller(spec, exact(0.01 * percent * L)) for percent in USUAL)
+    sized = (with_roller(spec, 0.01 * percent * L) for percent in USUAL)
     first = next(s for s in sized if all(c.passes is not False for c in checks(build(s))))
     assert built(spec) == (first, "")
     assert first.size.roller_radius_mm == radius

@@ -4,7 +4,6 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.completion import fields, keys, listed
 from geneva_cli.cli.options import AlsoReverse, Format, Output, Settings, flag, option, say
 from geneva_cli.errors import GenevaError
 
@@ -18,18 +17,17 @@ def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
     vary: Annotated[
         list[str] | None,
-        option("KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6.", complete=keys),
+        option("KEY=VALUES", "One spec with several values: drive.A=0,0.3,0.6."),
     ] = None,
     pick: Annotated[
         str,
-        option("FIELD,...", "Only these, as acceleration.max,dwell_s.", complete=listed(fields)),
+        option("FIELD,...", "Only these, as acceleration.max,dwell_s."),
     ] = "",
     against: Annotated[
         str,
         option(
             "NAME,...",
             "One spec with cam, servo: the same step, time and load.",
-            complete=listed(("cam", "servo")),
         ),
     ] = "",
     ratio: Annotated[bool, flag("--ratio", "Numbers over the first design's.")] = False,
@@ -44,12 +42,10 @@ def run(
     --against compares one spec with a cam indexer and a servo.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import refuse_inches, show
+    from geneva_cli.output import show
     from geneva_cli.study.compare import compare
     from geneva_cli.study.compare import differing as only_differing
 
-    if ratio:
-        refuse_inches("ratios have no unit")
     if against:
         from geneva_cli.spec.load_named import load_extra
 

@@ -4,7 +4,6 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.completion import explained
 from geneva_cli.cli.options import Format, Output
 
 EXAMPLES = (
@@ -21,7 +20,6 @@ def run(
         typer.Argument(
             metavar="[CHECK|QUANTITY|KIND]",
             help="horn_mm, acceleration.max, side-crank, a warning, a part, ...; without one: all.",
-            autocompletion=explained,
         ),
     ] = None,
     output: Output = "-",

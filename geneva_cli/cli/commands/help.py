@@ -4,7 +4,6 @@ from typing import Annotated, Any
 
 import typer
 
-from geneva_cli.cli.completion import topics
 from geneva_cli.errors import GenevaError, cut, nearest
 
 EXAMPLES = ("geneva help", "geneva help cycle", "geneva help friction")
@@ -17,7 +16,6 @@ def run(
         typer.Argument(
             metavar="[WORD...]",
             help="A page, a command, or words to search for; without one: all pages.",
-            autocompletion=topics,
         ),
     ] = None,
 ) -> None:

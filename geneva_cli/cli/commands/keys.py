@@ -4,7 +4,6 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.completion import tables_and_keys
 from geneva_cli.cli.options import Format, Output
 
 EXAMPLES = ("geneva keys drive", "geneva keys size.center_distance_mm")
@@ -16,7 +15,6 @@ def run(
         typer.Argument(
             metavar="[TABLE|KEY]",
             help="drive, drive.A or A; without one: all.",
-            autocompletion=tables_and_keys,
         ),
     ] = "",
     output: Output = "-",

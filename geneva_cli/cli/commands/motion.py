@@ -35,7 +35,6 @@ def run(
             f"{one_of(CONTROLLERS)}  [default: polynomial]",
             CAM,
             name="--for",
-            complete=CONTROLLERS,
         ),
     ] = None,
     tolerance: Annotated[
@@ -44,9 +43,7 @@ def run(
     reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",
-    format: Annotated[
-        str, option("FORMAT", one_of((*FORMATS, *CAMS)), complete=(*FORMATS, *CAMS))
-    ] = "",
+    format: Annotated[str, option("FORMAT", one_of((*FORMATS, *CAMS)))] = "",
 ) -> None:
     """Position, velocity, acceleration and jerk over a cycle from entry.
 

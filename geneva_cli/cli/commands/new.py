@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.completion import designs, kinds
 from geneva_cli.cli.options import Output, flag, option
 from geneva_cli.errors import GenevaError, below
 
@@ -22,12 +21,9 @@ def run(
         typer.Argument(
             metavar="[KIND]",
             help="curved, turret, a kind of drive, ...: see --list.",
-            autocompletion=kinds,
         ),
     ] = "",
-    from_design: Annotated[
-        str, option("NAME", "A copy of one of the designs, as it is.", complete=designs)
-    ] = "",
+    from_design: Annotated[str, option("NAME", "A copy of one of the designs, as it is.")] = "",
     list_: Annotated[bool, flag("--list", "All kinds and designs, and what they are.")] = False,
     all_: Annotated[
         bool, flag("--all", "Every key that the kind can have, with its default.")

@@ -4,7 +4,6 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.completion import keys, listed, quantities
 from geneva_cli.cli.options import AlsoReverse, Output, Settings, option, say, warn
 from geneva_cli.errors import GenevaError, cut
 
@@ -22,25 +21,24 @@ def run(
     ],
     pick: Annotated[
         str,
-        option("QUANTITY,...", "Only these, as velocity,pin_force_N.", complete=listed(quantities)),
+        option("QUANTITY,...", "Only these, as velocity,pin_force_N."),
     ] = "",
     x: Annotated[str, option("COLUMN", "Column of a csv for the x axis.", name="--x")] = "",
     y: Annotated[str, option("COLUMN,...", "Columns of a csv for the y axis.", name="--y")] = "",
     vary: Annotated[
         list[str] | None,
-        option("KEY=VALUES", "One spec with several values: wheel.z=4,6,8.", complete=keys),
+        option("KEY=VALUES", "One spec with several values: wheel.z=4,6,8."),
     ] = None,
     reverse: AlsoReverse = False,
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
-        str, option("FORMAT", "table (a chart in text), svg, png, pdf, csv, json or md.")
+        str, option("FORMAT", "svg, png, pdf, or of the points table, csv, json or md.")
     ] = "",
 ) -> None:
     """Plot curves over a cycle, exact at peaks and jumps; or columns of a csv, such as a sweep's.
 
-    Without -o it prints a chart in text. png and pdf need the extra geneva-cli[plot]. More:
-    `geneva help plots`.
+    Without -o it prints points. png needs the extra geneva-cli[plot]. `geneva help plots`.
     """
     from geneva_cli.output import show_figure
     from geneva_cli.output.formats import plotted_as

@@ -21,7 +21,7 @@ def run(
     full: Annotated[bool, flag("--full", "All inputs, curves, sizes, checks too.")] = False,
     settings: Settings = None,
     output: Output = "-",
-    format: Annotated[str, option("FORMAT", one_of(WRITTEN), complete=WRITTEN)] = "",
+    format: Annotated[str, option("FORMAT", one_of(WRITTEN))] = "",
 ) -> None:
     """Report on a design on two pages: verdict, motor, greatest loads and limits, parts, warnings.
 

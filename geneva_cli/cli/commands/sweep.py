@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from contextlib import closing
 from typing import TYPE_CHECKING, Annotated
 
-from geneva_cli.cli.completion import fields, keys, listed
 from geneva_cli.cli.options import Format, Settings, SpecPath, flag, option, output_option
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import tracked
@@ -29,11 +28,11 @@ def run(
     spec: SpecPath,
     vary: Annotated[
         list[str] | None,
-        option("KEY=VALUES", "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.", DESIGNS, keys),
+        option("KEY=VALUES", "As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.", DESIGNS),
     ] = None,
     pick: Annotated[
         str,
-        option("FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS, listed(fields)),
+        option("FIELD,...", "Quantities, as acceleration.max,dwell_s.", DESIGNS),
     ] = "",
     random: Annotated[
         int | None, option("N", "N random designs from the ranges, not the grid.", DESIGNS)
@@ -44,7 +43,7 @@ def run(
     check: Annotated[bool, flag("--check", "Add whether all checks pass.", DESIGNS)] = False,
     subject_to: Annotated[
         list[str] | None,
-        option("BOUND", 'Only rows that keep it: "dwell_s >= 0.8"; repeat.', CHOICE, fields),
+        option("BOUND", 'Only rows that keep it: "dwell_s >= 0.8"; repeat.', CHOICE),
     ] = None,
     pareto: Annotated[
         str, option("min:FIELD,...", "Only rows that no other row beats in all of these.", CHOICE)
@@ -52,7 +51,6 @@ def run(
     best: Annotated[
         str, option("min:FIELD", "The best design, refined, as a spec; or max:.", CHOICE)
     ] = "",
-    shard: Annotated[str, option("I/N", "Only shard I of N, as 3/16.", LONG)] = "",
     resume: Annotated[bool, flag("--resume", "Continue a stopped run.", LONG)] = False,
     jobs: Annotated[
         int | None, option("N", "Number of processes; all cores by default.", LONG)
@@ -65,7 +63,7 @@ def run(
 
     VALUES are 4,6,8, 3..12, 0..0.9:0.1 or words. With --random and --best, LOW..HIGH is the
     whole range between.
-    Long runs, shards and the best of many: `geneva help search`.
+    Long runs and the best of many: `geneva help search`.
     """
     from geneva_cli.output import show, show_text
     from geneva_cli.output.formats import FORMATS
@@ -88,7 +86,6 @@ def run(
         subject_to=subject_to or (),
         pareto=pareto,
         best=best,
-        shard=shard,
         jobs=jobs,
     )
     outcome = Outcome(plan)
@@ -139,8 +136,7 @@ def _write_rows(
         for block in outcome.rows(_tracked(plan, 0)):
             digest.add(block)
     else:
-        first = sweep.shard.number == 1
-        growing = GrowingTable(sweep.names, plan.key, first, output, resume, plan.inputs)
+        growing = GrowingTable(sweep.names, plan.key, output, resume, plan.inputs)
         with closing(growing) as rows:
             if rows.message:
                 print(clean(rows.message), file=sys.stderr)
@@ -160,5 +156,4 @@ def _write_rows(
 
 def _tracked(plan: "SweepRequest", done: int) -> "Iterator[Rows]":
     """The rows, with a progress bar."""
-    start, stop = plan.sweep.span
-    return tracked(plan.blocks(done), "designs", stop - start - done, len)
+    return tracked(plan.blocks(done), "designs", len(plan.sweep.plan) - done, len)

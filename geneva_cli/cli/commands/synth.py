@@ -4,7 +4,6 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
-from geneva_cli.cli.completion import fields, laws
 from geneva_cli.cli.options import Format, Output, Settings, flag, option, warn
 from geneva_cli.errors import GenevaError, clean, cut
 
@@ -32,7 +31,7 @@ def run(
     index_mm: Annotated[str, option("MM", "Travel of a rack per step.", WANTED)] = "",
     subject_to: Annotated[
         list[str] | None,
-        option("BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED, fields),
+        option("BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED),
     ] = None,
     z: Annotated[str, option("Z", "Slots: 6, 3..12 or 3,4,6.", MACHINES, default="3..24")] = "",
     internal: Annotated[bool, flag("--internal", "Internal wheels.", MACHINES)] = False,
@@ -43,9 +42,7 @@ def run(
     rollers: Annotated[
         int | None, option("M", "Rollers; without it, any number.", MACHINES)
     ] = None,
-    law: Annotated[
-        str, option("NAME", "Law of curved slots, or all.", MACHINES, laws)
-    ] = "modified-sine",
+    law: Annotated[str, option("NAME", "Law of curved slots, or all.", MACHINES)] = "modified-sine",
     space: Annotated[
         str, option("X", "Largest four-bar, in centre distances.", MACHINES, default="3")
     ] = "",
@@ -55,7 +52,7 @@ def run(
     ] = "",
     settings: Settings = None,
     sort: Annotated[
-        str, option("min:FIELD", "The least first; max:FIELD: the greatest.", ROWS, fields)
+        str, option("min:FIELD", "The least first; max:FIELD: the greatest.", ROWS)
     ] = "",
     check: Annotated[int, option("N", "Turn and check the parts of N rows.", ROWS)] = 20,
     buildable: Annotated[bool, flag("--buildable", "Only rows that pass.", ROWS)] = False,
@@ -98,7 +95,7 @@ def run(
     if write is None:
         _show(target, check, buildable, output, format)
     else:
-        _write(target, write, check, buildable, output, format)
+        _write(target, write, buildable, output, format)
 
 
 def _inputs(target: "Target") -> Sequence[str]:
@@ -123,9 +120,7 @@ def _show(target: "Target", check: int, buildable: bool, output: str, format: st
     show(table, output, format, _inputs(target))
 
 
-def _write(
-    target: "Target", number: int, check: int, buildable: bool, output: str, format: str
-) -> None:
+def _write(target: "Target", number: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.design import Design
     from geneva_cli.output import show_text
     from geneva_cli.study.synth.synth_search import search
@@ -135,7 +130,7 @@ def _write(
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
     if output != "-" and not output.endswith(".toml"):
         raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
-    row, text = chosen(search(target), number, buildable, check)
+    row, text = chosen(search(target), number, buildable)
     show_text(text, output, _inputs(target))
     path = "<stdout>" if output == "-" else output
     if row.trouble:

@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.kept import Known
 from geneva_cli.loads.cycle_quantities import FORCE
-from geneva_cli.loads.impacts.impacts import reversal_impacts
+from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.instant import LoadQuantity
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength.lock import dwell_torque_Nm

@@ -139,9 +139,6 @@ def _swing_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     if values["residual_share"] < 1e-6:  # of a step of 90°, a third of an arc second
         swing = "an index leaves the load practically at rest"
     yield SummaryLine("residual", f"{swing}, {residual} of the step")
-    if values["residual_share_worst"] is not None:
-        worst = measured(values["residual_share_worst"])
-        yield SummaryLine("worst", f"{worst} of the step, with a stiffness off by up to 20 %")
     text = f"accelerated {measured(values['dynamic_factor'])} times as hard as the wheel"
     if values["windup_deg"] is not None:
         text += f"; the shaft winds up by {measured(values['windup_deg'], 'deg')}"

@@ -166,11 +166,3 @@ def objective(text: str, option: str) -> Objective:
             "min:acceleration.max"
         )
     return Objective(sign, whole_name(name, option))
-
-
-def refuse_opposites(objectives: Sequence[Objective]) -> None:
-    """Raise GenevaError for a quantity that is both minimised and maximised."""
-    names = [o.name for o in dict.fromkeys(objectives)]
-    twice = next((name for name in names if names.count(name) > 1), None)
-    if twice:
-        raise GenevaError(f"--pareto {twice}: it cannot be both min and max; keep one of them")

@@ -16,28 +16,20 @@ def front(costs: Array) -> Whole:
     left out. Equal rows stay together.
     """
     known = np.flatnonzero(~np.isnan(costs).any(axis=1))
-    return known[best(costs[known])] if len(known) else known
+    if not len(known):
+        return known
+    rows, same = np.unique(costs[known], axis=0, return_inverse=True)
+    kept = np.zeros(len(rows), dtype=bool)
+    for start in range(0, len(rows), BLOCK):
+        # in lexicographic order nothing later dominates anything earlier
+        block = rows[start : start + BLOCK]
+        stays: Mask = np.logical_not(_as_good(block, rows[:start][kept[:start]]).any(axis=1))
+        left = block[stays]
+        stays[stays] = _as_good(left, left).sum(axis=1) <= 1  # as itself
+        kept[start : start + BLOCK] = stays
+    return known[kept[same.ravel()]]
 
 
-def best(costs: Array) -> Whole:
-    """The numbers of the rows of costs (n, d) that no other row dominates, ascending."""
-    kept: Mask
-    rows, same = np.unique(costs, axis=0, return_inverse=True)
-    # in lexicographic order nothing later dominates anything earlier
-    if rows.shape[1] <= 2:
-        least = np.minimum.accumulate(rows[:, -1])
-        kept = np.append(True, rows[1:, -1] < least[:-1])
-    else:
-        kept = np.zeros(len(rows), dtype=bool)
-        for start in range(0, len(rows), BLOCK):
-            block = rows[start : start + BLOCK]
-            stays: Mask = np.logical_not(_pairs(block, rows[:start][kept[:start]]).any(axis=1))
-            left = block[stays]
-            stays[stays] = _pairs(left, left).sum(axis=1) <= 1
-            kept[start : start + BLOCK] = stays
-    return np.flatnonzero(kept[same.ravel()])
-
-
-def _pairs(rows: Array, by: Array) -> Mask:
+def _as_good(rows: Array, by: Array) -> Mask:
     """Mask (n, m) of the pairs in which a row of ``by`` is as good or better in all costs."""
     return np.logical_and.reduce([x[:, None] >= y for x, y in zip(rows.T, by.T, strict=True)])

@@ -10,8 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError, below, cut
-from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.chosen import OF_SIZES, ByLoad, by_load
 from geneva_cli.specfile.columns import digest
 from geneva_cli.specfile.reader import read
@@ -26,12 +25,10 @@ from geneva_cli.study.sweep.constraints import (
     is_number,
     objective,
     refuse_contradictions,
-    refuse_opposites,
     refuse_words,
 )
-from geneva_cli.study.sweep.plan import WHOLE, plan
-from geneva_cli.study.sweep.plan import shard as share
-from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
+from geneva_cli.study.sweep.front import front
+from geneva_cli.study.sweep.run import DEFAULT, Sweep, plan, sweep, with_values
 from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Table, rows_table
 
@@ -68,53 +65,36 @@ class SweepRequest(NamedTuple):
 
     def blocks(self, done: int = 0) -> Iterator[Rows]:
         """All rows, in blocks; the first ``done`` rows are skipped."""
-        return blocks(self.sweep, done, self.jobs)
+        return self.sweep.blocks(done, self.jobs)
 
     def chosen(self, row_blocks: Iterable[Rows]) -> Iterator[Rows]:
         """The rows that keep all bounds and, of these, the Pareto front."""
         names = self.sweep.names
         bounds = [(names.index(c.name), c) for c in self.constraints]
-        kept = (_keeping(rows, bounds) for rows in row_blocks) if bounds else row_blocks
-        if not self.objectives:
-            yield from (rows for rows in kept if len(rows))
-            return
-        from geneva_cli.study.sweep.front import front
-
         signed = [(names.index(o.name), o.sign) for o in self.objectives]
-
-        def foremost(blocks: Sequence[Rows]) -> Rows:
-            rows = joined(blocks)
-            costs = np.column_stack([sign * rows.numbers(at) for at, sign in signed])
-            return rows.taken(front(costs))
-
         best, size, count = list[Rows](), 0, 0  # the front so far, its size; all rows since then
-        for rows in kept:  # a row that the front dominates never returns
-            best.append(rows)
+
+        def foremost() -> Rows:
+            rows = joined(best)
+            return rows.taken(front(np.column_stack([s * rows.numbers(i) for i, s in signed])))
+
+        for rows in row_blocks:
+            kept = np.full(len(rows), True)
+            for i, c in bounds:
+                kept &= c.kept_by(rows.numbers(i))
+            if bounds:
+                rows = rows.taken(kept)
+            if not signed:
+                if len(rows):
+                    yield rows
+                continue
+            best.append(rows)  # a row that the front dominates never returns
             count += len(rows)
             if count >= 2 * size:  # not for a few rows more, if the front is long
-                best = [foremost(best)]
+                best = [foremost()]
                 size = count = len(best[0])
-        rows = foremost(best)
-        if len(rows):
+        if best and len(rows := foremost()):
             yield rows
-
-    def chosen_anew(self, machine: Mechanism) -> str:
-        """The sizes that the load of a design chooses other than that of the spec, in words."""
-        with suppress(GenevaError):  # the spec may lack a varied key
-            return ByLoad(by_load(machine), by_load(build(self.sweep.text.spec()))).changes
-        return ""
-
-
-def _keeping(rows: Rows, bounds: Iterable[tuple[int, Constraint]]) -> Rows:
-    each = [c.kept_by(rows.numbers(i)) for i, c in bounds]
-    return rows.taken(np.logical_and.reduce(each))
-
-
-def _formulas_alone(spec: Spec) -> Spec:
-    """The spec. Raises GenevaError if it has drawings."""
-    if spec.outline.is_given:
-        raise GenevaError(f"{spec.path}: [outline]: a sweep varies formulas, and turns no drawings")
-    return spec
 
 
 def request(
@@ -129,7 +109,6 @@ def request(
     subject_to: Sequence[str] = (),
     pareto: str = "",
     best: str = "",
-    shard: str = "",
     jobs: int | None = None,
 ) -> SweepRequest:
     """Return the request of these options. Raises GenevaError, naming the option that is wrong.
@@ -149,7 +128,8 @@ def request(
             spec = with_values(text, axes, middle).spec()
         except GenevaError:
             raise error from None
-    files = _formulas_alone(spec).files
+    if spec.outline.is_given:
+        raise GenevaError(f"{spec.path}: [outline]: a sweep varies formulas, and turns no drawings")
     refuse_twice(axes, text.set_keys)
     if best and random is None and any(a.span for a in axes):
         random = 4096  # designs that --best scans
@@ -159,11 +139,7 @@ def request(
     if pareto and best:
         raise GenevaError("--pareto with --best: a front, or one design; choose one of them")
     option = "--best" if best else "--pareto"
-    texts = [best] if best else pareto.split(",") if pareto else []
-    goals = [objective(one, option) for one in texts]
-    part = share(shard) if shard else WHOLE
-    if shard and goals:
-        raise GenevaError("--shard: each shard has a front of its own; join all rows, then choose")
+    goals = [objective(one, option) for one in (best or pareto).split(",") if best or pareto]
     names = [name.strip() for name in pick.split(",")] if pick else []
     if not names and not goals:
         names = list(DEFAULT)
@@ -171,13 +147,15 @@ def request(
     needed = [*by, *(c.name for c in bounds)]
     names += ["checks.passes", "checks.failed"] if check else []
     of_best, picks = (pick_of(names), needed) if best else (Pick(), [*needed, *names])
-    swept = sweep(text, plan(axes, random, seed or 0), picks)._replace(shard=part)
+    swept = sweep(text, plan(axes, random, seed or 0), picks)
     if not best:  # which needs all values of designs that break a bound
         swept = swept._replace(bounds=tuple(bounds))
     refuse_contradictions(bounds)
-    refuse_opposites(goals)
+    if len(by) < len({*goals}):
+        twice = next(name for name in by if [o.name for o in {*goals}].count(name) > 1)
+        raise GenevaError(f"--pareto {twice}: it cannot be both min and max; keep one of them")
     refuse_words(dict.fromkeys(needed, "--subject-to") | by, "--vary or --set picks it")
-    return SweepRequest(swept, tuple(bounds), tuple(goals), jobs, files, of_best)
+    return SweepRequest(swept, tuple(bounds), tuple(goals), jobs, spec.files, of_best)
 
 
 class Outcome:
@@ -220,30 +198,23 @@ class Outcome:
 
     def notes(self) -> list[str]:
         """Notes for the user besides the rows."""
-        notes = self.refused()
+        notes, sweep = self.refused(), self.request.sweep
         if self.all and not self.left:
             unknown = [f"no design has a value of {name}" for name in self._unknown.values()]
             why = dict.fromkeys([*unknown, *self._nearness.phrases()])
             notes.append(f"none of {self.all:,} rows is left: {'; '.join(why)}")
-        return [*notes, *self._chosen()]
-
-    def _chosen(self) -> Iterator[str]:
-        """The note on sizes that the load of each row chooses, where quantities depend on them."""
-        sweep = self.request.sweep
-        if not any(group.table.startswith(OF_SIZES) for group in sweep.pick.groups):
-            return
-        with suppress(GenevaError):  # the spec may lack a varied key
-            if words := ByLoad(by_load(build(sweep.text.spec())), {}).words:
-                name = {"<stdin>": "-"}.get(sweep.text.name, sweep.text.name)
-                yield (
-                    f"note: each row has the sizes that its own load needs, the spec {words}; "
-                    f"`geneva size {name}` writes those, so that they stay"
-                )
+        if any(group.table.startswith(OF_SIZES) for group in sweep.pick.groups):
+            with suppress(GenevaError):  # the spec may lack a varied key
+                if words := ByLoad(by_load(build(sweep.text.spec())), {}).words:
+                    name = {"<stdin>": "-"}.get(sweep.text.name, sweep.text.name)
+                    notes.append(
+                        f"note: each row has the sizes that its own load needs, the spec {words}; "
+                        f"`geneva size {name}` writes those, so that they stay"
+                    )
+        return notes
 
 
 ROWS = 5  # the first rows, and as many of the best; up to twice as many are all shown
-
-Numbered = tuple[Cell, ...]  # a row behind its number, counted from 1
 
 
 class Digest:
@@ -259,43 +230,39 @@ class Digest:
         self.goal = request.objectives[0] if request.objectives else None
         self.quantities = request.sweep.pick.names
         self.count = 0
-        self.first: list[Numbered] = []
-        self.best: list[tuple[float, Numbered]] = []  # the best first
+        # rows behind their numbers, counted from 1; of the best behind their costs
+        self.first: list[tuple[Cell, ...]] = []
+        self.best: list[tuple[float, tuple[Cell, ...]]] = []
 
     def add(self, rows: Rows) -> None:
         """Add rows, which are numbered in their order."""
-        first = range(min(len(rows), 2 * ROWS - len(self.first)))
-        self.first += [(self.count + i + 1, *rows.row(i)) for i in first]
-        self.goal = self.goal or self._goal(rows)
+
+        def numbered(i: int) -> tuple[Cell, ...]:
+            return (self.count + i + 1, *rows.row(i))
+
+        self.first += map(numbered, range(min(len(rows), 2 * ROWS - len(self.first))))
+        for name in () if self.goal else self.quantities:  # the first that is a number somewhere
+            cells = cells_of(rows.columns[self.names.index(name)])
+            if any(is_number(cell) and not isinstance(cell, bool) for cell in cells):
+                self.goal = self.goal or Objective(1.0, name)
         if self.goal:
             costs = self.goal.sign * rows.numbers(self.names.index(self.goal.name))
             best = np.argsort(costs, kind="stable")[:ROWS].tolist()  # NaN comes last
-            new = ((costs[i], (self.count + i + 1, *rows.row(i))) for i in best)
-            costed = [*self.best, *((cost, row) for cost, row in new if not np.isnan(cost))]
-            self.best = sorted(costed, key=lambda one: one[0])[:ROWS]
+            self.best += [(costs[i], numbered(i)) for i in best if not np.isnan(costs[i])]
+            self.best = sorted(self.best, key=lambda one: one[0])[:ROWS]
         self.count += len(rows)
-
-    def _goal(self, rows: Rows) -> Objective | None:
-        """The first quantity that is a number in some row, to be minimised."""
-        for name in self.quantities:
-            cells = cells_of(rows.columns[self.names.index(name)])
-            if any(is_number(cell) and not isinstance(cell, bool) for cell in cells):
-                return Objective(1.0, name)
-        return None
 
     def tables(self) -> Iterator[Table]:
         """One table with all rows if they are few; otherwise the first rows and the best."""
-        if self.count <= 2 * ROWS:
-            yield self._table(self.first, "")
-            return
-        rest = f"All {self.count:,} rows: {self.place}"
-        yield self._table(self.first[:ROWS], f"The first {ROWS} rows. {rest}")
-        if self.goal:
-            best = [row for _, row in self.best]
-            yield self._table(best, f"The {len(best)} rows with the {self.goal}")
-
-    def _table(self, rows: Sequence[Numbered], title: str) -> Table:
+        titled = [(self.first, "")]
+        if self.count > 2 * ROWS:
+            title = f"The first {ROWS} rows. All {self.count:,} rows: {self.place}"
+            titled = [(self.first[:ROWS], title)]
+            if self.goal:
+                title = f"The {len(self.best)} rows with the {self.goal}"
+                titled.append(([row for _, row in self.best], title))
         names = ("row", *self.names)
-        kept = [i for i in range(len(names)) if any(row[i] is not None for row in rows)]
-        shown = [tuple(row[i] for i in kept) for row in rows]
-        return rows_table([names[i] for i in kept], shown, title)
+        for rows, title in titled:
+            kept = [i for i in range(len(names)) if any(row[i] is not None for row in rows)]
+            shown = [tuple(row[i] for i in kept) for row in rows]
+            yield rows_table([names[i] for i in kept], shown, title)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -25,13 +24,73 @@ from geneva_cli.study.fields import Pick, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.rows import Cell, Column, Rows, rows_of
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
-from geneva_cli.study.sweep.values import Value, VariedKey
+from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
 from geneva_cli.verdict.quantities.under_load import share
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 ERROR = "error"  # the column that says why a design cannot be built
 TEXTS = (ERROR, "checks.failed")  # columns without numbers, even if no design fails
+BLOCK = 16384  # designs of a batch; a power of two, which keeps a Sobol sequence balanced
+
+
+class SweepPlan(NamedTuple):
+    """The designs of a sweep, numbered from 0; the last key varies fastest in a grid.
+
+    ``random`` is the size of the random sample, 0 for the whole grid; ``seed`` is its seed.
+    """
+
+    axes: tuple[VariedKey, ...]
+    random: int = 0
+    seed: int = 0
+
+    def __len__(self) -> int:
+        return self.random or math.prod(len(a.values) for a in self.axes)
+
+    def rows(self, start: int, stop: int) -> list[tuple[Value, ...]]:
+        """The values of the keys of the designs ``start`` to ``stop - 1``."""
+        return _values(self.columns(start, stop))
+
+    def columns(self, start: int, stop: int) -> list[Column]:
+        """The values of each key in the designs ``start`` to ``stop - 1``."""
+        if self.random:
+            from geneva_cli.numerics.sobol import Sobol
+
+            # Points that fill the cube more evenly than random ones, drawn in whole blocks: equal
+            # wherever a run begins.
+            first = start - start % BLOCK
+            sequence = Sobol.scrambled(len(self.axes), self.seed)
+            points = np.hstack([sequence.points(k, BLOCK) for k in range(first, stop, BLOCK)])
+            own = points[:, start - first : stop - first]
+            return [a.between(x) for a, x in zip(self.axes, own, strict=True)]
+        columns, numbers = list[Column](), np.arange(start, stop)
+        for a in reversed(self.axes):
+            numbers, at = np.divmod(numbers, len(a.values))
+            columns.append(a.column(at))
+        return columns[::-1]
+
+
+def _values(columns: Sequence[Column]) -> list[tuple[Value, ...]]:
+    return [tuple(value for value in row if value is not None) for row in Rows(columns)]
+
+
+def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
+    """Return the plan of a sweep. Raises GenevaError, naming the option, for an invalid one."""
+    if not axes:
+        raise GenevaError("--vary is missing; say what varies, as --vary drive.A=0..0.9:0.1")
+    if random is not None and not 1 <= random <= POINTS_MAX:
+        raise GenevaError(f"--random {cut(random)}: it must be at least 1, at most {POINTS_MAX:,}")
+    keys_max = 32  # each is a dimension of the Sobol sequence
+    if random and len(axes) > keys_max:
+        raise GenevaError(f"--random: {len(axes)} keys vary; at most {keys_max} can")
+    if not 0 <= seed < 2**32:
+        raise GenevaError(f"--seed {cut(seed)}: it must be at least 0 and below 2**32")
+    size = math.prod(len(a.values) for a in axes)
+    if not random and size > POINTS_MAX:
+        raise GenevaError(
+            f"--vary: {size:,} designs in all; at most {POINTS_MAX:,}: fewer values, or "
+            "--random N of them"
+        )
+    return SweepPlan(tuple(axes), random or 0, seed)
 
 
 class Sweep(NamedTuple):
@@ -40,7 +99,6 @@ class Sweep(NamedTuple):
     text: Text
     plan: SweepPlan
     pick: Pick
-    shard: Shard = WHOLE
     bounds: tuple[Constraint, ...] = ()  # no parts are made of designs that break one of them
 
     @property
@@ -49,23 +107,40 @@ class Sweep(NamedTuple):
         return (*(a.key for a in self.plan.axes), *self.pick.names, ERROR)
 
     @property
-    def span(self) -> tuple[int, int]:
-        """The first design of this shard, and the one after its last."""
-        return self.shard.span(len(self.plan))
-
-    @property
     def key(self) -> str:
         """A digest of all that the rows depend on."""
-        inputs = repr((__version__, self.text, self.plan, self.pick.names, self.shard))
+        inputs = repr((__version__, self.text, self.plan, self.pick.names))
         return hashlib.sha256(inputs.encode()).hexdigest()
+
+    @property
+    def is_batched(self) -> bool:
+        """Return True if all quantities can be computed for a batch of designs."""
+        return bool(self.pick.names) and not self.pick.rest.names
+
+    @property
+    def task_size(self) -> int:
+        """The number of designs in one task."""
+        if self.is_batched:
+            return BLOCK
+        if not any(group.makes_parts for group in self.pick.groups):
+            return 64
+        # Parts are slow: eight tasks keep several processes busy. Four designs or more share the
+        # searches of their batch, which keeps the results of at most KEPT.
+        return min(KEPT, max(4, math.ceil(len(self.plan) / 8)))
+
+    def blocks(self, done: int = 0, workers: int | None = None) -> Iterator[Rows]:
+        """The rows in blocks and in order; the first ``done`` rows are skipped."""
+        starts = range(done, len(self.plan), self.task_size)
+        count = min(len(starts), cores() if workers is None else workers)
+        yield from mapped(self.block, starts, count)
+
+    def block(self, start: int) -> Rows:
+        """The rows of one task, from a design on."""
+        return self.rows(start, min(start + self.task_size, len(self.plan)))
 
     def rows(self, start: int, stop: int) -> Rows:
         """The rows of the designs ``start`` to ``stop - 1``."""
         return self.rows_of(self.plan.columns(start, stop))
-
-    def block(self, start: int) -> Rows:
-        """The rows of one task of this shard, from a design on."""
-        return self.rows(start, min(start + self.task_size, self.span[1]))
 
     def rows_of(self, keys: Sequence[Column]) -> Rows:
         """The rows of designs from the columns of their keys."""
@@ -76,6 +151,17 @@ class Sweep(NamedTuple):
         left = np.flatnonzero(np.isnan(values).any(axis=0))
         alone = [self.row(designs.row(i)) for i in left.tolist()]
         return rows.replaced(left, alone) if alone else rows
+
+    def known(self, keys: Sequence[Column]) -> Array:
+        """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
+        names, designs = self.pick.batched, Rows(keys)
+        return number_columns(self._batches(designs) if names else (), names, len(designs))
+
+    def _batches(self, designs: Rows) -> Iterator[Batch]:
+        def spec(values: Sequence[Cell]) -> Spec:
+            return with_values(self.text, self.plan.axes, values).spec()
+
+        return batch_rows(designs, [a.key for a in self.plan.axes], spec)
 
     def _rows_alone(self, designs: Rows, values: Array) -> list[list[Cell]]:
         """The rows of designs with quantities that are computed for each; ``values`` are known."""
@@ -102,13 +188,6 @@ class Sweep(NamedTuple):
     def _keeps(self, cells: Mapping[str, Cell]) -> bool:
         return all(bound.kept(cells[bound.name]) for bound in self.bounds if bound.name in cells)
 
-    @property
-    def _makes_parts(self) -> bool:
-        return any(group.makes_parts for group in self.pick.groups)
-
-    def _batches(self, designs: Rows) -> Iterator[Batch]:
-        return batch_rows(designs, [a.key for a in self.plan.axes], self._spec)
-
     def _machines(self, designs: Rows) -> list[Mechanism | GenevaError]:
         """The machine of each row, or why it cannot be built."""
         machines: list[Mechanism | GenevaError] = []
@@ -117,38 +196,14 @@ class Sweep(NamedTuple):
                 machines.append(self.machine(values))
             except GenevaError as error:
                 machines.append(error)
-        if self._makes_parts:  # the loads of their checks are those of batches
-            for members, machine in self._batches(designs):
-                each = [machines[i] for i in members.tolist()]
-                own = [one for one in each if isinstance(one, Mechanism)]
-                if len(own) == len(members) > 1:
-                    share(machine, own)
+        # the loads of their checks are those of batches
+        makes_parts = any(group.makes_parts for group in self.pick.groups)
+        for members, machine in self._batches(designs) if makes_parts else ():
+            each = [machines[i] for i in members.tolist()]
+            own = [one for one in each if isinstance(one, Mechanism)]
+            if len(own) == len(members) > 1:
+                share(machine, own)
         return machines
-
-    def known(self, keys: Sequence[Column]) -> Array:
-        """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
-        names, designs = self.pick.batched, Rows(keys)
-        return number_columns(self._batches(designs) if names else (), names, len(designs))
-
-    @property
-    def task_size(self) -> int:
-        """The number of designs in one task."""
-        if self.is_batched:
-            return BLOCK
-        if not self._makes_parts:
-            return 64
-        # Parts are slow: eight tasks keep several processes busy. Four designs or more share the
-        # searches of their batch, which keeps the results of at most KEPT.
-        start, stop = self.span
-        return min(KEPT, max(4, math.ceil((stop - start) / 8)))
-
-    @property
-    def is_batched(self) -> bool:
-        """Return True if all quantities can be computed for a batch of designs."""
-        return bool(self.pick.names) and not self.pick.rest.names
-
-    def _spec(self, values: Sequence[Cell]) -> Spec:
-        return with_values(self.text, self.plan.axes, values).spec()
 
     @property
     def own_values(self) -> list[Value] | None:
@@ -198,23 +253,26 @@ def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
     """
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
     names = tuple(name for name in pick(picks).names if name not in varied)
-    run, most = Sweep(text, plan, Pick(names)), 1000  # designs of the sample
-    reasons = []
-    # the middle design comes first: most ranges have one that can be built
-    for values in itertools.chain([plan.middle()], plan.sample(most)):
+    run, size, most = Sweep(text, plan, Pick(names)), len(plan), 1000  # designs of the sample
+    count, reasons = min(size, most), list[str]()
+
+    def sample() -> Iterator[tuple[Value, ...]]:
+        # the middle design comes first: most ranges have one that can be built
+        yield from _values([a.between(np.array([0.5])) for a in plan.axes])
+        if plan.random:
+            yield from plan.rows(0, count)
+        for at in (i * size // count for i in range(0 if plan.random else count)):
+            yield from plan.rows(at, at + 1)
+
+    for values in sample():
         try:
             run.machine(values)
             return run
         except GenevaError as error:
             reasons.append(str(error))
-    del reasons[0]  # the middle design, which may be one of the others
-    those = (
-        f"{len(reasons)} designs from all over the range"
-        if len(plan) > most
-        else f"the {len(reasons)} designs"
-    )
-    count = f"none of {those}" if len(plan) > 1 else "no design"
-    raise GenevaError(f"{count} can be built: {reasons[0]}")
+    those = f"{count} designs from all over the range" if size > most else f"the {count} designs"
+    said = f"none of {those}" if size > 1 else "no design"
+    raise GenevaError(f"{said} can be built: {reasons[1]}")  # the first may be one of the others
 
 
 def with_values(text: Text, axes: Sequence[VariedKey], values: Sequence[Cell]) -> Text:
@@ -225,11 +283,3 @@ def with_values(text: Text, axes: Sequence[VariedKey], values: Sequence[Cell]) -
         path = setting(f"{key}=0", "--vary").path
         changes.append(Setting(cut(f"{key}={shown}"), path, value))
     return text._replace(set_keys=(*text.set_keys, *changes))
-
-
-def blocks(run: Sweep, done: int = 0, workers: int | None = None) -> Iterator[Rows]:
-    """The rows of a sweep's shard, in blocks and in order; the first ``done`` rows are skipped."""
-    start, stop = run.span
-    starts = range(start + done, stop, run.task_size)
-    count = min(len(starts), cores() if workers is None else workers)
-    yield from mapped(run.block, starts, count)

@@ -15,16 +15,18 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.many import many
-from geneva_cli.numerics.arrays import Array, Mask, Whole
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.study.batches import BatchKey, columns, numbers, split
+from geneva_cli.study.batches import BatchKey, columns, split
 from geneva_cli.study.sweep.constraints import Objective
 from geneva_cli.study.synth.families.family import Family
-from geneva_cli.study.synth.optimiser import BROKEN, SETTLED, Places, Zoom, sampled, tops, zoom
+from geneva_cli.study.synth.optimiser import SETTLED, Places, Zoom, sampled, tops, zoom
 from geneva_cli.study.target import Target
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
 FamilyMachine: TypeAlias = tuple[Spec, Family]
+SOFT = 1e-60  # weight of the limits of a frame, which matter less than any bound
+BROKEN = 1e-40  # a violation below it is of such limits, or rounding
 GRID = 24  # intervals of the span of one number, sampled first
 QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
 # Of one number: samples on both sides of the best, each time four times as close.
@@ -58,7 +60,8 @@ def best(
             found = _best_places(free, freedom, how_near)
             for of, at, broken in zip(found.of.tolist(), found.at, found.violation, strict=True):
                 if broken < BROKEN or freedom == 1:
-                    chosen[some[of]] = free.place(of, at), bool(broken < BROKEN)
+                    place = free.places(np.array([of]), at[None])[0].tolist()
+                    chosen[some[of]] = place, bool(broken < BROKEN)
     kept: list[FamilyMachine] = []
     broken_ones: list[FamilyMachine] = []
     for i, f in enumerate(families):
@@ -73,10 +76,13 @@ def best(
 
 
 def _best_places(free: FamilyCosts, freedom: int, how_near: bool) -> Places:
+    """The best place of each family, from the plain crank's and the tops of a grid."""
     every = np.arange(len(free.families))
-    plain, inside = free.plain
+    with np.errstate(all="ignore"):
+        plain = (free.plain - free.low) / (free.high - free.low)
+    inside = ((plain >= 0.0) & (plain <= 1.0)).all(axis=1)
     nearest = sampled(free, every[inside], plain[inside])
-    done = nearest.take((nearest.cost == 0.0) & (nearest.violation == 0.0) & free.nearest)
+    done = nearest.take((nearest.cost == 0.0) & (nearest.violation == 0.0) & free.is_nearest)
     if len(done.of) == len(every):
         return done
     if freedom == 1:
@@ -104,54 +110,43 @@ class FamilyCosts:
     """
 
     def __init__(self, families: Sequence[Family], target: Target) -> None:
-        self.families, self.bounds, self.peak = families, target.known_bounds, target.peak
+        self.families, self.peak = families, target.peak
         sort = target.sort if target.sort and in_batch([target.sort.name]) else None
-        self.nearest = target.any_motion and not sort
+        self.is_nearest = target.any_motion and not sort
         self.goal = sort or Objective(1.0, self.peak)
-        self.names = [self.goal.name, *(b.name for b in self.bounds)]
-        self.low = np.array([f.low or (0.0,) for f in families])
-        self.high = np.array([f.high or (f.several - 1.0,) for f in families])
-        missing = (math.nan,) * self.low.shape[1]
-        self._plain = np.array([f.plain or missing for f in families])
-        self._scale = np.array([f.scale for f in families])
+        self.bounds = [b for b in target.bounds if in_batch([b.name])]
+        self.soft = [*target.soft_bounds.values()]
+        self.names = [self.goal.name, *(b.name for b in (*self.bounds, *self.soft))]
+        missing = (math.nan,) * len(families[0].low)
+        each = [(f.low, f.high, f.plain or missing, f.scale) for f in families]
+        self.low, self.high, self.plain, self._scale = map(np.array, zip(*each, strict=True))
         keys: dict[Any, list[BatchKey]] = {}
         own = [split(f.spec, keys) for f in families]
         shapes = {shape: i for i, (shape, _) in enumerate(own)}
         self._own = [values for _, values in own]
         self._shape = np.array([shapes[shape] for shape, _ in own])
 
-    @property
-    def plain(self) -> tuple[Array, Mask]:
-        """The places of the plain crank, and a mask of the families that have one inside."""
-        with np.errstate(all="ignore"):
-            unit = (self._plain - self.low) / (self.high - self.low)
-        return unit, ((unit >= 0.0) & (unit <= 1.0)).all(axis=1)
-
-    def place(self, i: int, at: Array) -> Sequence[float]:
-        """The numbers of a family at a place of the unit cube."""
-        numbers: list[float] = self._places(np.array([i]), at[None])[0].tolist()
-        return numbers
-
-    def _places(self, of: Whole, at: Array) -> Array:
-        low, high, plain = self.low[of], self.high[of], self._plain[of]
+    def places(self, of: Whole, at: Array) -> Array:
+        """The numbers of families at places of the unit cube, without the cube's rounding."""
+        low, high, plain = self.low[of], self.high[of], self.plain[of]
         inside: Array = np.where(at == 1.0, high, low + (high - low) * at)
-        # without the rounding of the unit cube
         return np.where(abs(inside - plain) <= 1e-15 * (high - low), plain, inside)
 
     def __call__(self, of: Whole, at: Array) -> tuple[Array, Array]:
         """Violations and costs at places (n, d) of families, (n,) each."""
-        places = self._places(of, at)
+        places = self.places(of, at)
         values = self._numbers(of, places)
         cost = self.goal.sign * values[:, 0]
-        if self.nearest:
-            off = (places - self._plain[of]) / self._scale[of]
+        if self.is_nearest:
+            off = (places - self.plain[of]) / self._scale[of]
             far = np.sqrt((off * off).sum(axis=1))
             cost = np.where(np.isnan(far), cost, far)
         violation = np.zeros(len(of))
-        for bound, value in zip(self.bounds, values[:, 1:].T, strict=True):
-            margin = bound.margin(value)
+        for i, bound in enumerate((*self.bounds, *self.soft)):
+            margin = bound.margin(values[:, i + 1])
             rounding = np.where(margin >= -ROUNDED * (bound.bound != 0.0), 1e-300, -margin)
-            violation += np.where(margin >= 0.0, 0.0, rounding)
+            weight = 1.0 if i < len(self.bounds) else SOFT
+            violation += weight * np.where(margin >= 0.0, 0.0, np.minimum(rounding, 1e9))
         known = np.isfinite(values[:, 0]) & ~np.isnan(violation)
         return np.where(known, violation, math.inf), np.where(known, cost, math.inf)
 
@@ -161,13 +156,6 @@ class FamilyCosts:
         shape = self._shape[of]
         for kind in np.unique(shape).tolist():
             which = np.flatnonzero(shape == kind)
-            if self.families[of[which[0]]].make:
-                specs = {i: self.families[of[i]].at(places[i]) for i in which.tolist()}
-                some = {i: spec for i, spec in specs.items() if spec}
-                rows = zip(some, numbers([*some.values()], self.names), strict=True)
-                for i, row in rows:
-                    out[i] = row or math.nan
-                continue
             varied = {
                 key: np.array([self._own[i][key] for i in of[which]]) for key in self._own[kind]
             }
@@ -178,24 +166,24 @@ class FamilyCosts:
                     varied[key] = varied[key].astype(float)
                     varied[key][own] = value
             able = np.isfinite(list(varied.values())).all(axis=0)
-            if able.any():
-                spec = self.families[of[which[able][0]]].spec
-                alike, values = self._batch(spec, {k: v[able] for k, v in varied.items()})
-                out[which[able][alike]] = values
+            if not able.any():
+                continue
+            which, varied = which[able], {key: value[able] for key, value in varied.items()}
+            same = {key for key, value in varied.items() if not (value != value[0]).any()}
+            same -= {next(iter(varied))} if len(same) == len(varied) else set()
+            one = {key: v[0].item() if key in same else v for key, v in varied.items()}
+            try:
+                batch = many(self.families[of[which[0]]].spec, one)
+            except GenevaError:  # a frame that allows no such machine
+                continue
+            if batch.machine:
+                out[which[batch.which]] = self._columns(batch.machine, len(batch.which))
         return out
 
-    def _batch(self, spec: Spec, varied: dict[str, Array]) -> tuple[Whole, Array]:
-        """The numbers of those machines of a batch that can be built, and their quantities."""
-        same = {key for key, value in varied.items() if not (value != value[0]).any()}
-        same -= {next(iter(varied))} if len(same) == len(varied) else set()
-        try:
-            batch = many(spec, {k: v[0].item() if k in same else v for k, v in varied.items()})
-        except GenevaError:  # a frame that allows no such machine
-            return np.zeros(0, dtype=int), np.zeros((0, len(self.names)))
-        count, values = len(batch.which), None
-        if batch.machine:
-            values = columns(batch.machine, self.names, count)
-            if values is None and (peak := columns(batch.machine, [self.peak], count)):
-                # what no batch computes is computed later: it keeps its bounds so far
-                values = [*peak, *(np.full(count, b.bound) for b in self.bounds)]
-        return batch.which, np.reshape(values or [], (len(self.names), -1)).T
+    def _columns(self, machine: Any, count: int) -> Array:
+        values = columns(machine, self.names, count)
+        if values is None and (peak := columns(machine, [self.peak], count)):
+            # what no batch computes is computed later: it keeps its bounds so far
+            bounds = (*self.bounds, *self.soft)
+            values = [*peak, *(np.full(count, b.bound) for b in bounds)]
+        return np.column_stack(values) if values else np.full((count, len(self.names)), math.nan)

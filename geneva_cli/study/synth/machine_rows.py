@@ -5,25 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.timing import timings
+from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.spec.load_limits import LIMITED
-from geneva_cli.study.batches import numbers
+from geneva_cli.numerics.arrays import Array
+from geneva_cli.study.batches import batch_machines, columns
 from geneva_cli.study.synth.families.family import Family, allows
-from geneva_cli.study.synth.fast_parts import machine_and_parts
-from geneva_cli.study.synth.parts_data import compute_parts_data, parts_data, with_one_roller
+from geneva_cli.study.synth.suiting import with_one_roller, with_rollers
 from geneva_cli.study.target import Target
-from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, applicable
-from geneva_cli.verdict.checks.motion_checks import GROOVE_MAX_DEG, driven_fraction, groove_pressure
 
-NEAR_DEG = 3.0  # below its limit, within which the pressure angle is searched between samples
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
-# Known with a cycle time: the input speed, times, and the peak in rad/s² or of a rack in m/s².
-TIMED = ("n_rpm", "motion_s", "dwell_s", "acceleration_max_rad_s2", "acceleration_max_m_s2")
+TIMES = ("motion_deg", "dwell_deg", "tau", "k", "motion_s", "dwell_s", "index_mm")
 # Keys of wheel and drive that only some machines have, and that describe a row.
 OWN_KEYS = (
     *("A", "eccentricity", "phase", "axes_deg", "offset_mm", "planet_ratio", "fixed"),
@@ -77,15 +72,15 @@ class Candidate(NamedTuple):
     wheels: int | None  # on a carrier
 
     @property
-    def is_driven(self) -> bool:
-        """Return True if a side-crank or gears drive the crank."""
-        return self.A is not None or self.eccentricity is not None
-
-    @property
     def peak(self) -> float:
         """The greatest acceleration, in rad/s² or m/s² if the speed is required."""
         rates = self.acceleration_max_rad_s2, self.acceleration_max_m_s2, self.acceleration_max
         return next(rate for rate in rates if rate is not None)
+
+    @property
+    def is_driven(self) -> bool:
+        """Return True if a side-crank or gears drive the crank."""
+        return self.A is not None or self.eccentricity is not None
 
     @property
     def of_two_numbers(self) -> bool:
@@ -96,130 +91,84 @@ class Candidate(NamedTuple):
 class MachineRow(NamedTuple):
     """A machine: its spec, description and costs, and further requested quantities.
 
-    ``extra`` are those quantities. ``family`` is the family whose best it is, if that has other
-    machines. With ``is_replacement`` it replaces a better machine that cannot be built.
+    ``family`` is that of which it is the best.
     """
 
     spec: Spec
     candidate: Candidate
     extra: tuple[float | int | str | bool | None, ...] = ()
     family: Family | None = None
-    is_replacement: bool = False
-
-    def moves_as(self, other: MachineRow) -> bool:
-        """Return True if another row is the same machine apart from sizes."""
-        one, two = self.spec, other.spec
-        return (one.wheel, one.drive, one.motion) == (two.wheel, two.drive, two.motion)
 
     @property
     def trouble(self) -> str:
         """The reason why its parts cannot be built; empty if none is known."""
         return (self.candidate.parts or "").partition(": ")[2]
 
-    @property
-    def is_impossible(self) -> bool:
-        """Return True if its parts are known to be impossible."""
-        return bool(self.trouble)
 
-    @property
-    def breaks_limit(self) -> bool:
-        """Return True if it breaks a limit of its frame."""
-        return not LIMITED.keys().isdisjoint(self.trouble.split(", "))
+def rows(
+    target: Target, machines: Sequence[tuple[Spec, Family | None]], errors: list[str]
+) -> list[MachineRow]:
+    """The rows of machines that can be built and have the required motion.
 
-
-def with_peak_limit(target: Target, spec: Spec) -> Spec:
-    """The spec with the required peak acceleration as a further limit."""
-    if target.acceleration_max is None:
-        return spec
-    return spec.replace(limits=spec.limits.replace(acceleration_max=target.acceleration_max))
-
-
-def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow | None]:
-    """The rows of the specs; None for one that cannot be built or breaks the required motion.
-
-    The reasons are added to ``errors``.
+    The reasons against others are added to ``errors``.
     """
-    specs = [with_peak_limit(target, spec) for spec in specs]
+    specs = [spec for spec, _ in machines]
+    sized = with_rollers(specs)
+    limits = target.soft_bounds
     alone = [with_one_roller(spec) for spec in specs]
-    different = [*dict.fromkeys(alone)]
-    costs = dict(zip(different, numbers(different, COSTS), strict=True))
-    # ``search`` keeps the required limit itself
-    limits = target.frame.limits.as_dict().values() if target.frame else ()
-    limited = any(value is not None for value in limits)
-    compute_parts_data(specs)
-    out: list[MachineRow | None] = []
-    for spec, one in zip(specs, alone, strict=True):
-        row, values = None, costs[one]
-        try:
-            machine, parts = machine_and_parts(spec)
-        except GenevaError as error:
-            errors.append(str(error))
-            values = None
-        if values:
-            if not parts.why:
-                sized = machine._replace(spec=parts.spec)
-                failed = _failing(sized, values) if limited else _slot_failure(machine)
-                parts = parts._replace(why=failed or parts.why)
-            row = MachineRow(parts.spec, _candidate(machine, target, values, parts.entry))
-        out.append(row if row and _moves_as_required(target, row) else None)
+    each = [*dict.fromkeys(alone)]
+    costs = dict(zip(each, quantities(each, COSTS), strict=True))
+    names = [*(f"timing.{name}" for name in TIMES), *(b.name for b in limits.values())]
+    known = quantities(specs, names)
+    out: list[MachineRow] = []
+    for i, (spec, family) in enumerate(machines):
+        one, own = costs[alone[i]], known[i].tolist()
+        if not np.isfinite([one[1], own[0]]).all():
+            try:
+                build(spec)
+            except GenevaError as error:
+                errors.append(str(error))
+            continue
+        motion = target.motion_for(spec.drive.rollers / spec.drive.turns)
+        if motion is not None and not allows(motion, own[0]):
+            continue
+        values = zip(limits.items(), own[len(TIMES) : -1], strict=True)
+        over = [key for (key, bound), x in values if not (np.isnan(x) or bound.kept(x))]
+        with_roller, entry = sized[i]
+        if over and entry and not entry.startswith("no"):
+            entry = f"no: {', '.join(over)}"
+        candidate = _candidate(target, spec, one.tolist(), own, entry)
+        out.append(MachineRow(with_roller, candidate, (), family))
     return out
 
 
-def _moves_as_required(target: Target, row: MachineRow) -> bool:
-    drive = row.spec.drive
-    limit, motion = target.acceleration_max, target.motion_for(drive.rollers / drive.turns)
-    if motion is not None and not allows(motion, row.candidate.motion_deg):
-        return False
-    return limit is None or keeps(row.candidate.acceleration_max, "at most", limit)
-
-
-def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
-    """The checks that fail among those that need no parts; the peaks are known."""
-    limits, known = machine.spec.limits.as_dict(), dict(zip(COSTS, costs, strict=True))
-    peaks = {key: known[name] for key, name in LIMITED.items() if name in known}
-    over = [
-        key
-        for key, x in peaks.items()
-        if limits[key] is not None and not keeps(x, "at most", limits[key])
-    ]
-    others = {name: check for name, check in LIMITS.items() if name not in peaks}
-    motion, rest = (
-        [check.name for check in applicable(among, machine) if check.passes is False]
-        for among in (MOTION, others)
-    )
-    return ", ".join([*motion, *over, *rest])
-
-
-def _slot_failure(machine: Mechanism) -> str:
-    """The check of a cam's groove, or of a curved slot's drive, that fails; else empty."""
-    if machine.engagements[0].groove is None:
-        name, check = "driven_fraction", driven_fraction("driven_fraction", machine)
-    else:
-        name = "groove_pressure_deg"
-        pressure_deg = parts_data(machine.spec).pressure_deg
-        # samples are never above the peak, and 1e-6 is beyond rounding
-        if not -NEAR_DEG <= pressure_deg - GROOVE_MAX_DEG <= 1e-6:
-            return name if pressure_deg > GROOVE_MAX_DEG else ""
-        check = groove_pressure(name, machine)
-    return name if check and check.passes is False else ""
+def quantities(specs: Sequence[Spec], names: Sequence[str]) -> Array:
+    """The quantities and, last, R/L of each spec (n, q + 1); NaN for one that cannot be built."""
+    out = np.full((len(specs), len(names) + 1), np.nan)
+    for members, machine in batch_machines(specs):
+        if values := columns(machine, names, len(members)):
+            out[members, :-1] = np.column_stack(values)
+            out[members, -1] = np.ravel(machine.ratio)
+    return out
 
 
 def _candidate(
-    machine: Mechanism, target: Target, costs: Sequence[float], parts: str | None
+    target: Target, spec: Spec, costs: list[float], times: list[float], parts: str | None
 ) -> Candidate:
-    spec, time, output = machine.spec, timings(machine)[0], machine.output
-    motion = spec.motion
     keys = spec.wheel.as_dict() | spec.drive.as_dict()
     own: dict[str, Any] = {name: keys.get(name) for name in OWN_KEYS}
-    own |= {key: getattr(time, key) for key in ("motion_deg", "dwell_deg", "tau", "k", "index_mm")}
-    own |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=True)}
     own["offset_mm"] = own["offset_mm"] or None
-    timed: dict[str, Any] = dict.fromkeys(TIMED)
+    known = zip(TIMES, times, strict=False)
+    own |= {name: x if np.isfinite(x) or name == "k" else None for name, x in known}
+    own |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=False)}
+    own |= dict.fromkeys(("n_rpm", "acceleration_max_rad_s2", "acceleration_max_m_s2"))
     if target.timed:
-        n = spec.drive.n_rpm
-        timed |= {"n_rpm": n, "motion_s": time.motion_s, "dwell_s": time.dwell_s}
-        rate = costs[1] * omega(n) ** 2 * output.rate_per_radian
-        timed[f"acceleration_max_{output.rate_unit}_s2"] = rate
+        output, n = target.output, spec.drive.n_rpm
+        rate = costs[1] * omega(n) ** 2 * spec.output.rate_per_radian
+        own |= {"n_rpm": n, f"acceleration_max_{output.rate_unit}_s2": rate}
+    else:
+        own |= {"motion_s": None, "dwell_s": None}
+    motion = spec.motion
     return Candidate(
         z=spec.wheel.z,
         gearing=spec.wheel.NAME,
@@ -227,8 +176,7 @@ def _candidate(
         drive=spec.drive.NAME,
         alpha0_deg=motion.alpha0_deg if motion else None,
         law=motion.law.NAME if motion else None,
-        ratio=machine.ratio,
+        ratio=costs[-1],
         parts=parts,
         **own,
-        **timed,
     )

@@ -111,23 +111,6 @@ def zoom(
     return best
 
 
-def accepted(places: Places, accept: Callable[[Places], Mask]) -> Places:
-    """For each task the best of its places without a violation that is accepted.
-
-    One place of each task is tested at a time, the best first.
-    """
-    left = places.take(np.isfinite(places.cost) & (places.violation < BROKEN))
-    found = left.take(slice(0))
-    while len(left.of):
-        which = _first(left, left.of, 1)
-        tested = left.take(which)
-        found = found.joined(tested.take(accept(tested)))
-        rest = np.full(len(left.of), True)
-        rest[which] = False
-        left = left.take(rest & ~np.isin(left.of, found.of))
-    return found.best(1)
-
-
 def _first(places: Places, group: Whole, count: int) -> Whole:
     """Numbers of the best ``count`` places of each group, in order of groups."""
     order = np.lexsort((places.cost, places.violation, group))

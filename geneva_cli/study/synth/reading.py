@@ -19,7 +19,7 @@ from geneva_cli.study.sweep.constraints import (
     refuse_contradictions,
     refuse_words,
 )
-from geneva_cli.study.target import GEARINGS, PEAK, ROLLERS_MAX, SPACE, AllowedSpan, Target
+from geneva_cli.study.target import GEARINGS, ROLLERS_MAX, SPACE, AllowedSpan, Target
 
 # The requirements for a number or a range: allowed values, and name and unit in words.
 SPANS = {
@@ -82,12 +82,6 @@ def read_target(
     wheels = _wheels(carousel, frame)
     racks = linear or bool(index_mm) or (frame is not None and not frame.output.turns)
     gearings = _gearings(requested, racks, wheels, frame)
-    # families keep a limit on the peak in closed form, but not those of racks and carriers
-    peaks = [
-        b
-        for b in bounds
-        if (b.name, b.sign) == (PEAK, "<=") and b.bound > 0.0 and not (racks or wheels)
-    ]
     words = ", ".join(phrases) or "the spec alone"
     target = Target(
         words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
@@ -96,10 +90,9 @@ def read_target(
         _rollers(rollers, racks, frame),
         _laws(law),
         spans,
-        min((bound.bound for bound in peaks), default=None),
         frame,
         objective(sort, "--sort") if sort else None,
-        tuple(bound for bound in bounds if bound not in peaks),
+        bounds,
         number("--space", space, Range(0.1, 100.0)) if space else SPACE,
         wheels=wheels,
     )

@@ -1,4 +1,4 @@
-"""The table of a synthesis, with the parts of its first rows turned, and a row as a spec."""
+"""The rows that a search found as a table, the first of them turned, and a row as a spec."""
 
 from __future__ import annotations
 
@@ -13,11 +13,16 @@ from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.built import Built, built, passes
-from geneva_cli.study.synth.fast_parts import MAYBE, YES
-from geneva_cli.study.synth.group_search import buildable_rows
-from geneva_cli.study.synth.machine_rows import Candidate, MachineRow
-from geneva_cli.study.synth.synth_search import TURNED, Ranking, search
+from geneva_cli.study.synth.built import built
+from geneva_cli.study.synth.machine_rows import Candidate, MachineRow, rows
+from geneva_cli.study.synth.suiting import MAYBE, YES
+from geneva_cli.study.synth.synth_search import (
+    TURNED,
+    Ranking,
+    bounded,
+    search,
+    with_batch_values,
+)
 from geneva_cli.study.target import Target
 from geneva_cli.table import Table, rows_table
 
@@ -28,6 +33,7 @@ _LIMITED = {
     "product_acceleration_max_m_s2": "product.acceleration_m_s2.max",
 }
 NAMES = ("no", *Candidate._fields)
+HALVINGS = 5  # of the numbers between a machine that fails in its turn and the plain crank's
 
 
 def synthesis_table(
@@ -35,17 +41,17 @@ def synthesis_table(
 ) -> Table:
     """One row for each machine, numbered from 1, as ``turned`` returns them."""
     ranking = ranking or search(target)
-    rows = [
+    shown = [
         (one.no, *one.row.candidate, *one.row.extra) for one in turned(ranking, count, buildable)
     ]
-    what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
+    what = "1 machine" if len(shown) == 1 else f"{len(shown)} machines"
     first = str(target.sort or "") or f"lowest peak acceleration{' in rad/s2' * target.timed}"
-    title = f"{what}, {first} first" if len(rows) > 1 else what
+    title = f"{what}, {first} first" if len(shown) > 1 else what
     if buildable:
-        title = f"{title}{',' * (len(rows) > 1)} of {len(ranking.rows)}"
-    if not rows:
+        title = f"{title}{',' * (len(shown) > 1)} of {len(ranking.rows)}"
+    if not shown:
         title = f"none of {len(ranking.rows)} machines passes"
-    return rows_table((*NAMES, *ranking.requested.names), rows, f"{target.words}: {title}.")
+    return rows_table((*NAMES, *target.names), shown, f"{target.words}: {title}.")
 
 
 class Numbered(NamedTuple):
@@ -56,100 +62,80 @@ class Numbered(NamedTuple):
 
 
 def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> list[Numbered]:
-    """The rows, the first ``count`` of them turned; with ``buildable`` only those that pass.
+    """The rows, the first ``count`` of them turned; with ``buildable`` the first that pass.
 
     A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
-    without turning. A row that fails may be replaced, under its number, by the best machine of its
-    family that passes: if it is itself a replacement, or if only passing rows are requested. The
-    replacement keeps the number, and stands where its own quantities belong.
+    without turning. With ``buildable`` a row that fails is replaced, under its number, by a machine
+    of its family that passes, and stands where its own quantities belong.
     """
     every = [Numbered(i, row) for i, row in enumerate(ranking.rows, 1)]
     maybe = [one for one in every if one.row.candidate.parts == MAYBE]
     if not buildable:
         maybe = [one for one in maybe if one.no <= count]
-    work = partial(built, fixed=_fixed(ranking.target))
-    done = mapped(work, [one.row.spec for one in maybe], min(len(maybe), cores()), "machines")
-    done = tracked(done, "machines turned", len(maybe))
+    work = partial(_turned, ranking._replace(rows=[]), buildable)
+    done = mapped(work, [one.row for one in maybe], min(len(maybe), cores()), "machines")
     results: dict[int, MachineRow] = {}
-    passed, last = 0, len(every)
-    for one in maybe:
+    passed = 0
+    for one, row in zip(maybe, tracked(done, "machines turned", len(maybe)), strict=True):
+        results[one.no] = row
+        passed += row.candidate.parts == YES
         if buildable and passed >= count:
-            last = one.no
             break
-        results[one.no] = _with_result(one.row, next(done))
-        passed += results[one.no].candidate.parts == YES
-    again = {
-        no: row
-        for no, row in results.items()
-        if row.is_impossible and (buildable or row.is_replacement)
-    }
-    if buildable:
-        # rows that cannot be built, of families without a buildable row
-        able = {row.family for row in ranking.rows if not row.is_impossible}
-        stuck = (one for one in every[:last] if one.row.is_impossible)
-        again |= {one.no: one.row for one in stuck if one.row.family not in able}
-    others = _others(ranking, again)
-    results |= others
-    shown = [one._replace(row=results.get(one.no, one.row)) for one in every]
-    if buildable:
-        shown = [one for one in shown if one.row.candidate.parts == YES]
-    else:
-        shown = [one for one in shown if one.no not in again or one.no in others]
-    shown.sort(key=lambda one: ranking.rank(one.row))  # a replacement is worse than the row it had
-    return shown[:count] if buildable else shown
+    if not buildable:
+        return [one._replace(row=results.get(one.no, one.row)) for one in every]
+    shown = [Numbered(no, row) for no, row in results.items() if row.candidate.parts == YES]
+    return sorted(shown, key=lambda one: ranking.rank(one.row))
 
 
-def _others(ranking: Ranking, failing: dict[int, MachineRow]) -> dict[int, MachineRow]:
-    work = partial(_other, ranking._replace(rows=[]))
-    done = mapped(work, failing.values(), min(len(failing), cores()), "machines")
-    done = tracked(done, "alternatives", len(failing))
-    return {no: row for no, row in zip(failing, done, strict=True) if row}
+def _turned(ranking: Ranking, buildable: bool, row: MachineRow) -> MachineRow:
+    """A row with sizes that pass a full turn, or with the checks that fail.
+
+    With ``buildable`` a machine that fails is replaced by one of its family that passes, between it
+    and that which moves as the plain crank does.
+    """
+    sizes = ranking.target.frame.size.as_dict() if ranking.target.frame else {}
+    fixed = frozenset(key for key, value in sizes.items() if value is not None)
+
+    def with_result(row: MachineRow) -> MachineRow:
+        spec, trouble = built(row.spec, fixed)
+        entry = f"no: {trouble}" if trouble else YES
+        return row._replace(spec=spec, candidate=row.candidate._replace(parts=entry))
+
+    out, family = row if row.trouble else with_result(row), row.family
+    if not (buildable and out.trouble and family and family.is_free and len(family.plain) == 1):
+        return out
+    (low,), (high,), (plain,) = family.low, family.high, family.plain
+    is_high = abs(high - plain) > abs(low - plain)  # the end that is farther from the plain crank
+    fails, passing = (high, max(low, plain)) if is_high else (low, min(high, plain))
+    if not math.isnan(family.best):
+        fails = family.best
+    for _ in range(HALVINGS):
+        middle = 0.5 * (fails + passing)
+        spec, own = family.at((middle,)), None
+        for other in rows(ranking.target, [(spec, family)], []) if spec else ():
+            try:
+                (kept,) = bounded(
+                    ranking.requested, with_batch_values(ranking.requested.names, [other])
+                )
+            except GenevaError:
+                continue
+            own = with_result(kept) if not kept.trouble else None
+        if own and not own.trouble:
+            out, passing = own, middle
+        else:
+            fails = middle
+    return out
 
 
-def _other(ranking: Ranking, row: MachineRow) -> MachineRow | None:
-    """The best machine of a row's family that passes a full turn, other than the row's own."""
-    sizes = _fixed(ranking.target)
-
-    def turn(maybe: MachineRow, like: MachineRow | None) -> MachineRow | None:
-        own = ranking.in_turn(maybe)
-        if own is None or own.moves_as(row):
-            return None
-        if like:
-            spec = own.spec.replace(size=like.spec.size)
-            return _with_result(own, Built(spec, "")) if passes(spec) else None
-        result = built(own.spec, sizes)
-        return None if result.trouble else _with_result(own, result)
-
-    return buildable_rows(ranking.target, [row.family], turn)[0] if row.family else None
-
-
-def _with_result(row: MachineRow, result: Built) -> MachineRow:
-    entry = f"no: {result.trouble}" if result.trouble else YES
-    return row._replace(spec=result.spec, candidate=row.candidate._replace(parts=entry))
-
-
-def _fixed(target: Target) -> frozenset[str]:
-    """The sizes that the requirement's frame gives, which do not change."""
-    sizes = target.frame.size.as_dict() if target.frame else {}
-    return frozenset(key for key, value in sizes.items() if value is not None)
-
-
-def chosen(
-    ranking: Ranking, number: int, buildable: bool = False, count: int = TURNED
-) -> tuple[MachineRow, str]:
+def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[MachineRow, str]:
     """Row ``number``, and the text of its spec with comments, as ``turned`` shows it.
 
-    The parts are turned through a whole turn, unless they are known to be impossible. A row that
-    ``turned`` shows without turning it keeps its numbers, even if its parts fail. Raises
+    The parts are turned through a whole turn, unless they are known to be impossible. Raises
     GenevaError if there is no such row.
     """
     if not 1 <= number <= len(ranking.rows):
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ranking.rows)}")
-    row = ranking.rows[number - 1]
-    if not row.is_impossible:
-        row = _with_result(row, built(row.spec, _fixed(ranking.target)))
-    if row.is_impossible and (buildable or (row.is_replacement and number <= count)):
-        row = _other(ranking, row) or row
+    row = _turned(ranking._replace(rows=[]), buildable, ranking.rows[number - 1])
     row = row._replace(spec=with_limits(ranking.requested, row.spec))
     return row, commented(ranking.target, number, row)
 
@@ -159,7 +145,7 @@ def with_limits(target: Target, spec: Spec) -> Spec:
 
     Of a requirement and a limit of the frame the stricter one stays.
     """
-    bounds = list(target.limits)
+    bounds = list(target.bounds)
     for name, span in target.spans.items():
         timing = f"timing.{'cycle_s' if name == 'cycle' else name}"
         bounds += [Constraint(timing, ">=", span.low), Constraint(timing, "<=", span.high)]

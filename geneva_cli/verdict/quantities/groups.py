@@ -220,7 +220,7 @@ _REPORT = (
     _alone(
         "vibration",
         "none period_ratio damping_ratio natural_Hz residual_share residual_deg "
-        "residual_share_worst steady_share dynamic_factor windup_deg",
+        "steady_share dynamic_factor windup_deg",
         "vibration",
     )._replace(batch="verdict.quantities.load_quantities:vibration", one_by_one=("none",)),
     _batch(

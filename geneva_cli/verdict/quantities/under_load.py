@@ -13,8 +13,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, PV
-from geneva_cli.loads.impacts.impacts import Impacts, reversal_impacts
-from geneva_cli.loads.impacts.shock_force import forces_N
+from geneva_cli.loads.impacts.reversal import reversal_impacts
+from geneva_cli.loads.impacts.shock_force import Impacts, forces_N
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength import pin as pins

@@ -14,16 +14,15 @@ import numpy as np
 
 from geneva_cli.drives.cam import Cam
 from geneva_cli.drives.crank import Crank
+from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array
-from geneva_cli.numerics.tolerances import MARGIN
-from geneva_cli.study.law_values import Characteristic, characteristic
+from geneva_cli.numerics.arrays import Array, Mask
 from geneva_cli.study.synth.families.family import (
     OPEN_END,
     Family,
@@ -31,34 +30,37 @@ from geneva_cli.study.synth.families.family import (
     allows,
     closed_span,
     line,
-    longest_deg,
     machine,
     natural_deg,
-    rollers,
     speeds,
 )
-from geneva_cli.study.synth.fast_parts import has_no_obstacle
-from geneva_cli.study.synth.parts_data import compute_parts_data
+from geneva_cli.study.synth.suiting import suiting
 from geneva_cli.study.target import AllowedSpan, Target
+
+MORE = 6  # rollers that are tried where nothing demands more
+PARTS, ROUNDS = 5, 5  # of a range of motions: its division, and how often a part is divided again
 
 
 def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """Curved slots and cams with each law.
 
-    In a range of motions the longest is the gentlest, and the plain crank's own is added. With
-    bounds or another goal, every motion of the range is possible. Below a limit of acceleration
-    alone, the motion nearest to the plain crank's is best; the law's peak gives it in closed form.
+    A range of motions ends at the longest with parts that can be built, which is the gentlest. The
+    plain crank's own motion is added. With bounds or another goal any of the range may be best.
     """
-    laws = [(law, characteristic(law)) for law in (registry.law(name)() for name in target.laws)]
-    lines = [
-        _LawLine(target, wheel, *law, grooved, natural_deg(wheel))
-        for wheel in wheels
-        if wheel.FLAT
-        for law in laws
-        for grooved in (False, True)
-    ]
-    for own, more in zip(lines, _more_rollers(target, lines), strict=True):
-        yield from own.families(more)
+    counts = [int(m) for m in target.counts if m >= 1.0]
+    several = [m for m in counts if m <= max(MORE, counts[0])] if counts else []
+    for name in target.laws:
+        for is_cam in (False, True):
+            law = registry.law(name)()
+            lines, spans = list[_LawLine](), list[AllowedSpan]()
+            for wheel in wheels if wheels[0].FLAT else ():
+                for m in several:
+                    one = _LawLine(target, wheel, law, is_cam, m)
+                    if span := one.motions():
+                        lines.append(one)
+                        spans.append(span)
+            for own, span, most in zip(lines, spans, _longest(lines, spans), strict=True):
+                yield from own.families(span, most)
 
 
 class _LawLine(NamedTuple):
@@ -67,115 +69,95 @@ class _LawLine(NamedTuple):
     target: Target
     wheel: Gearing
     law: Law
-    cost: Characteristic
-    grooved: bool
-    natural: float  # the plain crank's motion angle
+    is_cam: bool
+    m: int  # rollers
 
-    def spec(self, m: int, motion_deg: float) -> Spec:
-        alpha0 = _alpha0(self.target, self.natural, motion_deg)
-        motion = Motion(self.law, alpha0_deg=alpha0, ratio=None if self.grooved else "matched")
-
-        def drive(n_rpm: float) -> Cam | Crank:
-            kind = Cam if self.grooved else Crank
-            return kind(n_rpm=n_rpm, rollers=m)
-
-        return machine(self.target, self.wheel, drive, m, motion_deg, motion)
-
-    def families(self, more: Sequence[Spec]) -> Iterator[Family]:
-        """The families, including those with ``more`` rollers than the plain wheel takes."""
-        several = rollers(self.target, self.natural)
-        more_counts = [spec.drive.rollers for spec in more]
-        if self.target.only_acceleration:
-            yield from map(self._below, (*several, *more_counts))
-            return
-        plain = AllowedSpan(self.natural, self.natural)
-        for m in several:
-            if free := self._motions(m):
-                own = allows(free, self.natural)
-                yield self._free(m, plain if own and free.exact else free)
-                if own:
-                    yield Family(self.spec(m, self.natural))
-        for m in more_counts:
-            yield self._free(m, self._motions(m) or plain)
-
-    def some(self, m: int) -> list[Spec]:
-        """The gentlest machine of m rollers and, in a range, some others."""
-        if self.target.only_acceleration:
-            return [self.spec(m, self._below(m).best)]
-        free = self._motions(m)
-        motions = (free.high, 0.5 * (free.low + free.high), free.low) if free else ()
-        return [self.spec(m, x) for x in dict.fromkeys(motions)]
-
-    def _motions(self, m: int) -> AllowedSpan | None:
-        """The allowed motions; with a groove those below that of a slot parallel to the crank."""
-        free = closed_span(allowed_motions(self.target, m, self.natural), m)
+    def motions(self) -> AllowedSpan | None:
+        """The allowed motions; of a cam those below that of a slot parallel to the crank."""
+        natural = natural_deg(self.wheel)
+        if self.m > rollers_max(natural) and self.target.rollers is not None:
+            return None
+        free = closed_span(allowed_motions(self.target, self.m, natural), self.m)
         parallel = (1.0 - OPEN_END) * (360.0 - self.wheel.SIGN * 360.0 / self.wheel.z)
-        if free and self.grooved and not free.exact and free.low < parallel:
+        if free and self.is_cam and not free.exact and free.low < parallel:
             return AllowedSpan(free.low, min(free.high, parallel))
         return free
 
-    def _below(self, m: int) -> Family:
-        """The machines below a limit of acceleration; the nearest to the plain crank is best."""
-        step, limit = 2.0 * math.pi / self.wheel.z, self.target.acceleration_max
-        least = 0.0
-        if limit:  # the law's peak is step C_a / motion²
-            least = math.sqrt(step * self.cost.acceleration / (limit * (1.0 - MARGIN))) / DEGREE
-        most = longest_deg(m)
-        best = max(least, min(self.natural, most))
-        # where an internal wheel turns half as fast as the crank, R/L is 1; at 0.45 it is 9/11
-        fast = self.cost.velocity * step
-        if not self.grooved and self.wheel.SIGN < 0.0 and fast >= 0.5 * math.radians(best):
-            best = math.degrees(fast / 0.45)
-        return self._line(m, AllowedSpan(least, max(most, best)), best)
+    def spec(self, motion_deg: float) -> Spec:
+        alpha0 = _alpha0(natural_deg(self.wheel), motion_deg)
+        motion = Motion(self.law, alpha0_deg=alpha0, ratio=None if self.is_cam else "matched")
 
-    def _free(self, m: int, motion: AllowedSpan) -> Family:
-        """The machines of a range of motions, the longest of which is the gentlest."""
-        best = math.nan if self.target.bounds or self.target.sort else motion.high
-        return self._line(m, motion, best)
+        def drive(n_rpm: float) -> Cam | Crank:
+            return (Cam if self.is_cam else Crank)(n_rpm=n_rpm, rollers=self.m)
 
-    def _line(self, m: int, motion: AllowedSpan, best: float) -> Family:
-        keys = partial(_keys, self.target, self.natural, m)
-        return line(self.spec(m, motion.high), keys, motion, plain=(self.natural,), best=best)
+        return machine(self.target, self.wheel, drive, self.m, motion_deg, motion)
+
+    def families(self, free: AllowedSpan, longest: float) -> Iterator[Family]:
+        """Those of the allowed motions, of which ``longest`` can be built; NaN if none can."""
+        target, natural = self.target, natural_deg(self.wheel)
+        if math.isnan(longest):
+            if self.m > rollers_max(natural):
+                return
+            longest = free.high
+        is_searched = target.bounds or target.sort or target.soft_bounds
+        keys = partial(_keys, target, natural, self.m)
+        own, motion = allows(free, natural), AllowedSpan(free.low, longest)
+        if not (own and free.exact):
+            best = math.nan if is_searched else longest
+            yield line(self.spec(longest), keys, motion, plain=(natural,), best=best)
+        if own:
+            yield Family(self.spec(natural))
+
+
+def _longest(lines: Sequence[_LawLine], spans: Sequence[AllowedSpan]) -> list[float]:
+    """The longest motion of each line with parts that can be built; NaN if none can."""
+    if not lines:
+        return []
+    low, high = np.array(spans).T
+    every = np.arange(len(lines))
+    able = _buildable(lines, high)
+    found = np.where(able, high, math.nan)
+    left, top, step = every[~able & (low < high)], high, (high - low) / PARTS
+    for _ in range(ROUNDS):
+        tried = top[left, None] - step[left, None] * np.arange(1, PARTS + 1)
+        each = [lines[i] for i in left.tolist() for _ in range(PARTS)]
+        able = _buildable(each, tried.ravel()).reshape(tried.shape)
+        left, tried, able = (part[able.any(axis=1)] for part in (left, tried, able))
+        found[left] = tried[np.arange(len(left)), able.argmax(axis=1)]
+        top, step = found + step, step / PARTS
+    longest: list[float] = found.tolist()
+    return longest
+
+
+def _buildable(lines: Sequence[_LawLine], motions: Array) -> Mask:
+    """Mask (n,) of the lines, alike but for slots and rollers, whose parts can be built."""
+    able = np.zeros(len(lines), dtype=bool)
+    if not lines:
+        return able
+    naturals = [natural_deg(own.wheel) for own in lines]
+    first = lines[0]._replace(m=1).spec(motions[0])
+    alpha0 = [_alpha0(a, b) for a, b in zip(naturals, motions.tolist(), strict=True)]
+    z, rollers = (np.array(x) for x in zip(*((one.wheel.z, one.m) for one in lines), strict=True))
+    try:
+        batch = many(first, {"wheel.z": z, "motion.alpha0_deg": np.array(alpha0)})
+    except GenevaError:  # a frame that allows no such machine
+        return able
+    if batch.machine:
+        able[batch.which] = [not why for why in suiting(batch.machine, rollers[batch.which])[1]]
+    return able
 
 
 def _keys(target: Target, natural: float, m: int, at: Array) -> dict[str, Array]:
     motions = at[:, 0].tolist()
-    alpha0 = np.array([_alpha0(target, natural, motion) for motion in motions])
+    alpha0 = np.array([_alpha0(natural, motion) for motion in motions])
     return {"motion.alpha0_deg": alpha0, **speeds(target, m, motions)}
 
 
-def _alpha0(target: Target, natural: float, motion: float) -> float:
-    alpha0 = natural - motion
-    spare = 2e-15 * natural  # the rounding of a difference of two angles
-    # A motion that is shorter, by however little, would break a limit that it just keeps.
-    most = alpha0 if target.acceleration_max else alpha0 + spare
-    return _shortest(alpha0 - spare, most)
-
-
-def _shortest(low: float, high: float) -> float:
-    """The number of fewest digits near the middle of an interval; 0 if that lies in it."""
-    if low <= 0.0 <= high:
-        return 0.0
-    middle = 0.5 * (low + high)
-    for digits in range(1, 17):
-        x = float(f"{middle:.{digits}g}")
-        if low <= x <= high:
+def _alpha0(natural: float, motion: float) -> float:
+    """The extra dwell: of all numbers within rounding that of fewest digits."""
+    middle, spare = natural - motion, 2e-15 * natural
+    for digits in range(17) if abs(middle) > spare else ():
+        x = float(f"{middle:.{digits}e}")
+        if abs(x - middle) <= spare:
             return x
-    return middle
-
-
-def _more_rollers(target: Target, lines: Sequence[_LawLine]) -> list[list[Spec]]:
-    """More rollers than the plain wheel takes, for each line as long as parts can be built."""
-    specs_of_line: list[list[Spec]] = [[] for _ in lines]
-    if target.rollers is not None:
-        return specs_of_line
-    more = [int(m) for m in target.counts if m >= 1.0]
-    begin = [next((m for m in more if m > rollers_max(own.natural)), None) for own in lines]
-    growing = {i: m for i, m in enumerate(begin) if m}
-    while growing:
-        specs = {i: some for i, m in growing.items() if (some := lines[i].some(m))}
-        compute_parts_data(spec for some in specs.values() for spec in some)
-        growing = {i: growing[i] + 1 for i in specs if any(map(has_no_obstacle, specs[i]))}
-        for i in growing:
-            specs_of_line[i].append(specs[i][0])
-    return specs_of_line
+    return 0.0 if abs(middle) <= spare else middle

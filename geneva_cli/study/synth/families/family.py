@@ -30,13 +30,13 @@ Keys: TypeAlias = Callable[[Array], dict[str, Array]]
 
 
 class Family(NamedTuple):
-    """Machines that differ in one number or more, a list of machines, or a single one.
+    """Machines that differ in one number or more, or a single one.
 
     ``spec`` is one of them. ``keys`` returns the values (n,) of its keys at places (n, d) between
-    ``low`` and ``high``; NaN where there is no machine. The machines of a list are returned by
-    ``make``, by their numbers. At ``plain`` a machine moves as the plain crank does; the distance
-    of other places from it is measured in ``scale``. At ``known`` it is a machine of another
-    family. At ``best`` it is the best, if that is not NaN. All can be passed to another process.
+    ``low`` and ``high``; NaN where there is no machine. At ``plain`` a machine moves as the plain
+    crank does; the distance of other places from it is measured in ``scale``. At ``known`` it is a
+    machine of another family. At ``best`` it is the best, if that is not NaN. All can be passed to
+    another process.
     """
 
     spec: Spec
@@ -47,37 +47,21 @@ class Family(NamedTuple):
     scale: tuple[float, ...] = (1.0,)
     known: tuple[float, ...] = ()
     best: float = math.nan
-    make: Callable[[int], Spec | None] | None = None
-    several: int = 0
-    ends: tuple[tuple[float, ...], tuple[float, ...]] | None = None  # of the whole of this piece
 
     @property
     def is_free(self) -> bool:
         """Return True if the family has more than one machine."""
-        return self.low < self.high or self.several > 1
-
-    @property
-    def can_vary(self) -> bool:
-        """Return True if another of its machines may replace one whose parts cannot be built."""
-        return self.is_free and len(self.low) < 2
+        return self.low < self.high
 
     def at(self, place: Sequence[float]) -> Spec | None:
         """The machine at a place; None if it cannot be built."""
         try:
-            if self.make:
-                return self.make(round(place[0]))
             if self.keys is None:
                 return self.spec
             values = self.keys(np.array([place]))
             return changed(self.spec, {key: float(value[0]) for key, value in values.items()})
         except GenevaError:
             return None
-
-    @property
-    def whole(self) -> Family:
-        """The family that this is a piece of, or itself."""
-        low, high = self.ends or (self.low, self.high)
-        return self._replace(low=low, high=high, ends=None)
 
 
 def line(spec: Spec, keys: Keys, span: AllowedSpan, **places: Any) -> Family:
@@ -99,8 +83,7 @@ def pieces(families: Sequence[Family], most: int) -> list[Family]:
             continue
         (low,), (high,) = f.low, f.high
         ends = [*(low + (high - low) * k / count for k in range(count)), high]
-        whole = f._replace(ends=(f.low, f.high))
-        out += [whole._replace(low=(a,), high=(b,)) for a, b in pairwise(ends) if a < b]
+        out += [f._replace(low=(a,), high=(b,)) for a, b in pairwise(ends) if a < b]
     return out
 
 

@@ -179,7 +179,7 @@ def offset_slots(target: Target, wheel: Gearing) -> Iterator[Family]:
         spec = plain(target, wheel, m)
         keys = partial(_offset, spec)
         yield line(spec, keys, AllowedSpan(tenth, tenth))
-        if target.limits or target.sort:
+        if target.bounds or target.sort:
             widest = MOST * wheel.step.sin_cos[1] ** 2
             span = AllowedSpan(-widest, widest)
             yield line(spec, keys, span, known=(0.0,), plain=(tenth,))
@@ -258,7 +258,7 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
     motion = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
     if target.rollers in (None, 1) and motion:
         low, high = zip(motion, AXES, strict=True)
-        moved = all(map(is_motion, target.quantities))
+        moved = all(map(is_motion, target.names))
         scale, at_right = (180.0, AXES.high - AXES.low), (natural_deg(wheel), 90.0)
         for one in (SIDE_CRANK,) if moved else (SIDE_CRANK, *GEARS):
             keys, spec = partial(_both, target, z, one), one.spec(target, wheel)

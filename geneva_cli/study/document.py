@@ -1,0 +1,298 @@
+"""A design as a document: its verdict, and then everything about it, in a fixed order."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from geneva_cli.answer import SummaryLine
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError
+from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
+from geneva_cli.loads.load_peaks import LoadSummary
+from geneva_cli.loads.load_tables import no_load
+from geneva_cli.manual.explained import entries
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.names import described
+from geneva_cli.output.document.blocks import (
+    BAD,
+    Block,
+    Curves,
+    Document,
+    Fact,
+    Facts,
+    Grid,
+    Heading,
+    Picture,
+    Prose,
+    Row,
+    TextList,
+)
+from geneva_cli.output.finite import only
+from geneva_cli.specfile.writer import keys_in, values_of
+from geneva_cli.study.summary.greatest_loads import PARTS, greatest_loads, parts_of
+from geneva_cli.study.summary.load_lines import title_of
+from geneva_cli.study.summary.report_summary import key_figures, machine_lines
+from geneva_cli.table import Table, in_digits
+from geneva_cli.verdict.headline import headline
+from geneva_cli.verdict.strength import OF_LIFE
+
+SOURCES = (
+    "Cited: Malteski mehanizmi, a lecture; handbook no. 7, Maltese mechanisms; F. Krasniqi, "
+    "Improvements of kinetic properties and lifespan of Maltic cross through curved canal, "
+    "University of Prishtina; Polyudov and Kandyak, Kinematics of the Maltese cross mechanism "
+    "with a side-crank drive, Ukrainian Academy of Printing. Where our numbers differ, and "
+    "why: geneva help numbers.",
+    "Derivatives: Taylor coefficients that are carried along; peaks: roots of the next derivative.",
+    "Contact stress: Hertz, line contact. Life of the roller: ISO 281. Shafts: the ASME code "
+    "for transmission shafting (B17c). Pins and arm: beams, by von Mises. Keys: DIN 6892. "
+    "Default steel: C45+N, EN 10083-2; of printed plates PLA, doi 10.1089/3dp.2020.0109.",
+    "Formula and source of each value and check: geneva explain NAME.",
+)
+# Sections of the report's values, by the first parts of their names; the others follow them.
+SECTIONS = {
+    "Timing": ("timing", "input_stop"),
+    "Peaks": ("velocity", "acceleration", "jerk", "power"),
+    "Impacts": ("shock",),
+    "Sizes": ("sizes", "parts", "slot"),
+    "Life and strength": ("strength", "life"),
+}
+
+
+def short_document(design: Design) -> Document:
+    """The document of a design for a first reader, on two pages.
+
+    It has the verdict, a picture, the machine in words, the motor, the greatest loads with their
+    limits, the parts and the warnings. Raises GenevaError for a spec that makes no machine.
+    """
+    blocks = [*_begin(design, machine_lines(design)), Heading("Greatest loads")]
+    words = {True: "passes", False: BAD, None: ""}
+    rows = [(*row[:-3], row[-3] or "", row[-2], words[row[-1]])
+            for row in greatest_loads(design).rows()]  # fmt: skip
+    if rows:
+        heads = ("", "Greatest", "Unit", "At input angle, °", "Must be", "Limit", "Verdict")
+        blocks.append(Grid("Over a cycle, with the limit of its check", heads, tuple(rows)))
+    if not design.cycle.is_loaded:
+        blocks.append(Prose(f"{capital(no_load(design.cycle))}."))
+    if table := parts_of(design):
+        blocks += (Heading("Parts"), grid("", table))
+    blocks += _warnings(design)
+    blocks.append(Prose("All inputs, curves, sizes and checks: geneva report SPEC --full -o FILE."))
+    return _document(design, blocks)
+
+
+def document(design: Design) -> Document:
+    """The whole document of a design. Raises GenevaError for a spec that makes no machine.
+
+    >>> from geneva_cli.study.document import document
+    >>> page = document(Design(External(6)))
+    >>> page.title, page.state, page.verdict
+    ('Geneva wheel of 6 slots', 'passes', 'All 16 checks pass')
+    """
+    table = design.report.table
+    # the title, the verdict, the key figures and the spec show these
+    shown = {"spec", "title", "passes", "chosen", "warnings", "checks_failed", "not_proved"}
+    left = {
+        name: value
+        for name, value in zip(table.names, next(table.rows()), strict=True)
+        if name not in shown and not name.startswith("inputs.")
+    }
+    needs = left.pop("strength.needs")
+    parts = {name: left.pop(name) for name in [*left] if name.startswith("parts_list.")}
+    for name in [name for name in left if name.startswith(("loads.", "cycle."))]:
+        if name not in ("loads.kinetic_power_W", "cycle.reversals_deg"):
+            del left[name]  # in the table of loads
+    for part in ("pin", "horn", "lock", "arm", *SHAFTS):
+        if left.get(f"strength.{part}.margin") is None:
+            # an allowed stress says nothing without a stress
+            left.pop(f"strength.{part}.allowed_MPa", None)
+    is_set = [row for row in _keys(design.spec) if not row[-1]]
+    rows = [
+        (name, in_digits(value, 10) if isinstance(value, float) else value, unit, meaning)
+        for name, value, unit, meaning, _ in is_set  # with all digits
+    ]
+    caption = "Keys that are set; the appendix has those at their defaults"
+    blocks = [*_begin(design, key_figures(design)), *_warnings(design), Heading("Inputs")]
+    blocks.append(Grid(caption, ("Key", "Value", "Unit", "Meaning"), tuple(rows)))
+    if design.with_units:
+        blocks += (Prose("Written with a unit:"), TextList(tuple(design.with_units)))
+    loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
+    figure = design.figure(("velocity", "acceleration", "jerk", *loads))
+    figure = figure._replace(title="By the input's angle, from the first entry")
+    blocks += (Heading("Curves over a cycle"), Curves(figure), *_loads(design))
+    for heading, firsts in SECTIONS.items():
+        own = {n: left.pop(n) for n in [*left] if n.partition(".")[0] in firsts}
+        if values := [*_values(own)]:
+            blocks += (Heading(heading), *values)
+    words = {True: "passes", False: BAD, None: "not proved"}
+    heads = ("Check", "Value", "At input angle, °", "Must be", "Limit", "Verdict", "Remark")
+    checks = [
+        (c.name, c.value, c.at_deg, c.must_be, c.limit, words[c.passes], c.nearest or c.why)
+        for c in design.checks
+    ]
+    many = len(heads) - (not any(row[-1] for row in checks))
+    cells = tuple(row[:many] for row in checks)
+    blocks += (Heading("Checks"), Grid("Every check with its verdict", heads[:many], cells))
+    blocks += _parts_list(parts)
+    if others := [*_values(left)]:
+        blocks += (Heading("Other answers"), *others)
+    known = design.strength.missing(OF_LIFE)  # the report lists these, and more, itself
+    notes = (x for x in design.loads_page.to_dict().get("not_known", ()) if x not in known)
+    if unknown := tuple(dict.fromkeys((*notes, *needs))):
+        title = "What is not known, and the key that would give it"
+        blocks += (Heading(title), TextList(unknown))
+    blocks += (Heading("Sources of the formulas"), TextList((*_sources(design.spec), *SOURCES)))
+    defaults = [Fact(name, value, unit) for name, value, unit, _, is_default in _keys(design.spec)
+                if is_default]  # fmt: skip
+    blocks += (Heading("Appendix: keys at their defaults"), Facts("", tuple(defaults)))
+    return _document(design, blocks)
+
+
+SHAFTS = "wheel_shaft", "wheel_key", "crank_shaft", "crank_key"
+
+
+def _document(design: Design, blocks: Iterable[Block]) -> Document:
+    state, text = headline(design.checks, design.warnings)
+    table = design.report.table
+    reasons = (*table["checks_failed"], *table["not_proved"])
+    return Document(title_of(design), state, capital(text), reasons, tuple(blocks))
+
+
+def _begin(design: Design, lines: Iterable[SummaryLine]) -> Iterator[Block]:
+    """The machine in words and as a picture, or the reason for none, and lines of a summary."""
+    yield Prose(design.report.table.prose)
+    yield Heading("The machine")
+    try:
+        drawing = design.drawing("assembly", tolerance_mm=0.01)  # it is only viewed
+        flat = design.spec.wheel.FLAT
+        title = "Put together, at mid-motion" if flat else "Wheel and crank, laid flat"
+        yield Picture(drawing._replace(title=title))
+    except GenevaError as error:
+        message, path = str(error), design.spec.path
+        if path and message.startswith(path):  # without the file and the line
+            message = message.removeprefix(path).lstrip(":0123456789").lstrip()
+        yield Prose(f"Not drawn: {message}")
+    command = re.compile(r" ?\(?geneva explain [\w.-]+\)?")
+    rows = [(capital(x.label), "; ".join(filter(None, (x.text, command.sub("", x.note)))))
+            for x in lines]  # fmt: skip
+    yield Grid("In short", ("", ""), tuple(rows))
+
+
+def _warnings(design: Design) -> Iterator[Block]:
+    texts = tuple(design.warnings)
+    yield Heading("Warnings")
+    yield TextList(texts) if texts else Prose("None.")
+
+
+def _loads(design: Design) -> Iterator[Block]:
+    """The cycle under load, and sizing."""
+    page = design.loads_page.to_dict()
+    columns = [f"{_fact(x).name}{', °' * x.endswith('_at_deg')}" for x in LoadSummary._fields]
+    rows: list[Row] = []
+    for row in page["loads"]:
+        axis = AXIS_BY_NAME[row.pop("quantity")]
+        rows.append((axis.label, axis.unit, *row.values()))
+    yield Heading("Loads")
+    caption = "Over the motions, and means over a whole period"
+    yield Grid(caption, ("Quantity", "Unit", *columns), tuple(rows))
+    yield from _values({n: v for n, v in page.items() if n.startswith("sizing.")})
+
+
+def _parts_list(tables: Mapping[str, Table | None]) -> Iterator[Block]:
+    """Parts, pivots and dimensions."""
+    parts = tables["parts_list.part"]
+    if any(table is not None for table in tables.values()):
+        yield Heading("Parts list")
+    if parts is not None:  # two tables, each as wide as a page
+        places = ("z_low_mm", "z_high_mm", "centroid_x_mm", "centroid_y_mm", "inertia_kgm2")
+        yield grid("Parts", only(parts, PARTS))
+        caption = "Places, densities and inertias"
+        yield grid(caption, only(parts, ("name", "density_kgm3", *places)))
+    captions = {"pivot": "Pivots", "dimension": "Dimensions", "missing": "Not built"}
+    for name, caption in captions.items():
+        table = tables.get(f"parts_list.{name}")
+        if table is not None:
+            block = grid(caption, table)
+            rows = (tuple("°" if cell == "deg" else cell for cell in row) for row in block.rows)
+            yield block._replace(rows=tuple(rows))
+
+
+def _values(values: Mapping[str, Any]) -> Iterator[Block]:
+    """Values of a report in groups, by the first parts of their names; tables as grids."""
+    groups: dict[str, dict[str, Any]] = {}
+    for name, value in values.items():
+        group, _, own = name.rpartition(".")
+        if isinstance(value, Table):
+            yield from _table(capital(described(own)[0]), value)
+        elif value is not None and value not in ("", ()):
+            groups.setdefault(group, {})[own] = value
+    for group, facts in groups.items():
+        caption = capital(", ".join(described(part)[0] for part in group.split(".")))
+        yield Facts(caption, tuple(_fact(name, value) for name, value in facts.items()))
+
+
+def _table(caption: str, table: Table) -> Iterator[Grid]:
+    """A table; a wide one with its rows side by side, six on a page."""
+    if len(table.names) <= 8:
+        yield grid(caption, table)
+        return
+    rows, width = [*table.rows()], 6
+    for start in range(0, len(rows), width):
+        group = rows[start : start + width]
+        columns = zip(map(_fact, table.names), zip(*group, strict=True), strict=True)
+        lines = [(one.name, one.unit, *values) for one, values in columns]
+        numbers = (str(start + i + 1) for i in range(len(group)))
+        yield Grid(caption, ("Quantity", "Unit", *numbers), tuple(lines))
+
+
+def grid(caption: str, table: Table) -> Grid:
+    """A table with units in its headings, without columns that have no value."""
+    rows = list(table.rows())
+    shown = [
+        i for i in range(len(table.names)) if any(row[i] not in (None, "", ()) for row in rows)
+    ]
+    named = [_fact(table.names[i]) for i in shown]
+    heads = tuple(f"{head.name}, {head.unit}" if head.unit else head.name for head in named)
+    return Grid(caption, heads, tuple(tuple(row[i] for i in shown) for row in rows))
+
+
+def _fact(name: str, value: Any = None) -> Fact:
+    """A value of a report by its name, in words."""
+    parts = [described(part) for part in name.split(".")]
+    unit = next((unit for _, unit in reversed(parts) if unit), "")
+    return Fact(capital(", ".join(words for words, _ in parts)), value, unit)
+
+
+def capital(text: str) -> str:
+    """A text that begins with a capital, unless it begins with a symbol.
+
+    >>> capital("slot width"), capital("k, time of motion")
+    ('Slot width', 'k, time of motion')
+    """
+    is_symbol = len(text.partition(",")[0].partition("_")[0]) < 2
+    return text if is_symbol else text[:1].upper() + text[1:]
+
+
+def _keys(spec: Spec) -> Iterator[tuple[str, Any, str, str, bool]]:
+    """Name, value, unit, meaning of each key that has a value, and whether it is the default."""
+    for table, keys in keys_in(spec).items():
+        several = values_of(spec, table)
+        for number, values in enumerate(several):
+            name = table if len(several) < 2 else f"{table}.{number}"
+            for key in keys:
+                value = shown = values[key.key]
+                if isinstance(value, tuple):
+                    shown = ", ".join(f"{one:.6g}" for one in value)
+                if value is not None:
+                    unit, is_default = described(key.key)[1], value == key.default
+                    yield f"{name}.{key.key}", shown, unit, key.meaning, is_default
+
+
+def _sources(spec: Spec) -> list[str]:
+    """The sources of a machine's kinds and law."""
+    before = [spec.drive_before.NAME] if spec.drive_before else []
+    laws = [spec.motion.law.NAME] if spec.motion else []
+    names = [spec.wheel.NAME, spec.drive.NAME, *before, *laws]
+    source = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
+    return [f"{name[0].upper()}{name[1:]}: {source[name]}." for name in names if source.get(name)]
