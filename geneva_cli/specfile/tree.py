@@ -14,7 +14,6 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.names import unit_end
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import (
-    REQUIRED,
     Field,
     Points,
     SpecTable,
@@ -179,11 +178,10 @@ def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
         for key, value in values.items():
             if key not in known:
                 raise _unknown(key, value, "motion", known)
-            if value != known[key].default:
-                raise GenevaError(
-                    f'{key} needs a law, such as law = "cycloidal": straight slots fix the motion',
-                    ("motion", key),
-                )
+            raise GenevaError(
+                f'{key} needs a law, such as law = "cycloidal": straight slots fix the motion',
+                ("motion", key),
+            )
         return None
     cls, of = registry.law(name), f'law = "{name}"'
     own = {field.key for field in fields(cls)}
@@ -255,28 +253,21 @@ def _hint(typed: str, value: object, known: Iterable[Field]) -> str:
 def _refuse_foreign(
     values: dict[str, Any], own: Sequence[Field], kinds: KindTable, of: str
 ) -> None:
-    """Remove other kinds' keys that are at their defaults; raise GenevaError for the others.
-
-    Capitals make no difference to whose key it is.
-    """
-    known = {field.key for field in own}
-    for key in [key for key in values if key not in known]:
-        theirs = [(name, field) for name, keys in kinds.keys.items() for field in keys]
-        exact = next((pair for pair in theirs if pair[1].key == key), None)
-        near = next((p for p in theirs if p[1].key.casefold() == key.casefold()), None)
-        fault = ""
-        if exact:
-            name, field = exact
-            if field.default is REQUIRED or values[key] != field.default:
-                fault = key
-            else:
-                del values[key]
-        elif near and key.casefold() not in {one.casefold() for one in known}:
-            name, field = near
-            hint = nearest(key, [field.key])
-            fault = f"unknown key {cut(key)} in [{kinds.table}]{hint}; {field.key}"
-        if fault:
-            other = f'{kinds.word.key} = "{name}"'
+    """Raise GenevaError for a key of another kind; capitals make no difference to whose it is."""
+    known = {field.key.casefold(): field.key for field in own}
+    theirs: dict[str, str] = {}  # the first kind that has a key
+    for name, keys in kinds.keys.items():
+        for field in keys:
+            theirs.setdefault(field.key, name)
+    by_small = {key.casefold(): key for key in theirs}
+    for key in values:
+        meant = by_small.get(key.casefold())
+        if key.casefold() not in known and meant:
+            fault = key
+            if key not in theirs:
+                hint = nearest(key, [meant])
+                fault = f"unknown key {cut(key)} in [{kinds.table}]{hint}; {meant}"
+            other = f'{kinds.word.key} = "{theirs[key if key in theirs else meant]}"'
             raise GenevaError(f"{fault} belongs to {other}, but this is {of}", (kinds.table, key))
 
 

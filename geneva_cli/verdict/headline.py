@@ -121,11 +121,6 @@ def unused_lines(names: Iterable[str]) -> list[SummaryLine]:
     return [SummaryLine("note", f"{name}: {text}") for name in names]
 
 
-def input_lines(with_units: Iterable[str]) -> list[SummaryLine]:
-    """A line for each input that has a unit in the spec's file, with the number that was read."""
-    return [SummaryLine("read", text) for text in with_units]
-
-
 def _failure(check: Check) -> SummaryLine:
     """The line of a failing check: its value, its limit, and the change."""
     label, unit = spoken(check.name)
