@@ -175,9 +175,9 @@ def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
     name = values.pop("law", None)
     if name is None:
         known = {f.key: f for keys in (*LAWS.keys.values(), LAWS.shared) for f in keys}
-        for key, value in values.items():
+        for key in values:
             if key not in known:
-                raise _unknown(key, value, "motion", known)
+                raise _unknown(key, "motion", known)
             raise GenevaError(
                 f'{key} needs a law, such as law = "cycloidal": straight slots fix the motion',
                 ("motion", key),
@@ -191,7 +191,7 @@ def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
     return Motion(law, **_values(Motion, values, files, also=fields(cls)))
 
 
-def _unknown(key: str, value: object, table: str, known: Mapping[str, Field]) -> GenevaError:
+def _unknown(key: str, table: str, known: Mapping[str, Field]) -> GenevaError:
     """Error for a key that a table does not have; it names the tables that have it.
 
     A single table is named with the key's meaning in it: a size in [tolerance] is a deviation.
@@ -211,7 +211,7 @@ def _unknown(key: str, value: object, table: str, known: Mapping[str, Field]) ->
     meant = kinds[0] if kinds else f'"{other}"' if other in known else ""
     hint = f" (did you mean {meant}?)" if meant else twin
     known = {**{of.word.key: of.word for of in of_table}, **known}
-    return unknown(key, table, tuple(known), hint or _hint(key, value, known.values()))
+    return unknown(key, table, tuple(known), hint or _hint(key, known.values()))
 
 
 def _meanings(key: str) -> dict[str, str]:
@@ -227,27 +227,18 @@ def _tables(names: Collection[str]) -> str:
     return " or ".join(tables) if len(tables) <= 3 else ""
 
 
-def _hint(typed: str, value: object, known: Iterable[Field]) -> str:
-    """The known key that an unknown one means by its unit or by a word of the meanings, or nothing.
+def _hint(typed: str, known: Iterable[Field]) -> str:
+    """The known key that an unknown one means by a word of the meanings, or nothing.
 
     Nothing too where a known key is spelt like it: that one is named without this hint.
     """
-    from geneva_cli.spec.units import with_unit  # only for messages
-
-    for field in known:
-        if right := with_unit(typed, value, field.key):
-            return f" (another unit goes with the value: {right})"
     end = unit_end(typed)
     word = typed.removesuffix(end)
-    by_meaning = [
-        field
-        for field in known
-        if end in ("", unit_end(field.key)) and word in re.findall(r"[\w-]+", field.meaning)
-    ]
-    if nearest(typed, [field.key for field in known]) or not by_meaning:
-        return ""
-    first = by_meaning[0]
-    return f' (did you mean "{first.key}", {first.meaning.partition(";")[0]}?)'
+    keys = [field.key for field in known]
+    for field in known if not nearest(typed, keys) else ():
+        if end in ("", unit_end(field.key)) and word in re.findall(r"[\w-]+", field.meaning):
+            return f' (did you mean "{field.key}", {field.meaning.partition(";")[0]}?)'
+    return ""
 
 
 def _refuse_foreign(
@@ -287,7 +278,7 @@ def _values(
     for key, value in values.items():
         if key not in known:
             known |= {field.key: field for field in also}
-            raise _unknown(key, value, cls.TABLE, known)
+            raise _unknown(key, cls.TABLE, known)
         field = known[key]
         rule = field.rule
         named = isinstance(rule, Csv)
