@@ -104,8 +104,7 @@ STATIC: Checks = {
     ),
     **_of(
         "walls",
-        branches_apart="branches_apart_mm",
-        branches_crossed="branches_crossed_mm",
+        branches="branches_apart_mm branches_crossed_mm",
         wheels_apart="wheels_apart_mm",
         cranks_apart="cranks_apart_mm",
     ),
