@@ -24,7 +24,7 @@ from geneva_cli.spec.schema import (
     unknown,
 )
 from geneva_cli.spec.tables import LISTS, PLAIN
-from geneva_cli.specfile.writer import DRIVES, LAWS, WHEELS, KindTable, drives_before, kind_tables
+from geneva_cli.specfile.writer import DRIVES, LAWS, WHEELS, KindTable, kind_tables
 
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
 
@@ -147,22 +147,11 @@ def _kind(values: dict[str, Any], kinds: KindTable, files: _Files) -> Any:
 
 def _before(values: Any, files: _Files) -> Any:
     """The drive before another one; an error names its table."""
-    place, kinds = tuple(BEFORE.split(".")), drives_before()
+    place = tuple(BEFORE.split("."))
     if not isinstance(values, dict):
         raise GenevaError(f"before must be a table: write [{BEFORE}] above its keys", place)
     if "kind" not in values:
         raise GenevaError(f"[{BEFORE}] needs kind: the drive that turns the shaft", place)
-    shared = {field.key for field in kinds.without} & set(values)
-    if shared:
-        raise GenevaError(
-            f"{min(shared)} belongs to the machine: set it in [drive]", (*place, min(shared))
-        )
-    if values["kind"] in [*kinds.names]:  # a list, as the value may be anything
-        own = ("kind", *(f.key for f in kinds.keys_of(kinds.find(values["kind"]))))
-        for key in [k for k in values if k not in own]:
-            # a key of another kind is refused below, with its kind
-            if not any(field.key == key for keys in DRIVES.keys.values() for field in keys):
-                raise unknown(key, BEFORE, own)
     try:
         return _kind(values, DRIVES, files)
     except GenevaError as error:
