@@ -61,7 +61,14 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         raise GenevaError(f"title must be text, not {shown(title)}", ("title",))
     for table, value in tree.items():
         if table not in TABLES:
-            raise _unknown_table(table, value)
+            named = f"table [{cut(table)}]" if isinstance(value, dict) else f"key {cut(table)}"
+            where = "" if isinstance(value, dict) else _tables(_meanings(table))
+            if where:
+                text = f"{table} belongs to {where}; write it below that line"
+                raise GenevaError(text, (table,))
+            known = few(table, [f"[{t}]" for t in TABLES])
+            hint = nearest(table, (*TABLES, "title"))
+            raise GenevaError(f"unknown {named}{hint}; known: title, {known}", (table,))
         if table in LISTS:
             if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
                 several = f"a list of tables: write [[{table}]] above the keys of each"
@@ -90,15 +97,6 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
     )
 
 
-def _unknown_table(table: str, value: object) -> GenevaError:
-    kind, named = ("table", f"[{cut(table)}]") if isinstance(value, dict) else ("key", cut(table))
-    if kind == "key" and (tables := _tables(_meanings(table))):
-        return GenevaError(f"{table} belongs to {tables}; write it below that line", (table,))
-    known = few(table, [f"[{t}]" for t in TABLES])
-    hint = nearest(table, (*TABLES, "title"))
-    return GenevaError(f"unknown {kind} {named}{hint}; known: title, {known}", (table,))
-
-
 def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
     """The tables that do not depend on the kind of machine, by field of ``Spec``."""
     out: dict[str, Any] = {}
@@ -108,7 +106,13 @@ def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
         if values is None:
             continue
         if part:
-            _refuse_part(table, values)
+            known = [n.partition(".")[2] for n in PLAIN if n.startswith(f"{table}.")]
+            for own, value in values.items():
+                if own not in known:
+                    raise unknown(own, table, known)
+                if not isinstance(value, dict):
+                    text = f"{own} must be a table: write [{table}.{own}] above its keys"
+                    raise GenevaError(text, (table, own))
             values = values.get(part, {})
         if name not in LISTS:
             out[attribute(name)] = cls(**_values(cls, values, files))
@@ -122,18 +126,6 @@ def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
                 raise GenevaError(f"{where}: {error}", (name, i, *error.key[1:])) from None
         out[name] = tuple(several)
     return out
-
-
-def _refuse_part(table: str, values: dict[str, Any]) -> None:
-    """Raise GenevaError for unknown tables, or values, in a table of tables such as [material]."""
-    known = [n.partition(".")[2] for n in PLAIN if n.startswith(f"{table}.")]
-    for part, value in values.items():
-        if part not in known:
-            raise unknown(part, table, known)
-        if not isinstance(value, dict):
-            raise GenevaError(
-                f"{part} must be a table: write [{table}.{part}] above its keys", (table, part)
-            )
 
 
 def _kind(values: dict[str, Any], kinds: KindTable, files: _Files) -> Any:
