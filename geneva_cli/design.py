@@ -228,15 +228,6 @@ class Design:
         return self._text.located() if self._text else nullcontext()
 
     @answer
-    def with_units(self) -> list[str]:
-        """The inputs that the spec's file has with a unit, each with the number that was read.
-
-        >>> load("designs/side-crank-z6.toml", ["size.center_distance_mm=8 in"]).with_units
-        ['size.center_distance_mm = 203.2, from "8 in"']
-        """
-        return self._text.with_units(self.spec) if self._text else []
-
-    @answer
     def mechanism(self) -> Mechanism:
         """The machine: its engagements over a period. Raises GenevaError if it cannot be built.
 
