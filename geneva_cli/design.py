@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from functools import wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
@@ -48,7 +48,7 @@ from geneva_cli.spec.tables import (
 if TYPE_CHECKING:
     from geneva_cli.extras.certify.certificate import Certificate
     from geneva_cli.figure import Figure
-    from geneva_cli.geometry.mass import MassProperties
+    from geneva_cli.geometry.plates import MassProperties
     from geneva_cli.geometry.sheet import Drawing, Sheet
     from geneva_cli.loads.cycle import Cycle
     from geneva_cli.loads.load_peaks import LoadSummary
@@ -249,20 +249,37 @@ class Design:
     def backwards(self) -> Design:
         """The same machine turning the other way, as one that turns forwards seen from behind.
 
-        Entry and exit change places. Sizes that the spec leaves out hold the loads of both
-        directions; warnings are those of this one.
+        In a mirror about the line of centres psi at theta is -psi at -theta: entry and exit change
+        places, slots are offset to the other side, and a law s(u) becomes 1 - s(1 - u). Sizes that
+        the load chose stay. What resists the motion resists it in both directions.
 
         >>> offset = Design(External(6, offset_mm=12.0))
         >>> [round(d.peaks.ends.acceleration_entry, 4) for d in (offset, offset.backwards)]
         [0.5342, 0.6281]
         """
-        from geneva_cli.motion.both_ways import backwards
-
-        both = self.spec.with_("drive.both_ways", True)
-        title = ", ".join(text for text in (self.spec.title, "backwards") if text)
-        turned = Design.of(backwards(build(both)).spec.replace(title=title), self._text)
-        turned.is_backwards = True
-        return turned
+        spec, plan = self.spec, self.mechanism.plan
+        on_crank = spec.drive.ONE_ARM and spec.drive.round_gears  # and so in sectors
+        if on_crank and spec.size.gear_module_mm is not None:
+            raise GenevaError(
+                "the last tooth of a sector is lower, so that it drives one way only: leave out "
+                "gear_module_mm or --reverse",
+                ("size", "gear_module_mm"),
+            )
+        loaded = {}
+        with suppress(GenevaError):  # sizes that leave no parts: the checks say why
+            loaded = {k.partition(".")[2]: c.value for k, c in self.chosen_by_load.sizes.items()}
+        turned = spec.replace(
+            wheel=spec.wheel.backwards,
+            drive=spec.drive.backwards(plan),
+            drive_before=spec.drive_before and spec.drive_before.backwards(plan),
+            motion=spec.motion and spec.motion.backwards,
+            mass=tuple(one.backwards for one in spec.mass),
+            size=spec.size.replace(**loaded),
+            title=", ".join(text for text in (spec.title, "backwards") if text),
+        )
+        design = Design.of(turned, self._text)
+        design.is_backwards = True
+        return design
 
     @answer
     def size(self) -> Size:
@@ -600,16 +617,13 @@ class Design:
         >>> round(Design(External(3)).vibration(0.5, damping=0.02)["residual_share"], 12)
         0.871288725706
         """
-        from geneva_cli.loads.vibration.oscillator import oscillator
-        from geneva_cli.loads.vibration.vibration_answers import vibration_table
+        from geneva_cli.loads.vibration.vibration import oscillator, values
+        from geneva_cli.table import record_table
 
-        own = oscillator(self.mechanism, period_ratio, damping)
-        table = vibration_table(self.mechanism, own)
-        noted = [
-            ((*self.ideal_notes, *column[0]),) if name == "warnings" else column
-            for name, column in zip(table.names, table.columns, strict=True)
-        ]
-        return table.replaced(columns=noted)
+        found = values(self.mechanism, oscillator(self.mechanism, period_ratio, damping))
+        found["warnings"] = (*self.ideal_notes, *found["warnings"])
+        head = {"spec": self.spec.path, "title": self.spec.title}
+        return record_table(head | found, self.spec.title)
 
     @question
     def spectrum(
@@ -620,8 +634,7 @@ class Design:
         >>> Design(External(6)).spectrum(3, period_ratio=10.0)["n_rpm"].round(9)
         array([ 30.,  60., 120.])
         """
-        from geneva_cli.loads.vibration.oscillator import required_oscillator
-        from geneva_cli.loads.vibration.vibration_answers import spectrum
+        from geneva_cli.loads.vibration.vibration import required_oscillator, spectrum
 
         shaft = required_oscillator(self.mechanism, period_ratio, damping)
         return spectrum(self.mechanism, shaft, samples)
@@ -686,26 +699,20 @@ class Design:
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
         kerf_mm: float | None = None,
-        dog_bones_mm: float | None = None,
         centre_marks: bool = False,
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics, for DXF or SVG.
 
         Parts are ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove``,
-        ``gears`` or ``coupon``; lengths in millimetres. ``kerf_mm`` gives the paths of a cut of
-        that width. ``dog_bones_mm`` gives reliefs in inner corners for a cutter of that diameter.
-        ``centre_marks`` adds crosses in circles. Raises GenevaError if kerf or reliefs do not fit.
+        ``gears`` or ``plate``; lengths in millimetres. ``kerf_mm`` gives the paths of a cut of that
+        width, ``centre_marks`` crosses in circles. Raises GenevaError if the kerf does not fit.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
         """
-        from geneva_cli.drawings.catalogue import part_drawing, parts_having
+        from geneva_cli.drawings.catalogue import part_drawing
 
         picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
-        if dog_bones_mm is not None:
-            from geneva_cli.drawings.milling import with_dog_bones
-
-            picture = with_dog_bones(picture, parts_having(self.parts, part), dog_bones_mm)
         if centre_marks:
             from geneva_cli.parts.projection import with_centre_marks
 
@@ -713,29 +720,25 @@ class Design:
         if kerf_mm is None:
             return picture
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.geometry.kerf import paths
+        from geneva_cli.geometry.offsets import paths
 
         require_cut(part)
         return paths(picture, kerf_mm)
 
     @question
-    def cutter(self, part: str, cutter_mm: float, dog_bones: bool = False) -> tuple[str, list[str]]:
+    def cutter(self, part: str, cutter_mm: float) -> tuple[str, list[str]]:
         """The reason why a milling cutter cannot cut a part, empty if it can; and warnings.
 
-        Warnings are about corners that it leaves round, unless there are dog bones, and narrow
-        holes.
+        Warnings are about corners that it leaves round, and narrow holes.
 
         >>> Design(External(6)).cutter("wheel", 12.0)[0].partition(": an ")[2]
         'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
         """
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.drawings.milling import judged
+        from geneva_cli.geometry.cutter import judged
 
         require_cut(part, "--cutter")
-        refused, left = judged(self.drawing(part), cutter_mm)
-        if refused or not dog_bones:
-            return refused, left
-        return judged(self.drawing(part, dog_bones_mm=cutter_mm), cutter_mm)
+        return judged(self.drawing(part), cutter_mm)
 
     @question
     def sheet(
@@ -743,23 +746,18 @@ class Design:
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
         part: str = "sheet",
-        units: str = "mm",
     ) -> Sheet:
         """A drawing sheet of the parts with dimensions, to a standard scale on A4 to A1.
 
         ``geneva_cli.output.draw_sheet`` writes it as DXF, SVG or PDF. Millimetres on paper.
-        ``units`` of the dimensions are mm or inch.
 
         >>> small = Design(External(4), size=Size(center_distance_mm=30)).sheet(0.01)
         >>> small.scale, small.width, small.height
         (2.0, 420.0, 297.0)
         """
         from geneva_cli.drawings.catalogue import part_sheet
-        from geneva_cli.spec.written import writing_in
 
-        form = _form(curves)
-        with writing_in(units):
-            return part_sheet(self.parts, part, tolerance_mm, form)
+        return part_sheet(self.parts, part, tolerance_mm, _form(curves))
 
     @question
     def save(
@@ -796,19 +794,6 @@ class Design:
             draw_sheet(self.sheet(tolerance_mm, curves, part), path, inputs=files)
         else:
             draw(self.drawing(part, tolerance_mm, curves), path, inputs=files)
-
-    def _repr_html_(self) -> str:
-        """HTML for a notebook: description and verdict, the machine, its curves, the report."""
-        from contextlib import suppress
-
-        from geneva_cli.output.notebook import design_html
-        from geneva_cli.verdict.headline import headline
-
-        drawing = None
-        with suppress(GenevaError):  # wheels with very many slots are not drawn
-            drawing = self.drawing("assembly")
-        _, verdict = headline(self.checks, self.warnings)
-        return design_html(self.report.table, verdict, drawing, self.figure())
 
     @answer
     def checks(self) -> list[Check]:
@@ -959,12 +944,9 @@ class Design:
         >>> [text.name for text in Design(External(30)).warnings]
         ['many-slots']
         """
-        from geneva_cli.verdict.both_directions import all_warnings
         from geneva_cli.verdict.warnings import warnings
 
-        # the other direction's would be called backwards, which this one is
-        every = (warnings if self.is_backwards else all_warnings)(self.parts)
-        own = self.spec.accept.applied(every)
+        own = self.spec.accept.applied(warnings(self.parts))
         return [*self.ideal_notes, *self.check_warnings, *own] if self.is_drawn else own
 
     @answer

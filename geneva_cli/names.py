@@ -7,22 +7,6 @@ from __future__ import annotations
 
 # Units by the ending of a name, of which the longest counts.
 UNITS = {
-    # for people who asked for inches
-    "_lbf_in_rad": "lbf in/rad",
-    "_lbf_in": "lbf in",
-    "_lb_in2": "lb in²",
-    "_lb_in3": "lb/in³",
-    "_in_per_million": "in/1e6",
-    "_in_s": "in/s",
-    "_in_s2": "in/s²",
-    "_in_s3": "in/s³",
-    "_in": "in",
-    "_thou": "thou",
-    "_ft": "ft",
-    "_lbf": "lbf",
-    "_lb": "lb",
-    "_ksi": "ksi",
-    # the units of keys, columns and quantities
     "_kgm2": "kg m²",
     "_kgm3": "kg/m³",
     "_Nm_rad": "N m/rad",

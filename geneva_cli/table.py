@@ -157,24 +157,6 @@ class Table(NamedTuple):
         """A list of rows by name, as data frames take it."""
         return [dict(zip(self.names, row, strict=True)) for row in self.rows()]
 
-    def _repr_html_(self) -> str:
-        """HTML for a notebook: the first rows, and their number."""
-        from html import escape  # nothing else needs it, and it takes 5 ms
-
-        html_rows = 60  # rows that a notebook shows
-        names, rows = self.names, list(islice(self.rows(), html_rows))
-        if self.record:
-            values = flat(self)
-            names = ("name", "value")
-            rows = list(zip(values.names, next(values.rows()), strict=True))
-        head = "".join(f"<th>{escape(name)}</th>" for name in names)
-        body = "".join(
-            "<tr>" + "".join(f"<td>{escape(_shown(v))}</td>" for v in row) + "</tr>" for row in rows
-        )
-        more = "" if self.record or len(self) <= html_rows else f"<p>{len(self)} rows</p>"
-        title = f"<caption>{escape(self.title)}</caption>" if self.title else ""
-        return f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
-
 
 def _briefly(value: object) -> str:
     """A cell in a few characters."""

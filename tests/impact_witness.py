@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from geneva_cli.loads.impacts.change_of_sides import WallImpacts, changes, impacts_of
-from geneva_cli.loads.impacts.shock import FirstContacts, first_contacts
+from geneva_cli.loads.impacts.entry import FirstContacts, first_contacts
+from geneva_cli.loads.impacts.reversal import changes, impacts_of
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.strength.pin import PinSize, pin_diameter_mm
 from geneva_cli.parts.machine_sizes import built
@@ -18,11 +18,12 @@ def contact_of(engagement, crank, center=0.0):
 
 
 def impacts_in(engagement, play, drag=0.0):
-    """The changes of sides of one engagement that take up a play in its motion."""
+    """Where the wheel begins to coast, where it is struck, and how fast; in order."""
     over = np.array([[float(drag)]])
     at = changes(engagement, over)
-    rows = zip(*impacts_of(engagement, at, np.full(len(at.x), play), over), strict=True)
-    return [WallImpacts(*row) for row in rows if not np.isnan(row[1])]
+    start = at[1]
+    rows = zip(start, *impacts_of(engagement, at, np.full(len(start), play), over), strict=True)
+    return [row for row in rows if not np.isnan(row[1])]
 
 
 def force_of(mechanism, jump):

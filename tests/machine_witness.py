@@ -334,17 +334,6 @@ def cam(spec):
 
 def law_of(law):
     """The law that a spec names, with its keys: derivatives 0 to any order at a share of time."""
-    if law.NAME == "tuned":  # the load moves as y: s = y + 2 zeta y'/Omega + y''/Omega^2
-        omega = 2 * mp.pi * mp.mpf(law.period_ratio)
-        of, zeta = LAWS[law.of], mp.mpf(law.damping_ratio)
-
-        def tuned(u, order):
-            y = of(u, order + 2)
-            return [
-                y[k] + 2 * zeta * y[k + 1] / omega + y[k + 2] / omega**2 for k in range(order + 1)
-            ]
-
-        return tuned
     if law.NAME == "table":
         return table(tuple(law.points.pairs))
     return krasniqi(law.lambda_) if law.NAME == "sine-group" else LAWS[law.NAME]

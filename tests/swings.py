@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from geneva_cli.loads.vibration.maxima import greatest_accelerations
-from geneva_cli.loads.vibration.oscillator import Oscillator
-from geneva_cli.loads.vibration.swing import residual_swing
+from geneva_cli.loads.vibration.swing import Oscillator, greatest_accelerations, residual_swing
 
 
 def swing(ratios, damping):

@@ -65,7 +65,6 @@ ALONE = {
     "specfile.keys",
     "specfile.meanings",
     "specfile.json_schema",
-    "geometry.pieces",
     "drawings.catalogue",
 }
 # A kind's names; "table" is a law, and also what people are shown.

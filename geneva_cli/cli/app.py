@@ -15,7 +15,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from geneva_cli import __version__
-from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, table_options, unit_option
+from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, table_options
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import ProgressBar, close, show_with
 from geneva_cli.streams import leave, open_streams
@@ -134,9 +134,6 @@ class LazyGroup(PlainValues, TyperGroup):
         # these print no wide table
         if name not in {"animate", "explain", "export", "help", "new", "plot", "schema"}:
             command.params += as_command(name, table_options).params
-        # lengths, forces or masses are in the tables of these; profile has units of its own
-        if name in {"check", "compare", "loads", "plot", "report", "sweep", "synth", "tolerance"}:
-            command.params += as_command(name, unit_option).params
         return name, command, rest
 
     def invoke(self, ctx: Any) -> Any:

@@ -95,15 +95,14 @@ class Command(PlainValues, TyperCommand):
         return rest
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; its tables have the columns of --columns, and the units of --units."""
+        """Run the command; its tables have the columns of --columns."""
         columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
-        units = ctx.params.pop("shown_units", "mm")
-        if not (columns or wide or units != "mm"):
+        if not (columns or wide):
             return super().invoke(ctx)
         from geneva_cli.output import Choice, choosing
 
         names = [name.strip() for name in (columns or "").split(",")]
-        with choosing(Choice(tuple(filter(None, names)), wide, units)):
+        with choosing(Choice(tuple(filter(None, names)), wide)):
             return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
@@ -165,14 +164,6 @@ def table_options(
     ] = False,
 ) -> None:
     """Options of every command that prints a table."""
-
-
-def unit_option(
-    shown_units: Annotated[
-        str, typer.Option("--units", metavar="UNIT", help="Numbers in mm, or in inch and lb.")
-    ] = "mm",
-) -> None:
-    """The option of commands whose numbers have units."""
 
 
 def as_command(name: str, run: Any) -> Any:

@@ -86,14 +86,12 @@ def warn(design: Design) -> None:
 
 def say(path: str, warnings: Iterable[str]) -> None:
     """Print warnings about a spec on standard error, one a line, with names for `explain`."""
-    from geneva_cli.output import shown_text
-
     for text in warnings:
         named, kind = text, "warning"
         if isinstance(text, Notice):
             named = f"{text.plain} [{text.name}]"
             kind = f"warning, accepted ({text.accepted})" if text.accepted else kind
-        print(clean(f"{path}: {kind}: {shown_text(named)}"), file=sys.stderr)
+        print(clean(f"{path}: {kind}: {named}"), file=sys.stderr)
 
 
 def require_written(design: Design, verdict: tuple[str, list[str]], force: bool) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
+from geneva_cli.motion.compatible import is_geared
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import of_wheel
 from geneva_cli.spec.load_named import load_named
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 _NAMES = (
     *("slot", "wheel", "crank", "arm", "links", "first-wheel", "first-crank", "frame", "guide"),
-    *("parts", "assembly", "gears", "groove", "groove-plate", "coupon", "plate", "sheet"),
+    *("parts", "assembly", "gears", "groove", "groove-plate", "plate", "sheet"),
 )
 SHEET = "sheet"  # a drawing sheet with dimensions
 # the function of a table that every machine has, and no drawing
@@ -124,12 +125,23 @@ def part_sheet(parts: Parts, part: str, tolerance_mm: float, curves: str) -> She
 
     Raises GenevaError for a part without a sheet, or that does not fit on one.
     """
-    require_drawn(parts.mechanism, part)
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; use {SHEET}")
+    if of := without_sheet(parts.mechanism):
+        raise GenevaError(
+            f"--part {SHEET}: no sheet for {of}: use -o FILE.step or a dxf of each part"
+        )
     require_tolerance(parts.mechanism, tolerance_mm)
     sheet: Sheet = _maker(parts, part)(tolerance_mm, curves)
     return sheet
+
+
+def without_sheet(mechanism: Mechanism) -> str:
+    """What machines of this kind are called, if none has a drawing sheet; "" if they have."""
+    wheel = mechanism.spec.wheel.NAME
+    if not any(SHEET in kind.drawings for kind in of_wheel(wheel)):
+        return f"{wheel} machines"
+    return "machines with gears" if is_geared(mechanism.spec) else ""
 
 
 def _maker(parts: Parts, part: str) -> Callable[[float, str], Any]:

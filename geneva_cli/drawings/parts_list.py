@@ -16,9 +16,8 @@ from functools import partial
 from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.mass import MM, solid_properties
 from geneva_cli.geometry.measure import bounds_of
-from geneva_cli.geometry.plates import Part, Shell, Solid
+from geneva_cli.geometry.plates import MM, Part, Shell, Solid, mass_properties
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
@@ -29,7 +28,6 @@ from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, ou
 from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.materials import material_names, roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
-from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
 
 # columns of a row of each kind
@@ -121,7 +119,7 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
         low, high = solid.low, solid.high
         x0, y0, x1, y1 = bounds_of(outlines_of(solid))
         wide, deep = x1 - x0, y1 - y0
-        body = solid_properties(solid, density)
+        body = mass_properties(solid, density)
         mass, inertia = body.mass_kg, body.inertia_kgm2
         if outside is None:
             # a centroid within 1e-13 of a part's size of its axis is on it
@@ -168,7 +166,9 @@ def _dimensions(parts: Parts) -> Iterator[Row | Missing]:
         Dimension("roller radius", r, "mm"),
         Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
-    entries += _screws_and_edges(spec.size)
+    if spec.size.edge_mm:
+        kind = "rounding" if spec.size.edge_chamfer_mm is None else "chamfer"
+        entries.append(Dimension(f"{kind} of all edges", spec.size.edge_mm, "mm"))
     with suppress(GenevaError):  # the rows of what cannot be built have the reason
         screws = parts.built.screws if spec.has_parts else ()
         entries += (Dimension(one.name, one.text) for one in screws)
@@ -191,17 +191,6 @@ def _dimensions(parts: Parts) -> Iterator[Row | Missing]:
         entries += or_missing("teeth of the gears", lambda: parts.flat.tooth_dimensions)
     for entry in entries:
         yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
-
-
-def _screws_and_edges(size: Size) -> Iterator[Dimension]:
-    for part in ("wheel", "crank"):
-        for key, name in (("screw", "set screw"), ("clamp", "clamp screw")):
-            screw = vars(size)[f"{part}_{key}_mm"]
-            if screw is not None:
-                yield Dimension(f"{part}'s {name}", screw, "mm")
-    if size.edge_mm:
-        kind = "rounding" if size.edge_chamfer_mm is None else "chamfer"
-        yield Dimension(f"{kind} of all edges", size.edge_mm, "mm")
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:

@@ -10,9 +10,8 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import PinPath, Plan
 from geneva_cli.motion.engagement import ConstantRate, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_motion import LawMotion, refuse_alpha0
 from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot
@@ -44,7 +43,6 @@ class Cam(PinPath, kw_only=True):
     )
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
-        """The engagement of each roller. Raises GenevaError for an impossible law or ratio."""
         assert motion is not None  # ``compatible`` refuses a cam without a law
         if motion.ratio is not None:
             raise GenevaError(
@@ -67,10 +65,7 @@ class Cam(PinPath, kw_only=True):
 
 
 def _slide(input_deg: Number, path: Vector, loads: Sequence[Load]) -> list[tuple[Vector, Vector]]:
-    """Forces of each load on the crank's shaft, across its arm, and on the groove's wall.
-
-    The crank also holds a couple.
-    """
+    """Forces of each load on the crank's shaft, across its arm, and on the groove's wall."""
     x, y = path
     wall = y.derivative() * -1.0, x.derivative()
     arm = x.lower - 1.0, y.lower

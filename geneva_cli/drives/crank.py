@@ -37,25 +37,12 @@ class Crank(Direct, kw_only=True):
 
     @property
     def cranks(self) -> tuple[float, ...]:
-        """The places of the spec."""
         return self.crank_steps or super().cranks
 
-    def may_vary(self, table: str, key: str) -> bool:
-        """False for the slots if several cranks turn both ways: their places change with it."""
-        placed = self.crank_steps and self.both_ways
-        return not placed or (table, key) != ("wheel", "z")
-
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
-        """Plan of straight slots for a roller's place on a crank as built."""
         return self.straight(wheel, alike(wheel, self, place), L)
 
     def backwards(self, plan: Plan) -> Self:
-        """The drive that turns the other way: its last crank works first after the first one.
-
-        >>> crank = Crank(rollers=3, crank_steps=(0, 4, 3))
-        >>> crank.backwards(Design(External(5), crank).mechanism.plan).crank_steps
-        (0.0, 2.0, 1.0)
-        """
         out = super().backwards(plan)
         if not self.crank_steps:
             return out

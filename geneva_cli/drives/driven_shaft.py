@@ -8,20 +8,25 @@ between.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.motion.engagement import Displacement, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import cuts
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import Array, Batchable, array, choose, library, narrowed
+from geneva_cli.numerics.arrays import Batchable, choose, library, narrowed
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise, sin_cos
-from geneva_cli.numerics.roots import boundary
 
 if TYPE_CHECKING:
+    from geneva_cli.drives.pushed import PushedCrank
     from geneva_cli.drives.transmission import Transmission
+
+
+def angle_of(advance: Displacement, tau: Number, order: int) -> Jet:
+    """Angle by which the driven shaft advances in ``tau`` input radians, radians."""
+    sine, versine = advance(tau, order)
+    return atan2(sine, 1.0 - versine)
 
 
 class Timing(Batchable):
@@ -45,27 +50,12 @@ class Timing(Batchable):
         self.advances = tuple(one.advance for one in local)
         # input angles at which the formula about another place takes over, or the gears' own
         self.cuts = cuts(self.at_deg)
-        self.changes_deg = tuple(
-            at + cut / DEGREE
-            for at, one in zip(self.at_deg, local, strict=True)
-            for cut in one.cuts
-        )
-
-    def of(self, other: Engagement, ahead_deg: float) -> Timing:
-        """The timing of another engagement, whose mid-motion is earlier by an own angle."""
-        return Timing(self.before, other, self.shaft_deg - ahead_deg - other.mid_deg)
+        places = zip(self.at_deg, local, strict=True)
+        self.changes_deg = tuple(at + cut / DEGREE for at, one in places for cut in one.cuts)
 
     def input_deg(self, own_deg: float) -> float:
         """Machine's input angle at an angle of the driven shaft, both from mid-motion, degrees."""
         return self.before.about(self.rest_deg + own_deg).input_deg - self.within_deg
-
-    def inputs_deg(self, own_deg: Array) -> Array:
-        """Machine's input angles at angles of the driven shaft within the motion, degrees.
-
-        They are bisected, as the gears of a ratio file are known about one angle at a time.
-        """
-        first, last = (array(self.at_deg[k]) + 0.0 * own_deg for k in (0, -1))
-        return boundary(lambda x: array(self.at(x, 0)[0]) <= own_deg, first, last)
 
     def __call__(self, input_deg: Number, order: int) -> Jet:
         """Angle of the driven shaft in radians from mid-motion, at input angles in degrees."""
@@ -79,29 +69,24 @@ class Timing(Batchable):
 
     def _about(self, i: int, order: int, input_deg: Number) -> Jet:
         """Angle of the driven shaft in degrees, with its derivatives in radians."""
-        turn, advance = radians(input_deg - self.at_deg[i]), self.advances[i]
-        turned = angle_of(advance, turn, order)
-        # the shaft never turns back, so the ends of an enclosure of angles decide
-        angle = narrowed(
-            turned.c[0], lambda x: angle_of(advance, radians(x - self.at_deg[i]), 0).c[0], input_deg
-        )
-        return Jet((self.ends_deg[i] + library(angle).degrees(angle), *turned.c[1:]))
 
-    def vector(self, own: Callable[[Number, int], Vector], x: Number, order: int) -> Vector:
-        """A vector of the own drive by the machine's input angle."""
-        at, turned = self.at(x, order)
-        a, b = own(at, order)
-        return composed(a, turned), composed(b, turned)
+        def turned(x: Number, order: int) -> Jet:
+            return angle_of(self.advances[i], radians(x - self.at_deg[i]), order)
+
+        own = turned(input_deg, order)
+        # the shaft never turns back, so the ends of an enclosure of angles decide
+        angle = narrowed(own.c[0], lambda x: turned(x, 0).c[0], input_deg)
+        return Jet((self.ends_deg[i] + library(angle).degrees(angle), *own.c[1:]))
 
 
 class ShaftPath(Batchable):
     """A point of a shaft at the distance 1 from its axis, which turns as a wheel's crank does.
 
-    At mid-motion it points at an external wheel's axis, or away from an internal wheel's. ``sign``
-    is 1 for an external wheel, else -1.
+    At mid-motion it points at an external wheel's axis (``sign`` 1), or away from an internal
+    wheel's.
     """
 
-    def __init__(self, sign: float, angle: Callable[[Number, int], Jet]) -> None:
+    def __init__(self, sign: float, angle: Timing) -> None:
         self.sign, self.angle = sign, angle
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
@@ -113,9 +98,8 @@ class ShaftPath(Batchable):
 class DrivenShaft(Batchable):
     """Reactions on the shaft between two drives, and on the second one's guide, to loads.
 
-    ``push`` is the line along which the drive before pushes the shaft, written for one that turns
-    as a crank of the wheel does. It is None for a couple, or for a shaft whose bearings are not
-    computed. ``sign`` is 1 for an external wheel, whose crank turns clockwise, else -1.
+    ``push`` is the line of the push, written for a shaft that turns as a crank
+    of the wheel does. It is None for a couple, or for a shaft whose bearings are not computed.
     """
 
     def __init__(
@@ -130,46 +114,32 @@ class DrivenShaft(Batchable):
         self, input_deg: Number, path: Vector, loads: Sequence[Load]
     ) -> list[tuple[Vector, Vector]]:
         """Reactions of the shaft's bearings, and of the guide, to each load."""
+        assert self.own.reactions is not None  # ``retimed`` passes engagements with reactions only
         order = path[0].order - 1
         own_deg, angle = self.angle.at(input_deg, order + 1)
-        reactions = self._own_reactions(own_deg, angle.lower, loads)
-        if self.push is None:
-            return reactions
-        (x, y), (u, v) = self.push.line(input_deg, order)
-        y, v = y * self.mirror, v * self.mirror
-        lever, rate = cross((x, y), (u, v)), angle.derivative()
-        velocity = path[0].derivative(), path[1].derivative()
-        spin = composed(self.own.carrier(own_deg, order), angle.lower) * rate
-        out = []
-        for (force, moment), (shaft, guide) in zip(loads, reactions, strict=True):
-            power = force[0] * velocity[0] + force[1] * velocity[1] + moment * spin
-            size = power / (rate * lever) * self.clockwise
-            out.append(((shaft[0] + u * size, shaft[1] + v * size), guide))
-        return out
-
-    def _own_reactions(
-        self, own_deg: Number, angle: Jet, loads: Sequence[Load]
-    ) -> list[tuple[Vector, Vector]]:
-        """Reactions of the second drive's bodies alone, which are linear in the load."""
-        assert self.own.reactions is not None  # ``retimed`` passes engagements with reactions only
-        none = angle * 0.0
+        low, rate = angle.lower, angle.derivative()
+        # the second drive's bodies alone, which are linear in the load
+        none = low * 0.0
         one = none + 1.0
         units: list[Load] = [((one, none), none), ((none, one), none), ((none, none), one)]
-        path = self.own.path(own_deg, angle.order + 1)
         to_unit = [
-            [composed(part, angle) for vector in pair for part in vector]
-            for pair in self.own.reactions(own_deg, path, units)
+            [composed(part, low) for vector in pair for part in vector]
+            for pair in self.own.reactions(own_deg, self.own.path(own_deg, order + 1), units)
         ]
+        if self.push is not None:
+            (x, y), (u, v) = self.push.line(input_deg, order)
+            y, v = y * self.mirror, v * self.mirror
+            lever = cross((x, y), (u, v))
+            velocity = path[0].derivative(), path[1].derivative()
+            spin = composed(self.own.carrier(own_deg, order), low) * rate
         out = []
         for force, moment in loads:
             columns = zip((*force, moment), to_unit, strict=True)
             parts = [[part * amount for part in unit] for amount, unit in columns]
-            x, y, gx, gy = (a + b + c for a, b, c in zip(*parts, strict=True))
-            out.append(((x, y), (gx, gy)))
+            shaft_x, shaft_y, *guide = (a + b + c for a, b, c in zip(*parts, strict=True))
+            if self.push is not None:
+                power = force[0] * velocity[0] + force[1] * velocity[1] + moment * spin
+                size = power / (rate * lever) * self.clockwise
+                shaft_x, shaft_y = shaft_x + u * size, shaft_y + v * size
+            out.append(((shaft_x, shaft_y), (guide[0], guide[1])))
         return out
-
-
-def angle_of(advance: Displacement, tau: Number, order: int) -> Jet:
-    """Angle by which the driven shaft advances in ``tau`` input radians, radians."""
-    sine, versine = advance(tau, order)
-    return atan2(sine, 1.0 - versine)

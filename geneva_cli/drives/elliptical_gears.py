@@ -7,14 +7,13 @@ slowest at 0. The directions of the half angles are (cos phi/2, sin phi/2) and (
 Source: the focal property of the ellipse; Kepler's true anomaly follows this law too.
 """
 
-from collections.abc import Callable
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import Mesh, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Gears, Plan
-from geneva_cli.motion.engagement import Displacement, Path
+from geneva_cli.motion.engagement import Path
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
@@ -57,15 +56,12 @@ class EllipticalGears(Transmission, kw_only=True):
 
     @property
     def gears(self) -> Gears:
-        """The pair of gears."""
         return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
-        """The shaft of the driver gear, which turns against the driven one."""
         return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Pivots and dimensions: each gear turns about a focus, the driven one with the crank."""
         a = 0.5 * self.gear_distance_mm
         return (
             Pivot("driver gear axis", plan.center_distance_mm + self.gear_distance_mm, 0.0),
@@ -76,18 +72,9 @@ class EllipticalGears(Transmission, kw_only=True):
         )
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
-        """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 
-    def exact_advance(
-        self, half: tuple[float, float], exact: Callable[[float], float]
-    ) -> Displacement:
-        """Rotation of the driven gear about an angle f, from sine and cosine of f/2."""
-        e = exact(self.eccentricity)
-        return _focal(e if self.phase == "slow" else -e, *half)
-
     def about(self, crank_deg: float) -> LocalTransmission:
-        """Transmission about an angle f of the driven gear in degrees."""
         slow = self.phase == "slow"
         return _about(self.eccentricity if slow else -self.eccentricity, crank_deg)
 

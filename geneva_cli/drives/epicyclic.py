@@ -12,9 +12,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
-from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import PinPath, Plan
 from geneva_cli.motion.engagement import Anchor, ConstantRate, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth
@@ -52,6 +51,7 @@ class Epicyclic(PinPath, kw_only=True):
             "size": {"roller_radius_mm": 4.0},
         },
     )
+    round_gears: ClassVar[tuple[str, ...]] = ("planet", "fixed gear")
     planet_ratio: Annotated[
         float | str,
         Words(Range(-0.4, 0.4), ("shockless",)),
@@ -59,13 +59,7 @@ class Epicyclic(PinPath, kw_only=True):
     ]
     fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
 
-    @property
-    def round_gears(self) -> tuple[str, ...]:
-        """The planet, and the gear on which it rolls."""
-        return "planet", "fixed gear"
-
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
-        """The engagement, with the planet's arm pointing outwards at mid-motion."""
         refuse(
             (wheel.z != 3) & (wheel.z != 4) & (wheel.z != 6),
             lambda: GenevaError(
@@ -102,9 +96,6 @@ class Epicyclic(PinPath, kw_only=True):
         return self.planned(engagement, R0 + rp, L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Pivots and dimensions of carrier, planet and gears; at input 0 both arms point at the
-        wheel.
-        """
         reactions = cast(PlanetReactions, plan.engagements[0].reactions)
         L = plan.center_distance_mm
         R0, rp, teeth = L * reactions.R0, L * reactions.rp, abs(reactions.c - 1.0)
@@ -120,7 +111,6 @@ class Epicyclic(PinPath, kw_only=True):
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """Carrier, planet arm, and the pitch circles of planet and fixed gear, at input angles."""
         reactions = cast(PlanetReactions, plan.engagements[0].reactions)
         L, still, turn = plan.center_distance_mm, 0.0 * input_deg, radians(input_deg)
         R0, rp, c = L * reactions.R0, L * reactions.rp, reactions.c
@@ -144,10 +134,7 @@ class Epicyclic(PinPath, kw_only=True):
 
 
 class PlanetReactions(NamedTuple):
-    """Equilibrium of the planet, held by the carrier's pin and by the fixed gear at the mesh.
-
-    The mesh is -R0/c farther out than the planet's axis: nearer on a sun, farther in a ring.
-    """
+    """Equilibrium of the planet, held by the carrier's pin and by the fixed gear at the mesh."""
 
     R0: float  # over L
     rp: float
@@ -184,11 +171,7 @@ class _Arms(NamedTuple):
 
 
 def _refuse_reach(l: float, rp: float, teeth: int, c: float) -> None:
-    """Raise GenevaError if the wheel would start backwards or the roller would leave its slot.
-
-    Forward from rest: R0 >= c² rp. Into the slot at entry: R0 > c rp. Forward at mid-motion: R0 + c
-    rp > 0, where R0 = l + rp.
-    """
+    """Raise GenevaError if the wheel would start backwards or the roller would leave its slot."""
     most = l / (c * c - 1.0)
     least = -l / choose(c > 0.0, 1.0 + c, teeth)
     refuse(

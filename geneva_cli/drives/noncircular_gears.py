@@ -68,12 +68,10 @@ class NoncircularGears(Transmission, kw_only=True):
             whitworth.refuse_rounding(self.A)
 
     def may_vary(self, table: str, key: str) -> bool:
-        """False for numbers that change the angles at which the points are interpolated."""
         at = table in ("wheel", "drive", "motion") and key != "n_rpm"
         return self.ratio is None or not (at or (table, key) == ("size", "center_distance_mm"))
 
     def backwards(self, plan: Plan) -> Self:
-        """The drive with the points of its ratio in reverse order."""
         turned = super().backwards(plan)
         if self.ratio is None:
             return turned
@@ -82,15 +80,12 @@ class NoncircularGears(Transmission, kw_only=True):
 
     @property
     def gears(self) -> Gears:
-        """The pair of gears."""
         return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
-        """The shaft of the driver gear, which turns against the driven one."""
         return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """The gears' axes, and the source of their pitch curves: A of a side-crank, or a file."""
         law: Dimension = (
             Dimension("gears' ratio", self.ratio.file)
             if self.ratio is not None
@@ -103,22 +98,18 @@ class NoncircularGears(Transmission, kw_only=True):
         )
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
-        """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 
     def about(self, crank_deg: float) -> LocalTransmission:
-        """Transmission about a crank angle (degrees). GenevaError for an impossible ratio."""
         if self.A is not None:
             return whitworth.about(self.A, crank_deg)
         assert self.ratio is not None  # ``__post_init__`` requires one of the two
         return _through(_turned(self.ratio.pairs), self.ratio.pairs, crank_deg)
 
     def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
-        """Peaks of the side-crank with this ratio; None for a ratio file."""
         return None if self.A is None else whitworth.closed_peaks(self.A, wheel, place)
 
     def doubt(self, input_deg: float) -> Doubt | None:
-        """Uncertainty of the crank's jerk from the decimals of a ratio file; None without one."""
         if self.ratio is None:
             return None
         from geneva_cli.numerics.spline import doubt

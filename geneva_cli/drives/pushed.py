@@ -32,21 +32,12 @@ class PushedCrank(Batchable, ABC):
 
 
 class Mesh(PushedCrank):
-    """Gears whose axes are ``distance`` over L apart, the driver's on the line of centres.
-
-    The point of contact divides the distance as i : 1, where i is the crank's speed over the
-    input's. The gears push along the common tangent of their pitch curves. The pressure angle of
-    real teeth is neglected.
-    """
+    """Gears whose axes are ``distance`` over L apart, the driver's on the line of centres."""
 
     def __init__(self, path: Path, distance: float) -> None:
         self.path, self.distance = path, distance  # the roller turns as the crank does
 
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """Point of contact and direction of the push, from the pitch radius C/(1 + i).
-
-        The radius of the driven gear changes by -C i'/(1 + i)² per radian of input.
-        """
         x, y = self.path(input_deg, order + 2)
         rate = turning(x - 1.0, y)
         i, slope = Jet(rate.c[: order + 1]), rate.derivative()

@@ -4,14 +4,13 @@ The coulisse carries the Geneva crank. The symbols A and f follow Polyudov and K
 of the Maltese cross mechanism with a side-crank drive".
 """
 
-from collections.abc import Callable
 from typing import Annotated, ClassVar
 
 from geneva_cli.drives import whitworth
 from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import ClosedPeaks, Displacement, Path
+from geneva_cli.motion.engagement import ClosedPeaks, Path
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.rollers import alike
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
@@ -50,26 +49,16 @@ class SideCrank(Transmission, kw_only=True):
         whitworth.refuse_rounding(self.A)
 
     def about(self, crank_deg: float) -> LocalTransmission:
-        """Transmission about a coulisse angle f in degrees."""
         return whitworth.about(self.A, crank_deg)
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
-        """Plan of straight slots for a roller's place on a crank as built."""
         return self.straight(wheel, alike(wheel, self, place), L)
-
-    def exact_advance(
-        self, half: tuple[float, float], exact: Callable[[float], float]
-    ) -> Displacement:
-        """Rotation of the coulisse about an angle f, from sine and cosine of f/2."""
-        return whitworth.exact_coulisse(exact(self.A), *half)
 
     @property
     def missing_length(self) -> str:
-        """The input crank's, where it is not set."""
         return "input_crank_mm" if self.input_crank_mm is None else ""
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
-        """The shaft of the input crank."""
         return ShaftPlace(self._axis_mm(plan, sign), sense)
 
     def _axis_mm(self, plan: Plan, sign: float) -> float:
@@ -77,7 +66,6 @@ class SideCrank(Transmission, kw_only=True):
         return plan.center_distance_mm - sign * self.A * self._crank_mm(plan)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Pivot and dimensions of the input crank, by default as long as the Geneva crank."""
         r = self._crank_mm(plan)
         return (
             Pivot("input crank axis", self._axis_mm(plan, sign), 0.0),
@@ -86,7 +74,6 @@ class SideCrank(Transmission, kw_only=True):
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """The input crank, and the coulisse (the Geneva crank) in which its pin slides."""
         L, r = plan.center_distance_mm, self._crank_mm(plan)
         turn, still = radians(input_deg), 0.0 * input_deg
         m = library(turn)
@@ -103,11 +90,9 @@ class SideCrank(Transmission, kw_only=True):
         return own if self.input_crank_mm is None else self.input_crank_mm
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
-        """Reactions to the block on the input crank, which pushes across the coulisse."""
         if self.input_crank_mm is None:
             return None
         return whitworth.SlidingBlock(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
 
     def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
-        """Peaks of batches of plain wheels; None for others."""
         return whitworth.closed_peaks(self.A, wheel, place)

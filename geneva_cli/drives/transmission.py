@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion import registry
@@ -70,24 +70,19 @@ class _CrankRate(NamedTuple):
 class Transmission(Drive, kw_only=True):
     """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
+    turned_at_crank: ClassVar[bool] = False
+
     @abstractmethod
     def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
 
     @property
     def crank(self) -> Drive:
-        """The crank behind the transmission, without it."""
         plain, angles = registry.drive("crank"), self.roller_angles_deg
         return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
 
     @property
-    def turned_at_crank(self) -> bool:
-        """True if the input shaft carries the crank."""
-        return self.direct
-
-    @property
     def motions(self) -> int:
-        """One for each roller."""
         return self.rollers
 
     @property
@@ -100,28 +95,20 @@ class Transmission(Drive, kw_only=True):
         return None
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
-        """Rate of the crank over its input shaft's at crank angles from mid-motion."""
         return self.about(parameter(crank_deg)).advance(0.0, 1)[0].c[1]
 
     def input_deg(self, crank_deg: float) -> float:
-        """Input angle from mid-motion at a crank angle from mid-motion, degrees.
-
-        ``about`` covers one turn of the crank about mid-motion (one step, for a first wheel). The
-        rest repeats it.
-        """
         whole = 2.0 * self.reach_deg
         turns = round(crank_deg / whole)
         return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
 
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
-        """Centre distance L for a crank radius, mm: straight slots fix R/L, or the motion does."""
         if motion is None:
             return wheel.distance_mm(radius_mm)
         motion_deg = 2.0 * self.about(wheel.half_motion_deg(wheel.step)).input_deg
         return radius_mm / self._ratio(wheel, motion, motion_deg - motion.alpha0_deg)
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
-        """Plan of straight slots, which give the motion; or of curved slots, from a law."""
         if motion is not None:
             return self._curved(wheel, motion, L)
         return self.straight(wheel, places(wheel, self, L), L)
@@ -159,31 +146,19 @@ class Transmission(Drive, kw_only=True):
         rate = -wheel.SIGN * place.cone
         body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
         reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
-        return Engagement(
-            here.input_deg,
-            path,
-            slot,
-            motion,
-            body,
-            reactions,
-            hub=place.hub,
-            built=place.built,
-        )
+        own = Engagement(here.input_deg, path, slot, motion, body, reactions, built=place.built)
+        own.hub = place.hub
+        return own
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
-        from geneva_cli.motion.path_and_motion import (
-            LawMotion,
-            MiddlePath,
-            SolvedSlot,
-            refuse_alpha0,
-        )
+        from geneva_cli.motion import path_and_motion as solved
 
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)
         natural = 2.0 * self.about(half).input_deg
         motion_deg = natural - motion.alpha0_deg
-        refuse_alpha0(motion.alpha0_deg, natural)
+        solved.refuse_alpha0(motion.alpha0_deg, natural)
         refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
         ratio = self._ratio(wheel, motion, motion_deg)
         refuse(
@@ -196,28 +171,22 @@ class Transmission(Drive, kw_only=True):
         )
         here = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
-        path = MiddlePath(here.anchor(pose, here.input_deg), here.even)
-        turned = LawMotion(-0.5 * motion_deg, 0.5 * motion_deg, wheel.step.b, motion.law)
+        path = solved.MiddlePath(here.anchor(pose, here.input_deg), here.even)
+        end_deg, b = 0.5 * motion_deg, wheel.step.b
+        turned = solved.LawMotion(-end_deg, end_deg, b, motion.law)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
         body = ConstantRate(-wheel.SIGN) if self.direct else _CrankRate(here.advance, -wheel.SIGN)
-        engagement = Engagement(0.0, path, SolvedSlot(path, turned), turned, body, reactions)
+        engagement = Engagement(0.0, path, solved.SolvedSlot(path, turned), turned, body, reactions)
         period = 360.0 * self.turns / self.rollers
         return Plan((engagement,), period, ratio, rollers_max(motion_deg), L)
 
     def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
         """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion, or NaN."""
-        if motion.ratio is None:
-            return wheel.step.sin_cos[0]
-        if not isinstance(motion.ratio, str):
-            return motion.ratio
-        return self.matched_ratio(wheel, motion.law, motion_deg)
+        if isinstance(motion.ratio, str):
+            return self.matched_ratio(wheel, motion.law, motion_deg)
+        return wheel.step.sin_cos[0] if motion.ratio is None else motion.ratio
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
-        """R/L at which the pin crosses the line of centres as fast as the wheel's slot does.
-
-        At any other R/L the pressure angle at mid-motion is 90 degrees. NaN if no R/L below 1 has
-        this property.
-        """
         crank = self.about(0.0).advance(0.0, 1)[0].c[1]
         turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
         return wheel.matched_ratio(parameter(turned / crank))
@@ -237,22 +206,12 @@ class Transmission(Drive, kw_only=True):
 class Direct(Transmission, kw_only=True):
     """A drive without a transmission: crank angle and input angle are equal."""
 
+    direct: ClassVar[bool] = True
+    turned_at_crank: ClassVar[bool] = True
+
     @property
     def motions(self) -> int:
-        """1: all rollers move the wheel alike."""
         return 1
 
-    @property
-    def direct(self) -> bool:
-        """Always True: the classic closed forms hold."""
-        return True
-
-    def exact_advance(
-        self, half: tuple[float, float], exact: Callable[[float], float]
-    ) -> Displacement:
-        """Rotation of the crank, which is the input's."""
-        return same
-
     def about(self, crank_deg: float) -> LocalTransmission:
-        """Transmission about a crank angle in degrees, which is the input angle."""
         return LocalTransmission(crank_deg, same)

@@ -104,10 +104,6 @@ class SlidingBlock(PushedCrank):
         self.mid = mid  # input angle of the engagement's mid-motion, radians
 
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """Block position on the coulisse, and the direction across it.
-
-        The coulisse points at the wheel at input angle 0.
-        """
         s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
         x, y = (c + self.A) * (-self.sign * self.r), s * self.r
         return (x, y), (y * -1.0, x)
@@ -135,12 +131,3 @@ def about(A: float, crank_deg: float) -> LocalTransmission:
     phi = choose(A < 0.0, own, added)
     grows = (A * c < 0.0) & level
     return LocalTransmission(phi, Coulisse(A, s, c, sin_h, cos_h, length, rest, grows))
-
-
-def exact_coulisse(A: float, sin_half: float, cos_half: float) -> Coulisse:
-    """The coulisse about an angle f, from f/2, in numbers in which differences lose no digits."""
-    m = library(A, sin_half, cos_half)
-    s, c = 2.0 * sin_half * cos_half, (cos_half - sin_half) * (cos_half + sin_half)
-    sin_h = A * s
-    cos_h = m.sqrt((1.0 - sin_h) * (1.0 + sin_h))
-    return Coulisse(A, s, c, sin_h, cos_h, cos_h + A * c, cos_h - A * c, grows=False)

@@ -57,8 +57,7 @@ class Board:
     def first(self, candidates: Iterable[Measure], gap: float = 0.6) -> Measure | None:
         """Return the free dimension with the fewest crossings, and add it; None if none is free.
 
-        ``gap`` is the least distance of its text to what is drawn, mm. Of equal ones it is the
-        first. After the first free one 100 more are tried.
+        Its text is ``gap`` mm clear. After the first free one 100 more are tried.
         """
         best, least, left = None, math.inf, 100
         for measure in candidates:

@@ -35,12 +35,9 @@ AIM = 1.0 - 5e-4  # fraction of a tolerance
 
 
 def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bool = True) -> Array:
-    """Fewest places whose chords keep the tolerance on every curve.
+    """Fewest places whose chords keep the tolerance on every curve; ends and cusps are among them.
 
-    All ends are nodes, and cusps must be ends. Without ``fewest`` the first sufficient number is
-    used, some ten per cent more, with fewer measurements.
-
-    Raises GenevaError if that takes more than ``ROWS_MAX`` rows.
+    Without ``fewest`` the first sufficient number is used, some ten per cent more.
     """
     if not tolerance_mm > 0.0:
         raise GenevaError(f"--tolerance {tolerance_mm:g}: it must be above 0 mm")
@@ -51,7 +48,16 @@ def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bo
 
 def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: bool) -> Array:
     """Nodes of a smooth stretch, spread evenly in the integral of the error's square root."""
-    grid, fraction, total = _density(curves, np.linspace(a, b, 1025 if fewest else 257))
+    grid = np.linspace(a, b, 1025 if fewest else 257)
+    error, hides = _measured(curves, grid, MIDDLE)
+    for _ in range(8):  # each time to a thousandth: to the last digits of the parameter
+        if not hides.any():  # only where the curve runs away within a small part of an interval
+            break
+        _, grid = _respread(grid, np.sqrt(error))
+        error, hides = _measured(curves, grid, MIDDLE)
+    area, _ = _respread(grid, np.sqrt(error))
+    total = float(area[-1])
+    fraction = area / total if total else np.linspace(0.0, 1.0, len(grid))
     count = max(1, int(np.ceil(total / np.sqrt(tolerance_mm))))
     if count > MANY_NODES or not fewest:
         count += count // (50 if fewest else 10)  # so that the first attempt is enough
@@ -69,7 +75,7 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
             root = np.sqrt(chord_errors(curves, places, inner) / tolerance_mm)
             if root.max() <= 1.0:
                 break
-            places = _respread(places, root)
+            _, places = _respread(places, root)
         # A chord's error is proportional to the square of its length: this number should be enough.
         enough = int(np.ceil(root.sum()))
         if root.max() <= 1.0:
@@ -91,29 +97,12 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
     )
 
 
-def _respread(places: Array, root: Array) -> Array:
-    """Move nodes to where the square roots of the errors require them."""
-    area = _integrated(root)
-    return np.interp(np.linspace(0.0, area[-1], len(places)), area, places)
-
-
-def _density(curves: Curves, grid: Array) -> tuple[Array, Array, float]:
-    """Grid, integral of the node density over it as a fraction of its total, and the total."""
-    error, hides = _measured(curves, grid, MIDDLE)
-    for _ in range(8):  # each time to a thousandth: to the last digits of the parameter
-        if not hides.any():  # only where the curve runs away within a small part of an interval
-            break
-        grid = _respread(grid, np.sqrt(error))
-        error, hides = _measured(curves, grid, MIDDLE)
-    area = _integrated(np.sqrt(error))
-    total = float(area[-1])
-    return grid, area / total if total else np.linspace(0.0, 1.0, len(grid)), total
-
-
-def _integrated(root: Array) -> Array:
+def _respread(places: Array, root: Array) -> tuple[Array, Array]:
+    """Return the integral of the error's square root, and the places moved to where it asks."""
     # at least 5 % of the mean density: an inflection needs nodes too
     weight = np.maximum(root, 0.05 * root.mean())
-    return np.concatenate(([0.0], np.cumsum(weight)))
+    area = np.concatenate(([0.0], np.cumsum(weight)))
+    return area, np.interp(np.linspace(0.0, area[-1], len(places)), area, places)
 
 
 def chord_errors(curves: Curves, at: Array, places: Array | None = None) -> Array:
@@ -143,7 +132,15 @@ def _measured(curves: Curves, at: Array, places: Array) -> tuple[Array, Mask]:
             square = np.maximum((chord * chord).sum(axis=2), 1e-300)
             fraction = np.clip((offset * chord).sum(axis=2) / square, 0.0, 1.0)
             off = offset - fraction[..., None] * chord
-            error = _peaks(off if len(places) > len(MIDDLE) else BETWEEN @ off)
+            off = off if len(places) > len(MIDDLE) else BETWEEN @ off
+            # the greatest size along each chord: of the parabola about the largest
+            size = np.zeros((len(off), off.shape[1] + 2))
+            size[:, 1:-1] = np.hypot(off[..., 0], off[..., 1])
+            top = size[:, 1:-1].argmax(axis=1)[:, None] + 1
+            before, most, after = (np.take_along_axis(size, top + k, 1)[:, 0] for k in (-1, 0, 1))
+            bend = 2.0 * most - before - after
+            rise = np.divide((after - before) ** 2, 8.0 * bend, out=0.0 * bend, where=bend > 0.0)
+            error = most + rise
             along[:, 1:-1] = fraction
             # A curve that starts from rest with the fourth power of its parameter leaves 0.68. At
             # 0.75 an arc's error is a third above the measured one.
@@ -152,14 +149,3 @@ def _measured(curves: Curves, at: Array, places: Array) -> tuple[Array, Mask]:
             worst[some] = np.maximum(worst[some], long)
             hides[some] |= hidden & (square[:, 0] > error * error)
     return worst, hides
-
-
-def _peaks(off: Array) -> Array:
-    """Greatest sizes of errors (n, m, 2) along chords: of the parabola about the largest."""
-    size = np.zeros((len(off), off.shape[1] + 2))
-    size[:, 1:-1] = np.hypot(off[..., 0], off[..., 1])
-    top = size[:, 1:-1].argmax(axis=1) + 1
-    before, most, after = (np.take_along_axis(size, top[:, None] + k, 1)[:, 0] for k in (-1, 0, 1))
-    bend = 2.0 * most - before - after
-    rise = np.divide((after - before) ** 2, 8.0 * bend, out=0.0 * bend, where=bend > 0.0)
-    return most + rise

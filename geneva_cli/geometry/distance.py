@@ -175,11 +175,7 @@ def _row(piece: Line | Arc) -> tuple[float, ...]:
 
 
 def farthest(outline: Polyarc, x: Number, y: Number) -> Array:
-    """Return the distance from points to the farthest point of each piece.
-
-    x and y broadcast with the pieces. The farthest point is at an end of the piece, or where an arc
-    lies opposite the point as seen from its centre.
-    """
+    """Return the distance from points to the farthest point of each piece; both broadcast."""
     vx, vy = outline.cx - x, outline.cy - y
     away = np.hypot(vx, vy)
     opposite = outline.arc & (vx * outline.mx + vy * outline.my >= away * outline.cos_half)
@@ -188,11 +184,10 @@ def farthest(outline: Polyarc, x: Number, y: Number) -> Array:
 
 
 def from_segments(outline: Polyarc, start: Array, end: Array, reach: float) -> Array:
-    """Return the least distance of segments that cross no piece from the outline, (n,).
+    """Return the distance, at most ``reach``, of segments that cross no piece, (n,).
 
-    ``start`` and ``end`` are (n, 2). Distances above ``reach`` are returned as ``reach``. The
-    distance is at an end of the segment, at a corner of the outline, or where the line from an
-    arc's centre meets the segment at a right angle.
+    It is at an end of the segment, at a corner of the outline, or where the line from an arc's
+    centre meets the segment at a right angle.
     """
     # only pieces that may lie within reach of a segment are compared with it
     (x, y), half = 0.5 * (start + end).T, 0.5 * np.hypot(*(end - start).T)
@@ -220,10 +215,7 @@ def from_segments(outline: Polyarc, start: Array, end: Array, reach: float) -> A
 
 
 def short_pieces(contours: Iterable[Contour], step: float) -> Polyarc:
-    """Return an outline cut into equal pieces; arcs turn by at most ``step`` radians in each.
-
-    A line is cut like an arc of a quarter of a circle.
-    """
+    """Return an outline in short pieces: arcs of at most ``step`` radians, and parts of lines."""
     pieces: list[Segment] = []
     for segment in (segment for contour in contours for segment in contour.segments):
         if isinstance(segment, Arc):

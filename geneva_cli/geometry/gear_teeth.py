@@ -30,7 +30,7 @@ Writer: TypeAlias = "Callable[[Curve, float, float], Sequence[Segment]]"  # fits
 
 
 class Rack(NamedTuple):
-    """The rack that cuts a gear: its module, and the shift of its datum line from the pitch curve.
+    """The rack that cuts a gear: its module, mm, and the shift of its datum from the pitch curve.
 
     Shift, dedendum and rounding are in modules; the profile is type A of ISO 53. A tooth of the
     rack is straight from its addendum, one module, to the rounded corner.
@@ -44,17 +44,17 @@ class Rack(NamedTuple):
 
     @property
     def pitch(self) -> float:
-        """Distance of teeth along the pitch curve, mm."""
+        """Distance of teeth along the pitch curve."""
         return math.pi * self.module
 
     @property
     def half(self) -> float:
-        """Half the thickness of a gear's tooth on the pitch curve, mm."""
+        """Half the thickness of a gear's tooth on the pitch curve."""
         return self.module * (0.25 * math.pi + self.shift * math.tan(self.angle))
 
     @property
     def straight(self) -> float:
-        """Depth below the pitch curve at which the straight flank ends, mm."""
+        """Depth below the pitch curve at which the straight flank ends."""
         corner = self.rounding * (1.0 - math.sin(self.angle))
         return self.module * (self.dedendum - corner - self.shift)
 
@@ -67,28 +67,18 @@ class Rack(NamedTuple):
 
     @property
     def end(self) -> float:
-        """Roll at which flank and fillet meet, from the tooth's middle, mm."""
+        """Roll at which flank and fillet meet, from the tooth's middle."""
         return self.half + self.straight / (math.sin(self.angle) * math.cos(self.angle))
 
     @property
     def least_radius(self) -> float:
-        """Least radius of a pitch curve without undercut, mm: z = 2 (1 - x)/sin² for a circle."""
+        """Least radius of a pitch curve without undercut: z = 2 (1 - x)/sin² for a circle."""
         return self.straight / math.sin(self.angle) ** 2
 
     @property
     def least_tip(self) -> float:
-        """Least thickness of a tooth at its tip, mm: DIN 3960 keeps a fifth of a module."""
+        """Least thickness of a tooth at its tip: DIN 3960 keeps a fifth of a module."""
         return 0.2 * self.module
-
-
-def circle(radius: float) -> Curve:
-    """Return a circle about the origin by its length, from the x axis on."""
-
-    def curve(s: Array) -> tuple[Array, Array]:
-        c, n = np.cos(s / radius), np.sin(s / radius)
-        return radius * np.column_stack((c, n)), np.column_stack((-n, c))
-
-    return curve
 
 
 def flank(pitch: Curve, rack: Rack, middle: float | Array, side: int) -> Curve:
@@ -117,9 +107,24 @@ def fillet(pitch: Curve, rack: Rack, middle: float, side: int) -> Curve:
     return curve
 
 
+def parallel(pitch: Curve, height: float) -> Curve:
+    """Return the curve at a height above a pitch curve, outwards."""
+
+    def curve(s: Array) -> tuple[Array, Array]:
+        place, along = pitch(s)
+        return place + height * right(along), along
+
+    return curve
+
+
 def right(direction: Array) -> Array:
     """Return vectors turned clockwise by a right angle."""
     return np.column_stack((direction[:, 1], -direction[:, 0]))
+
+
+def involute(angle: float) -> float:
+    """Return the involute function tan a - a of an angle in radians."""
+    return math.tan(angle) - angle
 
 
 class SpaceCorner(NamedTuple):
@@ -132,63 +137,78 @@ class SpaceCorner(NamedTuple):
 
 
 class RoundTeeth(NamedTuple):
-    """The teeth of a round gear about the origin, or the spaces of a ring gear.
+    """The teeth of a round gear about the origin, or the spaces of a ring gear; mm and radians.
 
-    ``tip`` is the radius at which they end outside. A ring's spaces begin at ``opening``, where
-    their neighbours have tips; a gear's teeth begin with the fillets that the rack leaves.
+    They end outside at the radius ``tip``. A ring's spaces begin at ``opening``, where their
+    neighbours have tips; a gear's teeth begin with the fillets that the rack leaves.
     """
 
     rack: Rack
-    radius: float  # of the circle on which the rack rolls, mm
+    radius: float  # of the circle on which the rack rolls
     tip: float
     opening: float = 0.0
 
     @property
     def base(self) -> float:
-        """Radius of the base circle, mm."""
+        """Radius of the base circle."""
         return self.radius * math.cos(self.rack.angle)
 
     @property
     def root(self) -> float:
-        """Radius at which the teeth begin, mm; of a ring, its tips."""
+        """Radius at which the teeth begin; of a ring, its tips."""
         rack = self.rack
         return self.opening or self.radius - rack.module * (rack.dedendum - rack.shift)
 
     @property
     def flank_end(self) -> float:
-        """Length of the base circle's tangent to the inner end of a gear's flank, mm."""
+        """Length of the base circle's tangent to the inner end of a gear's flank."""
         sine = math.sin(self.rack.angle)
         return self.radius * sine - self.rack.straight / sine
 
     @property
     def step(self) -> float:
-        """Angle from tooth to tooth, radians."""
+        """Angle from tooth to tooth."""
         return self.rack.pitch / self.radius
 
     def half_angle(self, radius: float) -> float:
-        """Return the angle between middle and flank of a tooth at a radius, radians."""
+        """Return the angle between middle and flank of a tooth at a radius."""
         rolled = involute(self.rack.angle) - involute(math.acos(self.base / radius))
         return self.rack.half / self.radius + rolled
 
     def thickness(self, radius: float) -> float:
-        """Return the thickness of a tooth along the circle of a radius, mm."""
+        """Return the thickness of a tooth along the circle of a radius."""
         return 2.0 * radius * self.half_angle(radius)
 
     def tangent(self, radius: float) -> float:
-        """Return the length of the base circle's tangent to a radius, mm."""
+        """Return the length of the base circle's tangent to a radius."""
         return math.sqrt((radius - self.base) * (radius + self.base))
 
     def roll(self, tangent: float) -> float:
-        """Return the roll, from the middle of a tooth, at which a tangent's length is cut, mm."""
+        """Return the roll, from the middle of a tooth, at which a tangent's length is cut."""
         beyond = tangent - self.radius * math.sin(self.rack.angle)
         return self.rack.half - beyond / math.cos(self.rack.angle)
 
     def one(self, write: Writer) -> list[Segment]:
         """Return a tooth, or a space of a ring, about the x axis, counterclockwise."""
-        if self.opening:
-            return self._space(write)
-        (before, after), top = self.sides(write), self.half_angle(self.tip)
-        return [*before, about(ORIGIN, self.tip, -top, 2.0 * top), *after]
+        rack = self.rack
+
+        def pitch(s: Array) -> tuple[Array, Array]:
+            c, n = np.cos(s / self.radius), np.sin(s / self.radius)
+            return self.radius * np.column_stack((c, n)), np.column_stack((-n, c))
+
+        if self.opening:  # corners are arcs that touch the flank and the root circle
+            assert self.space_corner
+            (x, y), radius, end, touch = self.space_corner
+            begin = self.half_angle(self.base) - touch / self.base + 0.5 * math.pi
+            inner, outer = self.roll(self.tangent(self.opening)), self.roll(touch)
+            before = [*write(flank(pitch, rack, 0.0, -1), -inner, -outer)]
+            before.append(about((x, -y), radius, -begin, begin - end))
+        else:
+            root = write(fillet(pitch, rack, 0.0, -1), rack.corner[0], rack.end)
+            last = -self.roll(self.tangent(self.tip))
+            before = [*root, *write(flank(pitch, rack, 0.0, -1), -rack.end, last)]
+            end = self.half_angle(self.tip)
+        return [*before, about(ORIGIN, self.tip, -end, 2.0 * end), *mirrored(before)]
 
     def between(self) -> Segment:
         """Return the arc from a tooth about the x axis to the next."""
@@ -196,24 +216,6 @@ class RoundTeeth(NamedTuple):
         if self.opening:
             from_middle = self.half_angle(self.opening)
         return about(ORIGIN, self.root, from_middle, self.step - 2.0 * from_middle)
-
-    def sides(self, write: Writer) -> tuple[list[Segment], list[Segment]]:
-        """Return both sides of a tooth about the x axis: before its tip, and after it."""
-        rack, pitch = self.rack, circle(self.radius)
-        root = write(fillet(pitch, rack, 0.0, -1), rack.corner[0], rack.end)
-        wall = write(flank(pitch, rack, 0.0, -1), -rack.end, -self.roll(self.tangent(self.tip)))
-        before = [*root, *wall]
-        return before, mirrored(before)
-
-    def _space(self, write: Writer) -> list[Segment]:
-        """Return a ring's space: its corners are arcs that touch the flank and the root circle."""
-        assert self.space_corner
-        (x, y), radius, centre, touch = self.space_corner
-        begin = self.half_angle(self.base) - touch / self.base + 0.5 * math.pi
-        inner, outer = self.roll(self.tangent(self.opening)), self.roll(touch)
-        wall = write(flank(circle(self.radius), self.rack, 0.0, -1), -inner, -outer)
-        before = [*wall, about((x, -y), radius, -begin, begin - centre)]
-        return [*before, about(ORIGIN, self.tip, -centre, 2.0 * centre), *mirrored(before)]
 
     @property
     def space_corner(self) -> SpaceCorner | None:
@@ -232,18 +234,10 @@ class RoundTeeth(NamedTuple):
         return SpaceCorner((far * math.cos(centre), far * math.sin(centre)), radius, centre, touch)
 
 
-def involute(angle: float) -> float:
-    """Return the involute function tan a - a of an angle in radians."""
-    return math.tan(angle) - angle
-
-
 def teeth_along(
     pitch: Curve, rack: Rack, middles: Array, tip: float, write: Writer
 ) -> Iterator[Segment]:
-    """Yield the outline of a gear whose teeth have their middles at lengths of its pitch curve.
-
-    ``tip`` is the height of the teeth above the curve, mm.
-    """
+    """Yield a gear with the middles of teeth at lengths of a pitch curve, and tips above it, mm."""
     (first, height), last = rack.corner, rack.end
     root = parallel(pitch, height - rack.rounding * rack.module)
     top = parallel(pitch, tip)
@@ -255,16 +249,6 @@ def teeth_along(
         yield from write(flank(pitch, rack, middle, 1), last_tip, middle + last)
         yield from write(fillet(pitch, rack, middle, 1), -middle - last, -middle - first)
         yield from write(root, middle + first, middle + rack.pitch - first)
-
-
-def parallel(pitch: Curve, height: float) -> Curve:
-    """Return the curve at a height above a pitch curve, outwards."""
-
-    def curve(s: Array) -> tuple[Array, Array]:
-        place, along = pitch(s)
-        return place + height * right(along), along
-
-    return curve
 
 
 def _tips(

@@ -39,40 +39,48 @@ class Loop(NamedTuple):
 def loops(pieces: Sequence[Line | Arc]) -> list[Loop]:
     """Return the closed outlines that pieces in any order make, in mm.
 
-    Raises GenevaError, naming the place, for an outline that is open, branches or crosses itself
-    or another one, and for no piece at all.
+    Raises GenevaError, naming the place, for one that is open, branches or crosses.
     """
     kept = list(_distinct(pieces))
     if not kept:
         raise GenevaError("nothing is drawn: no lines, arcs, circles, polylines or splines")
-    contours = [with_material_left(closed("", chain), True) for chain in _chains(kept)]
+    # closed chains of pieces, end to end
+    partner = _partners([point for piece in kept for point in (piece.start, piece.end)])
+    used, contours = [False] * len(kept), []
+    for first in range(len(kept)):
+        chain: list[Line | Arc] = []
+        end = 2 * first  # the end from which a piece is run through
+        while not used[end // 2]:
+            piece = kept[end // 2]
+            used[end // 2] = True
+            if end % 2:
+                piece = piece._replace(start=piece.end, end=piece.start)
+                piece = piece._replace(bulge=-piece.bulge) if isinstance(piece, Arc) else piece
+            chain.append(piece._replace(start=chain[-1].end) if chain else piece)
+            end = partner[end ^ 1]
+        if chain:
+            contours.append(with_material_left(closed("", chain), True))
     _refuse_crossings(contours)
-    around = _nesting(contours)
+    depth = np.zeros(len(contours), dtype=int)
+    points = np.array([contour.segments[0].start for contour in contours])
+    for i, outline in enumerate(Polyarc([contour]) for contour in contours):
+        within = outline.signed(points) < 0.0
+        within[i] = False
+        depth += within
     return [
-        Loop(contour if depth % 2 == 0 else with_material_left(contour, False), depth)
-        for contour, depth in zip(contours, around, strict=True)
+        Loop(contour if around % 2 == 0 else with_material_left(contour, False), around)
+        for contour, around in zip(contours, depth.tolist(), strict=True)
     ]
 
 
 def greatest_gap(pieces: Sequence[Line | Arc]) -> float:
-    """Return the greatest distance of ends that ``loops`` joins, mm.
-
-    It is of the size of the rounding of a drawing's numbers. Raises GenevaError as ``loops`` does
-    for open and branching outlines.
-
-    >>> greatest_gap([Line((0.0, 0.0), (1.0, 0.0)), Line((1.0, 1e-4), (0.0, 0.0))])
-    0.0001
-    """
+    """Return the greatest distance of ends that ``loops`` joins, mm: of a drawing's rounding."""
     ends = [point for piece in _distinct(pieces) for point in (piece.start, piece.end)]
     return max(math.dist(ends[i], ends[j]) for i, j in enumerate(_partners(ends)))
 
 
 def shown(point: Point) -> str:
-    """A place in a drawing, for messages.
-
-    >>> shown((12.0, -0.33333))
-    '(12, -0.3333)'
-    """
+    """A place in a drawing, for messages."""
     x, y = (f"{v:.4f}".rstrip("0").rstrip(".") for v in point)
     return f"({x}, {y})".replace("-0,", "0,").replace("-0)", "0)")
 
@@ -91,37 +99,8 @@ def _distinct(pieces: Sequence[Line | Arc]) -> Iterator[Line | Arc]:
             yield piece
 
 
-def _chains(pieces: list[Line | Arc]) -> Iterator[list[Line | Arc]]:
-    """Yield closed chains of pieces, end to end."""
-    ends = [point for piece in pieces for point in (piece.start, piece.end)]
-    partner = _partners(ends)
-    used = [False] * len(pieces)
-    for first in range(len(pieces)):
-        if used[first]:
-            continue
-        chain: list[Line | Arc] = []
-        end = 2 * first  # the end from which a piece is run through
-        while not used[end // 2]:
-            piece = pieces[end // 2]
-            used[end // 2] = True
-            if end % 2:
-                piece = _reversed(piece)
-            chain.append(piece._replace(start=chain[-1].end) if chain else piece)
-            end = partner[end ^ 1]
-        yield chain
-
-
-def _reversed(piece: Line | Arc) -> Line | Arc:
-    if isinstance(piece, Arc):
-        return Arc(piece.end, piece.start, -piece.bulge)
-    return Line(piece.end, piece.start)
-
-
 def _partners(ends: list[Point]) -> list[int]:
-    """Return for each end the other end at the same place.
-
-    Raises GenevaError for an end without another, and for more than two at a place.
-    """
+    """Return for each end the other at the same place; raises GenevaError for none or several."""
     cells: dict[tuple[int, int], list[int]] = defaultdict(list)
     for i, (x, y) in enumerate(ends):
         cells[math.floor(x / JOINED_MM), math.floor(y / JOINED_MM)].append(i)
@@ -136,7 +115,12 @@ def _partners(ends: list[Point]) -> list[int]:
             if j != i and math.dist(point, ends[j]) <= JOINED_MM
         ]
         if not near:
-            raise _open(i, ends)
+            others = [(math.dist(point, p), p) for j, p in enumerate(ends) if j != i]
+            gap, nearest = min(others)
+            raise GenevaError(
+                f"the outline is open at {shown(point)}: the nearest other end is {gap:.4g} mm "
+                f"away, at {shown(nearest)}; ends are joined up to {JOINED_MM:g} mm"
+            )
         if len(near) > 1:
             raise GenevaError(
                 f"{len(near) + 1} ends meet at {shown(point)}: an outline does not branch; leave "
@@ -144,15 +128,6 @@ def _partners(ends: list[Point]) -> list[int]:
             )
         out.append(near[0])
     return out
-
-
-def _open(i: int, ends: list[Point]) -> GenevaError:
-    others = [(math.dist(ends[i], p), p) for j, p in enumerate(ends) if j != i]
-    gap, nearest = min(others)
-    return GenevaError(
-        f"the outline is open at {shown(ends[i])}: the nearest other end is {gap:.4g} mm away, at "
-        f"{shown(nearest)}; ends are joined up to {JOINED_MM:g} mm"
-    )
 
 
 def _refuse_crossings(contours: list[Contour]) -> None:
@@ -184,7 +159,12 @@ def _crossing(outline: Polyarc, i: Whole, j: Whole, adjacent: Mask) -> Point | N
         seen = [some.distances(px, py) for some in (one, two)]
         inside = known & np.all([(s.distance < SHORTEST_MM) & s.facing for s in seen], axis=0)
         # at a joint that is rounded, two tangent pieces cross, but at hardly any angle
-        (ax, ay), (bx, by) = _normal(one, px, py), _normal(two, px, py)
+        normals = []
+        for some in (one, two):
+            radius = np.where(some.arc, some.radius, 1.0)
+            normals.append(np.where(some.arc, (px - some.cx) / radius, some.mx))
+            normals.append(np.where(some.arc, (py - some.cy) / radius, some.my))
+        ax, ay, bx, by = normals
         ends = [(s.x0, s.y0, s.x1, s.y1) for s in (one, two)]
         near = [
             np.minimum(np.hypot(a - px, b - py), np.hypot(c - px, d - py)) for a, b, c, d in ends
@@ -194,13 +174,6 @@ def _crossing(outline: Polyarc, i: Whole, j: Whole, adjacent: Mask) -> Point | N
         if len(k):
             return float(px[k[0]]), float(py[k[0]])
     return None
-
-
-def _normal(pieces: Polyarc, x: Array, y: Array) -> tuple[Array, Array]:
-    """Return the unit normals of pieces at points of them."""
-    nx = np.where(pieces.arc, (x - pieces.cx) / np.where(pieces.arc, pieces.radius, 1.0), pieces.mx)
-    ny = np.where(pieces.arc, (y - pieces.cy) / np.where(pieces.arc, pieces.radius, 1.0), pieces.my)
-    return nx, ny
 
 
 @np.errstate(all="ignore")
@@ -226,15 +199,3 @@ def _meetings(one: Polyarc, two: Polyarc) -> list[tuple[Array, Array]]:
     straight = ((two.x0 - x0) * two.dy - (two.y0 - y0) * two.dx) / cross
     at = [np.where(lines, straight, foot + sign * half) for sign in (1.0, -1.0)]
     return [(x0 + t * ux, y0 + t * uy) for t in at]
-
-
-def _nesting(contours: list[Contour]) -> list[int]:
-    """Return in how many other outlines each outline lies."""
-    inside = [Polyarc([contour]) for contour in contours]
-    points = np.array([contour.segments[0].start for contour in contours])
-    depth = np.zeros(len(contours), dtype=int)
-    for i, outline in enumerate(inside):
-        within = outline.signed(points) < 0.0
-        within[i] = False
-        depth += within
-    return [int(number) for number in depth]

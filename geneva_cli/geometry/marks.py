@@ -30,10 +30,7 @@ LENGTH = ARROW[0]
 def linear(
     ends: tuple[Point, Point], turn: float, levels: Iterable[float], text: str, value: float
 ) -> Iterator[Measure]:
-    """Yield candidates of a distance in the direction ``turn``, with its line at some levels.
-
-    A level is a coordinate normal to that direction, from the origin.
-    """
+    """Yield candidates of a distance in the direction ``turn``, with its line at some levels."""
     u = cmath.rect(1.0, turn)
 
     def at(along: float, across: float) -> Point:
@@ -86,8 +83,7 @@ def angular(
 ) -> Iterator[Measure]:
     """Yield candidates of an angle about the axis, counterclockwise from leg to leg, on arcs.
 
-    Angles are in radians. The extension lines begin at the distance ``begin`` from the axis. An arc
-    goes on to a text beyond its legs.
+    The extension lines begin at the distance ``begin``. An arc goes on to a text beyond its legs.
     """
     first, last = legs
     wide = last - first
@@ -160,10 +156,7 @@ def balloon(tip: Point, text: str) -> Iterator[Measure]:
 
 
 def section(end: Point, outwards: float, letter: str) -> Iterator[Measure]:
-    """Yield candidates of a section's mark beyond one end of its level line, near ones first.
-
-    An arrow points upwards, in which direction the section is seen. ``outwards`` is 1 or -1.
-    """
+    """Yield candidates of a section's mark beyond an end of its line, right (1) or left (-1)."""
     for far in range(4, 80, 4):  # mm
         x, y = end[0] + outwards * far, end[1]
         lines = Line((x, y - 10.0), (x, y)), Line((x - 3.0 * outwards, y), (x + outwards, y))

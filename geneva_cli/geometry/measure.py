@@ -41,13 +41,14 @@ def bounds(shape: Shape) -> Box:
     if isinstance(shape, Circle):
         (x, y), r = shape.centre, shape.radius
         return Box(x - r, y - r, x + r, y + r)
-    return _box(p for segment in shape.segments for p in _extremes(segment))
+    xs, ys = zip(*(p for segment in shape.segments for p in _extremes(segment)), strict=True)
+    return Box(min(xs), min(ys), max(xs), max(ys))
 
 
 def bounds_of(shapes: Iterable[Shape]) -> Box:
     """Smallest box around some shapes."""
-    boxes = [bounds(shape) for shape in shapes]
-    return _box(corner for box in boxes for corner in (box[:2], box[2:]))
+    x0, y0, x1, y1 = zip(*map(bounds, shapes), strict=True)
+    return Box(min(x0), min(y0), max(x1), max(y1))
 
 
 def segment_length(segment: Segment) -> float:
@@ -77,21 +78,15 @@ def legs(arc: Arc) -> tuple[float, float]:
 
 
 def fraction_at(piece: Line | Arc, point: Point) -> float:
-    """Fraction of the length at a point of the piece, or of its whole line or circle.
-
-    With h half the sweep, the point at the fraction t has the direction (2 t - 1) h from the
-    centre, seen from the arc's middle. Over the radius it is (2 a - 1) sin h along the chord and
-    cos h - 2 b sin h across it. Here a and b are the point's places along and across the chord from
-    its start, over the chord. So nothing is measured from a centre that is far away.
-
-    >>> fraction_at(Line((0.0, 0.0), (4.0, 0.0)), (1.0, 0.0))
-    0.25
-    """
+    """Fraction of the length at a point of the piece, or of its whole line or circle."""
     (x, y), (x0, y0), (x1, y1) = point, piece.start, piece.end
     u, v = x1 - x0, y1 - y0
     along = ((x - x0) * u + (y - y0) * v) / (u * u + v * v)
     if isinstance(piece, Line) or abs(piece.bulge) < STRAIGHT:
         return along
+    # With h half the sweep and a, b the places along and across the chord, over it, the point is
+    # (2 a - 1) sin h along and cos h - 2 b sin h across from the centre, over the radius. So
+    # nothing is measured from a centre that is far away.
     across, half = ((y - y0) * u - (x - x0) * v) / (u * u + v * v), 0.5 * piece.sweep
     sine, cosine = math.sin(half), math.cos(half)
     turn = math.atan2((2.0 * along - 1.0) * sine, cosine - 2.0 * across * sine)
@@ -102,8 +97,12 @@ def at(segment: Segment, t: float) -> Point:
     """Point at the parameter 0..1, which is a fraction of the length for lines and arcs."""
     if t in (0.0, 1.0):
         return segment.end if t else segment.start
-    if isinstance(segment, Cubic):
-        return _on_cubic(segment, t)
+    if isinstance(segment, Cubic):  # by de Casteljau's construction
+        corners: list[Point] = list(segment)
+        while len(corners) > 1:
+            pairs = zip(corners[:-1], corners[1:], strict=True)
+            corners = [(x + t * (u - x), y + t * (v - y)) for (x, y), (u, v) in pairs]
+        return corners[0]
     if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
         (x0, y0), (x1, y1) = segment.start, segment.end
         return x0 + t * (x1 - x0), y0 + t * (y1 - y0)
@@ -129,10 +128,7 @@ def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:
 
 
 def as_cubic(arc: Arc) -> Cubic:
-    """The cubic with the arc's ends, tangents and middle, within 3e-4 of the radius at 90 degrees.
-
-    Its handles are 4/3 tan(sweep/4) of the radius long; with the bulge b, (1 + b²)/3 of the chord.
-    """
+    """The cubic with the arc's ends, tangents and middle: within 3e-4 radii at 90 degrees."""
     (x0, y0), (x1, y1) = arc.start, arc.end
     long = (1.0 + arc.bulge * arc.bulge) / 3.0
     half = 0.5 * arc.sweep
@@ -146,13 +142,16 @@ def as_cubic(arc: Arc) -> Cubic:
 def mapped(
     shape: S, point: Callable[[Point], Point], radius: Callable[[float], float] = lambda r: r
 ) -> S:
-    """Move a shape by a similarity that keeps the sense of rotation.
-
-    ``point`` maps its points, and ``radius`` a circle's radius.
-    """
+    """Move a shape by a similarity of points that keeps the sense, and of a circle's radius."""
     if isinstance(shape, Circle):
         return shape._replace(centre=point(shape.centre), radius=radius(shape.radius))
-    return shape._replace(segments=tuple(_mapped(s, point) for s in shape.segments))
+    pieces: list[Segment] = []
+    for one in shape.segments:
+        if isinstance(one, Arc):
+            pieces.append(Arc(point(one.start), point(one.end), one.bulge))
+        else:
+            pieces.append(type(one)(*map(point, one)))
+    return shape._replace(segments=tuple(pieces))
 
 
 def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
@@ -183,25 +182,21 @@ def mirrored(pieces: Sequence[Segment]) -> list[Segment]:
     ]
 
 
-def _mapped(segment: Segment, point: Callable[[Point], Point]) -> Segment:
-    if isinstance(segment, Arc):
-        return Arc(point(segment.start), point(segment.end), segment.bulge)
-    return type(segment)(*map(point, segment))
-
-
-def _box(points: Iterable[Point]) -> Box:
-    xs, ys = zip(*points, strict=True)
-    return Box(min(xs), min(ys), max(xs), max(ys))
-
-
 def _extremes(segment: Segment) -> Iterator[Point]:
     """The ends, and the points at which the segment runs along an axis."""
     yield segment.start
     yield segment.end
     if isinstance(segment, Cubic):
-        for axis in (0, 1):
-            for t in _level(*(p[axis] for p in segment)):
-                yield at(segment, t)
+        for a, b, c, d in zip(*segment, strict=True):
+            # the derivative's Bernstein coefficients, by 3: square t² + 2 half t + e = 0
+            e, f, g = b - a, c - b, d - c
+            square, half = e - 2.0 * f + g, f - e
+            under = half * half - square * e
+            if under >= 0.0:
+                root = -(half + math.copysign(math.sqrt(under), half))  # no cancellation
+                roots = [root / square] if square else []
+                roots += [e / root] if root else []
+                yield from (at(segment, t) for t in roots if 0.0 < t < 1.0)
     elif isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
         (x0, y0), (x1, y1) = segment.start, segment.end
         sweep, quarter = segment.sweep, 0.5 * math.pi
@@ -209,25 +204,3 @@ def _extremes(segment: Segment) -> Iterator[Point]:
         low, high = sorted((first, first + sweep))
         for k in range(math.ceil(low / quarter), math.floor(high / quarter) + 1):
             yield at(segment, min(max((k * quarter - first) / sweep, 0.0), 1.0))
-
-
-def _level(a: float, b: float, c: float, d: float) -> list[float]:
-    """Parameters inside 0..1 at which a cubic's coordinate is stationary."""
-    e, f, g = b - a, c - b, d - c  # the derivative's Bernstein coefficients, by 3
-    square, half = e - 2.0 * f + g, f - e  # square t^2 + 2 half t + e = 0
-    under = half * half - square * e
-    if under < 0.0:
-        return []
-    root = -(half + math.copysign(math.sqrt(under), half))  # no cancellation
-    roots = [root / square] if square else []
-    roots += [e / root] if root else []
-    return [t for t in roots if 0.0 < t < 1.0]
-
-
-def _on_cubic(cubic: Cubic, t: float) -> Point:
-    """Point of a cubic by de Casteljau's construction."""
-    corners: list[Point] = list(cubic)
-    while len(corners) > 1:
-        pairs = zip(corners[:-1], corners[1:], strict=True)
-        corners = [(x + t * (u - x), y + t * (v - y)) for (x, y), (u, v) in pairs]
-    return corners[0]

@@ -23,7 +23,6 @@ from geneva_cli.geometry.shapes import (
     Arc,
     Circle,
     Contour,
-    Cubic,
     Line,
     Point,
     Segment,
@@ -34,11 +33,7 @@ from geneva_cli.geometry.shapes import (
 
 
 class Moments(NamedTuple):
-    """Integrals of 1, x, y and x² + y² over the inside, about the origin.
-
-    Units are those of the coordinates to the second, third, third and fourth power. Values are
-    negative if the outline runs clockwise.
-    """
+    """Integrals of 1, x, y and x² + y² over the inside, about the origin; below 0 if clockwise."""
 
     area: float
     x: float
@@ -56,11 +51,7 @@ class Moments(NamedTuple):
 
 
 def moments(shape: Shape) -> Moments:
-    """Moments of a closed contour, or of a circle.
-
-    >>> moments(Circle("BORE", (3.0, 0.0), 1.0)).polar / math.pi  # 1/2 and, by Steiner, 3²
-    9.5
-    """
+    """Moments of a closed contour, or of a circle."""
     if isinstance(shape, Circle):
         (x, y), square = shape.centre, shape.radius * shape.radius
         area = math.pi * square
@@ -71,11 +62,7 @@ def moments(shape: Shape) -> Moments:
 
 
 def area(shape: Shape) -> float:
-    """Area inside, positive if the contour runs counterclockwise.
-
-    An open contour is closed by the chord from its end to its start. Moments are taken about the
-    first point, so that a shape far from the origin loses no digits.
-    """
+    """Area inside, positive if the contour runs counterclockwise; a chord closes an open one."""
     if isinstance(shape, Circle):
         return math.pi * shape.radius * shape.radius
     if not shape.segments:
@@ -111,18 +98,15 @@ def _swept(segment: Segment) -> Moments:
         return Moments(cross / 2.0, cross * thirds[0], cross * thirds[1], cross * squares / 12.0)
     rows = []
     for t, weight in GAUSS:
-        (x, y), (dx, dy) = at(segment, t), _rate(segment, t)
+        x, y = at(segment, t)
+        if isinstance(segment, Arc):
+            length = segment_length(segment)
+            direction = directions(segment)[0] + t * segment.sweep
+            dx, dy = length * math.cos(direction), length * math.sin(direction)
+        else:
+            by = 3.0 * (1.0 - t) ** 2, 6.0 * t * (1.0 - t), 3.0 * t * t
+            steps = [(q[0] - p[0], q[1] - p[1]) for p, q in zip(segment, segment[1:], strict=False)]
+            dx, dy = (sum(b * step[k] for b, step in zip(by, steps, strict=True)) for k in (0, 1))
         swept = weight * (x * dy - y * dx)
         rows.append(Moments(0.5, x / 3.0, y / 3.0, 0.25 * (x * x + y * y)).times(swept))
     return total(rows)
-
-
-def _rate(segment: Arc | Cubic, t: float) -> Point:
-    """Derivative of the point by the parameter."""
-    if isinstance(segment, Cubic):
-        by = 3.0 * (1.0 - t) ** 2, 6.0 * t * (1.0 - t), 3.0 * t * t
-        steps = [(q[0] - p[0], q[1] - p[1]) for p, q in zip(segment, segment[1:], strict=False)]
-        x, y = (sum(b * step[k] for b, step in zip(by, steps, strict=True)) for k in (0, 1))
-        return x, y
-    length, direction = segment_length(segment), directions(segment)[0] + t * segment.sweep
-    return length * math.cos(direction), length * math.sin(direction)

@@ -1,4 +1,4 @@
-"""A drawing's pieces as a file shows them: in its unit, without duplicates or empty pieces."""
+"""A drawing's pieces as a file shows them: without duplicates or empty pieces."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from geneva_cli.errors import GenevaError, cut
-from geneva_cli.geometry.measure import mapped, segment_length
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.measure import segment_length
 from geneva_cli.geometry.shapes import (
     Arc,
     Circle,
@@ -23,36 +23,34 @@ from geneva_cli.geometry.shapes import (
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.table import Reading, Table, rows_table
 
-UNITS = {"mm": 1.0, "inch": 25.4}  # millimetres in one
-SUFFIX = {"mm": "mm", "inch": "in"}
 SHORTEST_MM = 1e-9  # no file shows a piece that is shorter, or the bend of one that is flatter
 
 
-def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
+def pieces_table(drawing: Drawing) -> Table:
     """Table with one row per segment or circle; contours and their pieces are counted from 1.
 
-    It has columns for control points only if there are cubics. ``units`` is mm or inch, and names
-    the columns. Raises GenevaError as ``prepared`` does.
+    It has columns for control points only if there are cubics. Raises GenevaError as
+    ``prepared`` does.
     """
-    unit, rows = SUFFIX[units], list[dict[str, Any]]()
-    for number, shape in enumerate(prepared(drawing, units).shapes, 1):
+    rows = list[dict[str, Any]]()
+    for number, shape in enumerate(prepared(drawing).shapes, 1):
         pieces = shape.segments if isinstance(shape, Contour) else (shape,)
         for i, piece in enumerate(pieces, 1):
             kind = type(piece).__name__.lower()
             row = {"layer": shape.layer, "contour": number, "piece": i, "kind": kind}
             # decimals beyond the twelfth are rounding
-            rows.append(row | {k: round(v, 12) + 0.0 for k, v in _numbers(piece, unit)})
-    points = [f"{name}_{unit}" for name in ("x", "y", "end_x", "end_y", "center_x", "center_y")]
-    names = ["layer", "contour", "piece", "kind", *points, f"radius_{unit}", "sweep_deg"]
+            rows.append(row | {k: round(v, 12) + 0.0 for k, v in _numbers(piece)})
+    points = [f"{name}_mm" for name in ("x", "y", "end_x", "end_y", "center_x", "center_y")]
+    names = ["layer", "contour", "piece", "kind", *points, "radius_mm", "sweep_deg"]
     if any(row["kind"] == "cubic" for row in rows):
-        names += [f"control{k}_{axis}_{unit}" for k in (1, 2) for axis in "xy"]
+        names += [f"control{k}_{axis}_mm" for k in (1, 2) for axis in "xy"]
     table = rows_table(names, [tuple(map(row.get, names)) for row in rows], drawing.title)
     # A narrow window keeps the kind of a piece, its start, and its circle.
-    first = (*names[:6], f"radius_{unit}", *points[4:], *points[2:4])
+    first = (*names[:6], "radius_mm", *points[4:], *points[2:4])
     return table.replaced(reading=Reading(first))
 
 
-def _numbers(piece: Segment | Circle, unit: str) -> Iterator[tuple[str, float]]:
+def _numbers(piece: Segment | Circle) -> Iterator[tuple[str, float]]:
     """Start, end, centre, radius, sweep in degrees and control points that a piece has."""
     places: dict[str, Point] = {}
     if not isinstance(piece, Circle):
@@ -61,28 +59,19 @@ def _numbers(piece: Segment | Circle, unit: str) -> Iterator[tuple[str, float]]:
         places |= {"control1_": piece.first, "control2_": piece.second}
     if isinstance(piece, Arc | Circle):
         places["center_"] = piece.centre
-        yield f"radius_{unit}", piece.radius
+        yield "radius_mm", piece.radius
         yield "sweep_deg", math.degrees(piece.sweep) if isinstance(piece, Arc) else 360.0
     for name, point in places.items():
-        yield from zip((f"{name}x_{unit}", f"{name}y_{unit}"), point, strict=True)
+        yield from zip((f"{name}x_mm", f"{name}y_mm"), point, strict=True)
 
 
-def prepared(drawing: Drawing, units: str = "mm") -> Drawing:
-    """Drawing in a unit, without duplicate shapes and pieces shorter than ``SHORTEST_MM``.
+def prepared(drawing: Drawing) -> Drawing:
+    """Drawing without duplicate shapes and pieces shorter than ``SHORTEST_MM``.
 
-    The other pieces stay end to end. Raises GenevaError for another unit, and for a coordinate that
-    is not finite.
+    Raises GenevaError for a coordinate that is not finite.
     """
-    if units not in UNITS:
-        raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
-    unit = UNITS[units]
-
-    def divided(shape: Shape) -> Shape:
-        # a single rounding, so that 25.4 mm are exactly 1 inch
-        return mapped(shape, lambda p: (p[0] / unit, p[1] / unit), lambda radius: radius / unit)
-
     shapes = dict.fromkeys(shape for original in drawing.shapes for shape in _cleaned(original))
-    return drawing._replace(shapes=tuple(map(divided, shapes)))
+    return drawing._replace(shapes=tuple(shapes))
 
 
 def _cleaned(shape: Shape) -> Iterator[Shape]:

@@ -12,61 +12,20 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.geometry.measure import GAUSS, S, mapped, turned
+from geneva_cli.geometry.measure import S, mapped, turned
+from geneva_cli.geometry.moments import Moments, moments, total
 from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.round_holes import CrossHole, RoundHole
     from geneva_cli.geometry.sphere import Region, Rotation, Vector
+    from geneva_cli.geometry.sphere_arcs import RoundHole
 
 
-class Edge(NamedTuple):
-    """The edge of a face: its size, mm, 0 for a sharp one, and whether it is rounded.
-
-    An edge takes as much of the face as of the wall. A section at a height above the wall is the
-    outline at a depth inside the material (``inset``): as deep as high for a chamfer of 45 degrees,
-    and on a quarter of a circle for a rounding.
-    """
-
-    size: float = 0.0
-    rounded: bool = False
-
-    @property
-    def key(self) -> str:
-        """The key of ``[size]`` that sets it."""
-        return "edge_fillet_mm" if self.rounded else "edge_chamfer_mm"
-
-    def at(self, fraction: float) -> tuple[float, float]:
-        """Return depth and height at a fraction of the way from the wall to the face.
-
-        >>> [round(x, 12) for x in Edge(2.0, rounded=True).at(1.0 / 3.0)]  # 30 degrees
-        [0.267949192431, 1.0]
-        """
-        if not self.rounded:
-            return self.size * fraction, self.size * fraction
-        angle = 0.5 * math.pi * fraction
-        # 1 - cos, without losing digits
-        return 2.0 * self.size * math.sin(0.5 * angle) ** 2, self.size * math.sin(angle)
-
-    def slope(self, fraction: float) -> tuple[float, float]:
-        """Return the derivatives of depth and height by the fraction."""
-        if not self.rounded:
-            return self.size, self.size
-        angle = 0.5 * math.pi * fraction
-        speed = 0.5 * math.pi * self.size
-        return speed * math.sin(angle), speed * math.cos(angle)
-
-    def layers(self) -> Iterator[tuple[float, float]]:
-        """Yield depths and thicknesses of layers that stand for the edge, at Gauss's points."""
-        for fraction, weight in GAUSS:
-            yield self.at(fraction)[0], weight * self.slope(fraction)[1]
+MM = 1e-3  # metres
 
 
 class Plate(NamedTuple):
-    """A flat part: the inside of an outline without its holes, from ``low`` to ``high``.
-
-    Cross holes go across its axis. The edge is around both faces.
-    """
+    """A flat part: the inside of an outline without its holes, from ``low`` to ``high``."""
 
     name: str
     layer: Layer
@@ -74,54 +33,11 @@ class Plate(NamedTuple):
     holes: tuple[Contour | Circle, ...]
     low: float
     high: float
-    cross: tuple[CrossHole, ...] = ()
-    edge: Edge = Edge()
 
     @property
     def thickness(self) -> float:
         """Thickness along the axis."""
         return self.high - self.low
-
-    @property
-    def plates(self) -> tuple[Plate, ...]:
-        """The plate itself, as those of a ``Stack``."""
-        return (self,)
-
-    def of_plates(self, plates: Iterable[Plate]) -> Plate:
-        """Return the only plate, as a part in place of this one."""
-        (only,) = plates
-        return only
-
-
-class Stack(NamedTuple):
-    """A turned part: plates without holes, each on the one before, as one solid.
-
-    Of two neighbours one lies within the other. Where their outlines coincide, they have the same
-    pieces.
-    """
-
-    name: str
-    layer: Layer
-    plates: tuple[Plate, ...]
-
-    @property
-    def low(self) -> float:
-        """Lower end along the axis."""
-        return self.plates[0].low
-
-    @property
-    def high(self) -> float:
-        """Upper end along the axis."""
-        return self.plates[-1].high
-
-    @property
-    def thickness(self) -> float:
-        """Length along the axis."""
-        return self.high - self.low
-
-    def of_plates(self, plates: Iterable[Plate]) -> Stack:
-        """Return a part with other plates."""
-        return self._replace(plates=tuple(plates))
 
 
 class Shell(NamedTuple):
@@ -164,15 +80,7 @@ class Shell(NamedTuple):
         return most * (self.outer if most > 0.0 else self.inner)
 
     def inertia(self, axis: Vector) -> float:
-        """The volume's moment of inertia about an axis through the centre, mm⁵.
-
-        >>> from geneva_cli.geometry.sphere import Region, SphereArc, place
-        >>> half = place(math.pi / 2.0, 0.0)
-        >>> dome = Region((SphereArc((0.0, 0.0, 1.0), math.pi / 2.0, half, half),), (0.0, 0.0, 1.0))
-        >>> ball = Shell("", "WHEEL", (dome,), 0.0, 10.0)
-        >>> round(ball.inertia((0.0, 0.0, 1.0)) / ball.volume, 12)  # 2/5 r²
-        40.0
-        """
+        """The volume's moment of inertia about an axis through the centre, mm⁵."""
         covered = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
         bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
         return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
@@ -194,18 +102,8 @@ class Member(NamedTuple):
     frame: Rotation | None = None  # in place of a turn: the directions of its x, y and z
 
 
-Solid: TypeAlias = Plate | Stack | Shell
+Solid: TypeAlias = Plate | Shell
 Part: TypeAlias = Solid | Group
-
-
-def edged(member: Member, edge: Edge) -> Member:
-    """A member with an edge around the faces of all its flat solids."""
-    part = member.part
-    if isinstance(part, Plate):
-        part = part._replace(edge=edge)
-    elif isinstance(part, Group):
-        part = part._replace(members=tuple(edged(one, edge) for one in part.members))
-    return member._replace(part=part)
 
 
 def solids(part: Part) -> list[Solid]:
@@ -216,43 +114,18 @@ def solids(part: Part) -> list[Solid]:
 
 
 def plates(part: Part) -> list[Plate]:
-    """The flat solids of a part; turned ones are left out."""
+    """The flat solids of a part."""
     return [one for one in solids(part) if isinstance(one, Plate)]
 
 
-def between(part: Plate | Stack, low: float, high: float) -> Plate | Stack:
-    """The length of a flat or turned part that lies between two heights."""
-    inside = (one for one in part.plates if one.low < high and one.high > low)
-    return part.of_plates(
-        one._replace(low=max(low, one.low), high=min(high, one.high)) for one in inside
-    )
+def inwards(plate: Plate, outside: float) -> Plate:
+    """A plate whose heights count inwards from ``outside``, by distances instead."""
+    return plate._replace(low=outside - plate.high, high=outside - plate.low)
 
 
-def inwards(part: Part, outside: float) -> Plate | Stack:
-    """A flat or turned part whose heights count inwards from ``outside``, by distances instead."""
-    assert isinstance(part, Plate | Stack)
-    return part.of_plates(
-        one._replace(low=outside - one.high, high=outside - one.low) for one in part.plates[::-1]
-    )
-
-
-def steps_of(part: Part) -> list[Plate]:
-    """A flat part, or the steps of a turned one, under the part's name."""
-    assert isinstance(part, Plate | Stack)
-    return [step._replace(name=part.name) for step in part.plates]
-
-
-def lowered(part: Plate | Stack) -> Plate | Stack:
-    """A flat or turned part with its lower face at z = 0."""
-    down = part.low
-    return part.of_plates(
-        one._replace(
-            low=one.low - down,
-            high=one.high - down,
-            cross=tuple(hole._replace(height=hole.height - down) for hole in one.cross),
-        )
-        for one in part.plates
-    )
+def lowered(plate: Plate) -> Plate:
+    """A plate with its lower face at z = 0."""
+    return plate._replace(low=0.0, high=plate.high - plate.low)
 
 
 def placed(shape: S, at: Point, turn: float) -> S:
@@ -263,14 +136,46 @@ def placed(shape: S, at: Point, turn: float) -> S:
 
 
 def in_place(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
-    """Yield each plate, and each step of a turned part, in its own frame and at its position."""
+    """Yield each plate in its own frame and at its position."""
     for one in members:
         if isinstance(one.part, Group):
             inner = in_place(one.part.members)
         else:
-            inner = ((step, step) for step in steps_of(one.part))
+            assert isinstance(one.part, Plate)
+            inner = iter([(one.part, one.part)])
         for own, plate in inner:
             outline, *holes = (
                 placed(shape, one.at, one.turn) for shape in (plate.outline, *plate.holes)
             )
             yield own, plate._replace(outline=outline, holes=tuple(holes))
+
+
+class MassProperties(NamedTuple):
+    """A plate's mass, centroid, and moment of inertia about its own origin along the axis."""
+
+    mass_kg: float
+    centroid_mm: Point
+    inertia_kgm2: float
+
+
+def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
+    """Mass, centroid and inertia J = rho h Ip of a plate."""
+    whole, per = face(plate).times(plate.thickness), density_kgm3 * MM**3
+    return MassProperties(per * whole.area, whole.centroid, per * MM**2 * whole.polar)
+
+
+def added(one: MassProperties, other: MassProperties) -> MassProperties:
+    """Mass, centroid and inertia of two bodies with one origin."""
+    mass = one.mass_kg + other.mass_kg
+    x, y = (
+        (one.mass_kg * a + other.mass_kg * b) / mass
+        for a, b in zip(one.centroid_mm, other.centroid_mm, strict=True)
+    )
+    return MassProperties(mass, (x, y), one.inertia_kgm2 + other.inertia_kgm2)
+
+
+def face(plate: Plate) -> Moments:
+    """Area, first moments and polar moment of a plate's face about the origin."""
+    out, *holes = (moments(shape) for shape in (plate.outline, *plate.holes))
+    cut = (hole.times(-math.copysign(1.0, hole.area)) for hole in holes)
+    return total((out.times(math.copysign(1.0, out.area)), *cut))

@@ -11,11 +11,12 @@ from typing import Literal, NamedTuple, TypeAlias
 
 Point: TypeAlias = tuple[float, float]
 ORIGIN: Point = (0.0, 0.0)
-# The names of all layers: of drawings, coupons, sheets and animations. Shapes that are not drawn
+HULL_ROUNDING = 1e-12  # radians, and mm: directions and points nearer to each other are one
+# The names of all layers: of drawings, sheets and animations. Shapes that are not drawn
 # have none.
 Layer: TypeAlias = Literal[
     "WHEEL", "CRANK", "ARM", "LINK", "FRAME", "GROOVE", "PITCH", "ROLLER", "BORE", "HUB", "SHAFT",
-    "COUPON", "ENGRAVE", "OUTLINE", "HIDDEN", "CENTER", "HATCH", "DIMENSION", "TEXT",
+    "OUTLINE", "HIDDEN", "CENTER", "HATCH", "DIMENSION", "TEXT",
     "GEAR", "SLOT", "HOLLOW", "",
 ]  # fmt: skip
 
@@ -119,11 +120,7 @@ def closed(layer: Layer, segments: Iterable[Segment]) -> Contour:
 
 
 def polygon(layer: Layer, corners: Sequence[Point]) -> Contour:
-    """A closed contour of lines between corners.
-
-    >>> len(polygon("", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]).segments)
-    3
-    """
+    """A closed contour of lines between corners."""
     after = [*corners[1:], corners[0]]
     return closed(layer, [Line(p, q) for p, q in zip(corners, after, strict=True)])
 
@@ -139,3 +136,46 @@ def backwards(contour: Contour) -> Contour:
         else:
             pieces.append(Line(piece.end, piece.start))
     return contour._replace(segments=tuple(pieces))
+
+
+def convex_hull(layer: Layer, circles: Sequence[Circle]) -> Contour:
+    """Convex hull of circles, counterclockwise: arcs on circles, and lines between them.
+
+    It touches a circle in the directions in which this circle reaches farthest. Going round, the
+    next circle takes over where both reach equally far, on their common tangent.
+    """
+    order = sorted(circles, key=lambda c: (c.centre[0] + c.radius, c.centre[1]))
+    here, turned = order[-1], 0.0  # the farthest along x
+    arcs: list[tuple[Circle, float, float]] = []
+    while turned < math.tau:
+        # the angle to the next circle, and that circle: a whole turn if there is none
+        step, far, after = math.tau, 0.0, here
+        for other in circles:
+            x, y = other.centre[0] - here.centre[0], other.centre[1] - here.centre[1]
+            apart, less = math.hypot(x, y), here.radius - other.radius
+            if apart <= abs(less) * (1.0 + HULL_ROUNDING) or other == here:
+                continue  # one circle holds the other
+            at = math.atan2(y, x) - math.acos(less / apart)
+            to = max((at - turned + HULL_ROUNDING) % math.tau - HULL_ROUNDING, 0.0)
+            if to < step - HULL_ROUNDING or (to < step + HULL_ROUNDING and apart > far):
+                step, far, after = to, apart, other
+        step = min(step, math.tau - turned)
+        if arcs and turned + step == math.tau and arcs[0][0] == here:
+            first, _, sweep = arcs[0]
+            arcs[0] = first, turned - math.tau, step + sweep  # the hull starts within this arc
+        else:
+            arcs.append((here, turned, step))
+        turned += step
+        here = after
+    pieces: list[Segment] = []
+    for circle, start, sweep in arcs:
+        arc = about(circle.centre, circle.radius, start, sweep)
+        if pieces and math.dist(pieces[-1].end, arc.start) > HULL_ROUNDING:
+            pieces.append(Line(pieces[-1].end, arc.start))
+        if len(arcs) == 1:
+            pieces += two_arcs(circle, start)
+        elif sweep > HULL_ROUNDING:
+            pieces.append(arc)
+    if len(arcs) > 1 and math.dist(pieces[-1].end, pieces[0].start) > HULL_ROUNDING:
+        pieces.append(Line(pieces[-1].end, pieces[0].start))
+    return closed(layer, pieces)

@@ -28,10 +28,7 @@ class LevelDistance(NamedTuple):
 
 
 class Annotations(NamedTuple):
-    """Annotations of a drawing for people: distances and rotations.
-
-    Rotations are arcs, with an arrow at their end.
-    """
+    """Distances of a drawing for people, and rotations as arcs with an arrow at their end."""
 
     spans: tuple[LevelDistance, ...] = ()
     turns: tuple[Arc, ...] = ()
@@ -40,10 +37,9 @@ class Annotations(NamedTuple):
 class Drawing(NamedTuple):
     """Shapes and a title.
 
-    ``look`` holds the annotations of a drawing for people; it is None for a drawing to cut from.
-    ``solid`` is the drawing as a solid, for formats of solids. ``shells`` replaces it if the
-    drawing is a flattened shell. ``tolerance`` is the greatest distance from it, in mm, that
-    chords of a mesh may have.
+    ``look`` has the annotations for people; it is None for a drawing to cut from. ``solid`` is the
+    drawing as a solid, replaced by ``shells`` if it is a flattened shell, and chords of a mesh are
+    within ``tolerance`` mm of it.
     """
 
     title: str
@@ -94,11 +90,7 @@ _OTHERS = {
 
 @lru_cache(maxsize=256)  # a text is tried at many places
 def width(text: str, bold: bool = False) -> float:
-    """Width of a text over the height of its capitals; unlisted letters count as the widest.
-
-    >>> round(width("20 H7"), 3)
-    3.716
-    """
+    """Width of a text over the height of its capitals; unlisted letters count as the widest."""
     known = _BOLD if bold else _ASCII
     widest = 1000  # for letters that are not listed
     units = sum(known[ord(c) - 32] if " " <= c <= "~" else _OTHERS.get(c, widest) for c in text)
@@ -203,7 +195,6 @@ class Sheet(NamedTuple):
     shapes: tuple[Shape, ...]
     labels: tuple[Label, ...]
     measures: tuple[Measure, ...]
-    units: str = "mm"  # of the dimensions' texts: mm or inch
 
     @property
     def texts(self) -> list[Label]:

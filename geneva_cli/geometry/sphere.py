@@ -23,8 +23,7 @@ POLE: Vector = (0.0, 0.0, 1.0)  # of the wheel in its own frame
 class SphereArc(NamedTuple):
     """An arc counterclockwise about an axis, ``angle`` radians from it; the axis is on its left.
 
-    An arc clockwise about an axis is counterclockwise about the opposite axis. An arc from a point
-    to itself is the whole circle.
+    An arc from a point to itself is the whole circle.
     """
 
     axis: Vector
@@ -121,23 +120,14 @@ class Rotation(NamedTuple):
 
 
 class Region(NamedTuple):
-    """The region to the left of one closed boundary, in one piece.
-
-    ``middle`` is a point within a quarter of the sphere from all of it.
-    """
+    """The region left of one closed boundary, within a quarter of the sphere from ``middle``."""
 
     boundary: tuple[SphereArc, ...]
     middle: Vector
 
     @property
     def area(self) -> float:
-        """Solid angle, by Gauss and Bonnet: 2 pi minus the turning of the boundary.
-
-        >>> pole, rim = (0.0, 0.0, 1.0), place(0.5, 0.0)
-        >>> cap = Region((SphereArc(pole, 0.5, rim, rim),), pole)
-        >>> abs(cap.area - math.tau * (1.0 - math.cos(0.5))) < 1e-15
-        True
-        """
+        """Solid angle, by Gauss and Bonnet: 2 pi minus the turning of the boundary."""
         turned = [math.cos(arc.angle) * arc.sweep for arc in self.boundary]
         for arc, after in zip(self.boundary, (*self.boundary[1:], self.boundary[0]), strict=True):
             if arc.start != arc.end:
@@ -232,11 +222,7 @@ class Cap(NamedTuple):
 def convex_hull(caps: Sequence[Cap]) -> Region:
     """Convex hull of caps that lie within a quarter of the sphere from the first one's middle.
 
-    As on a plane (``hull``), it has arcs of the caps' rims, and great circles that touch two caps.
-
-    >>> two = convex_hull([Cap((0.0, 0.0, 1.0), 0.2), Cap(place(0.6, 0.0), 0.1)])
-    >>> [round(arc.angle, 3) for arc in two.boundary]
-    [1.571, 0.1, 1.571, 0.2]
+    It has arcs of the caps' rims, and great circles that touch two caps.
     """
     leaving = [_tangents(i, caps) for i in range(len(caps))]
     first = next((tangents[0] for tangents in leaving if tangents), None)

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.sphere import Region, SphereArc
+from geneva_cli.geometry.sphere import Region, SphereArc, Vector, dot
 from geneva_cli.numerics.arrays import Array, Whole, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
@@ -21,9 +21,8 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE
 def _distances(off: Array, across: Array, beyond: Array) -> Array:
     """Return the angles between points and the nearest points of arcs.
 
-    ``off`` is the angle of a point from the arc's circle, ``beyond`` the angle about the axis by
-    which it is past the arc's end. ``across`` is the product of the sines of both angles from the
-    axis. In the triangle of axis, point and end this needs no difference of near numbers.
+    A point is ``off`` the arc's circle, and about the axis ``beyond`` the arc's end. ``across`` is
+    the product of the sines of both angles from the axis.
     """
     square = np.sin(0.5 * off) ** 2 + across * np.sin(0.5 * beyond) ** 2
     return 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
@@ -33,12 +32,6 @@ class SphereArcs:
     """A boundary of arcs, each from the end of the one before; its region is to its left.
 
     If it is not closed, it is a part of a boundary and continues smoothly at its ends.
-
-    >>> from geneva_cli.geometry.sphere import place
-    >>> cap = SphereArcs([SphereArc((0.0, 0.0, 1.0), 0.5, place(0.5, 0.0), place(0.5, 0.0))])
-    >>> away = cap.signed(np.array([place(0.7, 1.0), place(0.2, 2.0)]))
-    >>> away.round(12).tolist()  # outside, and inside
-    [0.2, -0.3]
     """
 
     def __init__(self, arcs: Sequence[SphereArc], closed: bool = True) -> None:
@@ -95,11 +88,7 @@ class SphereArcs:
         return off, past, short, _distances(off, np.sin(self.angle) * across, beyond)
 
     def facing(self, which: Whole, towards: Array) -> tuple[Whole, Array]:
-        """Points of some of the arcs that face directions (n, 3), or face away from them.
-
-        They are on the great circle through the arc's axis and the direction. The result is the
-        index of the direction for each point, and the points.
-        """
+        """Points of some arcs that face directions (n, 3), or away; the direction's index first."""
         along = (towards * self.x[which]).sum(axis=1)
         turn = np.arctan2((towards * self.y[which]).sum(axis=1), along)
         owner, points = [], []
@@ -112,10 +101,7 @@ class SphereArcs:
 
 
 class Circle(NamedTuple):
-    """A circle on the sphere, ``angle`` radians from its axis; x, y and the axis are unit vectors.
-
-    Azimuths on it are from x towards y.
-    """
+    """A circle on the sphere, ``angle`` radians from its axis, with azimuths from x towards y."""
 
     axis: Array
     x: Array
@@ -136,18 +122,14 @@ class Circle(NamedTuple):
 
 
 def farthest(boundary: SphereArcs, points: Array) -> Array:
-    """Return the distance from each point, (n, 3), to the farthest point of each arc, (n, k).
-
-    That is nearest to the opposite point.
-    """
+    """Return the distance from each point, (n, 3), to the farthest point of each arc, (n, k)."""
     return math.pi - boundary.distances(-points)
 
 
 def from_circle(boundary: SphereArcs, circle: Circle, middle: Array, half: Array) -> Array:
-    """Return the least distances of arcs of a circle from a boundary that they do not cross, (n,).
+    """Return the distances of arcs of a circle from a boundary that they do not cross, (n,).
 
-    The arcs are from azimuths ``middle - half`` to ``middle + half``. The distance is at a corner
-    of the boundary, at one of its points that face the circle's axis, or at an end of the arc.
+    They are from azimuths ``middle - half`` to ``middle + half``.
     """
     # two circles are nearest to each other on the great circle through both axes
     every = np.arange(len(boundary))
@@ -171,3 +153,54 @@ def short_arcs(regions: Iterable[Region], step: float) -> SphereArcs:
         ends = [arc.start, *[(x, y, z) for x, y, z in points.tolist()], arc.end]
         pieces += [SphereArc(arc.axis, arc.angle, *pair) for pair in pairwise(ends)]
     return SphereArcs(pieces)
+
+
+class RoundHole(NamedTuple):
+    """A cylinder about a direction from the centre; radius in mm, less than the spheres'.
+
+    The volume that it removes from a shell is in closed form, by c = sqrt(1 - (q/R)²), where it
+    meets a sphere.
+    """
+
+    axis: Vector
+    radius: float
+
+    def angle(self, sphere: float) -> float:
+        """Half the angle of the hole, seen from the centre, where it meets a sphere, radians."""
+        return math.asin(min(1.0, self.radius / sphere))
+
+    def volume(self, inner: float, outer: float) -> float:
+        """Volume between two spheres, mm³."""
+        return self._integrals(outer)[0] - self._integrals(inner)[0]
+
+    def first(self, inner: float, outer: float) -> float:
+        """Integral of the height along its axis, mm⁴."""
+        return 0.5 * math.pi * self.radius**2 * (outer - inner) * (outer + inner)
+
+    def inertia(self, inner: float, outer: float, about: Vector) -> float:
+        """The volume's moment of inertia about an axis through the centre, mm⁵."""
+        (_, far, up), (_, less, below) = self._integrals(outer), self._integrals(inner)
+        own, along = far - less, up - below
+        square = dot(self.axis, about) ** 2
+        return own * square + (0.5 * own + along) * (1.0 - square)
+
+    def _integrals(self, R: float) -> tuple[float, float, float]:
+        """Integrals of 1, and of the squares of the distance from the axis and of the height."""
+        square = (self.radius / R) ** 2
+        c = math.sqrt(1.0 - square)
+        left = square / (1.0 + c)  # 1 - c without cancellation
+        volume = math.tau / 3.0 * R**3 * left * (1.0 + c + c * c)
+        off = left * left * (((3.0 * c + 6.0) * c + 4.0) * c + 2.0)
+        up = left * ((((c + 1.0) * c + 1.0) * c + 1.0) * c + 1.0)
+        return volume, math.tau / 15.0 * R**5 * off, math.tau / 15.0 * R**5 * up
+
+
+def least_wall(within: Region, holes: Sequence[RoundHole], sphere: float) -> float:
+    """Return the least wall between holes, and from holes to a boundary, on a sphere, mm."""
+    angles = [hole.angle(sphere) for hole in holes]
+    away = SphereArcs(within.boundary).signed(np.array([hole.axis for hole in holes]))
+    least = float((-away - angles).min())
+    for (one, a), (other, b) in combinations(zip(holes, angles, strict=True), 2):
+        apart = 2.0 * math.asin(min(1.0, 0.5 * math.dist(one.axis, other.axis)))
+        least = min(least, apart - a - b)
+    return sphere * least

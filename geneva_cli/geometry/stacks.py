@@ -1,106 +1,23 @@
-"""The levels of turned parts, and the walls between the holes of a plate."""
+"""The walls between the holes of a plate."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
 from itertools import combinations
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.moments import area, oriented, with_material_left
-from geneva_cli.geometry.plates import Plate, Stack
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Shape, as_contour
-
-if TYPE_CHECKING:
-    from geneva_cli.geometry.plates import Edge
-
-
-Side: TypeAlias = Line | Arc
-
-
-class Run(NamedTuple):
-    """A piece of an outline, and the sense in which a face's edge runs along it."""
-
-    side: Side
-    forward: bool
-
-    @property
-    def piece(self) -> Side:
-        """The piece in the edge's sense."""
-        if self.forward:
-            return self.side
-        turned = self.side._replace(start=self.side.end, end=self.side.start)
-        return turned._replace(bulge=-turned.bulge) if isinstance(turned, Arc) else turned
-
-
-class Level(NamedTuple):
-    """A face across the axis: its loops of edges, the outer one first.
-
-    Seen against its normal, the face lies to the left of its edges.
-    """
-
-    z: float
-    loops: tuple[tuple[Run, ...], ...]
-    up: bool  # True if the material is below it
-
-
-def outline_of(plate: Plate) -> Contour:
-    """Return a plate's outline as lines and arcs, counterclockwise."""
-    return with_material_left(as_contour(plate.outline), True)
-
-
-def sides(contour: Contour) -> tuple[Side, ...]:
-    """Return the pieces of a turned part's outline, which has no cubics."""
-    return tuple(piece for piece in contour.segments if isinstance(piece, Line | Arc))
-
-
-def levels(stack: Stack) -> list[Level]:
-    """Return the faces across the axis of a turned part, from the lowest up.
-
-    >>> from geneva_cli.geometry.shapes import Circle
-    >>> wide, thin = Circle("", (0.0, 0.0), 5.0), Circle("", (0.0, 0.0), 4.0)
-    >>> plates = Plate("", "", wide, (), 0.0, 3.0), Plate("", "", thin, (), 3.0, 9.0)
-    >>> [(level.z, len(level.loops), level.up) for level in levels(Stack("", "", plates))]
-    [(0.0, 1, False), (3.0, 2, True), (9.0, 1, True)]
-    """
-    outlines = [outline_of(plate) for plate in stack.plates]
-    heights = [stack.low, *(plate.high for plate in stack.plates)]
-    pairs = zip([None, *outlines], [*outlines, None], heights, strict=True)
-    every = [_level(lower, upper, z) for lower, upper, z in pairs]
-    return [level for level in every if level.loops]
-
-
-def _level(lower: Contour | None, upper: Contour | None, z: float) -> Level:
-    below, above = (sides(one) if one else () for one in (lower, upper))
-    common = set(below) & set(above)
-    runs = [Run(side, True) for side in below if side not in common]
-    runs += [Run(side, False) for side in above if side not in common]
-    sizes = [area(one) if one else 0.0 for one in (lower, upper)]
-    starting = {run.piece.start: run for run in runs}
-    loops = []
-    while starting:  # edges end to end
-        loop = [starting.pop(next(iter(starting)))]
-        while loop[-1].piece.end != loop[0].piece.start:
-            loop.append(starting.pop(loop[-1].piece.end))
-        size = abs(area(Contour("", tuple(run.piece for run in loop))))
-        loops.append((size, tuple(loop)))
-    loops.sort(key=lambda each: each[0], reverse=True)
-    return Level(z, tuple(loop for _, loop in loops), sizes[0] > sizes[1])
-
+from geneva_cli.geometry.moments import with_material_left
+from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.shapes import Circle, Shape, as_contour
 
 FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
 
 
 def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
-    """Return the least wall between holes, and to an outline; negative where they overlap.
-
-    >>> least_wall([Circle("", (0.0, 0.0), 2.0), Circle("", (9.0, 0.0), 3.0)])
-    4.0
-    """
+    """Return the least wall between holes, and to an outline; negative where they overlap."""
     least = [apart(one, two) for one, two in combinations(holes, 2)]
     if outline:
         whole = _boundary(outline)
@@ -138,27 +55,3 @@ def _points(hole: Shape) -> np.ndarray:
 
 def _boundary(shapes: Iterable[Shape]) -> Polyarc:
     return Polyarc([with_material_left(as_contour(shape), True) for shape in shapes])
-
-
-def require_faces(plate: Plate) -> None:
-    """Raise GenevaError, naming the key, where the plate's edge cuts off a piece of a face."""
-    edge = plate.edge
-    if not edge.size:
-        return
-    from geneva_cli.geometry.inset import inset, lines_and_arcs
-
-    try:
-        for contour in oriented(plate.outline, plate.holes):
-            inset(lines_and_arcs(contour), "", edge.size)
-    except GenevaError as error:
-        raise _no_edge(edge, str(error)) from None
-    wall = plate_wall(plate)
-    if wall <= 0.0:
-        raise _no_edge(edge, f"holes of the {plate.name} leave no wall to round or chamfer")
-    if wall <= 2.0 * edge.size:
-        says = f"the {plate.name} has a wall of {wall:.4g} mm; it must be below {0.5 * wall:.4g}"
-        raise _no_edge(edge, says)
-
-
-def _no_edge(edge: Edge, says: str) -> GenevaError:
-    return GenevaError(f"{edge.key} = {edge.size:g}: {says}", ("size", edge.key))

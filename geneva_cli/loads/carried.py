@@ -53,21 +53,6 @@ def inertia_kgm2(spec: Spec) -> float:
     return own + ratio * ratio * sum(map(mass_inertia_kgm2, spec.mass))
 
 
-def unbalance_kgm(spec: Spec) -> tuple[float, float]:
-    """Mass times distance from the wheel's axis of single bodies, kg m, as a vector.
-
-    x is along the first slot, which holds the finger at mid-motion, and y turns ahead of it. Two or
-    more equal bodies are spaced evenly, and balance each other.
-    """
-    along = across = 0.0
-    for mass in spec.mass:
-        if mass.to_one_side:
-            moment, turn = weight_kg(mass) * mass.radius_mm * MM, math.radians(mass.angle_deg)
-            along += moment * math.cos(turn)
-            across += moment * math.sin(turn)
-    return along, across
-
-
 def carried_kg(spec: Spec) -> float:
     """The mass of all bodies on the table, kg."""
     return sum(mass.count * weight_kg(mass) for mass in spec.mass)

@@ -13,7 +13,7 @@ import numpy as np
 from geneva_cli.loads.forces import Contact
 from geneva_cli.motion.engagement import Engagement, Vector
 from geneva_cli.numerics.arrays import all_true, choose, library
-from geneva_cli.numerics.jet import Jet, Number, sin_cos, sqrt
+from geneva_cli.numerics.jet import Jet, Number, sqrt
 
 NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
 
@@ -31,10 +31,10 @@ def contact(
     assert order == 0
     middle = input_deg == 0.0
     near = choose(middle, NEAR_CUSP * engagement.entry_deg, input_deg)
-    both = zip(_middle(engagement), _moving(engagement, near, 0, False)[:-2], strict=True)
+    both = zip(_middle(engagement), _moving(engagement, near, 0, False)[:-1], strict=True)
     jets = [Jet((choose(middle, own, jet.c[0]),)) for own, jet in both]
     joints = _reactions(engagement, input_deg, jets[2], jets[3]) if reactions else None
-    return Contact._make([*jets, joints, None])
+    return Contact._make([*jets, joints])
 
 
 def _moving(engagement: Engagement, x: Number, order: int, reactions: bool) -> Contact[Jet]:
@@ -55,11 +55,8 @@ def _moving(engagement: Engagement, x: Number, order: int, reactions: bool) -> C
     crank = constant + (body if engagement.on_arm else engagement.shaft_rate(x, order))
     arm = (constant + upright) * touches
     joints = _reactions(engagement, x, lever, offset) if reactions else None
-    heading = None
-    if engagement.mid_angle is not None:
-        heading = sin_cos(engagement.motion(x, order) + engagement.mid_angle)
     slot = lever, offset, along, curvature
-    return Contact(velocity, acceleration, *slot, spin, arm, touches, crank, joints, heading)
+    return Contact(velocity, acceleration, *slot, spin, arm, touches, crank, joints)
 
 
 def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
@@ -125,7 +122,7 @@ def _crossing(engagement: Engagement) -> list[Number]:
     The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
     """
     values, before = (
-        [jet.c[0] for jet in _moving(engagement, x, 0, False)[:-2]]
+        [jet.c[0] for jet in _moving(engagement, x, 0, False)[:-1]]
         for x in (0.0, NEAR_CUSP * engagement.entry_deg)
     )
     lever, along = (Contact._fields.index(name) for name in ("lever", "along"))

@@ -17,7 +17,7 @@ import numpy as np
 
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.contact import contact
-from geneva_cli.loads.cycle_quantities import multiples, plain_of
+from geneva_cli.loads.cycle_quantities import FORCE, QUANTITIES, WALL_FORCE, multiples, plain_values
 from geneva_cli.loads.forces import LoadCase, contact_values
 from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads
 from geneva_cli.loads.load_case import load_case
@@ -67,16 +67,15 @@ class Cycle:
         A force without a bound is infinite. It is so where friction alone holds the wheel, and at
         mid-motion of a curved slot that lies across the roller's path.
         """
-        from geneva_cli.motion.motion_table import local_deg, spans
+        from geneva_cli.motion.motion_table import spans
 
         out: dict[str, Array | None] = {
             name: np.zeros(len(input_deg)) for name in INSTANT_QUANTITIES
         }
         for span in spans(self.mechanism, input_deg):
-            local = local_deg(span, input_deg)
-            if not len(local):
+            if not len(span.local):
                 continue
-            for name, row in self.moving(span.engagement, local).quantities().items():
+            for name, row in self.moving(span.engagement, span.local).quantities().items():
                 total = out[name]
                 if row is None or total is None:
                     out[name] = None
@@ -115,7 +114,8 @@ class Cycle:
         """Return a quantity of ``known``, or a multiple of one, at states of the cycle."""
         source, factor, _ = multiples(self.mechanism).get(name, (name, 1.0, ""))
         assert factor is not None  # known quantities have a factor
-        return plain_of(states, source) * factor
+        signed = WALL_FORCE if source == FORCE else source
+        return plain_values(QUANTITIES[signed](states).value, source) * factor
 
     @cached_property
     def known(self) -> Mapping[str, LoadSummary[Array]]:

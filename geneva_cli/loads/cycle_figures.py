@@ -1,29 +1,19 @@
-"""The curves of one or more machines over a cycle: motion and loads by the input angle.
-
-Each smooth piece of a curve is sampled separately, with both ends from inside, so that a jump has
-both its values. Peaks are those of the analysis, never the highest of the samples.
-"""
+"""The curves of one or more machines over a cycle: motion and loads by the input angle."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
-from typing import NamedTuple, TypeAlias
-
-import numpy as np
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
-from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
+from geneva_cli.figure import Axis, Curve, Figure, Panel
 from geneva_cli.loads import load_tables
 from geneva_cli.loads.cycle import Cycle
-from geneva_cli.loads.cycle_quantities import FORCE, WALL_FORCE, sources
-from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
-from geneva_cli.loads.stages import MOTION_QUANTITIES, Stage, load_stages, motion_stages, pieces
-from geneva_cli.motion import peaks
+from geneva_cli.loads.cycle_curves import MOTION_QUANTITIES, Drawn, drawn, rests
+from geneva_cli.loads.cycle_quantities import sources
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg
-from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
 MACHINES_MAX = 6  # machines in one figure that the eye can tell apart
 AXES = (
@@ -63,16 +53,7 @@ USUAL_QUANTITIES = (  # besides the wheel's angle or the rack's travel
     "power_W",
 )
 
-
 LeftOut: TypeAlias = tuple[str, str]  # a machine's name, and a sentence on what it lacks
-
-
-class MachineCurves(NamedTuple):
-    """Some quantities of a machine over the window: the pieces, marks and bounds of each."""
-
-    pieces: dict[str, list[Piece]]
-    marks: dict[str, tuple[Mark, ...]]
-    bounds: dict[str, tuple[float, float]]
 
 
 def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figure, list[LeftOut]]:
@@ -109,31 +90,32 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
     machines = [cycle.mechanism for cycle in cycles.values()]
     start = min(first_entry_deg(m) for m in machines)
     window = start, start + max(m.period_deg for m in machines)
-    drawn = {
-        design: _drawn(cycle, [n for n in shown if n in has[design]], window)
+    curves = {
+        design: drawn(cycle, [n for n in shown if n in has[design]], window)
         for design, cycle in cycles.items()
     }
-    panels = tuple(_panel(_axis(name, machines), drawn) for name in shown)
-    axis, rests = Axis("input_deg", "Input angle", "deg"), tuple(_rests(machines, window))
+    panels = tuple(_panel(name, machines, curves) for name in shown)
     left = []
     for design, cycle in cycles.items():
         names = requested if cycle.is_loaded else shown  # forces are not expected without a load
-        lacking = [n for n in names if n not in has[design] and n not in outputs]
-        left += [(design, line) for line in _left_out(cycle, lacking)]
+        reasons: dict[str, list[str]] = {}
+        for name in names:
+            if name not in has[design] and name not in outputs:
+                reasons.setdefault(_why(cycle, name), []).append(name)
+        for why, lacking in reasons.items():
+            text = f"no curve of {', '.join(lacking)}: {why}"
+            left.append((design, Notice("not-known", text)))
     spec, noun = machines[0].spec, machines[0].output.noun
     title = spec.title or spec.path or f"Geneva {noun} of {spec.wheel.z} slots"
     if len(machines) > 1:
         title = f"{len(machines)} designs over a cycle"
-    return Figure(title, axis, panels, window, rests), left
-
-
-def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
-    """Sentences on the curves that a figure lacks for a machine, one for each reason."""
-    reasons: dict[str, list[str]] = {}
-    for name in names:
-        reasons.setdefault(_why(cycle, name), []).append(name)
-    for why, lacking in reasons.items():
-        yield Notice("not-known", f"no curve of {', '.join(lacking)}: {why}")
+    return Figure(
+        title,
+        Axis("input_deg", "Input angle", "deg"),
+        panels,
+        window,
+        tuple(rests(machines, window)),
+    ), left
 
 
 def _why(cycle: Cycle, name: str) -> str:
@@ -150,138 +132,22 @@ def _why(cycle: Cycle, name: str) -> str:
     return f'gearing = "{cycle.mechanism.spec.wheel.NAME}" has another quantity instead'
 
 
-def _axis(name: str, machines: Sequence[Mechanism]) -> Axis:
-    """The axis of a quantity; its label names the part that moves, if it is the same in all."""
+def _panel(
+    name: str, machines: Sequence[Mechanism], drawn: Mapping[str, Mapping[str, Drawn]]
+) -> Panel:
+    """The curves of a quantity; its label names the part that moves, if it is the same in all."""
     axis, output = AXIS_BY_NAME[name], machines[0].output
-    if any(machine.output.noun != output.noun for machine in machines):
-        return axis
-    label = axis.label.replace("wheel, relative to the input", f"wheel, {output.invariants}")
-    label = label.replace("wheel", output.noun).replace("Wheel", output.noun.capitalize())
-    return axis._replace(label=label)
-
-
-def _panel(axis: Axis, drawn: Mapping[str, MachineCurves]) -> Panel:
-    """The curves of a quantity."""
-    name = axis.name
+    if all(machine.output.noun == output.noun for machine in machines):
+        label = axis.label.replace("wheel, relative to the input", f"wheel, {output.invariants}")
+        label = label.replace("wheel", output.noun).replace("Wheel", output.noun.capitalize())
+        axis = axis._replace(label=label)
     curves: list[Curve] = []
-    bounds: list[float] = []
+    ends: list[float] = []
     for number, (design, own) in enumerate(drawn.items()):
-        if name in own.pieces:
-            marks = own.marks[name]
+        if name in own:
+            pieces, marks, bounds = own[name]
             if len(drawn) > 1 and marks:  # one mark for each design: the greater in size
                 marks = (max(marks, key=lambda m: math.inf if m.y is None else abs(m.y)),)
-            curves.append(Curve(number, design, tuple(own.pieces[name]), marks))
-            bounds += own.bounds.get(name, ())
-    return Panel(axis, tuple(curves), (min(bounds), max(bounds)) if bounds else None)
-
-
-def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> MachineCurves:
-    machine = cycle.mechanism
-    column, per_radian = machine.output.column, machine.output.per_radian
-    moves = [n for n in names if n in (column, *MOTION_QUANTITIES)]
-    loads = [n for n in names if n not in moves]
-    step = sum(2.0 * e.half_step for e in machine.engagements) * per_radian
-    out = MachineCurves({}, {}, {})
-    if moves:
-        stages = list(motion_stages(machine, moves))
-        rise = [step if n == column else 0.0 for n in moves]
-        curves = pieces(stages, machine.period_deg, window, rise)
-        out.pieces.update(zip(moves, curves, strict=True))
-        out.marks.update((n, _peak(machine, n, i, stages, window)) for i, n in enumerate(moves))
-    if loads:
-        ends = {name: cycle.extremes[name] for name in loads}
-        if FORCE in ends:  # drawn with the sign of the wall that bears
-            force = load_summaries(cycle.mechanism, [WALL_FORCE], ())[WALL_FORCE]
-            ends[FORCE] = LoadSummary(*(float(row[0]) for row in force[:4]))
-        out.bounds.update(_bounds(cycle, ends))
-        stages = list(load_stages(cycle, loads, out.bounds))
-        curves = pieces(stages, machine.period_deg, window, [0.0] * len(loads))
-        out.pieces.update(zip(loads, curves, strict=True))
-        for name, bounds in out.bounds.items():
-            out.pieces[name] = [cut for p in out.pieces[name] for cut in _within(p, bounds)]
-        out.marks.update((n, tuple(_ends(machine, ends[n], window))) for n in loads)
-    return out
-
-
-def _peak(
-    machine: Mechanism, name: str, row: int, stages: Sequence[Stage], window: tuple[float, float]
-) -> tuple[Mark, ...]:
-    """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle."""
-    if name == machine.output.column:
-        return ()
-    peak = peaks.worst_of(machine, name)
-    first = first_entry_deg(machine)
-    x = _placed(machine, peak.at_deg, (first, first))
-    values = [
-        float(stage.of(np.array([x]))[row, 0])
-        for stage in stages
-        if stage.start - SAME_INPUT_DEG <= x <= stage.end + SAME_INPUT_DEG
-    ]
-    nearest_to = min(values, key=lambda value: abs(abs(value) - peak.max))
-    y = math.copysign(peak.max, nearest_to)
-    return (Mark("peak", _placed(machine, peak.at_deg, window), y),)
-
-
-def _ends(
-    machine: Mechanism, ends: LoadSummary[float], window: tuple[float, float]
-) -> Iterator[Mark]:
-    """The greatest value of a load and, if it goes below 0, the least."""
-    size = max(abs(ends.max), abs(ends.min))
-    for word, value, at_deg, shown in (
-        ("max", ends.max, ends.max_at_deg, ends.max > ROUNDED * size),
-        ("min", ends.min, ends.min_at_deg, ends.min < -ROUNDED * size),
-    ):
-        if shown or math.isinf(value):
-            y = value if math.isfinite(value) else None
-            yield Mark(word, _placed(machine, at_deg, window), y)
-
-
-def _placed(machine: Mechanism, at_deg: float, window: tuple[float, float]) -> float:
-    """An input angle as displayed, moved by whole turns to its first place in the window."""
-    whole = machine.whole_deg
-    return at_deg + whole * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / whole)
-
-
-def _bounds(cycle: Cycle, ends: Mapping[str, LoadSummary[float]]) -> dict[str, tuple[float, float]]:
-    """The visible range of each unbounded load, from its sizes half-way between cuts."""
-    out = {}
-    for name, (top, _, low, *_) in ends.items():
-        if math.isfinite(top) and math.isfinite(low):
-            continue
-        sizes = []
-        for engagement, stretch in cycle.stretches:
-            middle = np.array([0.5 * (stretch.start + stretch.end)])
-            here = cycle.plain(cycle.along(engagement, stretch, middle), name)
-            sizes.append(abs(float(here[0])))
-        # an unbounded load is visible up to three times its typical size
-        high = 3.0 * max((size for size in sizes if math.isfinite(size)), default=1.0)
-        out[name] = -high if math.isinf(low) else low, high if math.isinf(top) else top
-    return out
-
-
-def _within(piece: Piece, bounds: tuple[float, float]) -> Iterator[Piece]:
-    """A piece that was limited to bounds, without its parts along them."""
-    x, y = piece
-    begin = 0
-    for i, (a, b) in enumerate(pairwise(y), 1):
-        if a == b and a in bounds:
-            if i - begin > 1:
-                yield x[begin:i], y[begin:i]
-            begin = i
-    if len(x) - begin > 1 or len(x) == 1:
-        yield x[begin:], y[begin:]
-
-
-def _rests(
-    machines: Sequence[Mechanism], window: tuple[float, float]
-) -> Iterator[tuple[float, float]]:
-    """The stretches in which all machines rest."""
-    common = [window]
-    for machine in machines:
-        dwells = [(s.start, s.end) for s in motion_stages(machine, []) if s.flat]
-        period = machine.period_deg
-        turns = range(-1, 2 + int((window[1] - window[0]) // period))
-        own = [(a + k * period, b + k * period) for k in turns for a, b in dwells]
-        both = [(max(a, c), min(b, d)) for a, b in common for c, d in own]
-        common = [(a, b) for a, b in both if b - a > SAME_INPUT_DEG]
-    yield from common
+            curves.append(Curve(number, design, tuple(pieces), marks))
+            ends += bounds or ()
+    return Panel(axis, tuple(curves), (min(ends), max(ends)) if ends else None)

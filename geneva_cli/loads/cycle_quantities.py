@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from geneva_cli.loads.forces import QuantityValue
+from geneva_cli.loads.forces import QuantityValue, lesser
 from geneva_cli.loads.load_case import load_case
 
 if TYPE_CHECKING:
@@ -43,19 +43,38 @@ class Quantity(Protocol):
         """The quantity, and the margin that bounds it."""
 
 
+def _stress(i: Instant[V]) -> QuantityValue[V]:
+    """The square of the contact stress, MPa²."""
+    friction, edge = i.friction_margin, i.edge
+    assert i.stress_squared is not None and edge is not None  # there is a face width
+    return QuantityValue(i.stress_squared, edge if friction is None else lesser(friction, edge))
+
+
+def _pressure_speed(i: Instant[V]) -> QuantityValue[V]:
+    """The square of p v, greatest Hertz pressure times sliding, W²/m⁴."""
+    stress = _stress(i)
+    return stress._replace(value=stress.value * (i.sliding_m_s * i.sliding_m_s * 1e12))
+
+
+def _guide(i: Instant[V]) -> QuantityValue[V]:
+    """The square of the guide's force, N²."""
+    assert i.guide_squared is not None  # there is a guide
+    return QuantityValue(i.guide_squared, i.grip)
+
+
 QUANTITIES: dict[str, Quantity] = {
     "omega_rad_s": lambda i: QuantityValue(i.omega_rad_s),
     "alpha_rad_s2": lambda i: QuantityValue(i.alpha_rad_s2),
     "wheel_torque_Nm": lambda i: QuantityValue(i.wheel_torque_Nm),
     FORCE: lambda i: QuantityValue(i.force_N, i.grip),
     WALL_FORCE: lambda i: QuantityValue(i.pin_force_N, i.grip, i.drives),
-    STRESS: lambda i: i.stress,
+    STRESS: _stress,
     "sliding_m_s": lambda i: QuantityValue(i.sliding_m_s),
     TORQUE: lambda i: QuantityValue(i.input_torque_Nm, i.friction_margin),
     "wheel_bearing_N": lambda i: QuantityValue(i.wheel_bearing_N, i.grip),
     "crank_bearing_N": lambda i: QuantityValue(i.crank_bearing_squared, i.grip),
-    PV: lambda i: i.pressure_speed,
-    "guide_force_N": lambda i: i.guide,
+    PV: _pressure_speed,
+    "guide_force_N": _guide,
 }
 
 
@@ -103,12 +122,6 @@ def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
         if factor is not None and source in known:
             out[name] = source, factor
     return {name: of for name, of in out.items() if name not in mechanism.output.lacks}
-
-
-def plain_of(i: Instant[Array], name: str) -> Array:
-    """The values of a quantity at an instant with their signs, not their squares."""
-    signed = WALL_FORCE if name == FORCE else name
-    return plain_values(QUANTITIES[signed](i).value, name)
 
 
 def plain_values(values: Array, name: str) -> Array:

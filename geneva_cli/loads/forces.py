@@ -8,7 +8,7 @@ from typing import Generic, NamedTuple, Protocol
 import numpy as np
 
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import Mask, N, Whole, all_true, choose, designs_of, library
+from geneva_cli.numerics.arrays import Mask, N, Whole, all_true, choose, library
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 from geneva_cli.spec.workshops import Stock
 
@@ -31,16 +31,13 @@ class Contact(NamedTuple, Generic[V]):
     # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
     # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
     reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
-    # Sine and cosine of the wheel's angle since the first mid-motion; None where no load needs it.
-    heading: tuple[V, V] | None = None
 
 
 def contact_values(at: Contact[Jet]) -> Contact[Array]:
     """The values of a contact's jets."""
-    *jets, joints, heading = at
+    *jets, joints = at
     reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
-    turned = heading and tuple(jet.c[0] for jet in heading)
-    return Contact._make([*[jet.c[0] for jet in jets], reactions, turned])
+    return Contact._make([*[jet.c[0] for jet in jets], reactions])
 
 
 class Guide(Protocol):
@@ -71,57 +68,43 @@ class LoadCase(NamedTuple):
     hertz: float | None
     # turns of the wheel's frame in one turn of the input, positive as the wheel turns in it
     frame: float = 0.0
-    # moment of a body off the axis of a wheel on a carrier, times L w²: along the first slot, and
-    # ahead of it
-    along_Nm: float = 0.0
-    across_Nm: float = 0.0
     guide: Guide | None = None  # in which the output slides
     design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
 
     @property
     def designs(self) -> int:
         """The number of designs in the load case."""
-        return designs_of(self.design)
+        return 1 if isinstance(self.design, int) else len(self.design)
 
     def at_speed(self, ratio: float) -> LoadCase:
-        """Return the case at another speed, over its own: inertia grows with the square."""
-        square = ratio * ratio
-        return self._replace(
-            inertia_Nm=self.inertia_Nm * square,
-            along_Nm=self.along_Nm * square,
-            across_Nm=self.across_Nm * square,
-        )
+        """The case at another speed, over its own: inertia grows with the square."""
+        return self._replace(inertia_Nm=self.inertia_Nm * (ratio * ratio))
 
     @property
     def rubs(self) -> bool:
-        """Return True if there is friction along the wall in any of the designs."""
+        """True if there is friction along the wall in any of the designs."""
         return not all_true(self.friction == 0.0)
 
     def is_loaded(self, engagement: Engagement, torque: Number) -> Mask:
-        """Return True where a torque at the wheel is more than rounding."""
+        """True where a torque at the wheel is more than rounding."""
         usual = self.inertia_Nm * engagement.usual_acceleration + self.resists_Nm
         loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
         return loaded
 
     @property
     def frictionless(self) -> LoadCase:
-        """Return the case without friction."""
+        """The case without friction."""
         return self._replace(friction=0.0, guide=None)
 
     @property
     def guided(self) -> bool:
-        """Return True if there is friction in the output's guide in any of the designs."""
-        return not all_true(self.guide_friction == 0.0)
-
-    @property
-    def guide_friction(self) -> float:
-        """The friction in the output's guide; 0 without one."""
-        return self.guide.friction if self.guide else 0.0
+        """True if there is friction in the output's guide in any of the designs."""
+        return self.guide is not None and not all_true(self.guide.friction == 0.0)
 
     @property
     def all_friction(self) -> float:
         """A number that is above 0 for a design with any friction, which may hold the wheel."""
-        return self.friction + self.guide_friction
+        return self.friction + self.guide.friction if self.guide else self.friction
 
 
 def contact_modulus_GPa(one: Stock, other: Stock) -> float:

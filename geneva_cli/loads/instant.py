@@ -20,7 +20,7 @@ from typing import Generic, Protocol, Self
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.forces import Contact, LoadCase, QuantityValue, contact_values, lesser, value
+from geneva_cli.loads.forces import Contact, LoadCase, QuantityValue, contact_values, value
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 
@@ -97,43 +97,24 @@ class Instant(Generic[V]):
         return self.at.acceleration * (w * w)
 
     @cached_property
-    def _centrifugal_Nm(self) -> tuple[V, V] | None:
-        """The unbalance times L w², towards the carrier's axis and across; None without any."""
-        if self.at.heading is None:
-            return None
-        (sine, cosine), case = self.at.heading, self.case
-        towards = cosine * case.along_Nm - sine * case.across_Nm
-        return towards, sine * case.along_Nm + cosine * case.across_Nm
-
-    @cached_property
     def wheel_torque_Nm(self) -> V:
-        """The torque that the wheel needs for inertia and resistance, N m.
-
-        On a carrier, the centrifugal force of a body off the wheel's axis points away from the
-        carrier's axis. Its moment helps the wheel, times the sine of the body's angle from there.
-        """
-        torque = self.at.acceleration * self.case.inertia_Nm + self.case.resists_Nm
-        return torque - self._centrifugal_Nm[1] if self._centrifugal_Nm else torque
+        """The torque that the wheel needs for inertia and resistance, N m."""
+        return self.at.acceleration * self.case.inertia_Nm + self.case.resists_Nm
 
     @cached_property
     def frame_torque_Nm(self) -> V:
-        """The torque on the carrier that does not go through the wheel's slot, N m.
-
-        It speeds the wheel up against the ground. A body off the wheel's axis also moves away from
-        the carrier's axis and back (Coriolis).
-        """
-        at, frame = self.at, self.case.frame
-        torque = at.acceleration * (self.case.inertia_Nm * frame)
-        if self._centrifugal_Nm is None:
-            return torque
-        towards, across = self._centrifugal_Nm
-        turning = at.velocity * (at.velocity * frame + 2.0)
-        return torque + across * turning - towards * at.acceleration * frame
+        """The torque on the carrier that speeds the wheel up against the ground, N m."""
+        return self.at.acceleration * (self.case.inertia_Nm * self.case.frame)
 
     @cached_property
     def slip(self) -> V:
         """Speed at which the roller rubs along the wall, over L, per input radian."""
         return self.at.along - self.at.spin * (self.drives * self.case.radius)
+
+    @cached_property
+    def sliding_m_s(self) -> V:
+        """Sliding speed along the wall of a roller that is fixed to its pin, m/s."""
+        return self.slip * (self.case.L * self.case.speed_rad_s) * self.at.touches
 
     @cached_property
     def _slot_grip(self) -> V:
@@ -145,17 +126,29 @@ class Instant(Generic[V]):
         return at.lever + rub * (at.offset * self.drives - at.arm * case.radius)
 
     @cached_property
-    def grip(self) -> V:
-        """Torque on the wheel over L times the pin force, the margin of all forces."""
-        if not (self.case.guide and self.case.guided):
-            return self._slot_grip
-        return self._slot_grip - self._drag * self.drives
-
-    @cached_property
     def _drag(self) -> V:
         """Friction in the guide over the pin's force."""
         assert self.case.guide is not None  # known to be there
         return self.case.guide.drag(self.case, self.at, self.drives, self.slides)
+
+    @cached_property
+    def grip(self) -> V:
+        """Torque on the wheel over L times the pin force, the margin of all forces."""
+        return self._slot_grip - self._drag * self.drives if self.case.guided else self._slot_grip
+
+    @property
+    def leaning(self) -> V | None:
+        """A value at whose changes of sign the friction in a guide has a corner."""
+        guide = self.case.guide
+        return guide and guide.leaning(self.case, self.at, self.drives, self.slides)
+
+    @cached_property
+    def friction_margin(self) -> V | None:
+        """Margin of quantities that only friction makes unbounded; None without friction."""
+        if not (self.case.rubs or self.case.guided):
+            return None
+        free = self.case.all_friction == 0.0  # designs of the batch, whose margin is infinite
+        return self.grip + np.where(free, np.inf, 0.0) if np.any(free) else self.grip
 
     @cached_property
     def feeding(self) -> V:
@@ -179,20 +172,12 @@ class Instant(Generic[V]):
         """Pin force on the wall that bears, N, with its sign."""
         return self.force_N * self.drives
 
-    @property
-    def leaning(self) -> V | None:
-        """A value at whose changes of sign the friction in a guide has a corner."""
-        guide = self.case.guide
-        if guide is None:
-            return None
-        return guide.leaning(self.case, self.at, self.drives, self.slides)
-
     @cached_property
     def edge(self) -> V | None:
         """1 - curvature of the bearing wall's pitch curve times the roller's radius.
 
         A wall at the roller's radius r from its pitch curve, of curvature k towards the wall, has
-        1/R_e = 1/r + k/(1 - k r) = 1/(r (1 - k r)).
+        1/R_e = 1/r + k/(1 - k r) = 1/(r (1 - k r)). None without a face width.
         """
         if self.case.hertz is None:
             return None
@@ -206,16 +191,11 @@ class Instant(Generic[V]):
         return self.force_N * self.at.touches * self.case.hertz / self.edge
 
     @cached_property
-    def sliding_m_s(self) -> V:
-        """Sliding speed along the wall of a roller that is fixed to its pin, m/s."""
-        return self.slip * (self.case.L * self.case.speed_rad_s) * self.at.touches
-
-    @cached_property
     def rubbed_Nm(self) -> V:
         """The part of the input's torque that friction takes, in the slot and in a guide, N m."""
         rub = self.at.touches * (self.case.friction * self.slides)
         torque = self.force_N * rub * self.slip * self.case.L
-        if self.case.guide and self.case.guided:
+        if self.case.guided:
             torque = torque + self.force_N * self._drag * self.at.velocity * self.case.L
         # designs of the batch without friction, whose force may be infinite
         free = self.case.all_friction == 0.0
@@ -234,13 +214,19 @@ class Instant(Generic[V]):
 
     @cached_property
     def lossless_torque_Nm(self) -> V:
-        """Torque of the input shaft before the efficiency, N m.
-
-        A carrier also takes the torque that speeds up the wheel against the ground.
-        """
+        """Torque of the input shaft before the efficiency, N m."""
         if all_true(self.case.frame == 0.0):
             return self.slot_torque_Nm
         return self.slot_torque_Nm + self.frame_torque_Nm
+
+    @property
+    def _losses(self) -> Number:
+        """Ratio of the input's torque to that without losses.
+
+        The efficiency counts where the input drives. Where the wheel drives, the losses are not
+        known to exist and reduce nothing: a brake must hold all of the torque.
+        """
+        return 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
 
     @cached_property
     def input_torque_Nm(self) -> V:
@@ -255,6 +241,11 @@ class Instant(Generic[V]):
         standing shaft of the finger, which does not speed the wheels up against the ground.
         """
         return self.slot_torque_Nm * self._losses / self.at.crank
+
+    @property
+    def _rub(self) -> Number:
+        """Ratio of the force along the wall to the force on it."""
+        return self.case.friction * value(self.at.touches)
 
     @cached_property
     def wheel_bearing_N(self) -> V:
@@ -272,46 +263,6 @@ class Instant(Generic[V]):
     def guide_squared(self) -> V | None:
         """The square of the guide's reaction (rocker, slider, groove, fixed gear), N²; or None."""
         return None if self.at.reactions is None else self._reaction(1)
-
-    @cached_property
-    def friction_margin(self) -> V | None:
-        """Margin of quantities that only friction makes unbounded; None without friction."""
-        if not (self.case.rubs or self.case.guided):
-            return None
-        free = self.case.all_friction == 0.0  # designs of the batch, whose margin is infinite
-        return self.grip + np.where(free, np.inf, 0.0) if np.any(free) else self.grip
-
-    @property
-    def stress(self) -> QuantityValue[V]:
-        """The square of the contact stress, MPa², and its margin."""
-        friction, edge = self.friction_margin, self.edge
-        assert self.stress_squared is not None and edge is not None  # there is a face width
-        margin = edge if friction is None else lesser(friction, edge)
-        return QuantityValue(self.stress_squared, margin)
-
-    @property
-    def pressure_speed(self) -> QuantityValue[V]:
-        """The square of p v, greatest Hertz pressure times sliding, W²/m⁴, and its margin."""
-        stress = self.stress
-        return stress._replace(value=stress.value * (self.sliding_m_s * self.sliding_m_s * 1e12))
-
-    @property
-    def guide(self) -> QuantityValue[V]:
-        """The square of the guide's force, N², and its margin."""
-        assert self.guide_squared is not None  # there is a guide
-        return QuantityValue(self.guide_squared, self.grip)
-
-    @property
-    def _losses(self) -> Number:
-        """Ratio of the input's torque to that without losses."""
-        # The efficiency counts where the input drives. Where the wheel drives, the losses are not
-        # known to exist and reduce nothing: a brake must hold all of the torque.
-        return 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
-
-    @property
-    def _rub(self) -> Number:
-        """Ratio of the force along the wall to the force on it."""
-        return self.case.friction * value(self.at.touches)
 
     def _reaction(self, joint: int) -> V:
         """The square of the reaction of a joint that holds the roller's body.
@@ -339,7 +290,8 @@ def bounded(here: Instant[Array]) -> Instant[Array]:
         endless += [] if here.guide_squared is None else ["guide_squared"]
         if here.friction_margin is not None:
             endless += ["input_torque_Nm", "rubbed_Nm"]
-        out |= {name: np.where(is_held, getattr(here, name), bound) for name in endless}
+        for name in endless:
+            out[name] = np.where(is_held, getattr(here, name), bound)
         out["pin_force_N"] = np.where(is_held, here.pin_force_N, bound * here.drives)
         if here.edge is not None and here.stress_squared is not None:
             is_pressed = is_held & (here.edge > 0.0)

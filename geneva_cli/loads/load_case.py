@@ -7,13 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from geneva_cli.loads.carried import (
-    MM,
-    carried_kg,
-    inertia_kgm2,
-    resisting_torque_Nm,
-    unbalance_kgm,
-)
+from geneva_cli.loads.carried import carried_kg, inertia_kgm2, resisting_torque_Nm
 from geneva_cli.loads.forces import LoadCase, contact_modulus_GPa
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
@@ -43,7 +37,6 @@ def load_case(mechanism: Mechanism) -> LoadCase:
         load.efficiency,
         hertz,
         mechanism.frame,
-        *unbalance_Nm(mechanism),
         design=mechanism.design,
     )
     complete: Callable[[Mechanism, LoadCase], LoadCase] | None
@@ -79,45 +72,7 @@ def rubbing(mechanism: Mechanism) -> float:
     return coefficient
 
 
-def unbalance_Nm(mechanism: Mechanism) -> tuple[float, float]:
-    """The centrifugal moment of bodies off the axis of a wheel on a carrier, as a vector, N m.
-
-    Its parts are along the first slot, which points at the carrier's axis at mid-motion, and ahead
-    of it. On the ground it is 0. The carrier turns at w, with the wheel's axis at L from its own. A
-    body m at e from the wheel's axis, at x from the direction of the carrier's axis, has the moment
-    m e L w² sin x about the wheel's axis, which turns the wheel on.
-    """
-    spec = mechanism.spec
-    w = omega(spec.drive.n_rpm)
-    factor = abs(mechanism.frame) * mechanism.center_distance_mm * MM * w * w
-    along, across = unbalance_kgm(spec)
-    return along * factor, across * factor
-
-
-def held_unbalance_Nm(mechanism: Mechanism) -> Array:
-    """Return the greatest moment of the bodies in a dwell, N m, (m, 1); 0 without any.
-
-    Nothing but the lock holds the wheel against it.
-    """
-    moment: Array = np.max([np.abs(across) for _, across in _in_dwells(mechanism)], axis=0)
-    return moment
-
-
 def centrifugal_N(mechanism: Mechanism) -> Array:
-    """Return the greatest centrifugal force of all bodies on a wheel in a dwell, N, (m, 1)."""
+    """The centrifugal force of all bodies on a wheel on a carrier, N, (m, 1)."""
     spec, L = mechanism.spec, mechanism.center_distance_mm / 1000.0
-    whole = carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * L
-    each = [np.hypot(whole - towards / L, across / L) for towards, across in _in_dwells(mechanism)]
-    force: Array = np.max(each, axis=0)
-    return force
-
-
-def _in_dwells(mechanism: Mechanism) -> list[tuple[Array, Array]]:
-    """Return the unbalance times L w² in each dwell, towards the carrier's axis and across."""
-    first, ahead = (np.asarray(x, dtype=float) for x in unbalance_Nm(mechanism))
-    out = []
-    for one in mechanism.under_load.engagements:
-        x = np.atleast_2d((one.mid_angle or 0.0) + one.half_step)
-        sine, cosine = np.sin(x), np.cos(x)
-        out.append((first * cosine - ahead * sine, first * sine + ahead * cosine))
-    return out
+    return np.atleast_2d(carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * L)

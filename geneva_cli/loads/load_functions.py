@@ -24,7 +24,7 @@ from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.mid_motion import at_mid_motion
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.peak_search import motion_peaks, pole_deg, spans
+from geneva_cli.motion.peak_search import breaks, motion_peaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Number, Which, all_true, array
 from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
@@ -117,7 +117,7 @@ class LoadFunctions:
         """Ends of the smooth parts of the motion, one after the other: (n, 1) each."""
         engagement, out = self.engagement, []
         motion, n = engagement.motion, self.n
-        for (a, b), (start, end) in zip(pairwise(motion.breaks(n)), spans(motion, n), strict=True):
+        for (a, b), (start, end) in zip(pairwise(breaks(motion, n)), spans(motion, n), strict=True):
             if engagement.slot.curved:
                 start = np.where(a == 0.0, NEAR_CUSP * engagement.exit_deg, start)
                 end = np.where(b == 0.0, NEAR_CUSP * engagement.entry_deg, end)

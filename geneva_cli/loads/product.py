@@ -133,8 +133,8 @@ def _swing(mechanism: Mechanism) -> Array:
 
     It is NaN too where the motion's time over the natural period is out of the range computed.
     """
-    from geneva_cli.loads.vibration.oscillator import PERIOD_RATIO, Oscillator
-    from geneva_cli.loads.vibration.vibration import Oscillators
+    from geneva_cli.loads.vibration.swing import Oscillator
+    from geneva_cli.loads.vibration.vibration import PERIOD_RATIO, Oscillators
 
     product, m = mechanism.spec.product, mechanism.designs
     if product.swing_Hz is None:

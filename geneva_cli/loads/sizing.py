@@ -91,8 +91,6 @@ def sizing(
         needs.append("flywheel_kgm2, flywheel_to_add_kgm2: need speed_variation in [motor]")
     if not spec.motor.inertia_kgm2:
         needs.append("inertia_ratio, coasting_speed_share: need inertia_kgm2 in [motor]")
-    elif cycle.mechanism.unbalanced:
-        needs.append("inertia_ratio, coasting_speed_share: need masses on the wheel's axis")
     if wheel_inertia_kgm2 is None:
         needs.append(f"{WHEEL_INERTIA}: {_unweighed(spec)}")
     return out, tuple(needs)
@@ -237,8 +235,7 @@ def _rotor(mechanism: Mechanism) -> dict[str, Number]:
             np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest + frame)
         )
         ratio = np.maximum(mu, still), np.sqrt((1.0 + still) / (1.0 + mu))
-    # a body off the wheel's axis stores and returns energy, which these do not count
-    known = (np.asarray(spec.motor.inertia_kgm2) > 0.0) & (not mechanism.unbalanced)
+    known = np.asarray(spec.motor.inertia_kgm2) > 0.0
     return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
 
 

@@ -19,10 +19,7 @@ Change: TypeAlias = "Callable[[Array], object]"
 
 
 def taken(thing: T, which: Which | int) -> T:
-    """Reduce an object of a batch to some designs: a mask, their numbers, or a slice.
-
-    With the number of one design, numbers stand in place of arrays.
-    """
+    """Reduce an object of a batch to some designs: a mask, their numbers, or a slice."""
 
     def change(array: Array) -> object:
         if isinstance(which, int):
@@ -33,10 +30,7 @@ def taken(thing: T, which: Which | int) -> T:
 
 
 def each_of(thing: T, count: int) -> Iterator[T]:
-    """Yield each of the ``count`` designs of an object of a batch, as ``taken`` reduces it to one.
-
-    It looks for arrays once: a record without them is the same in all designs.
-    """
+    """Yield each of ``count`` designs of an object of a batch, as ``taken`` reduces it to one."""
 
     def one(i: int, done: dict[int, object]) -> T:
         return cast("T", _changed(thing, lambda array: array[i, 0].item(), done))
@@ -48,10 +42,7 @@ def each_of(thing: T, count: int) -> Iterator[T]:
 
 
 def selection(thing: T) -> Callable[[Which], T]:
-    """Return the function that reduces an object of a batch to some designs, as ``taken`` does.
-
-    It looks for arrays once: an object without them is the same for all designs.
-    """
+    """Return the function that reduces an object of a batch to some designs, as ``taken`` does."""
     varies = taken(thing, slice(0)) is not thing
     return lambda which: taken(thing, which) if varies else thing
 

@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Drive
-from geneva_cli.motion.kind import Kind
 from geneva_cli.motion.machine_spec import Spec, attribute
 from geneva_cli.motion.records import KINDS
 from geneva_cli.spec.load_named import load_named
@@ -43,35 +42,26 @@ _KINDS = [
 
 def refuse_conflicts(spec: Spec) -> None:
     """Raise GenevaError if the spec combines kinds that make no machine together."""
-    kinds = [load_named(kind.refuses) for kind in _KINDS if _concerns(kind, spec)]
-    rules: list[Callable[[Spec], Iterator[Conflict]]] = [
-        _of_drive_before,
-        *kinds,
-        _of_gears,
-        _of_slot_ends,
-        _of_limits,
-    ]
-    for rule in rules:
+    rules: list[Callable[[Spec], Iterator[Conflict]]] = [_of_drive_before]
+    for kind in _KINDS:
+        # the spec has the kind, or sets a key of the kind's own
+        concerned = (kind.drive and kind.name == spec.drive.NAME) or (
+            kind.wheel and kind.name == spec.wheel.NAME
+        )
+        for key in kind.keys:
+            table, _, name = key.partition(".")
+            of = vars(spec)[attribute(table)]
+            value, default = vars(of).get(name), getattr(type(of), name, None)
+            if value is not default and (is_array(value) or value != default):
+                concerned = True
+        if concerned:
+            rules.append(load_named(kind.refuses))
+    for rule in (*rules, _of_sizes):
         for when, key, text in rule(spec):
             if is_array(when):
                 refuse(when, partial(GenevaError, text))
             elif when:
                 raise GenevaError(text.format(spec=spec), key)
-
-
-def _concerns(kind: Kind, spec: Spec) -> bool:
-    """True if the spec has the kind, or sets a key of the kind's own."""
-    if (kind.drive and kind.name == spec.drive.NAME) or (
-        kind.wheel and kind.name == spec.wheel.NAME
-    ):
-        return True
-    for key in kind.keys:
-        table, _, name = key.partition(".")
-        of = vars(spec)[attribute(table)]
-        value, default = vars(of).get(name), getattr(type(of), name, None)
-        if value is not default and (is_array(value) or value != default):
-            return True
-    return False
 
 
 def is_set(table: SpecTable, kind: type[SpecTable] | None = None) -> object:
@@ -88,80 +78,46 @@ def is_geared(spec: Spec) -> bool:
 
 def _of_drive_before(spec: Spec) -> Iterator[Conflict]:
     """Rules on a drive that turns the shaft of another."""
-    drive, before = spec.drive, spec.drive_before
+    drive, before, key = spec.drive, spec.drive_before, ("drive", "before")
     if before is None:
         return
-    yield Conflict(
-        not before.IN_FRONT,
-        ("drive", "before", "kind"),
-        'kind = "{spec.drive_before.NAME}" cannot turn the shaft of another drive: remove '
-        "[drive.before]",
+    text = 'kind = "{spec.drive_before.NAME}" cannot turn the shaft of another drive: remove '
+    yield Conflict(not before.IN_FRONT, (*key, "kind"), text + "[drive.before]")
+    text = 'kind = "{spec.drive_before.NAME}" cannot stand before kind = "{spec.drive.NAME}": '
+    yield Conflict(drive.FIRST, key, text + "{spec.drive.FIRST}")
+    text = (
+        "n_rpm, rollers and roller_angles_deg belong to the machine: set them in "
+        "[drive], not in [drive.before]"
     )
-    yield Conflict(
-        drive.FIRST,
-        ("drive", "before"),
-        'kind = "{spec.drive_before.NAME}" cannot stand before kind = "{spec.drive.NAME}": '
-        "{spec.drive.FIRST}",
-    )
-    yield Conflict(
-        is_set(before, Drive),
-        ("drive", "before"),
-        "n_rpm, rollers, roller_angles_deg and both_ways belong to the machine: set them in "
-        "[drive], not in [drive.before]",
-    )
-    yield Conflict(
-        drive.direct and not (spec.motion or len(drive.cranks) > 1),
-        ("drive", "before"),
+    yield Conflict(is_set(before, Drive), key, text)
+    text = (
         'the crank of kind = "{spec.drive.NAME}" is on the shaft: set kind = '
-        '"{spec.drive_before.NAME}" in [drive] instead',
+        '"{spec.drive_before.NAME}" in [drive] instead'
     )
+    yield Conflict(drive.direct and not (spec.motion or len(drive.cranks) > 1), key, text)
 
 
-def _of_gears(spec: Spec) -> Iterator[Conflict]:
-    """Rules on the keys of gears."""
-    size = spec.size
-    yield Conflict(
-        size.gear_module_mm is not None and not is_geared(spec),
-        ("size", "gear_module_mm"),
-        'gear_module_mm cuts the teeth of gears, and kind = "{spec.drive.NAME}" has none: remove '
-        "it",
-    )
-    yield Conflict(
-        size.gear_module_mm is None and size.gear_shift is not None,
-        ("size", "gear_shift"),
-        "gear_shift moves the teeth of gears: set gear_module_mm, or remove gear_shift",
-    )
-    yield Conflict(
-        size.gear_module_mm is None and size.gear_teeth is not None,
-        ("size", "gear_teeth"),
-        "gear_teeth counts the teeth of gears: set gear_module_mm, or remove gear_teeth",
-    )
-
-
-def _of_limits(spec: Spec) -> Iterator[Conflict]:
-    """The rule on a limit of what deviations do to the wheel at rest: there must be some."""
+def _of_sizes(spec: Spec) -> Iterator[Conflict]:
+    """Rules on the keys of gears, of the slots' mouths and of the horns, and on a limit."""
+    size, wheel = spec.size, spec.wheel
+    text = 'gear_module_mm cuts the teeth of gears, and kind = "{spec.drive.NAME}" has none: '
+    toothed = size.gear_module_mm is not None
+    yield Conflict(toothed and not is_geared(spec), ("size", "gear_module_mm"), text + "remove it")
+    for key, does in (("gear_shift", "moves"), ("gear_teeth", "counts")):
+        text = f"{key} {does} the teeth of gears: set gear_module_mm, or remove {key}"
+        yield Conflict(not toothed and getattr(size, key) is not None, ("size", key), text)
+    for key in ("mouth_radius_mm", "horn_tip_mm"):
+        is_cut = getattr(size, key) > 0.0
+        text = f"{key} is for external and internal wheels, not gearing = "
+        text += '"{spec.wheel.NAME}": remove it'
+        yield Conflict(is_cut & (not (wheel.FLAT and spec.output.turns)), ("size", key), text)
+        text = f"{key} is for wheels with a recess behind every slot: remove it, or stop"
+        yield Conflict(is_cut & wheel.stopped, ("size", key), text)
     sizes = [key for key in spec.tolerance.as_dict() if key != "distribution"]
     exact = reduce(and_, (getattr(spec.tolerance, key) == 0.0 for key in sizes))
-    yield Conflict(
-        spec.limits.dwell_position_max_deg is not None and exact,
-        ("limits", "dwell_position_max_deg"),
+    text = (
         "dwell_position_max_deg limits the error of a wheel within its tolerances: set one or more "
-        f"of {', '.join(sizes)} in [tolerance]",
+        f"of {', '.join(sizes)} in [tolerance]"
     )
-
-
-def _of_slot_ends(spec: Spec) -> Iterator[Conflict]:
-    """Rules on the keys of the slots' mouths and of the horns."""
-    for key in ("mouth_radius_mm", "horn_tip_mm"):
-        is_cut = getattr(spec.size, key) > 0.0
-        yield Conflict(
-            is_cut & (not (spec.wheel.FLAT and spec.output.turns)),
-            ("size", key),
-            f"{key} is for external and internal wheels, not gearing = "
-            '"{spec.wheel.NAME}": remove it',
-        )
-        yield Conflict(
-            is_cut & spec.wheel.stopped,
-            ("size", key),
-            f"{key} is for wheels with a recess behind every slot: remove it, or stop",
-        )
+    limited = spec.limits.dwell_position_max_deg is not None
+    yield Conflict(limited and exact, ("limits", "dwell_position_max_deg"), text)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Displacement, Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
+from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.spec.rules import NOT_NEGATIVE, SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import Example, SpecTable
@@ -65,10 +65,16 @@ class Drive(SpecTable, kw_only=True):
     IN_FRONT: ClassVar[str] = ""
     # reason why no drive may stand before it; empty if one may
     FIRST: ClassVar[str] = ""
+    # True if the input shaft carries the crank, so that the classic closed forms hold
+    direct: ClassVar[bool] = False
+    # True if its own input shaft turns about the crank's axis, as the crank or another arm
+    turned_at_crank: ClassVar[bool] = True
+    # names of its links that are gears with pitch circles
+    round_gears: ClassVar[tuple[str, ...]] = ()
     n_rpm: Annotated[
         float,
         SPEED,
-        "constant speed of the input shaft; to turn it the other way: both_ways, --reverse",
+        "constant speed of the input shaft; to turn it the other way: --reverse",
     ] = 60.0
     rollers: Annotated[int, Range(1, Z_MAX), "number of rollers (pins) on the crank, m"] = 1
     roller_angles_deg: Annotated[
@@ -76,9 +82,6 @@ class Drive(SpecTable, kw_only=True):
         Range(0.0, 360.0, "[)"),
         "angles of the rollers on the crank, if not evenly spaced or with equal dwells",
     ] = None
-    both_ways: Annotated[
-        bool, None, "the input shaft turns in either direction, forwards or in reverse"
-    ] = False
     stop_s: Annotated[
         float, NOT_NEGATIVE, "time by which a stop of the input lengthens each dwell"
     ] = 0.0
@@ -88,34 +91,23 @@ class Drive(SpecTable, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         lost_s = 0.5 * (self.start_s + self.brake_s)
-
-        def error() -> GenevaError:
-            return GenevaError(
+        refuse(
+            lost_s > self.stop_s * (1.0 + 1e-12),
+            lambda: GenevaError(
                 f"stop_s = {self.stop_s:g}: to brake and to start takes {lost_s:g} s longer than "
                 f"to run on, so the input would not come to rest: it must be at least {lost_s:g}",
                 (self.TABLE, "stop_s"),
-            )
-
-        refuse(lost_s > self.stop_s * (1.0 + 1e-12), error)
+            ),
+        )
 
     @property
     def stands_s(self) -> float:
-        """Time for which the input stands still in each stop, between braking and starting.
-
-        At constant acceleration it turns half as far as it would have turned meanwhile.
-
-        >>> Crank(stop_s=0.8, start_s=0.2, brake_s=0.1).stands_s
-        0.65
-        """
+        """Time for which the input stands still in each stop, between braking and starting."""
         return larger(self.stop_s - 0.5 * (self.start_s + self.brake_s), 0.0)
 
     @property
     def brake_and_start_deg(self) -> tuple[float, float]:
-        """Angles through which the input turns while it brakes, and while it starts, degrees.
-
-        >>> Crank(n_rpm=30, stop_s=0.8, start_s=0.2, brake_s=0.1).brake_and_start_deg
-        (9.0, 18.0)
-        """
+        """Angles through which the input turns while it brakes, and while it starts, degrees."""
         return 3.0 * self.n_rpm * self.brake_s, 3.0 * self.n_rpm * self.start_s
 
     @property
@@ -127,29 +119,11 @@ class Drive(SpecTable, kw_only=True):
         """The drive that turns the other way, as seen from its other side.
 
         ``plan`` is the plan of the machine that turns forwards.
-
-        >>> crank = Crank(roller_angles_deg=(0.0, 130.0))
-        >>> crank.backwards(Design(External(6), crank).mechanism.plan).roller_angles_deg
-        (0.0, 230.0)
         """
         if not self.roller_angles_deg:
             return self
         others = self.roller_angles_deg[:0:-1]
         return self.replace(roller_angles_deg=(0.0, *(360.0 - angle for angle in others)))
-
-    @property
-    def direct(self) -> bool:
-        """True if the input shaft carries the crank, so that the classic closed forms hold."""
-        return False
-
-    @property
-    def turned_at_crank(self) -> bool:
-        """True if its own input shaft turns about the crank's axis, as the crank or another arm.
-
-        >>> Crank().turned_at_crank, SideCrank(A=0.6).turned_at_crank
-        (True, False)
-        """
-        return True
 
     @property
     def wheels_on_carrier(self) -> int:
@@ -177,11 +151,6 @@ class Drive(SpecTable, kw_only=True):
         return None
 
     @property
-    def round_gears(self) -> tuple[str, ...]:
-        """Names of its links that are gears with pitch circles."""
-        return ()
-
-    @property
     def missing_length(self) -> str:
         """Key of ``[drive]`` that its link reactions need and that is not set; empty if none."""
         return ""
@@ -199,10 +168,9 @@ class Drive(SpecTable, kw_only=True):
         return True
 
     def doubt(self, input_deg: float) -> Doubt | None:
-        """Uncertainty of the crank's jerk from the decimals of a ratio file.
+        """Uncertainty of the crank's jerk from the decimals of a ratio file; None without one.
 
-        It holds the number of decimals, and the change by rounding of the ratio's second
-        derivative. That change is a fraction of the ratio at an input angle. None without a file.
+        It is the change by rounding of the ratio's second derivative, over the ratio.
         """
         return None
 
@@ -215,49 +183,19 @@ class Drive(SpecTable, kw_only=True):
         return crank_deg
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
-        """Its own input shaft; ``sign`` is the wheel's, ``sense`` that of the crank's rotation.
-
-        >>> SideCrank(A=0.6).input_shaft(Design(External(6)).mechanism.plan, 1.0, -1.0)
-        ShaftPlace(x_mm=70.0, sense=-1.0)
-        """
+        """Its own input shaft; ``sign`` is the wheel's, ``sense`` that of the crank's rotation."""
         return ShaftPlace(plan.center_distance_mm, sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Pivots and dimensions of this kind of drive; ``sign`` is the wheel's (-1 inside).
-
-        >>> SideCrank(A=0.6).layout(Design(External(6)).mechanism.plan, 1.0)[0]
-        Pivot(name='input crank axis', x_mm=70.0, y_mm=0.0)
-        """
+        """Pivots and dimensions of this kind of drive; ``sign`` is the wheel's (-1 inside)."""
         return ()
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """Links that turn the crank or carry the roller, at input angles from mid-motion.
-
-        >>> from numpy import array
-        >>> drive, plan = SideCrank(A=0.6), Design(External(6)).mechanism.plan
-        >>> [float(v[0]) for v in drive.links(plan, 1.0, array([0.0]))[0].joints[1]]
-        [20.0, 0.0]
-        """
+        """Links that turn the crank or carry the roller, at input angles from mid-motion."""
         return ()
 
-    def exact_advance(
-        self, half: tuple[float, float], exact: Callable[[float], float]
-    ) -> Displacement | None:
-        """Rotation of the crank about a crank angle, in numbers of any kind, for certificates.
-
-        ``half`` has sine and cosine of half that angle. ``exact`` converts a number of the spec.
-        None for a drive whose proportions are solved for in doubles.
-        """
-        return None
-
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
-        """Centre distance L for a crank radius R, mm, where the kind's shape fixes R/L.
-
-        Raises GenevaError for a drive whose roller does not keep its distance from the crank.
-
-        >>> round(Crank().distance_mm(External(6), None, 30.0), 9)
-        60.0
-        """
+        """Centre distance L for a crank radius R, mm, where the kind's shape fixes R/L."""
         raise GenevaError(
             f'kind = "{self.NAME}" has no crank of one radius: set {self.LENGTH} instead of '
             "crank_radius_mm",
@@ -275,6 +213,20 @@ class Drive(SpecTable, kw_only=True):
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """Engagements and proportions of a machine; without a motion its slots are straight.
 
-        ``L`` is the centre distance, mm, where the drive does not solve for it. Raises GenevaError
-        for impossible values.
+        ``L`` is the centre distance, mm, where the drive does not solve for it.
         """
+
+
+class PinPath(Drive, kw_only=True):
+    """A drive that moves the roller along a path of its own, with straight radial slots."""
+
+    ONE_ARM: ClassVar[bool] = False
+
+    def planned(
+        self, engagement: Engagement, ratio: float, center_distance_mm: float, inside: bool = False
+    ) -> Plan:
+        """The plan with one engagement for each roller."""
+        motion = engagement.motion_deg
+        refuse_jam(self.rollers, motion, inside)
+        period = 360.0 / self.rollers
+        return Plan((engagement,), period, ratio, rollers_max(motion), center_distance_mm)

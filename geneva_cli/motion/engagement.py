@@ -8,14 +8,12 @@ the input angle in radians.
 
 from __future__ import annotations
 
-import copy
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
-from geneva_cli.kept import cached_property
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import (
     Array,
@@ -32,7 +30,6 @@ from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 K = TypeVar("K", float, "Array")
 
 BLOCK = 12288  # angles: their jets stay in the processor's cache
-LONG = 8192  # angles a seam, from which polynomials pay
 
 Vector: TypeAlias = tuple[Jet, Jet]
 # A force at the pin's centre and a couple, both on the roller's body; the couple in that unit x L.
@@ -40,67 +37,60 @@ Load: TypeAlias = tuple[Vector, Jet]
 
 
 class Path(Protocol):
-    """The roller centre's position in the fixed frame, as the input turns."""
+    """The pin's position (x, y) in the fixed frame, by the input angle in degrees."""
 
-    def __call__(self, input_deg: Number, order: int = 3) -> Vector:
-        """Pin (x, y) with its derivatives."""
+    def __call__(self, input_deg: Number, order: int = 3) -> Vector: ...
 
 
 class Displacement(Protocol):
-    """A pin's displacement since a moment, along a ray and across it.
+    """A pin's displacement since a moment, along a ray and across it, ``tau`` input radians later.
 
     Or a crank's rotation d since then, as sin d and 1 - cos d.
     """
 
-    def __call__(self, tau: Number, order: int) -> Vector:
-        """Displacement ``tau`` input radians later."""
+    def __call__(self, tau: Number, order: int) -> Vector: ...
 
 
-class CarrierRate(Protocol):
-    """Rate of the body that carries the roller, positive with the wheel."""
+class Rate(Protocol):
+    """Rate of a body in radians per input radian, ``tau`` after mid-motion, as the wheel turns."""
 
-    def __call__(self, tau: Number, order: int) -> Jet:
-        """Rate in radians per input radian, ``tau`` after mid-motion."""
+    def __call__(self, tau: Number, order: int) -> Jet: ...
 
 
 class ClosedPeaks(Protocol):
-    """Peaks in closed form, or by a search that is faster than the general one."""
+    """Peak of a quantity in closed form, or by a quicker search than the general one; else None."""
 
-    def __call__(self, quantity: str) -> Peak[float] | None:
-        """Peak of a quantity, or None if it needs the general search."""
+    def __call__(self, quantity: str) -> Peak[float] | None: ...
 
 
 class Reactions(Protocol):
-    """Reactions on the body that carries the roller, held by links without mass or friction."""
+    """Reactions on the body that carries the roller, held by links without mass or friction.
+
+    They are those of the crank's shaft, and of the body's other guide (a rocker, slider, groove or
+    fixed gear), to each load. ``path`` is the pin's path, one order higher than the loads.
+    """
 
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[Load]
-    ) -> list[tuple[Vector, Vector]]:
-        """Reactions of the crank's shaft, and of the body's other guide, to each load.
-
-        ``path`` is the pin's path, one order higher than the loads. The guide is a rocker, slider,
-        groove or fixed gear.
-        """
+    ) -> list[tuple[Vector, Vector]]: ...
 
 
-class Groove(Path, Protocol):
+class Groove(Protocol):
     """A fixed groove about the crank's axis, which guides the roller along the crank."""
 
     sign: float  # 1 for an external wheel, -1 for an internal one
 
     @property
-    def motion(self) -> WheelMotion:
-        """Motion of the wheel, from which the groove follows."""
+    def motion(self) -> WheelMotion: ...
+    @property
+    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
+        """Roller distance from the crank's axis with two derivatives, at entry and exit."""
 
     def distances(self, input_deg: Number, order: int = 3) -> Vector:
         """Roller distances from the wheel's axis and from the crank's, in units of L."""
 
     def groove(self, input_deg: Number, order: int = 3) -> Vector:
         """Pitch curve (x, y) of the groove about the crank's axis."""
-
-    @property
-    def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
-        """Roller distance from the crank's axis with two derivatives, at entry and exit."""
 
 
 class Height(NamedTuple):
@@ -122,13 +112,10 @@ class Height(NamedTuple):
 
 
 class SlotAxis(NamedTuple):
-    """Lever of a straight slot's normal about the wheel's axis, and the pin's speed along the slot.
+    """A straight slot's axis, over L."""
 
-    Both are over L.
-    """
-
-    lever: Jet
-    along: Jet
+    lever: Jet  # of its normal about the wheel's axis
+    along: Jet  # the pin's speed along it
 
 
 def cross(a: Vector, b: Vector) -> Jet:
@@ -209,10 +196,7 @@ class AsBuilt(NamedTuple):
 
 
 class Peak(NamedTuple, Generic[K]):
-    """Greatest size of a quantity, and the signed input angle of its first occurrence, degrees.
-
-    Floats of one design, arrays of a batch.
-    """
+    """Greatest size of a quantity, and the signed input angle of its first occurrence, degrees."""
 
     max: K
     at_deg: K
@@ -224,8 +208,6 @@ class WheelMotion(Batchable, ABC):
     # False if the two halves of the path differ
     mirrored = True
     closed_peaks: ClosedPeaks | None = None
-    # True if the derivatives at many angles have a closed form, as quick as a polynomial
-    is_closed: ClassVar[bool] = False
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
     BREAKS_TO: ClassVar[float] = 0.0
 
@@ -257,18 +239,9 @@ class WheelMotion(Batchable, ABC):
         """Entry, places where a derivative may jump, mid-motion, and exit, in degrees."""
         return (self.entry_deg, 0.0, self.exit_deg)
 
-    def breaks(self, m: int) -> list[Array]:
-        """The places of ``breaks_deg`` as arrays of m designs, (m, 1) each."""
-        import numpy as np
-
-        return [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in self.breaks_deg]
-
     @property
     def seams_deg(self) -> tuple[float, ...]:
-        """Entry, every place where another formula takes over, and exit, in degrees.
-
-        Between two of them, in order, the motion is one analytic formula. For one design.
-        """
+        """Entry, every place where another formula takes over, and exit, in degrees."""
         return self.breaks_deg
 
     def closed_peak(self, quantity: str) -> Peak[float] | None:
@@ -284,42 +257,7 @@ class WheelMotion(Batchable, ABC):
         return abs(acceleration), abs(jerk)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """Wheel angle and its derivatives at many ascending input angles (k,).
-
-        A symmetric motion at symmetric angles is computed once and mirrored. At very many angles
-        polynomials take the formulas' place, which are as exact. For n designs the values are
-        (n, k).
-        """
-        import numpy as np
-
-        count = len(input_deg)
-        mirrored = self.symmetric and bool((input_deg == -input_deg[::-1]).all())
-        own = input_deg[: (count + 1) // 2] if mirrored else input_deg
-        if self._are_very_many(own):
-            from geneva_cli.numerics.fitted import fitted
-
-            seams = {0.0, *self.seams_deg}  # where the acceleration may vanish, and be small
-            values = fitted(lambda x: self._in_blocks(x, orders), own, sorted(seams))
-        else:
-            values = self._in_blocks(own, orders)
-        if not mirrored:
-            return values
-        images = (v if k % 2 else -v for v, k in zip(values, orders, strict=True))
-        rest = slice(count // 2 - 1, None, -1) if count > 1 else slice(0)
-        return [
-            np.concatenate((value, image[..., rest]), axis=-1)
-            for value, image in zip(values, images, strict=True)
-        ]
-
-    def _are_very_many(self, input_deg: Array) -> bool:
-        """True for so many angles of one design that polynomials are quicker than formulas."""
-        count = len(input_deg)
-        if count < 4 * LONG or self.is_closed or self._requested(input_deg[:1], (1,))[0].ndim > 1:
-            return False
-        return count >= LONG * len(self.seams_deg)
-
-    def _in_blocks(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
-        """Derivatives at angles, in blocks that stay in the cache."""
+        """Wheel angle and its derivatives at many angles: (k,), or (n, k) for n designs."""
         import numpy as np
 
         out: list[Array] = []
@@ -347,21 +285,19 @@ class Engagement(Batchable):
     or else ``body`` does, which ``reactions`` hold; ``crank_sense`` is then the crank's direction:
     -1 with the wheel, 1 against it. ``groove`` is the path if a fixed groove guides the roller
     along the crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a
-    sphere. ``mid_angle`` is the wheel's angle at mid-motion, radians from the first mid-motion, if
-    the loads depend on it (``Mechanism.unbalanced``). ``built`` describes a crank as built, whose
-    R/L is not what the slots need: the wheel's velocity then jumps at entry and exit.
+    sphere. ``built`` describes a crank as built, whose R/L is not what the slots need: the wheel's
+    velocity then jumps at entry and exit.
     """
 
     mid_deg: float
     path: Path
     slot: Slot
     motion: WheelMotion
-    body: CarrierRate | None = None
+    body: Rate | None = None
     reactions: Reactions | None = None
     crank_sense: float = 0.0
     groove: Groove | None = None
     hub: float = 1.0
-    mid_angle: float | None = None
     built: AsBuilt | None = None
 
     @property
@@ -411,35 +347,17 @@ class Engagement(Batchable):
 
     @property
     def usual_acceleration(self) -> float:
-        """The step over the square of the motion, of which the greatest acceleration is a multiple.
-
-        It is an invariant, and the measure of what is rounding.
-        """
+        """The step over the square of the motion, of which accelerations are multiples."""
         motion = radians(self.motion_deg)
         return 2.0 * self.half_step / (motion * motion)
 
     @property
     def mirrored(self) -> bool:
         """True if motion, slot and loads are symmetric about mid-motion."""
-        return self.motion.symmetric and self.slot.mirrored and self.mid_angle is None
+        return self.motion.symmetric and self.slot.mirrored
 
-    def later(self, mid_deg: float, mid_angle: float) -> Engagement:
-        """The same engagement at a later mid-motion, at another angle of the wheel."""
-        other = copy.copy(self)
-        other.mid_deg, other.mid_angle = mid_deg, mid_angle
-        return other
-
-    @cached_property
-    def entry_reach(self) -> Number:
-        """Pin distance from the wheel's axis at entry, in units of L."""
-        return self._reach(self.entry_deg)
-
-    @cached_property
-    def exit_reach(self) -> Number:
-        """Pin distance from the wheel's axis at exit, in units of L."""
-        return self._reach(self.exit_deg)
-
-    def _reach(self, input_deg: float) -> Number:
+    def reach(self, input_deg: float) -> Number:
+        """Pin distance from the wheel's axis, in units of L."""
         x, y = self.slot(input_deg, 0)
         return library(x.c[0], y.c[0]).hypot(x.c[0], y.c[0])
 
@@ -477,11 +395,7 @@ class Engagement(Batchable):
 
     @property
     def passages(self) -> tuple[tuple[Engagement, float], ...]:
-        """Passage of each roller through a whole slot, and the input angle by which it leads.
-
-        There is one, this engagement itself, but for gear sectors: if gears drive between them, one
-        roller starts the wheel and another stops it.
-        """
+        """Passage of each roller through a whole slot, and the input angle by which it leads."""
         return ((self, 0.0),)
 
     @property

@@ -25,11 +25,7 @@ class Quantities(NamedTuple):
 
 
 class Kind(NamedTuple):
-    """One kind: a wheel, a drive, or an addition to one of them.
-
-    >>> Kind("leaning", wheel="kinds.leaning.motion:Leaning").adds_to
-    ''
-    """
+    """One kind: a wheel, a drive, or an addition to one of them."""
 
     name: str  # as in the spec
     wheel: str = ""  # class, whose fields are keys of [wheel]

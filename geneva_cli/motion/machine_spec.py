@@ -120,7 +120,12 @@ class Spec(SpecTable):
         for one in self.mass:
             if not isinstance(one, Mass):
                 raise GenevaError('mass must be a list of objects like Mass("disc", ...)')
-        vars(self)["size"] = self._sized(self.size)
+        # the centre distance follows from the crank radius where only that is set
+        size, radius, L = self.size, self.size.crank_radius_mm, None
+        if radius is not None and size.center_distance_mm is None:
+            L = self.drive.distance_mm(self.wheel, self.motion, radius)
+        if L is not size.derived_distance_mm:
+            vars(self)["size"] = size.replace(derived_distance_mm=L)
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
@@ -135,14 +140,6 @@ class Spec(SpecTable):
             if limits[key] is not None:
                 text = f"{key} needs a load, and without one there is nothing to limit: set "
                 refuse(self._unloaded, partial(GenevaError, text + self.load_keys, ("limits", key)))
-
-    def _sized(self, size: Size) -> Size:
-        """The sizes with the centre distance that follows from the crank radius, if it does."""
-        radius, derived = size.crank_radius_mm, size.derived_distance_mm
-        if radius is None or size.center_distance_mm is not None:
-            return size if derived is None else size.replace(derived_distance_mm=None)
-        L = self.drive.distance_mm(self.wheel, self.motion, radius)
-        return size.replace(derived_distance_mm=L)
 
     def table(self, name: str) -> dict[str, Any]:
         """Values of a table by key; those of ``motion`` include the keys of its law.
@@ -189,77 +186,45 @@ class Spec(SpecTable):
 
     @property
     def turns(self) -> int:
-        """Number of input turns in one turn of the crank.
-
-        >>> Spec(External(4), GenevaPair(first_z=5)).turns
-        5
-        """
+        """Number of input turns in one turn of the crank."""
         before = self.drive_before
         return self.drive.turns * (1 if before is None else before.turns)
 
     @property
     def gears(self) -> Gears | None:
-        """Noncircular gears of the drive, or of the one before it; None without.
-
-        >>> Spec(External(6), NoncircularGears(A=0.5)).gears.distance_mm
-        100.0
-        """
+        """Noncircular gears of the drive, or of the one before it; None without."""
         before = self.drive_before
         return (before and before.gears) or self.drive.gears
 
     def input_deg(self, crank_deg: float) -> float:
-        """Input angle from mid-motion at a crank angle from mid-motion, degrees.
-
-        >>> round(Spec(External(6), SideCrank(A=0.5)).input_deg(90.0), 9)
-        120.0
-        """
+        """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
         shaft_deg = self.drive.input_deg(crank_deg)
         before = self.drive_before
         return shaft_deg if before is None else before.input_deg(shaft_deg)
 
     @property
     def has_lock(self) -> bool:
-        """True if the crank has a part that locks the wheel in the dwell.
-
-        >>> Spec(External(6)).has_lock, Spec(External(6), size=Size(lock_radius_mm=0.0)).has_lock
-        (True, False)
-        """
+        """True if the crank has a part that locks the wheel in the dwell."""
         return self.drive.LOCKS and self.size.lock_radius_mm != 0.0
 
     @property
     def dwell_holder(self) -> str | None:
-        """What holds the wheel in the dwell; None if nothing does.
-
-        >>> Spec(External(6)).dwell_holder, Spec(Linear(6)).dwell_holder
-        ('locking disc', 'locking ring')
-        """
+        """What holds the wheel in the dwell; None if nothing does."""
         return self.wheel.held_by or (self.wheel.LOCK if self.has_lock else None)
 
     @property
     def is_loaded(self) -> bool:
-        """True if the spec has a load whose forces are computed: an inertia, a torque or friction.
-
-        >>> Spec(External(6)).is_loaded, Spec(External(6), load=Load(torque_Nm=2.0)).is_loaded
-        (False, True)
-        """
+        """True if there is an inertia, a torque or friction, so that forces are computed."""
         return not all_true(self._unloaded)
 
     @property
     def load_keys(self) -> str:
-        """Keys that set a load of this kind of wheel, in words.
-
-        >>> Spec(Linear(6)).load_keys
-        'mass_kg or force_N in [load]'
-        """
+        """Keys that set a load of this kind of wheel, in words."""
         return self.output.load_keys
 
     @property
     def output(self) -> Output:
-        """What the wheel gives out, with its units.
-
-        >>> Spec(External(6)).output.column, Spec(Linear(6)).output.column
-        ('wheel_deg', 'rack_mm')
-        """
+        """What the wheel gives out, with its units."""
         return self.wheel.output(self.given_distance_mm)
 
     @property
@@ -271,70 +236,42 @@ class Spec(SpecTable):
 
     @property
     def unbalanced(self) -> bool:
-        """True if a single body stands off the wheel's axis.
-
-        >>> Spec(External(6), mass=(Mass("point", mass_kg=1.0, radius_mm=50.0),)).unbalanced
-        True
-        """
+        """True if a single body stands off the wheel's axis."""
         return any(one.to_one_side for one in self.mass)
 
     @property
     def is_flat(self) -> bool:
-        """True if wheel and crank are flat outlines and the wheel has few enough slots to be drawn.
-
-        >>> Spec(External(6)).is_flat, Spec(Spherical(6)).is_flat
-        (True, False)
-        """
+        """True if wheel and crank are flat outlines that are drawn."""
         return self.wheel.FLAT and self.has_parts
 
     @property
     def has_parts(self) -> bool:
-        """True if wheel and crank have outlines, on flat plates or on the shells of a sphere.
-
-        >>> Spec(Spherical(6)).has_parts, Spec(External(400)).has_parts
-        (True, False)
-        """
+        """True if wheel and crank have outlines, on flat plates or on the shells of a sphere."""
         return not self.no_parts
 
     @property
-    def _built(self) -> bool:
-        """True if the wheel's kind has parts, or one that adds to it."""
-        return bool(named(self.wheel.NAME, "parts"))
-
-    @property
     def is_turned(self) -> bool:
-        """True if wheel and crank can be checked for collisions in a full turn of the crank.
-
-        >>> Spec(External(6)).is_turned, Spec(External(400)).is_turned
-        (True, False)
-        """
-        if not self._built:
-            return False
+        """True if wheel and crank can be checked for collisions in a full turn of the crank."""
         # A rack of any length is checked by the slots that the crank reaches in a turn.
-        return not self.output.turns or self.wheel.z <= Z_DRAWN
+        few = not self.output.turns or self.wheel.z <= Z_DRAWN
+        return few and bool(named(self.wheel.NAME, "parts"))
 
     @property
     def no_parts(self) -> str:
-        """The reason why wheel and crank have no outlines; empty if they have.
-
-        >>> Spec(External(400)).no_parts
-        'wheels of more than 360 slots are not drawn'
-        """
-        if not self._built:
+        """The reason why wheel and crank have no outlines; empty if they have."""
+        if not named(self.wheel.NAME, "parts"):
             return f'shafts and frame of gearing = "{self.wheel.NAME}" are not built'
-        before = self.drive_before
-        if before is not None and len(self.drive.cranks) > 1:
-            return f'the gears between several cranks and kind = "{before.NAME}" are not built'
-        if before is not None and before.gears and self.drive.gears:
-            return (
-                f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
-                "built: one pair of noncircular-gears with the ratio of both does the same"
-            )
-        if before is not None and not (before.gears or self.drive.turned_at_crank):
-            return (
-                f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
-                "built: the shaft between them has no bearing, since the input crank turns below it"
-            )
+        before, drive = self.drive_before, self.drive
+        if before is not None:
+            pair = f'kind = "{before.NAME}" before kind = "{drive.NAME}" are not built'
+            if len(drive.cranks) > 1:
+                return f'the gears between several cranks and kind = "{before.NAME}" are not built'
+            if before.gears and drive.gears:
+                why = "one pair of noncircular-gears with the ratio of both does the same"
+                return f"the parts of {pair}: {why}"
+            if not (before.gears or drive.turned_at_crank):
+                why = "the shaft between them has no bearing, since the input crank turns below it"
+                return f"the parts of {pair}: {why}"
         own: Callable[[Spec], str] | None = thing(self.wheel.NAME, "no_parts")
         if own and (reason := own(self)):
             return reason
@@ -343,20 +280,12 @@ class Spec(SpecTable):
         return ""
 
     def roller_radius_mm(self, center_distance_mm: float) -> float:
-        """Roller radius r in millimetres, by default L/20.
-
-        >>> Spec(External(6)).roller_radius_mm(160.0)
-        8.0
-        """
+        """Roller radius r in millimetres, by default L/20."""
         return self.size.roller_radius(center_distance_mm)
 
     @property
     def moving(self) -> tuple[object, ...]:
-        """The values from which engagements are made.
-
-        >>> Spec(External(6)).moving[-1]
-        100.0
-        """
+        """The values from which engagements are made."""
         size, built = self.size, tuple[object, ...]()
         if size.crank_radius_mm is not None and size.center_distance_mm is not None:
             # a crank as built enters where its roller crosses the slot's axis inside the rim
@@ -366,11 +295,5 @@ class Spec(SpecTable):
 
     @property
     def given_distance_mm(self) -> float:
-        """Centre distance L in millimetres from the spec or its crank radius, or the default.
-
-        Some drives solve for another one.
-
-        >>> Spec(External(6)).given_distance_mm
-        100.0
-        """
+        """Centre distance L, mm, before a drive solves for another one."""
         return self.size.distance_mm

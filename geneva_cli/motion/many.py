@@ -70,8 +70,7 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     """Build the machine of a spec with some of its keys varied.
 
     ``varied`` has keys as in the file (``drive.A``, ``wheel.z``, ``motion.lambda``), with arrays
-    (n,) of numbers or with one value for all designs. Raises GenevaError for a key that the spec
-    does not have. Raises ValueError for arrays of different lengths or keys that cannot be arrays.
+    (n,) of numbers or with one value for all designs.
     """
     arrays = {key: np.asarray(v) for key, v in varied.items() if is_array(v)}
     lengths = {len(values) for values in arrays.values()}
@@ -100,23 +99,18 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
 
 
 def may_vary(spec: Spec, key: str) -> bool:
-    """True if a key of this spec may be an array: a number whose kind takes arrays.
-
-    Raises GenevaError for a key that the spec does not have.
-    """
+    """True if a key of this spec may be an array: a number whose kind takes arrays."""
     table, _, name = key.rpartition(".")
     if table not in TABLES:
         return False
     numeric = bool({int, float} & set(_field(spec, key).types))
     of_law = spec.motion is None or spec.motion.law.may_vary(table, name)
-    # the number of rollers decides how many engagements a machine has; under load that of slots
-    # does too, where a body stands off the axis of a wheel on a carrier
-    counts = {"rollers", "z"} if spec.drive.wheels_on_carrier and spec.unbalanced else {"rollers"}
     # a drive before sees its own table as that of a drive
     of = "drive" if table == BEFORE else table
     before = spec.drive_before is None or spec.drive_before.may_vary(of, name)
     own = spec.drive.may_vary(table, name)
-    return numeric and name not in counts and of_law and own and before
+    # the number of rollers decides how many engagements a machine has
+    return numeric and name != "rollers" and of_law and own and before
 
 
 def changed(spec: Spec, values: Mapping[str, object]) -> Spec:

@@ -10,28 +10,12 @@ from geneva_cli.motion.drive import FirstWheel, Plan
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.pivots import (
-    AxisPlace,
-    Layout,
-    Pivot,
-    ShaftPlace,
-    crank_places,
-    wheel_places,
-)
+from geneva_cli.motion.pivots import AxisPlace, Layout, Pivot, ShaftPlace, wheel_places
 from geneva_cli.motion.records import IN_FRONT
 from geneva_cli.motion.size_rules import SAME_RATIO, refuse_sizes, refuse_tolerances
 from geneva_cli.motion.wheels.gearing import Output
-from geneva_cli.numerics.arrays import (
-    N,
-    Whole,
-    all_true,
-    choose,
-    choose_record,
-    designs_of,
-    larger,
-    library,
-)
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.numerics.arrays import Array, Whole, all_true, choose, choose_record, library
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.spec.load_named import load_named
 
@@ -49,21 +33,17 @@ class Mechanism(NamedTuple):
     ratio: float  # l = R/L
     rollers_max: int  # most evenly spaced rollers that do not jam
     center_distance_mm: float  # L, from the spec or solved for
-    # The number of the design in its batch, for a batch of m designs (m, 1). So a batch keeps its
-    # size if nothing else varies.
+    # The numbers of m designs of a batch, (m, 1): it keeps its size if nothing else varies.
     design: int | Whole = 0
 
     @property
     def designs(self) -> int:
         """Number of designs in the batch; 1 for a single design."""
-        return designs_of(self.design)
+        return 1 if isinstance(self.design, int) else len(self.design)
 
     @property
     def plan(self) -> Plan:
-        """Engagements, period, R/L, roller limit and centre distance, as the drive planned them.
-
-        The engagements are by the angle of the drive's own input shaft.
-        """
+        """What the drive planned, with engagements by the angle of its own input shaft."""
         plan = Plan(*self[1:-1])
         return plan._replace(engagements=tuple(one.own for one in self.engagements))
 
@@ -97,36 +77,31 @@ class Mechanism(NamedTuple):
 
     @property
     def layout(self) -> Layout:
-        """Pivots and dimensions of the drive, and of the one before it about the crank's axis.
+        """Pivots and dimensions of the drives, and the axes of all cranks behind the first.
 
-        Of several cranks it has the axes behind the first. Pivots have places only in a plane that
-        also has the axes of wheel and crank.
+        Pivots have places only in a plane that also has the axes of wheel and crank.
         """
         spec, plan = self.spec, self.plan
         own = spec.drive.layout(plan, spec.wheel.SIGN)
-        _, *others = self.crank_places
-        own = (*own, *(Pivot(f"axis of crank {place.number}", *place.at) for place in others))
-        shift, names = self.own_shaft.x_mm - self.center_distance_mm, {one.name for one in own}
-        before = spec.drive_before.layout(plan, spec.wheel.SIGN) if spec.drive_before else ()
-        for one in before:
-            here = one._replace(name=f"first {one.name}" if one.name in names else one.name)
-            if isinstance(here, Pivot):
-                here = here._replace(x_mm=here.x_mm + shift)
-            own = (*own, here)
+        for place in self.crank_places[1:]:
+            own = (*own, Pivot(f"axis of crank {place.number}", *place.at))
+        if spec.drive_before:
+            shift, names = self.own_shaft.x_mm - self.center_distance_mm, {one.name for one in own}
+            for one in spec.drive_before.layout(plan, spec.wheel.SIGN):
+                here = one._replace(name=f"first {one.name}" if one.name in names else one.name)
+                if isinstance(here, Pivot):
+                    here = here._replace(x_mm=here.x_mm + shift)
+                own = (*own, here)
         return own if self.axes else tuple(one for one in own if not isinstance(one, Pivot))
 
     def own_deg(self, input_deg: Array) -> Array:
-        """Angle of the drive's own input shaft at input angles within half a period of mid-motion.
-
-        It is the input angle itself, but behind another drive.
-        """
+        """Angle of the drive's own input shaft at input angles near mid-motion."""
         return self.engagements[0].own_deg(input_deg)
 
     @property
     def law(self) -> Law | None:
         """Motion law by the angle of the drive's own input shaft; None for straight slots."""
-        motion = self.spec.motion
-        return motion.law if motion else None
+        return self.spec.motion.law if self.spec.motion else None
 
     @property
     def input_law(self) -> Law | None:
@@ -150,28 +125,21 @@ class Mechanism(NamedTuple):
         It does not depend on the machine's own R/L. None for straight slots, or if no R/L below 1
         has this property. For a single design only.
         """
-        law = self.law
-        if law is None:
+        if self.law is None:
             return None
         motion_deg = self.engagements[0].own.motion_deg
-        matched = self.spec.drive.matched_ratio(self.spec.wheel, law, motion_deg)
+        matched = self.spec.drive.matched_ratio(self.spec.wheel, self.law, motion_deg)
         return None if math.isnan(matched) else float(matched)
 
     @property
     def whole_deg(self) -> float:
-        """Input angle after which all is as before: a turn of the crank.
-
-        Under load that of an unbalanced wheel on a carrier is its period.
-        """
-        if self.engagements[0].mid_angle is not None:
-            return self.period_deg
+        """Input angle after which all is as before: a turn of the crank."""
         return 360.0 * self.spec.turns
 
     @property
     def stop_deg(self) -> float:
         """The stop of the input in each dwell, as the angle that it would turn meanwhile."""
-        drive = self.spec.drive
-        return 6.0 * drive.n_rpm * drive.stop_s
+        return 6.0 * self.spec.drive.n_rpm * self.spec.drive.stop_s
 
     @property
     def lasting_deg(self) -> float:
@@ -187,32 +155,18 @@ class Mechanism(NamedTuple):
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # Rounding may put an angle just before the entry: count it as the entry.
-        periods = m.floor((input_deg - entry + SAME_INPUT_DEG) / whole)
-        counted = larger(input_deg - periods * whole, entry)
+        counted = input_deg - m.floor((input_deg - entry + SAME_INPUT_DEG) / whole) * whole
+        counted = choose(counted < entry, entry, counted)
         if isinstance(input_deg, (float, int)) and isinstance(whole, float):
             return math.remainder(input_deg, whole) if whole == 360.0 else counted
         # as math.remainder, and exact for angles of a few turns
-        shown: float = choose(
-            whole == 360.0, input_deg - 360.0 * m.rint(input_deg / 360.0), counted
-        )
-        return shown
+        near: float = input_deg - 360.0 * m.rint(input_deg / 360.0)
+        return choose(whole == 360.0, near, counted)
 
     @property
     def frame(self) -> float:
-        """Turns of the wheel's frame in one turn of the input, positive as the wheel turns in it.
-
-        It is 0 but for wheels on a carrier.
-        """
+        """Turns of the wheel's frame in a turn of the input: 0 but for wheels on a carrier."""
         return self.spec.wheel.SIGN if self.spec.drive.wheels_on_carrier else 0.0
-
-    @property
-    def unbalanced(self) -> bool:
-        """True if the loads differ in each motion: a body stands off a carried wheel's axis."""
-        return bool(self.spec.drive.wheels_on_carrier) and self.spec.unbalanced
-
-    def absolute_deg(self, input_deg: N, wheel_deg: N) -> N:
-        """Angle from the ground of a wheel on a carrier, positive as the carrier turns."""
-        return input_deg + self.spec.wheel.SIGN * wheel_deg
 
     @property
     def wheel_places(self) -> tuple[AxisPlace, ...]:
@@ -222,34 +176,19 @@ class Mechanism(NamedTuple):
 
     @property
     def crank_places(self) -> tuple[AxisPlace, ...]:
-        """Places of all cranks about the wheel; more than one with ``crank_steps``."""
-        spec = self.spec
-        return crank_places(spec.drive.cranks, spec.wheel.z, self.center_distance_mm)
+        """Places of all cranks about the wheel: several with ``crank_steps``."""
+        L, z, steps, out = self.center_distance_mm, self.spec.wheel.z, self.spec.drive.cranks, []
+        for k, step in enumerate(steps):
+            sine, cosine = sin_cos_pi(2 * int(step), z)
+            turn, behind_deg = math.tau * step / z, 360.0 * k / len(steps)
+            out.append(AxisPlace(k + 1, behind_deg, turn, (L * cosine, L * sine)))
+        return tuple(out)
 
     @property
     def under_load(self) -> Mechanism:
-        """The machine with the period of its loads: up to the entry of the next wheel.
-
-        If a body stands off the axis of a wheel on a carrier, it is a whole turn of all wheels, as
-        the body's direction is another one in each motion.
-        """
-        wheels, own = self.spec.drive.wheels_on_carrier, self.engagements
-        if not self.unbalanced:
-            return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
-        if own[0].mid_angle is not None:  # it is under load already
-            return self
-        z, count = self.spec.wheel.z, len(own)
-        angles, angle = [], 0.0  # the wheel's angle at each mid-motion of its turn
-        for i in range(z):
-            angles.append(angle)
-            angle += own[i % count].half_step + own[(i + 1) % count].half_step
-        spacing, each = self.period_deg / wheels, []
-        # each finger meets the wheel in every direction that it can
-        for k in range(math.lcm(z, count, self.spec.drive.rollers) * wheels):
-            number, behind = divmod(k, count)
-            mid_deg = own[behind].mid_deg + number * spacing
-            each.append(own[behind].later(mid_deg, angles[k // wheels % z]))
-        return self._replace(engagements=tuple(each), period_deg=spacing * len(each) / count)
+        """The machine with the period of its loads: up to the entry of the next wheel."""
+        wheels = self.spec.drive.wheels_on_carrier
+        return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
 
     @property
     def no_turn(self) -> str:
@@ -296,10 +235,7 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
 
 
 def _as_built(spec: Spec) -> Plan | None:
-    """The plan of a crank as built, whose R/L is not what the slots need; None for any other.
-
-    In a batch the designs that have the R/L of their slots are machines as derived.
-    """
+    """The plan of a crank as built, whose R/L is not what the slots need; None for any other."""
     wheel, radius, L = spec.wheel, spec.size.crank_radius_mm, spec.size.center_distance_mm
     if radius is None or L is None or spec.motion is not None:
         return None
@@ -316,6 +252,6 @@ def _as_built(spec: Spec) -> Plan | None:
     place = wheel.as_built(radius / L, rim / L, L)
     if place is None:
         return None
-    if not isinstance(off, bool):
+    if not isinstance(off, bool):  # designs with the R/L of their slots are machines as derived
         place = choose_record(off, place, as_derived(derived))
     return spec.drive.as_built(wheel, place, L)

@@ -25,29 +25,15 @@ SAMPLES_MAX = 1_000_000  # some seconds of writing, some 80 MB
 
 
 def motion_columns(mechanism: Mechanism) -> tuple[str, ...]:
-    """Names of the columns of a table of motion.
-
-    On a carrier the wheel's motion from the ground follows, positive as the carrier turns.
-    """
-    output = mechanism.output.column
-    own = (
-        "time_s",
-        "input_deg",
-        output,
-        "velocity",
-        "acceleration",
-        "jerk",
-        *rates_at_speed(mechanism),
-    )
-    absolute = ("absolute_deg", "absolute_velocity", "absolute_acceleration")
-    return (*own, *absolute) if mechanism.frame else own
+    """Names of the columns of a table of motion."""
+    own = "time_s", "input_deg", mechanism.output.column, "velocity", "acceleration", "jerk"
+    # on a carrier the motion from the ground follows, positive as the carrier turns
+    absolute = "absolute_deg", "absolute_velocity", "absolute_acceleration"
+    return (*own, *rates_at_speed(mechanism), *(absolute if mechanism.frame else ()))
 
 
 def rates_at_speed(mechanism: Mechanism) -> dict[str, float]:
-    """Names of velocity and acceleration at the spec's speed, and what an invariant becomes there.
-
-    Those of a wheel are of its angle, those of a rack of its travel.
-    """
+    """Names of velocity and acceleration at the spec's speed, with an invariant's unit there."""
     output, omega = mechanism.output, mechanism.spec.drive.n_rpm * math.pi / 30.0
     scale = output.rate_per_radian
     rates = {"omega_rad_s": omega * scale, "alpha_rad_s2": omega * omega * scale}
@@ -109,8 +95,7 @@ def angles_table(mechanism: Mechanism, at_deg: Sequence[float]) -> Table:
     """Rows as of ``motion_table`` at input angles from mid-motion, degrees, in their order.
 
     Time and the wheel's angle count from the first entry; before it they are those of the periods
-    before. An entry and an exit within rounding of an angle belong to it. Raises GenevaError for
-    angles that are no numbers, or more than a thousand turns away.
+    before. An entry and an exit within rounding of an angle belong to it.
     """
     places = checked_angles(at_deg)
     start, period = first_entry_deg(mechanism), mechanism.period_deg
@@ -143,22 +128,18 @@ def first_entry_deg(mechanism: Mechanism) -> float:
 
 
 def times_s(mechanism: Mechanism, input_deg: Array) -> Array:
-    """Seconds from the first entry. At the angle of a stop it is the time when the stop begins."""
-    turned = input_deg - first_entry_deg(mechanism)
-    out: Array = turned / (6.0 * mechanism.spec.drive.n_rpm)
-    return out + _stopped_s(mechanism, turned) if mechanism.spec.drive.stop_s else out
-
-
-def _stopped_s(mechanism: Mechanism, turned_deg: Array) -> Array:
-    """Seconds that the stops have cost, at input angles from the first entry, degrees.
+    """Seconds from the first entry. At the angle of a stop it is the time when the stop begins.
 
     Where braking and starting fit into a dwell, they stand in its middle, one after the other.
     """
     drive, begin = mechanism.spec.drive, first_entry_deg(mechanism)
+    turned_deg, second = input_deg - begin, 6.0 * drive.n_rpm  # degrees of input a second
+    time_s: Array = turned_deg / second
+    if not drive.stop_s:
+        return time_s
     count = np.floor(turned_deg / mechanism.period_deg)
     local = turned_deg - count * mechanism.period_deg
-    out: Array = count * len(mechanism.engagements) * drive.stop_s
-    second = 6.0 * drive.n_rpm  # degrees of input a second
+    lost_s: Array = count * len(mechanism.engagements) * drive.stop_s
     for number, engagement in enumerate(mechanism.engagements):
         dwell = mechanism.dwell_deg(number)
         brake, start = drive.brake_and_start_deg
@@ -173,9 +154,9 @@ def _stopped_s(mechanism: Mechanism, turned_deg: Array) -> Array:
         faster = np.clip(at - brake, 0.0, start)
         starting = drive.start_s * np.sqrt(faster / start) - faster / second if start else 0.0
         stands_s = drive.stop_s - (brake + start) / second
-        out = out + np.where(at > 0.0, braking, 0.0)
-        out = out + np.where(at > brake, stands_s + starting, 0.0)
-    return out
+        lost_s = lost_s + np.where(at > 0.0, braking, 0.0)
+        lost_s = lost_s + np.where(at > brake, stands_s + starting, 0.0)
+    return time_s + lost_s
 
 
 def _columns(mechanism: Mechanism, input_deg: Array, periods: int) -> list[Array]:
@@ -189,8 +170,7 @@ def _columns(mechanism: Mechanism, input_deg: Array, periods: int) -> list[Array
     columns += [rate * scale for rate, scale in zip(rates[:2], of_speed, strict=True)]
     if mechanism.frame:
         sense = mechanism.spec.wheel.SIGN
-        columns.append(mechanism.absolute_deg(input_deg, shown))
-        columns += [1.0 + sense * rates[0], sense * rates[1]]
+        columns += [input_deg + sense * shown, 1.0 + sense * rates[0], sense * rates[1]]
     return columns
 
 
@@ -201,43 +181,37 @@ class Span(NamedTuple):
     moves: slice
     rests: slice
     base: float  # the wheel's angle at mid-step, radians from the middle of the first step
+    local: Array  # the input angles of the motion, degrees from its own mid-motion
 
 
 def spans(mechanism: Mechanism, input_deg: Array) -> Iterator[Span]:
     """The motions of a period with the dwells after them; entry and exit belong to the motion."""
     engagements = mechanism.engagements
     first = 0
-    for i, engagement in enumerate(engagements):
-        base = sum(2.0 * s.half_step for s in engagements[:i]) + engagement.half_step
+    for i, one in enumerate(engagements):
+        base = sum(2.0 * s.half_step for s in engagements[:i]) + one.half_step
         base -= engagements[0].half_step
-        exit_ = engagement.mid_deg + engagement.exit_deg
+        exit_ = one.mid_deg + one.exit_deg
         last = max(first, int(np.searchsorted(input_deg, exit_, side="right")))
         following = i + 1 < len(engagements)
         next_entry = exit_ + mechanism.dwell_deg(i) if following else math.inf
         after = int(np.searchsorted(input_deg, next_entry, side="left"))
-        yield Span(engagement, slice(first, last), slice(last, after), base)
+        local = np.clip(input_deg[first:last] - one.mid_deg, one.entry_deg, one.exit_deg)
+        yield Span(one, slice(first, last), slice(last, after), base, local)
         first = after
-
-
-def local_deg(span: Span, input_deg: Array) -> Array:
-    """The input angles of a motion, degrees from its own mid-motion."""
-    engagement = span.engagement
-    here = input_deg[span.moves] - engagement.mid_deg
-    return np.clip(here, engagement.entry_deg, engagement.exit_deg)
 
 
 def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -> list[Array]:
     """The wheel's angle, radians, and its derivatives at ascending input angles of a period."""
     out = [np.zeros(len(input_deg)) for _ in orders]
-    for span in spans(mechanism, input_deg):
-        local = local_deg(span, input_deg)
-        moving = span.engagement.motion.derivatives(local, orders) if len(local) else []
+    for engagement, moves, rests, base, local in spans(mechanism, input_deg):
+        moving = engagement.motion.derivatives(local, orders) if len(local) else []
         for total, row in zip(out, moving, strict=False):
-            total[span.moves] = row
+            total[moves] = row
         for order, total in zip(orders, out, strict=True):
             if order == 0:
-                total[span.rests] = span.engagement.half_step
-                total[span.moves.start : span.rests.stop] += span.base
+                total[rests] = engagement.half_step
+                total[moves.start : rests.stop] += base
     return out
 
 
@@ -305,10 +279,7 @@ def knots_deg(mechanism: Mechanism, count: int) -> Array:
 
 
 def periods(mechanism: Mechanism, turns: int | None) -> int:
-    """The number of periods in ``turns`` of the input; 1 for None.
-
-    Raises GenevaError if the turns are no whole periods.
-    """
+    """The number of periods in ``turns`` of the input; 1 for None."""
     if turns is None:
         return 1
     if not 1 <= turns <= 1000:  # more make no file that a program reads

@@ -9,8 +9,7 @@ from typing import ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Anchor, Peak, Slot, WheelMotion, in_wheel
-from geneva_cli.motion.laws.law import Law, remaining
-from geneva_cli.motion.laws.law_peaks import greatest
+from geneva_cli.motion.laws.law import Law, greatest, remaining
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, all_true, ascending, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise
@@ -40,7 +39,6 @@ class SolvedSlot(Slot):
         self.mirrored = path.mirrored
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """Pin (x, y) in the wheel's frame."""
         return in_wheel(self.path(input_deg, order), self.motion(input_deg, order))
 
 
@@ -58,12 +56,10 @@ class LawMotion(WheelMotion):
 
     @property
     def symmetric(self) -> bool:
-        """True if the law is symmetric and the motion is centred on mid-motion."""
         return all_true(self.law.symmetric) and super().symmetric
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
-        """Entry, the law's own breaks and its middle, the line of centres, and exit, in degrees."""
         whole = self.exit_deg - self.entry_deg
         places = (0.5, *self.law.breaks)
         inner = [0.0, *[self.entry_deg + u * whole for u in places]]
@@ -73,13 +69,11 @@ class LawMotion(WheelMotion):
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
-        """Entry, the law's knots and its middle, and exit, in degrees."""
         whole = self.exit_deg - self.entry_deg
         inner = sorted({0.5, *self.law.knots})
         return (self.entry_deg, *[self.entry_deg + u * whole for u in inner], self.exit_deg)
 
     def closed_peak(self, quantity: str) -> Peak[float] | None:
-        """Peak of a quantity, scaled from the law's own; None for a batch of laws."""
         if self.law.varies:
             return None
         size, u = greatest(self.law)[quantity]
@@ -91,7 +85,6 @@ class LawMotion(WheelMotion):
         return Peak(size * step / radians(whole) ** times, at_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """Wheel angle with its derivatives; each half of the law is computed from its own end."""
         whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
         middle = 0.5 * (self.entry_deg + self.exit_deg)
 

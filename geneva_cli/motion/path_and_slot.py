@@ -10,7 +10,6 @@ from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import (
     SINGLE,
-    Array,
     Batchable,
     Whole,
     array,
@@ -19,8 +18,6 @@ from geneva_cli.numerics.arrays import (
     piece_of,
 )
 from geneva_cli.numerics.jet import Jet, Number, atan2, piecewise, sin, sin_cos, sqrt, turning
-
-END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 
 
 class AnchoredPath(Batchable):
@@ -90,41 +87,32 @@ class RadialSlot(Slot):
         self.path = path
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
-        """Pin (x, y) in the wheel, on the slot's straight axis."""
         depth = _length(*self.path.middle.place(input_deg, order))
         return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
         along, across, _ = self.path.nearest(input_deg, order + 1)
         depth = _length(along, across)
         return SlotAxis(depth.lower, depth.derivative())
 
 
 class MeridianSlot(Slot):
-    """A spherical wheel's slot, a meridian.
-
-    The path is the pin's projection along the wheel's axis. The pitch curve is in the flat
-    development from the wheel's pole, which keeps lengths along a meridian.
-    """
+    """A spherical wheel's slot, a meridian."""
 
     def __init__(self, path: AnchoredPath, height: Height) -> None:
         self.path = path
         self.level = self.height = height
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
-        """Pin's polar angle on the wheel in radians: arc length over the sphere's radius."""
         x, y = self.path(input_deg, order)
         polar = atan2(_length(x, y), self.level(radians(input_deg), order))
         return polar, polar * 0.0
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
         polar = self(input_deg, order + 1)[0]
         return SlotAxis(sin(polar.lower), polar.derivative())
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet:
-        """Cosine of the pin's polar angle: the roller's axis passes through the sphere's centre."""
         return sin_cos(self(input_deg, order)[0])[1]
 
 
@@ -137,24 +125,20 @@ class StraightSlotMotion(WheelMotion):
 
     @property
     def entry(self) -> Anchor:
-        """Anchor of the entry."""
         return self.path.anchors[0]
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
-        """Entry, mid-motion, where one anchor hands over to the next, the path's own, and exit."""
         path = self.path
         places = {0.0, *path.cuts, *[at for one in path.anchors for at in one.seams_deg]}
         inside = sorted(at for at in places if self.entry_deg < at < self.exit_deg)
         return (self.entry_deg, *inside, self.exit_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """Wheel angle from the direction of the pin at the nearest anchor; at rest at both ends."""
         along, across, ray = self.path.nearest(input_deg, order)
         return atan2(across, along) + ray
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
-        """Rate at which the pin's direction turns, computed without an arc tangent."""
         along, across, _ = self.path.nearest(input_deg, order + 1)
         return turning(along, across)
 
@@ -165,8 +149,6 @@ class ClassicMotion(StraightSlotMotion):
     ``sign`` is +1 for an external wheel and -1 for an internal one; l = sin b and ``rest`` = 1 - l.
     """
 
-    is_closed = True
-
     def __init__(
         self, path: AnchoredPath, half_step: float, sign: float, l: float, rest: float
     ) -> None:
@@ -174,7 +156,6 @@ class ClassicMotion(StraightSlotMotion):
         self.sign, self.l, self.rest = sign, l, rest
 
     def closed_peak(self, quantity: str) -> Peak[float] | None:
-        """Peak of velocity, acceleration, jerk or power in closed form."""
         outside = self.sign > 0.0
         gap = self.rest if outside else 1.0 + self.l
         if quantity == "velocity":
@@ -190,21 +171,8 @@ class ClassicMotion(StraightSlotMotion):
         return Peak(size, 0.0 - at_deg)
 
     def end_rates(self, input_deg: float) -> tuple[float, float]:
-        """Sizes of acceleration and jerk at either end: tan b and 3 tan² b."""
         jump = self.l / self.entry.along  # which is cos b
         return jump, 3.0 * jump * jump
-
-    def _requested(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
-        """Wheel angle and its derivatives in closed form; angle and velocity near the ends not."""
-        if not isinstance(self.l, float):
-            return super()._requested(input_deg, orders)
-        out = classic.derivatives(self.sign, self.l, self.rest, input_deg, orders)
-        near = (input_deg < self.entry_deg + END_DEG) | (input_deg > self.exit_deg - END_DEG)
-        low = [order for order in orders if order < 2]
-        if low and near.any():
-            for order, values in zip(low, super()._requested(input_deg[near], low), strict=True):
-                out[orders.index(order)][near] = values
-        return out
 
 
 def _length(x: Jet, y: Jet) -> Jet:

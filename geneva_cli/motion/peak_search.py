@@ -52,6 +52,11 @@ def _quantity(quantity: str, p: tuple[Array, ...]) -> Sequence[Array]:
     return out
 
 
+def breaks(motion: WheelMotion, m: int) -> list[Array]:
+    """The breaks of m motions, in degrees: (m, 1) each."""
+    return [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]
+
+
 def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     """Ends of the smooth parts of m motions, (m, 1) each, clear of the breaks between them.
 
@@ -59,7 +64,7 @@ def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
     0 is exact. The value at a break itself belongs to the part before it, so that the part after it
     begins at least one double later.
     """
-    places = motion.breaks(m)
+    places = breaks(motion, m)
     blur = motion.BREAKS_TO * (places[-1] - places[0])
     inner = [(x, np.where(x == 0.0, 0.0, blur)) for x in places[1:-1]]
     # beyond 0 the next double would become 0 again where it is scaled
@@ -72,10 +77,7 @@ def spans(motion: WheelMotion, m: int) -> list[tuple[Array, Array]]:
 
 
 def pole_deg(even: Jet) -> Array:
-    """Distance from mid-motion of a function's nearest pole, degrees, from its jet near there.
-
-    Near mid-motion the function is as c / (1 + x²/w²), or as its root, with w the distance.
-    """
+    """Distance from mid-motion of a function's nearest pole, degrees, from its jet near there."""
     return np.sqrt(np.abs(array(even.c[0]) / even.c[2])) / DEGREE
 
 
@@ -94,10 +96,7 @@ def search_motion(motion: WheelMotion, f: Smooth, sized: bool = True) -> SearchR
 def motion_peaks(
     motion: WheelMotion, quantities: Sequence[str] = QUANTITIES
 ) -> dict[str, PeakArray]:
-    """Greatest sizes over the motions of m designs, ends included, and their input angles, degrees.
-
-    Closed forms are used where a motion has them.
-    """
+    """Greatest sizes over the motions of m designs, ends included, and their input angles."""
     peaks: dict[str, PeakArray] = {}
     for name in quantities:
         known = motion.closed_peak(name)

@@ -46,10 +46,7 @@ def retraces(engagement: Engagement) -> bool:
 
     This holds for straight slots and at the mid condition. Otherwise the pin passes mid-motion
     across the slot's radius, and the pressure angle is 90 degrees there. For a batch the result is
-    an array. It is cached for the many places at which a slot's walls are evaluated.
-
-    M' is the difference between the pin's own motion p' and psi' |p|, the motion of the wheel below
-    it. Both are small if gears are slow and the pin passes near the wheel's centre.
+    an array.
     """
     x, y = engagement.slot(0.0, 1)
     m = library(x.c[0])
@@ -103,11 +100,7 @@ def opposites(engagement: Engagement, input_deg: Array) -> Array:
 
 @lru_cache(maxsize=16)
 def pitch_at_retrace(engagement: Engagement) -> Pitch:
-    """Limit of the pitch curve at mid-motion for a pin that retraces, approached from the entry.
-
-    There M' = 0 and M moves as M'' t²/2 + M''' t³/6. The pin stops along M'', and its direction
-    turns at M'' x M''' / (2 |M''|²) on both sides.
-    """
+    """Limit of the pitch curve at mid-motion for a pin that retraces, approached from the entry."""
     x, y = engagement.slot(0.0, 3)
     m = library(x.c[0])
     (x0, _, x2, x3), (y0, _, y2, y3) = x.derivatives(), y.derivatives()

@@ -4,11 +4,9 @@ The wheel's axis is the origin, and the crank's axis is on the x axis, as in the
 """
 
 import math
-from collections.abc import Sequence
 from enum import Enum
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import Array
 
 
@@ -95,32 +93,12 @@ class AxisPlace(NamedTuple):
 
 
 def wheel_places(count: int, sign: float, L: float) -> tuple[AxisPlace, ...]:
-    """Places of evenly spaced wheels about the axis at (L, 0); ``sign`` is -1 for internal ones.
-
-    >>> [round(value, 9) for value in wheel_places(2, 1.0, 100.0)[1].at]
-    [200.0, 0.0]
-    """
-    first, *others = (math.tau * k / count for k in range(max(1, count)))
-    out = [AxisPlace(1, 0.0, first, (0.0, 0.0))]
-    for k, angle in enumerate(others, 1):
+    """Places of evenly spaced wheels about the axis at (L, 0); ``sign`` is -1 for internal ones."""
+    out = [AxisPlace(1, 0.0, 0.0, (0.0, 0.0))]
+    for k in range(1, count):
+        angle = math.tau * k / count
         at = 2.0 * L * math.sin(0.5 * angle) ** 2, sign * L * math.sin(angle)
         out.append(AxisPlace(k + 1, 360.0 * k / count, -sign * angle, at))
-    return tuple(out)
-
-
-def crank_places(steps: Sequence[float], z: int, L: float) -> tuple[AxisPlace, ...]:
-    """Places of cranks that stand ``steps`` steps of a wheel of ``z`` slots from the first.
-
-    They work in turn, evenly over a turn of the input.
-
-    >>> crank_places((0, 3), 6, 100.0)[1].at
-    (-100.0, 0.0)
-    """
-    out = []
-    for k, step in enumerate(steps):
-        sine, cosine = sin_cos_pi(2 * int(step), z)
-        turn = math.tau * step / z
-        out.append(AxisPlace(k + 1, 360.0 * k / len(steps), turn, (L * cosine, L * sine)))
     return tuple(out)
 
 

@@ -19,19 +19,13 @@ class PlaneMotion:
     """The motion of a body in its plane: here a wheel that turns about the origin.
 
     Angles are in radians; arrays of points are (n, 2).
-
-    >>> PlaneMotion().into(np.array([[0.0, 2.0]]), np.array([0.5 * math.pi])).round(9)
-    array([[2., 0.]])
     """
 
     # change of the place after which a body meets itself, radians; infinite for a rack
     PERIOD = math.tau
 
     def into(self, points: Array, turn: Array) -> Array:
-        """Return points in the frame of the body, which has moved by n angles.
-
-        With the angles negated it is the way back into the fixed frame.
-        """
+        """Return points in the frame of the body, which has moved by n angles."""
         return turned_points(points, -turn)
 
     def angle(self, turn: Array) -> Array:

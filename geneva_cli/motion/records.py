@@ -29,10 +29,9 @@ _DRAWINGS = {
     "gears": "drawings.part_drawings:gears",
     "groove": "drawings.part_drawings:groove",
     "groove-plate": "drawings.part_drawings:groove_plate",
-    "coupon": "drawings.coupon:coupon",
-    "plate": "drawings.coupon:plate",
-    "sheet": "drawings.sheet.machine_sheet:sheet",
+    "plate": "drawings.single_parts:plate",
 }
+_SHEET = {"sheet": "drawings.sheet.machine_sheet:sheet"}
 _TABLES = {
     "slot": "parts.slots.slot_profile:profile_table",
     "gears": "parts.gears.gear_curves:gears_table",
@@ -44,7 +43,7 @@ _FLAT = Kind(
     "",
     parts="parts.flat_parts:FlatParts",
     frame="parts.frame:framed",
-    drawings=_DRAWINGS,
+    drawings=_DRAWINGS | _SHEET,
     tables=_TABLES,
 )
 # The kinds of the core; those in ``kinds`` follow.
@@ -56,7 +55,7 @@ _CORE = (
         families={"wheel": "study.synth.families.straight_slots:offset_slots"},
     ),
     _FLAT._replace(
-        name="internal", synonyms=("inner", "inside"), wheel="motion.wheels.internal:Internal"
+        name="internal", synonyms=("inner", "inside"), wheel="motion.wheels.external:Internal"
     ),
     Kind(
         "spherical",
@@ -90,21 +89,12 @@ IN_FRONT = "drives.retimed:retimed"
 
 
 def of_wheel(name: str) -> list[Kind]:
-    """The records of a kind of wheel: its own, then those that add to it.
-
-    >>> [kind.name for kind in of_wheel("internal")]
-    ['internal']
-    """
+    """The records of a kind of wheel: its own, then those that add to it."""
     return [kind for kind in KINDS if name in (kind.adds_to, kind.name if kind.wheel else "")]
 
 
 def thing(wheel: str, field: str) -> Any:
-    """Function or class of a kind of wheel in a field of its record; None without one.
-
-    That of a kind that adds to the wheel replaces the wheel's own.
-
-    >>> thing("external", "load_case")
-    """
+    """Function or class of a kind of wheel in a field of its record; None without one."""
     path = named(wheel, field)
     return load_named(path) if path else None
 

@@ -35,8 +35,7 @@ LAWS = _STANDARD.copy()
 for _folder in EXTRAS:
     LAWS.update(load_named(f"extras.{_folder}:EXTRA").laws)
 LAWS |= {
-    "scca": "motion.laws.scca:SineConstantCosine",
-    "tuned": "loads.vibration.tuned:Tuned",
+    "scca": "motion.laws.standard:SineConstantCosine",
     "table": "motion.laws.table_law:TableLaw",
 }
 
@@ -54,11 +53,7 @@ def drive(name: str) -> type[Drive]:
 
 
 def drives_with(thing: str) -> list[str]:
-    """Names of the drives that have a thing of their own, such as ``gears``.
-
-    >>> drives_with("gears")
-    ['elliptical-gears', 'noncircular-gears']
-    """
+    """Names of the drives that have a thing of their own, such as ``gears``."""
     return [name for name in DRIVES if vars(drive(name)).get(thing)]
 
 

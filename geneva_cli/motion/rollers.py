@@ -15,7 +15,6 @@ from geneva_cli.motion.wheels.poses import HalfStep
 if TYPE_CHECKING:
     from geneva_cli.motion.drive import Drive
 
-
 ANGLES_KEY = ("drive", "roller_angles_deg")
 
 
@@ -24,12 +23,20 @@ def places(wheel: Gearing, drive: Drive, L: float) -> list[RollerPlace]:
 
     Rollers that move the wheel alike are returned as one. Raises GenevaError if rollers would jam.
     """
-    angles = drive.roller_angles_deg
-    if wheel.steps:  # on different arms: R_i = L sin b_i
-        rollers = [wheel.place(HalfStep.of_deg(0.5 * step), L) for step in wheel.steps]
-        _refuse_no_dwell(rollers, ("wheel", "steps_deg"))
-        return _at_angles(angles, rollers) if angles else _equal_dwells(rollers)
-    return alike(wheel, drive, wheel.place(wheel.step, L))
+    if not wheel.steps:
+        return alike(wheel, drive, wheel.place(wheel.step, L))
+    # on different arms: R_i = L sin b_i
+    rollers = [wheel.place(HalfStep.of_deg(0.5 * step), L) for step in wheel.steps]
+    _refuse_no_dwell(rollers, ("wheel", "steps_deg"))
+    if drive.roller_angles_deg:
+        return _at_angles(drive.roller_angles_deg, rollers)
+    # placed so that the dwells between their motions are equal
+    total = math.fsum(2.0 * one.half_motion_deg for one in rollers)
+    dwell, at, out = (360.0 - total) / len(rollers), 0.0, rollers[:1]
+    for before, one in pairwise(rollers):
+        at += before.half_motion_deg + dwell + one.half_motion_deg
+        out.append(one._replace(crank_deg=at))
+    return out
 
 
 def alike(wheel: Gearing, drive: Drive, one: RollerPlace) -> list[RollerPlace]:
@@ -45,20 +52,20 @@ def _at_angles(angles: tuple[float, ...], rollers: list[RollerPlace]) -> list[Ro
     """Rollers at the angles of the spec, each gap wide enough for half of both adjacent motions."""
     if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
         raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES_KEY)
+
+    def too_near(a: float, b: float, motions: float) -> GenevaError:
+        text = (
+            f"the rollers at {a:g} and {b % 360.0:g} deg jam: half of both motions takes "
+            f"{motions:.6g} deg, and they are {b - a:.6g} deg apart"
+        )
+        return GenevaError(text, ANGLES_KEY)
+
     following = (*angles[1:], 360.0), (*rollers[1:], rollers[0])
     for a, one, b, after in zip(angles, rollers, *following, strict=True):
         motions = one.half_motion_deg + after.half_motion_deg
-        refuse(b - a < motions, partial(_too_near, a, b, motions))
+        refuse(b - a < motions, partial(too_near, a, b, motions))
     _refuse_no_dwell(rollers, ANGLES_KEY)
     return [one._replace(crank_deg=a) for a, one in zip(angles, rollers, strict=True)]
-
-
-def _too_near(a: float, b: float, motions: float) -> GenevaError:
-    return GenevaError(
-        f"the rollers at {a:g} and {b % 360.0:g} deg jam: half of both motions takes "
-        f"{motions:.6g} deg, and they are {b - a:.6g} deg apart",
-        ANGLES_KEY,
-    )
 
 
 def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> None:
@@ -72,14 +79,3 @@ def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> None:
             key,
         ),
     )
-
-
-def _equal_dwells(rollers: list[RollerPlace]) -> list[RollerPlace]:
-    """Rollers placed so that the dwells between their motions are equal."""
-    total = math.fsum(2.0 * one.half_motion_deg for one in rollers)
-    dwell = (360.0 - total) / len(rollers)
-    out, at = rollers[:1], 0.0
-    for before, one in pairwise(rollers):
-        at += before.half_motion_deg + dwell + one.half_motion_deg
-        out.append(one._replace(crank_deg=at))
-    return out

@@ -82,11 +82,7 @@ class SolvedPath(Batchable):
 
     @property
     def crossing(self) -> Number:
-        """Roller distance from the crank's axis at mid-motion, on the line of centres.
-
-        There psi and phi vanish together, and the distance is the limit of the quotient of their
-        sines.
-        """
+        """Roller distance from the crank's axis at mid-motion, on the line of centres."""
         slope = self.motion(0.0, 1).c[1]
         return slope / (slope * self.sign + 1.0)
 
@@ -122,16 +118,13 @@ class SolvedPathSlot(Slot):
 
     @property
     def seams_deg(self) -> tuple[float, ...]:
-        """Input angles at which another formula of the path takes over, degrees."""
         return self.path.seams_deg
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """Pin (x, y) in the wheel, on the slot's straight axis."""
         rho, _ = self.path.distances(input_deg, order)
         return rho, rho * 0.0
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
         rho, _ = self.path.distances(input_deg, order + 1)
         return SlotAxis(rho.lower, rho.derivative())
 
@@ -148,10 +141,7 @@ def _polynomial(c: Sequence[Number], x: Number) -> Number:
 
 
 def _sinc(x: Jet) -> Jet:
-    """Jet of sin x / x for small x, from its series about the value of x.
-
-    Each derivative has enough terms to be exact to a double up to x = 1/2.
-    """
+    """Jet of sin x / x for small x, from its series about the value of x."""
     at, order = x.c[0], x.order
     square = at * at
     step = Jet((at * 0.0, *x.c[1:]))

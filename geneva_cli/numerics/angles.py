@@ -35,10 +35,7 @@ def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
 
 
 def one_minus_sin_pi(p: int, q: int) -> float:
-    """1 - sin(pi p/q), correctly rounded even near 0.
-
-    Arrays of designs are within 4 units in the last place unless p is a whole number.
-    """
+    """1 - sin(pi p/q), correctly rounded even near 0."""
     if isinstance(p, int) and isinstance(q, int):
         return (_ONE - scaled_sin_cos(p, q)[0]) / _ONE
     if not _whole(p):
@@ -96,10 +93,7 @@ def scaled_sin_cos(p: int, q: int) -> tuple[int, int]:
 
 
 def sin_cos_deg(degrees: float) -> tuple[float, float]:
-    """Sine and cosine of an angle in degrees, correctly rounded for a double.
-
-    Arrays are within 2 units in the last place.
-    """
+    """Sine and cosine of an angle in degrees, correctly rounded for a double."""
     if isinstance(degrees, float):
         p, q = degrees.as_integer_ratio()
         return sin_cos_pi(p, 180 * q)
@@ -119,13 +113,7 @@ def omega(n_rpm: float) -> float:
 
 
 def distinct(places: Sequence[float], least: float) -> list[float]:
-    """Return ascending places without those within ``least`` of another; both ends stay.
-
-    Two formulas of one place differ by rounding.
-
-    >>> distinct([0.0, 1.0, 1.0 + 1e-15, 2.0 - 1e-15, 2.0], 1e-12)
-    [0.0, 1.0, 2.0]
-    """
+    """Return ascending places without those within ``least`` of another; both ends stay."""
     first, *inner, last = places
     out = [first]
     for at in inner:

@@ -67,10 +67,7 @@ class Undecided(ArithmeticError):
 
 
 class Enclosed:
-    """A single number that is known by two bounds: a ``balls.Ball`` or an ``intervals.Interval``.
-
-    It brings its own functions. To the type checker it is a float, as all numbers of formulas are.
-    """
+    """A number that is known by two bounds: a ``balls.Ball`` or an ``intervals.Interval``."""
 
     __slots__ = ()
     library: ClassVar[Library]
@@ -107,11 +104,7 @@ SINGLE = (float, int, Enclosed)  # the kinds of a single number; any other is an
 
 
 def piece_of(x: Number, cuts: Sequence[float]) -> int:
-    """Number of the piece that holds x: the i-th lies up to ``cuts[i]``, the end included.
-
-    >>> piece_of(0.5, [0.0, 0.5, 1.0])
-    1
-    """
+    """Number of the piece that holds x: the i-th lies up to ``cuts[i]``, the end included."""
     return x.piece(cuts) if isinstance(x, Enclosed) else bisect_left(cuts, cast(float, x))
 
 
@@ -121,18 +114,12 @@ def pieces_of(x: Number, cuts: Sequence[float]) -> int | Whole:
 
 
 def narrowed(value: Number, f: Callable[[Number], Number], x: Number) -> Number:
-    """The value f(x) of a function that rises, as narrow as its ends if x is an enclosure.
-
-    In a formula an enclosure stands several times, and each time counts its width anew.
-    """
+    """The value f(x) of a function that rises, as narrow as its ends if x is an enclosure."""
     return x.rising(f) if isinstance(x, Enclosed) else value
 
 
 def enclosed(x: Number, numbers: Record) -> Record:
-    """Numbers of a machine as enclosures of each alone, if x is an enclosure; else as they are.
-
-    Sums and quotients of doubles round before an enclosure meets them, and no bound knows of it.
-    """
+    """Numbers of a machine as enclosures of each alone, if x is an enclosure; else as they are."""
     if not isinstance(x, Enclosed):
         return numbers
     kept = (int, str, tuple, type(None), Enclosed)
@@ -183,10 +170,6 @@ def picked(index: Whole, records: Sequence[Record]) -> Record:
 
     Records are tuples of the same shape; what they hold besides numbers is the same in all. Numbers
     are floats, or arrays: (n, 1) of n designs, or (1, 1) of a number that the designs share.
-
-    >>> import numpy as np
-    >>> picked(np.array([1, 0, 1]), ((1.0, 5.0), (2.0, 5.0)))
-    (array([2., 1., 2.]), 5.0)
     """
     import numpy
 
@@ -213,12 +196,7 @@ def record_of(like: Record, parts: Sequence[object]) -> Record:
 
 
 def joined(records: Sequence[Record], axis: int = -1) -> Record:
-    """Several records of arrays, or of such records, as one: each array joined along an axis.
-
-    >>> import numpy as np
-    >>> joined([(np.zeros(1), np.ones((2, 1))), (np.zeros(2), np.ones((2, 2)))])[1].shape
-    (2, 3)
-    """
+    """Several records of arrays, or of such records, as one: each array joined along an axis."""
     import numpy
 
     def member(parts: Sequence[object]) -> object:
@@ -235,11 +213,7 @@ def numbers_of(which: Mask | Whole) -> Whole:
 
 
 def record_taken(record: Record, which: Which) -> Record:
-    """A record of arrays (..., m) with some of their columns.
-
-    NumPy's own indexing puts each column's values side by side in memory; reductions over them then
-    take fifty times as long.
-    """
+    """A record of arrays (..., m) with some of their columns."""
     columns = cast("tuple[Array, ...]", record)
     if isinstance(which, slice):
         return record_of(record, [column[..., which] for column in columns])
@@ -248,23 +222,12 @@ def record_taken(record: Record, which: Which) -> Record:
 
 
 def blocks(count: int, size: int) -> list[slice]:
-    """Adjacent slices of at most ``size`` numbers that divide ``count`` numbers.
-
-    >>> blocks(5, 2)
-    [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
-    >>> blocks(0, 2)
-    [slice(0, 0, None)]
-    """
+    """Adjacent slices of at most ``size`` numbers that divide ``count`` numbers."""
     return [slice(i, min(i + size, count)) for i in range(0, count, size)] or [slice(0, 0)]
 
 
 def within_half_turn(angle: Array) -> Array:
-    """Angles in radians, at least -pi and below pi.
-
-    >>> import numpy as np
-    >>> within_half_turn(np.array([0.5, np.pi])).tolist()
-    [0.5, -3.141592653589793]
-    """
+    """Angles in radians, at least -pi and below pi."""
     import numpy as np
 
     out: Array = np.remainder(angle + np.pi, 2.0 * np.pi) - np.pi
@@ -292,14 +255,6 @@ def size(x: N) -> N:
     return x.__abs__()
 
 
-def designs_of(design: int | Whole) -> int:
-    """The number of designs in a batch, from its designs' numbers: (m, 1), or one number.
-
-    A batch carries these numbers, as its varied values need not be arrays.
-    """
-    return 1 if isinstance(design, int) else len(design)
-
-
 def parameter(x: Number) -> float:
     """A machine's number that was computed by a jet, with the type that all of them have: float."""
     return cast(float, x)
@@ -311,14 +266,7 @@ def scalar(x: Number) -> float:
 
 
 def matrix_product(values: Array, matrix: Array) -> Array:
-    """``values @ matrix`` with its sums in one order on every processor.
-
-    The order in NumPy's own product depends on the processor, and so do the last digits.
-
-    >>> from numpy import eye
-    >>> matrix_product(eye(2), eye(2)[0])
-    array([1., 0.])
-    """
+    """``values @ matrix`` with its sums in one order on every processor."""
     import numpy
 
     out: Array = numpy.einsum(
@@ -335,14 +283,7 @@ def array(x: Number) -> Array:
 
 
 def read_only(x: T) -> T:
-    """Return a cached value whose arrays, in records too, are views that cannot be written through.
-
-    >>> import numpy as np
-    >>> once, _ = read_only((np.zeros(2), "zeros"))
-    >>> once += 1.0
-    Traceback (most recent call last):
-    ValueError: output array is read-only
-    """
+    """A cached value whose arrays, in records too, are views that cannot be written through."""
     if isinstance(x, tuple):
         return cast("T", record_of(x, [read_only(member) for member in x]))
     import numpy
@@ -355,13 +296,7 @@ def read_only(x: T) -> T:
 
 
 def only_of(rows: Iterable[Number | None]) -> list[float | None]:
-    """The results of a single design from arrays (1,): None for None and NaN.
-
-    Raises ValueError for results of several designs.
-
-    >>> only_of([2.0, math.nan, None])
-    [2.0, None, None]
-    """
+    """The results of a single design from arrays (1,): None for None and NaN."""
     numbers = [None if row is None else array(row).item() for row in rows]
     return [None if x is None or math.isnan(x) else x for x in numbers]
 
@@ -377,12 +312,7 @@ def smaller(a: N, b: N) -> N:
 
 
 def rising(x: Either) -> Either:
-    """Numbers (n,) in rising order, each once: ``numpy.unique``, which would import numpy.ma.
-
-    >>> import numpy
-    >>> rising(numpy.array([2.0, 1.0, 2.0])).tolist()
-    [1.0, 2.0]
-    """
+    """Numbers (n,) in rising order, each once: ``numpy.unique``, which would import numpy.ma."""
     import numpy
 
     ordered = numpy.sort(x, axis=None)

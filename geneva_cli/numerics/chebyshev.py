@@ -28,11 +28,7 @@ def _even_spread(cells: int) -> Array:
 
 
 def product(matrix: Array, values: Array) -> Array:
-    """A matrix (n, k) times values (..., k, m), summed in order.
-
-    BLAS sums in an order that depends on the number of columns and on the processor. Then a single
-    design would differ from the same design in a batch.
-    """
+    """A matrix (n, k) times values (..., k, m), summed in order."""
     out: Array = matrix[:, 0, None] * values[..., None, 0, :]
     term = np.empty_like(out)
     for k in range(1, matrix.shape[1]):

@@ -27,12 +27,15 @@ class Functions(Protocol):
     """The functions of designs: first those whose signs matter, then the wanted ones.
 
     Each of the first is smooth while those before it keep their signs, the wanted ones while all
-    do. ``poled`` are the numbers of those that behave as 1/x at the place 0.
+    do. Called with places (m, k) of some designs, it returns masks of positive signs (signs, m, k)
+    and Taylor coefficients (functions, m, k) by the place. ``held`` are known signs, 1.0 or -1.0,
+    NaN where they are computed. ``requested`` are the numbers of the wanted functions to evaluate,
+    all by default. A function without a bound is infinite, and its slope 0.
     """
 
     signs: int  # number of the functions whose signs matter
     wanted: int  # number of the wanted ones
-    poled: Sequence[int]
+    poled: Sequence[int]  # numbers of those that behave as 1/x at the place 0
 
     def __call__(
         self,
@@ -41,13 +44,7 @@ class Functions(Protocol):
         order: int,
         held: Array | None = None,
         requested: Sequence[int] | None = None,
-    ) -> tuple[Mask, list[Array]]:
-        """Masks of positive signs, (signs, m, k), and Taylor coefficients (functions, m, k).
-
-        They are those of some designs at places (m, k), by the place. ``held`` are known signs, 1.0
-        or -1.0, NaN where they are computed. ``requested`` are the numbers of the wanted functions
-        to evaluate, all by default. A function without a bound is infinite, and its slope 0.
-        """
+    ) -> tuple[Mask, list[Array]]: ...
 
 
 class Rows(NamedTuple):
@@ -119,7 +116,14 @@ class Cutter:
         level, until none is left. A kink or a pole leaves some rows at each level, noise twice as
         many as before.
         """
-        rows = joined([self._rows(i, a, b, start) for i, (a, b) in enumerate(spans)])
+        each = []
+        for number, (a, b) in enumerate(spans):
+            own = np.flatnonzero((b > a)[:, 0])
+            design, x = own + start, np.stack((a[own, 0], b[own, 0]))
+            u = spread(x, self.w[design])
+            self.width[design] += u[1] - u[0]
+            each.append(Rows(design, np.full(len(own), number), u, x))
+        rows = joined(each)
         first = np.bincount(rows.design, minlength=len(self.noisy))
         for depth in range(60):  # halvings: all rows are too narrow for more by then
             if not len(rows.design):
@@ -132,13 +136,6 @@ class Cutter:
                 [self._sampled(rows.take(some)) for some in blocks(len(rows.design), BLOCK)],
             )
             rows = joined(self.todo)
-
-    def _rows(self, number: int, a: Array, b: Array, start: int) -> Rows:
-        own = np.flatnonzero((b > a)[:, 0])
-        design, x = own + start, np.stack((a[own, 0], b[own, 0]))
-        u = spread(x, self.w[design])
-        self.width[design] += u[1] - u[0]
-        return Rows(design, np.full(len(own), number), u, x)
 
     def is_settled(self, rows: Rows) -> Mask:
         """Masks of the rows that are too narrow for halving, or noise."""
@@ -174,12 +171,20 @@ class Cutter:
             if unsure.any():
                 self.again(here.part(part, self.w), part, unsure)
             if len(cut) or unsure.any():
-                number, part = _between(cut, t, part)
+                # the parts between the cuts, by the numbers of the original parts
+                number = np.concatenate((np.arange(part.shape[1]), cut))
+                begin, end = np.concatenate((part[0], t)), np.concatenate((part[1], t))
+                one, two = np.lexsort((begin, number)), np.lexsort((end, number))
+                number, part = number[one], np.stack((begin[one], end[two]))
                 kept = np.flatnonzero(~unsure[number] & (part[1] > part[0]))
                 number, part = number[kept], part.take(kept, axis=1)
                 own = own[number]
                 q, sign, value = (v.take(number, axis=-1) for v in (q, sign, value))
-            flip = _other_sign(q, part, sign[kind])
+            # parts in whose middle the function does not have the sign of their row
+            some = np.flatnonzero(~is_whole(part))
+            terms, t = chebyshev.series(q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some]
+            middles = np.where(chebyshev.at(terms, t) > 0.0, 1.0, -1.0)
+            flip = some[middles != sign[kind, some]]
             if len(flip):
                 sign[kind, flip] *= -1.0
                 design = rows.design[own[flip]]
@@ -195,10 +200,7 @@ class Cutter:
     def _zeros(
         self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
     ) -> tuple[Mask, Whole, Array]:
-        """A mask of parts with unknown zeros, and the zeros of the other parts.
-
-        Zeros are the numbers of their parts, and positions from -1 to 1 in the rows.
-        """
+        """A mask of parts with unknown zeros, and the zeros of the other parts."""
         unsure, none = np.full(len(rows.design), False), (np.zeros(0, dtype=int), np.zeros(0))
         size, left = np.abs(value).max(axis=0), chebyshev.remainder(value)
         np.fmax.at(self.size[kind], rows.design, np.where(np.isfinite(size), size, 0.0))
@@ -223,7 +225,13 @@ class Cutter:
         # are within the error of 0.
         open_ = (left > 3e-3 * size) & change.any(axis=0)
         open_ |= (left > np.maximum(1e-9 * size, rounding)) & (near.sum(axis=0) > 1)
-        open_ |= _crosses_twice(g, d, below, noise, LATER_TERMS * left)
+        # a pair of zeros between two places of the grid, by a parabola there
+        before, after = d[:-1], d[1:]
+        turn = before / (before - after)
+        bottom = g[:-1] + 0.5 * before * turn * np.diff(GRID)[:, None]
+        bottom += np.where(below[1:], LATER_TERMS * left, -LATER_TERMS * left)
+        dips = (before * after < 0.0) & ~change & ((bottom < -noise[1:]) != below[1:])
+        open_ |= dips.any(axis=0)
         unsure[some] = open_
         own, cell = np.nonzero((change & ~open_).T)
         if not len(own):
@@ -258,56 +266,17 @@ class Cutter:
         return np.asarray((spread(x, w) - rows.at(np.zeros(1))) / half)
 
 
-def _other_sign(q: Array, part: Array, sign: Array) -> Whole:
-    """Numbers of the parts in whose middle a function does not have the sign of its row."""
-    some = np.flatnonzero(~is_whole(part))
-    middle = chebyshev.at(chebyshev.series(q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some])
-    return some[np.where(middle > 0.0, 1.0, -1.0) != sign[some]]
-
-
-def _crosses_twice(g: Array, d: Array, below: Mask, noise: Array, left: Array) -> Mask:
-    """Masks of rows that may have a pair of zeros between two places of the grid.
-
-    ``left`` is the error of their series.
-    """
-    before, after = d[:-1], d[1:]
-    turn = before / (before - after)
-    bottom = g[:-1] + 0.5 * before * turn * np.diff(GRID)[:, None]
-    dips = (before * after < 0.0) & (below[1:] == below[:-1])
-    bottom += np.where(below[1:], left, -left)
-    dips &= (bottom < -noise[1:]) != below[1:]
-    return np.asarray(dips.any(axis=0))
-
-
-def _between(cut: Whole, t: Array, part: Array) -> tuple[Whole, Array]:
-    """Parts between cuts: the numbers of the original parts, and both ends."""
-    number = np.concatenate((np.arange(part.shape[1]), cut))
-    start, end = np.concatenate((part[0], t)), np.concatenate((part[1], t))
-    one, two = np.lexsort((start, number)), np.lexsort((end, number))
-    return number[one], np.stack((start[one], end[two]))
-
-
 def spread(x: Array, w: Array) -> Array:
     """u at places x, where x = w sinh(u / w): samples even in u are spread about 0.
 
-    Near 0, where functions change fastest, the range within w of 0 gets as much length as the rest.
-    Poles at x = i w and -i w move to u = i w pi/2 and -i w pi/2. So the same number of samples
-    gives more digits. Near 0, u is x; with a large w it is x everywhere.
-
-    Source: D. Elliott, P. R. Johnston, "A sinh transformation for evaluating nearly singular
-    boundary element integrals", Int. J. Numer. Meth. Engng 62 (2005).
+    Poles at x = i w and -i w move to u = i w pi/2 and -i w pi/2; with a large w, u is x. Source: D.
+    Elliott, P. R. Johnston, Int. J. Numer. Meth. Engng 62 (2005).
     """
     u: Array = w * np.arcsinh(x / w)
     return u
 
 
 def gathered(u: Array, w: Array) -> Array:
-    """The places x at u.
-
-    >>> import numpy as np
-    >>> w = np.array([2.0, 1e3])
-    >>> gathered(spread(np.array([6.0, 6.0]), w), w).round(12)
-    array([6., 6.])
-    """
+    """The places x at u."""
     x: Array = w * np.sinh(u / w)
     return x

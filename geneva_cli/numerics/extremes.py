@@ -105,8 +105,6 @@ def search(
     else the greatest values of the functions and of their negatives. ``known`` are values that no
     span reaches: the number of a wanted function, and for each design the place and the value, or
     NaN. Samples are spread about 0 by ``w`` (n, 1), or evenly spaced.
-
-    Values that differ only by rounding are equal: the earlier place counts.
     """
     with np.errstate(all="ignore"):
         extremes = _Extremes(f, _widths(spans, w), sized)
@@ -154,20 +152,6 @@ class _Candidates(NamedTuple):
     near: Array  # the longest step from there
     uphill: Array  # 1 for a maximum, -1 for a minimum, 0 for the value there
     reach: Array  # a bound of the value, with its sign by the side
-
-
-class _Turns(NamedTuple):
-    """Positions where curves turn or end."""
-
-    side: Whole  # of the result: (m,)
-    curve: Whole  # its number
-    t: Array  # from -1 to 1
-    uphill: Array  # 1 for a maximum, -1 for a minimum, 0 for the value there
-    top: Array  # a bound of the value, with its sign by the side, but for the error of its series
-
-
-def _turns(side: int, curve: Whole, t: Array | float, uphill: float, top: Array) -> _Turns:
-    return _Turns(*np.broadcast_arrays(side, curve, t, uphill, top))
 
 
 class _Extremes:
@@ -229,11 +213,7 @@ class _Extremes:
             _raise(self.size, (numbers[0], design), np.where(np.isfinite(inner), inner, 0.0))
 
     def judge(self, pieces: Pieces) -> None:
-        """Keep candidates of pieces with precise series, and sample the others again.
-
-        Where a force is nearly 0, its square is only the rounding of the greatest force, and no
-        halving ends its series.
-        """
+        """Keep candidates of pieces with precise series, and sample the others again."""
         value, (a, b), design = pieces.value, pieces.rows.x, pieces.rows.design
         left = chebyshev.remainder(value)
         low, high = value.min(axis=1), value.max(axis=1)
@@ -242,7 +222,19 @@ class _Extremes:
         # by how much an extreme between samples exceeds them, over their range
         more = np.where(open_, 1.0, 0.15) * (high - low) + UNFINISHED * left
         bars = self._bar(slice(None), np.arange(len(value))[:, None], design)
-        low_reach, high_reach = _reach_at_poles(value, open_, low - more, high + more)
+        low_reach, high_reach = low - more, high + more
+        # towards a pole, whose series has no end, the reciprocal's bounds serve
+        number, row = np.nonzero(open_)
+        inverse = np.ascontiguousarray(1.0 / value[number, :, row].T)
+        rest, least, most = chebyshev.remainder(inverse), inverse.min(axis=0), inverse.max(axis=0)
+        ended = rest <= PRECISE * np.maximum(np.abs(least), np.abs(most))
+        beyond = 0.15 * (most - least) + UNFINISHED * rest
+        for bound, own, end in (
+            (low_reach, least >= 0.0, most + beyond),
+            (high_reach, most <= 0.0, least - beyond),
+        ):
+            here = ended & own
+            bound[number[here], row[here]] = 1.0 / end[here]
         may = (~(np.stack((high_reach, -low_reach)) < bars) & (bars < np.inf)).any(axis=0)
         # a row of lower samples may have the peak whose flank another row's sample was on
         best, bounded = self.at_sample[..., design], self.most[..., design] < np.inf
@@ -276,7 +268,9 @@ class _Extremes:
         # of a constant the start alone: a range of rounding says nothing about places
         varied = np.ptp(samples, axis=0) > 1e-13 * size
         loose = np.flatnonzero(varied & ~(left <= 1e-11 * size))
-        out = []
+        # of each turn or end: side of the result, curve, position from -1 to 1, 1 for a maximum, -1
+        # for a minimum and 0 for the value there, and a bound of it but for the series' error
+        turns: list[tuple[Whole | Array | float, ...]] = []
         for sense in (1.0, -1.0):
             to = 0 if self.sized or sense > 0.0 else 1
             g, d = sense * value, sense * slope
@@ -284,16 +278,17 @@ class _Extremes:
             before, after = d[cell, of], d[cell + 1, of]
             t = GRID[cell] + (GRID[cell + 1] - GRID[cell]) * before / (before - after)
             top = 2.0 * sense * chebyshev.at(terms[:, of], t)
-            out.append(_turns(to, of, t, sense, top - np.minimum(g[cell, of], g[cell + 1, of])))
+            turns.append((to, of, t, sense, top - np.minimum(g[cell, of], g[cell + 1, of])))
             for end, there in ((-1.0, every), (1.0, np.flatnonzero(varied))):
                 at_end = sense * samples[0 if end < 0.0 else -1]
-                out.append(_turns(to, there, end, 0.0, at_end[there]))
-                out.append(_turns(to, loose, end, sense, at_end[loose] + 1e-3 * size[loose]))
-        turns = joined(out)
-        reach = turns.top + UNFINISHED * left[turns.curve]
-        least = self._bar(turns.side, number[turns.curve], rows.design[turns.curve])
+                turns.append((to, there, end, 0.0, at_end[there]))
+                turns.append((to, loose, end, sense, at_end[loose] + 1e-3 * size[loose]))
+        found = joined([tuple(np.broadcast_arrays(*one)) for one in turns])
+        side, of, top = found[0], found[1], found[4]
+        reach = top + UNFINISHED * left[of]
+        least = self._bar(side, number[of], rows.design[of])
         kept = np.flatnonzero(~(reach < least) & (least < np.inf))
-        side, of, t, uphill, top = record_taken(turns, kept)
+        side, of, t, uphill, top = record_taken(found, kept)
         own, w = rows.take(of), self.cutter.w[rows.design[of]]
         before, x, after = (gathered(own.at(t + by), w).clip(*own.x) for by in (-0.1, 0.0, 0.1))
         x = np.where(t == -1.0, own.x[0], np.where(t == 1.0, own.x[1], x))
@@ -302,8 +297,8 @@ class _Extremes:
         row = side, number[of], own.design
         self.known.append(record_taken((*row, x, top), exact))
         sign = pieces.sign.take(piece[of], axis=1)
-        found = _Candidates(*row, sign, own.x, x, after - before, uphill, reach[kept])
-        self.candidates.append(record_taken(found, ~exact))
+        some = _Candidates(*row, sign, own.x, x, after - before, uphill, reach[kept])
+        self.candidates.append(record_taken(some, ~exact))
 
     def refine(self) -> None:
         """Evaluate the functions themselves near the candidates."""
@@ -355,19 +350,6 @@ class _Extremes:
         return out
 
 
-def _reach_at_poles(value: Array, open_: Mask, low: Array, high: Array) -> tuple[Array, Array]:
-    """Bounds of functions on rows; towards a pole, whose series has no end, the reciprocals'."""
-    number, row = np.nonzero(open_)
-    inverse = np.ascontiguousarray(1.0 / value[number, :, row].T)
-    left, least, most = chebyshev.remainder(inverse), inverse.min(axis=0), inverse.max(axis=0)
-    ended = left <= PRECISE * np.maximum(np.abs(least), np.abs(most))
-    more = 0.15 * (most - least) + UNFINISHED * left
-    for bound, own, end in ((low, least >= 0.0, most + more), (high, most <= 0.0, least - more)):
-        here = ended & own
-        bound[number[here], row[here]] = 1.0 / end[here]
-    return low, high
-
-
 def _raise(most: Array, index: tuple[Whole, ...], value: Array) -> None:
     """Set greatest values to values that are greater."""
     flat = np.ravel_multi_index(index, most.shape)  # NumPy is ten times as fast with flat indices
@@ -378,9 +360,6 @@ def bar(most: Array, size: Array) -> Array:
     """The least value that counts as equal to a greatest one.
 
     ``size`` is the functions' typical size.
-
-    >>> bar(np.array([2.0, 0.0, np.inf]), np.array([2.0, 1.0, 1.0])).tolist()
-    [1.999999999998, -1e-13, inf]
     """
     # Extremes within 1e-12 of their size are equal. So are values within 1e-13 of the function's
     # size: at a computed root it is not exactly 0.
@@ -389,11 +368,7 @@ def bar(most: Array, size: Array) -> Array:
 
 
 def first_greatest(value: Array, place: Array, size: Array) -> tuple[Array, Array]:
-    """The greatest of values in rows (k, n), and the first place of its equals: (n,) each.
-
-    >>> first_greatest(np.array([[0.0], [1e-17]]), np.array([[10.0], [20.0]]), np.array([1.0]))
-    (array([1.e-17]), array([10.]))
-    """
+    """The greatest of values in rows (k, n), and the first place of its equals: (n,) each."""
     with np.errstate(invalid="ignore"):
         most = value.max(axis=0)
         first = np.argmax(value >= bar(most, size), axis=0)

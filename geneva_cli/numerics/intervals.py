@@ -47,14 +47,7 @@ def _operator(
 
 
 class Interval(Enclosed):
-    """Numbers, each between two bounds: arrays (n,), or floats for the same bounds of all.
-
-    A formula takes one way for all of them: Undecided has each one's own answer.
-
-    >>> third = Interval(1.0, 1.0) / 3.0
-    >>> bool(third.low < 1.0 / 3.0 < third.high), third < 0.5
-    (True, True)
-    """
+    """Numbers, each between two bounds: arrays (n,), or floats for the same bounds of all."""
 
     __slots__ = ("high", "low")
     __array_ufunc__ = None  # NumPy's numbers leave the arithmetic to the interval
@@ -65,7 +58,6 @@ class Interval(Enclosed):
 
     @classmethod
     def exact(cls, x: float) -> Self:
-        """The interval of one double."""
         return cls(x, x)
 
     @property
@@ -74,14 +66,9 @@ class Interval(Enclosed):
         return np.nan_to_num(np.maximum(-self.low, self.high), nan=math.inf, posinf=math.inf)
 
     def piece(self, cuts: Sequence[float]) -> int:
-        """Number of the piece between ``cuts`` that holds the middle.
-
-        Raises Undecided if one reaches over a cut by more than ``REACH``.
-        """
         return int(_answer(self._piece_or_nan(cuts)))
 
     def pieces(self, cuts: Sequence[float]) -> Whole:
-        """Number of the piece that holds the middle of each; raises Undecided as ``piece``."""
         numbers = self._piece_or_nan(cuts)
         if np.isnan(numbers).any():
             raise Undecided("intervals over an end of a piece", 0.0 * numbers)
@@ -93,7 +80,6 @@ class Interval(Enclosed):
         return np.where(np.any(inside, axis=0), math.nan, number)
 
     def rising(self, f: Callable[[Number], Number]) -> Number:
-        """Intervals of the values of a function that rises: from the lower ends to the upper."""
         low, high = (_ends(cast("float", f(_number(x, x)))) for x in (self.low, self.high))
         return _number(low[0], high[1])
 

@@ -192,10 +192,7 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
 
 
 def _versine(sine: Number, cosine: Number) -> Number:
-    """1 - cos without cancellation: sin²/(1 + cos), or as it stands where the cosine is negative.
-
-    A ball has digits to spare, and may lie on both sides.
-    """
+    """1 - cos without cancellation: sin²/(1 + cos), but as it stands for a negative cosine."""
     if isinstance(cosine, Enclosed):
         return 1.0 - cosine
     ahead = 0.5 * (1.0 + library(cosine).copysign(1.0, cosine))
@@ -209,11 +206,7 @@ def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:
 
 
 def composed(outer: Jet, inner: Jet) -> Jet:
-    """f(g) by the chain rule, from f as a function of g, about g's value, and from g.
-
-    >>> composed(Jet((5.0, 6.0, 1.0)), Jet((2.0, 3.0, 0.0))).c  # (g + 1)² - 4 about 2, g = 2 + 3x
-    (5.0, 18.0, 9.0)
-    """
+    """f(g) by the chain rule, from f as a function of g, about g's value, and from g."""
     step = Jet((inner.c[0] * 0.0, *inner.c[1:]))
     total = step * 0.0 + outer.c[-1]
     for c in reversed(outer.c[:-1]):
@@ -266,11 +259,7 @@ def _moment(x: Sequence[Number], y: Sequence[Number], k: int) -> Number:
 
 
 def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Number], Jet]]) -> Jet:
-    """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
-
-    A piece that applies anywhere is evaluated at all angles. So it is faster to request angles that
-    lie in one piece.
-    """
+    """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included."""
     if isinstance(x, SINGLE) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return pieces[piece_of(x, cast("Sequence[float]", cuts))](x)
     import numpy as np

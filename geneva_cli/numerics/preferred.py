@@ -14,31 +14,19 @@ from geneva_cli.numerics.tolerances import ROUNDED
 
 
 def rounded_below(most: float) -> float:
-    """Return the greatest rounded number up to ``most``, of the series R''20 of ISO 497; or 0.
-
-    >>> rounded_below(41.0), rounded_below(8.3), rounded_below(10.0)
-    (40.0, 8.0, 10.0)
-    """
+    """Return the greatest rounded number up to ``most``, of the series R''20 of ISO 497; or 0."""
     numbers = _rounded()
     i = bisect_right(numbers, most * (1.0 + ROUNDED))
     return numbers[i - 1] if i else 0.0
 
 
 def rounded_from(least: float, most: float) -> list[float]:
-    """Return ``least``, and after it the rounded numbers up to ``most``.
-
-    >>> rounded_from(10.0, 15.0)
-    [10.0, 11.0, 12.0, 14.0]
-    """
+    """Return ``least``, and after it the rounded numbers up to ``most``."""
     return _from(_rounded(), least, most)
 
 
 def bores_from(least: float, most: float) -> list[float]:
-    """Return ``least``, and after it the bores of standard bearings up to ``most`` mm.
-
-    >>> bores_from(15.0, 26.0)
-    [15.0, 17.0, 20.0, 25.0]
-    """
+    """Return ``least``, and after it the bores of standard bearings up to ``most`` mm."""
     bores = _bores()
     return _from(bores if bores[0] <= least <= most <= bores[-1] else _rounded(), least, most)
 
@@ -51,33 +39,19 @@ def _from(numbers: tuple[float, ...], least: float, most: float) -> list[float]:
 
 
 def gear_modules() -> list[float]:
-    """Return the modules of gears in mm, of the first series of ISO 54, from the top.
-
-    They go from 1 to 50; those below 1 are a tenth of them.
-
-    >>> gear_modules()[-3:]
-    [0.15..., 0.125, 0.1]
-    """
+    """Return the modules of gears in mm, of the first series of ISO 54, from the top."""
     series = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50)
     small = [0.1 * m for m in series if m < 10]
     return [*map(float, reversed(series)), *reversed(small)]
 
 
 def rounded_radius(most: float) -> float:
-    """Return the radius up to ``most`` whose diameter is a rounded number; or 0.
-
-    >>> rounded_radius(20.5)
-    20.0
-    """
+    """Return the radius up to ``most`` whose diameter is a rounded number; or 0."""
     return 0.5 * rounded_below(2.0 * most)
 
 
 def bore_radius(most: float) -> float:
-    """Return the radius up to ``most`` mm of a standard bearing's bore; or 0.
-
-    >>> bore_radius(8.35), bore_radius(20.5)
-    (7.5, 20.0)
-    """
+    """Return the radius up to ``most`` mm of a standard bearing's bore; or 0."""
     bores, widest = _bores(), 2.0 * most
     if not bores[0] <= widest <= bores[-1]:
         return rounded_radius(most)
@@ -103,9 +77,6 @@ def to_digits(value: float, digits: int, way: Callable[[float], int]) -> float:
     """Return a value with some significant digits; 0 for a value that is not above 0.
 
     ``way`` is ``math.floor``, ``math.ceil`` or ``round``.
-
-    >>> to_digits(0.12378, 3, math.floor), to_digits(0.12378, 3, math.ceil)
-    (0.123, 0.124)
     """
     if value <= 0.0:
         return 0.0

@@ -24,11 +24,7 @@ LAST_TERMS = 2e-12
 
 
 def legendre(x: Array, degree: int) -> tuple[Array, Array]:
-    """The Legendre polynomials of ``degree`` - 1 and ``degree`` at some places.
-
-    >>> [float(p[0]) for p in legendre(np.array([0.5]), 2)]
-    [0.5, -0.125]
-    """
+    """The Legendre polynomials of ``degree`` - 1 and ``degree`` at some places."""
     before, here = np.ones(len(x)), x
     for k in range(2, degree + 1):
         before, here = here, ((2 * k - 1) * x * here - (k - 1) * before) / k
@@ -140,10 +136,7 @@ def _add(total: Array, design: Whole, rows: Array) -> None:
 
 @cache
 def _rule(ends: bool) -> tuple[Array, Array]:
-    """Nodes in [-1, 1], with both ends or without; the weights, and the weights of the last terms.
-
-    A kink near an end affects no node of a Gauss rule; a Lobatto rule has a node at the end.
-    """
+    """Nodes in [-1, 1], with both ends or without; their weights, and those of the last terms."""
     node, weight = lobatto(NODES) if ends else rule(NODES)
     before, last = legendre(node, NODES - 1)
     # The last two terms together: every other term of an even or odd function is 0.

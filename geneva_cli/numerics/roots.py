@@ -17,11 +17,6 @@ def find_roots(f: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Ar
     ``f(x, which)`` gives value and derivative of the functions ``which`` at x, both (m,). Newton's
     method, within brackets, runs on the functions that are not finished yet only. A function that
     is NaN anywhere has NaN for a result, and disturbs no other.
-
-    >>> import numpy as np
-    >>> A = np.array([2.0, 9.0])
-    >>> find_roots(lambda x, which: (x * x - A[which], 2.0 * x), 0.0 * A, A)
-    array([1.41421356, 3.        ])
     """
     import numpy as np
 
@@ -53,9 +48,6 @@ def boundary(
 
     ``good`` and ``bad`` are floats, arrays of designs, or Decimals of the current context.
     ``evaluations`` limits their number; the condition holds for the result then too.
-
-    >>> boundary(lambda x: x * x <= 2.0, 1.0, 2.0)
-    1.414213562373095
     """
     for _ in range(evaluations):
         middle = (good + bad) / 2
@@ -67,14 +59,7 @@ def boundary(
 
 
 def boundary_by_sections(margin: Callable[[Array], Array], good: float, bad: float) -> float:
-    """The last number from ``good`` towards ``bad`` at which a margin is positive.
-
-    The margin is evaluated at many numbers at once, most of them near the root of the line through
-    the bracket's ends. So four or five calls reach the last bit.
-
-    >>> boundary_by_sections(lambda x: 2.0 - x * x, 1.0, 2.0)
-    1.414213562373095
-    """
+    """The last number from ``good`` towards ``bad`` at which a margin is positive."""
     import numpy as np
 
     even, close = np.arange(1, 32) / 32, 0.5 ** np.arange(6, 54, 3)
@@ -97,11 +82,7 @@ def boundary_by_sections(margin: Callable[[Array], Array], good: float, bad: flo
 
 
 def greatest_at(candidates: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """The greatest of some values, and the first place whose value equals it apart from rounding.
-
-    >>> greatest_at([(1.0, 10.0), (3.0, 20.0), (3.0000000000000004, 30.0)])
-    (3.0000000000000004, 20.0)
-    """
+    """The greatest of some values, and the first place that has it apart from rounding."""
     most = max(value for value, _ in candidates)
     bar = most - TIE * abs(most) if math.isfinite(most) else most
     return most, next(place for value, place in candidates if value >= bar)

@@ -93,11 +93,7 @@ def at_rest(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
 
 
 def _bases(knots: Array, n: int) -> list[Array]:
-    """Values of the B-splines of degrees 0 to 5 at the starts of n pieces: (degree + 1, n) each.
-
-    Row r of a degree p has the r-th of the p + 1 B-splines that are not zero in the piece (de
-    Boor's recurrence).
-    """
+    """Values of the B-splines of degrees 0 to 5 at the starts of n pieces: (degree + 1, n) each."""
     first = np.arange(SPLINE_DEGREE, SPLINE_DEGREE + n)
     x, values = knots[first], [np.ones((1, n))]
     for p in range(1, SPLINE_DEGREE + 1):
@@ -112,10 +108,7 @@ def _bases(knots: Array, n: int) -> list[Array]:
 
 
 def _pieces(knots: Array, coefficients: Array, bases: list[Array]) -> Array:
-    """Taylor coefficients of a spline at the starts of its pieces, (n, 6).
-
-    A derivative of a spline is one of a lower degree, whose coefficients are divided differences.
-    """
+    """Taylor coefficients of a spline at the starts of its pieces, (n, 6)."""
     n = bases[0].shape[1]
     rows, d = np.zeros((n, SPLINE_DEGREE + 1)), coefficients
     for k in range(SPLINE_DEGREE + 1):
@@ -132,8 +125,7 @@ def _pieces(knots: Array, coefficients: Array, bases: list[Array]) -> Array:
 def _pentadiagonal(bands: list[list[float]], values: list[float]) -> list[float]:
     """Solve a system whose row i holds columns i - 2 to i + 2.
 
-    No pivots are needed: B-splines' values are a totally positive matrix (C. de Boor, 1978), for
-    which elimination in order is stable. BLAS would round by the processor's instructions.
+    B-splines' values are a totally positive matrix (C. de Boor, 1978): no pivots are needed.
     """
     n = len(values)
     for i in range(n):
@@ -165,8 +157,7 @@ def doubt(x: Sequence[float], y: Sequence[float], period: bool, order: int) -> D
     """The change of a derivative from half a unit of the points' last decimal.
 
     The inverse of the matrix of B-splines' values has signs like a chessboard (C. de Boor and A.
-    Pinkus, 1977), so errors of alternating sign move a spline most. The first and the last point
-    are taken as exact.
+    Pinkus, 1977), so errors of alternating sign move a spline most.
     """
     exponents = [Decimal(repr(v)).normalize().as_tuple().exponent for v in y]
     decimals = max(0, *[-e for e in exponents if isinstance(e, int)])

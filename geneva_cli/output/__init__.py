@@ -1,7 +1,7 @@
 """Output of tables, drawings, figures and documents to standard output or files, by format.
 
 Each format is a module that is imported when it is asked for. Its ``chunks`` yield a file's text in
-pieces; a mesh's ``data`` yield bytes.
+pieces; those of a mesh are bytes. Input files are never overwritten.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import importlib
 import os
 import sys
 from collections.abc import Iterable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -24,7 +24,6 @@ from geneva_cli.output.formats import (
     document_as,
     drawn_as,
     plotted_as,
-    require_own,
     sheet_as,
     table_as,
 )
@@ -40,38 +39,24 @@ if TYPE_CHECKING:
 
 
 class Choice(NamedTuple):
-    """The columns that a run shows in its tables: some by name, or all whatever their width.
-
-    ``units`` is mm, or inch for numbers in inches and pounds.
-    """
+    """The columns that a run shows in its tables: some by name, or all whatever their width."""
 
     columns: tuple[str, ...] = ()
     wide: bool = False
-    units: str = "mm"
 
 
-choice = Choice()  # the options --columns, --wide and --units of this run
+choice = Choice()  # the options --columns and --wide of this run
 
 
 @contextmanager
 def choosing(columns: Choice) -> Iterator[None]:
-    """Show tables by this choice of columns and units within the block.
-
-    Raises GenevaError for units that are neither mm nor inch.
-    """
+    """Show tables by this choice of columns within the block."""
     global choice
-    if columns.units not in ("mm", "inch"):
-        raise GenevaError(f"--units {cut(columns.units)}: it must be mm or inch")
     before, choice = choice, columns
     try:
         yield
     finally:
         choice = before
-
-
-def in_units(units: str) -> AbstractContextManager[None]:
-    """Show numbers in mm or inch within the block."""
-    return choosing(choice._replace(units=units))
 
 
 def refuse_columns() -> None:
@@ -80,39 +65,12 @@ def refuse_columns() -> None:
         raise GenevaError("--columns is for tables, and this run prints none; leave it out")
 
 
-def refuse_inches(why: str) -> None:
-    """Raise GenevaError if inches were chosen, where they cannot be."""
-    if choice.units != "mm":
-        raise GenevaError(f"--units {choice.units}: {why}; leave it out")
-
-
-def shown(value: Any, unit: str) -> tuple[Any, str]:
-    """A value and its unit as this run shows them.
-
-    >>> shown(25.4, "mm")
-    (25.4, 'mm')
-    """
-    inches = _inches()
-    return inches.value_in_inches(value, unit) if inches else (value, unit)
-
-
-def shown_text(text: str) -> str:
-    """A sentence with its numbers in the units that this run shows."""
-    inches = _inches()
-    return inches.text_in_inches(text) if inches else text
-
-
-def _inches() -> Any:
-    """The module that converts, None where numbers stay in mm."""
-    return None if choice.units == "mm" else _module("inches")
-
-
 def _module(name: str) -> Any:
     return importlib.import_module(f"geneva_cli.output.{name}")
 
 
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
-    """Print the table, or write it to the file ``output``; ``inputs`` are never overwritten.
+    """Print the table, or write it to the file ``output``.
 
     Raises GenevaError if the format is not for tables, or if the file cannot be written.
     """
@@ -126,10 +84,6 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
     table = checked(table, is_seen(output))
     if choice.columns:
         table = only(table, choice.columns)
-    if name not in ("table", "md"):
-        refuse_inches(f"{name} is for programs, and in SI units")
-    if inches := _inches():
-        table = inches.table_in_inches(table)
     if name == "table" and is_seen(output):
         from geneva_cli.output.terminal.layout import window
         from geneva_cli.output.terminal.terminal_tables import chunks
@@ -143,13 +97,15 @@ def is_seen(output: str) -> bool:
     return output == "-" and sys.stdout.isatty()
 
 
+def is_watched(output: str, format: str) -> bool:
+    """Return True if a table goes to a terminal, where a person reads it."""
+    return format in ("", "table") and is_seen(output)
+
+
 def show_answer(
     answer: Answer, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
-    """Print an answer, or write it to the file ``output``; ``inputs`` are never overwritten.
-
-    Raises GenevaError as ``show`` does.
-    """
+    """Print an answer, or write it to the file ``output``. Raises GenevaError as ``show`` does."""
     name = table_as(output, format)
     if name not in ("table", "md"):  # formats for people have a summary above the table
         show(answer.data, output, format, inputs)
@@ -168,59 +124,54 @@ def show_answer(
     _put(chain(first, rest), output, inputs, name)
 
 
-def is_watched(output: str, format: str) -> bool:
-    """Return True if a table goes to a terminal, where a person reads it."""
-    return format in ("", "table") and is_seen(output)
-
-
 def draw(
     drawing: Drawing,
     output: str = "-",
     format: str = "",
-    units: str = "mm",
     inputs: Iterable[str] = (),
-    **own: Any,
+    version: str = "",
 ) -> None:
-    """Print the drawing, or write it to the file ``output``; ``inputs`` are never overwritten.
+    """Print the drawing, or write it to the file ``output``; ``version`` is that of a DXF file.
 
-    Formats of tables get the drawing's pieces. ``units`` is mm or inch; ``own`` are options of one
-    format, from OPTIONS. Raises GenevaError for an unknown format or unit, for an option of another
-    format, if nothing is drawn, and if the file cannot be written.
+    Formats of tables get the drawing's pieces. Raises GenevaError for an unknown format, for a
+    version of another one, if nothing is drawn, and if the file cannot be written.
     """
     name = drawn_as(output, format)
-    require_own(own, name)
+    own = _of_dxf(name, version)
     if name in FORMATS:
         from geneva_cli.geometry.pieces import pieces_table
 
-        show(pieces_table(drawing, units), output, name, inputs)
+        show(pieces_table(drawing), output, name, inputs)
         return
     refuse_columns()
-    module = _module(DRAWN[name])
-    chunks = module.data(drawing, units) if name in MESHES else module.chunks(drawing, units, **own)
-    _put(chunks, output, inputs, name)
+    module, function = DRAWN[name].split(":")
+    _put(getattr(_module(module), function)(drawing, *own), output, inputs, name)
 
 
 def draw_sheet(
-    sheet: Sheet, output: str = "-", format: str = "", inputs: Iterable[str] = (), **own: Any
+    sheet: Sheet, output: str = "-", format: str = "", inputs: Iterable[str] = (), version: str = ""
 ) -> None:
     """Print the drawing sheet, or write it to the file ``output``.
 
-    ``inputs`` are never overwritten; ``own`` are options of one format, from OPTIONS. Raises
-    GenevaError if the format is not one of SHEETS, for an option of another format, and if the file
-    cannot be written.
+    Raises GenevaError as ``draw`` does, for formats that are not in SHEETS.
     """
     name = sheet_as(output, format)
-    require_own(own, name)
+    own = _of_dxf(name, version)
     refuse_columns()
-    _put(_module(f"sheets.sheet_{name}").chunks(sheet, **own), output, inputs)
+    _put(_module(name).sheet_chunks(sheet, *own), output, inputs)
+
+
+def _of_dxf(name: str, version: str) -> tuple[str, ...]:
+    if version and name != "dxf":
+        raise GenevaError(f"--dxf-version is for .dxf, and this is {name}; leave it out")
+    return (version,) if version else ()
 
 
 def show_figure(
     figure: Figure, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
-    """Print the figure, or write it to the file ``output``; ``inputs`` are never overwritten.
+    """Print the figure, or write it to the file ``output``; formats of tables get its points.
 
-    ``table`` is a chart in text, as wide as the terminal; csv, json and md get the curves' points.
     Raises GenevaError for an unknown format, for one that needs a missing package, and if the file
     cannot be written.
     """
@@ -229,16 +180,12 @@ def show_figure(
         show(figure.table(), output, name, inputs)
         return
     refuse_columns()
-    if inches := _inches():
-        figure = inches.figure_in_inches(figure)
-    module = _module("plot.plot_text" if name == "table" else f"plot.plot_{name}")
-    if name == "table":
-        chunks = module.chunks(figure, *_terminal(output))
-    elif name == "png":
-        chunks = (module.png_bytes(figure) for _ in range(1))
-    else:
-        chunks = module.chunks(figure)
-    _put(chunks, output, inputs, name)
+    if name == "png":
+        from geneva_cli.output.plot.plot_svg import png_bytes
+
+        _put((png_bytes(figure) for _ in range(1)), output, inputs, name)
+        return
+    _put(_module(f"plot.plot_{name}").chunks(figure), output, inputs, name)
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
@@ -251,44 +198,28 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
     extension = os.path.splitext(output)[1].lower()
     if output != "-" and extension not in (".html", ".htm", ".svg"):
         raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm or .svg')
-    module = _module("svg.still_svg" if extension == ".svg" else "page")
-    _put(module.chunks(scene), output, inputs)
+    from geneva_cli.output import page
+
+    chunks = page.still_chunks if extension == ".svg" else page.chunks
+    _put(chunks(scene), output, inputs)
 
 
 def show_document(
     document: Document, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
-    """Print the document, or write it to the file ``output``; ``inputs`` are never overwritten.
+    """Print the document, or write it to the file ``output``.
 
     Raises GenevaError if the format is not one of DOCUMENTS, or if the file cannot be written.
     """
     name = document_as(output, format)
     refuse_columns()
-    if inches := _inches():
-        document = inches.document_in_inches(document)
     _put(_module(f"document.{DOCUMENTS[name]}").chunks(document), output, inputs)
 
 
-def _terminal(output: str) -> tuple[int, bool]:
-    if not is_seen(output):
-        return 80, False
-    import shutil
-
-    return shutil.get_terminal_size().columns, "utf" in (sys.stdout.encoding or "").lower()
-
-
 def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:
-    """Print a text as it is, or write it to the file ``output``; ``inputs`` are not overwritten."""
+    """Print a text as it is, or write it to the file ``output``."""
     refuse_columns()
     _put([text], output, inputs)
-
-
-def refuse_existing(output: str) -> None:
-    """Raise GenevaError if ``output`` is an existing file, which may be a person's work."""
-    if os.path.isfile(output):
-        raise GenevaError(
-            f"{cut(output, 300)}: this file exists; give another name, or --force to replace it"
-        )
 
 
 def show_markdown(text: str) -> None:
@@ -301,6 +232,14 @@ def show_markdown(text: str) -> None:
     from geneva_cli.output.terminal.page_reader import chunks
 
     _put(chunks(text, window(False, choice.wide)), "-", (), "table")
+
+
+def refuse_existing(output: str) -> None:
+    """Raise GenevaError if ``output`` is an existing file, which may be a person's work."""
+    if os.path.isfile(output):
+        raise GenevaError(
+            f"{cut(output, 300)}: this file exists; give another name, or --force to replace it"
+        )
 
 
 def _put(

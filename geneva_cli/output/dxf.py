@@ -1,6 +1,9 @@
-"""DXF, R2000 by default: one closed polyline for each part, circles for bores.
+"""DXF, R2000 by default, with equal bytes on every run.
 
-The output is equal on every run.
+A drawing to cut has one closed polyline for each part, and circles for bores. The dimensions of a
+drawing sheet are DIMENSION entities. Each has a block with its lines and its text, so that every
+reader shows it as the other formats do. Each scale has a style, with which a CAD program that
+measures again gets the part's own size.
 """
 
 from __future__ import annotations
@@ -11,76 +14,103 @@ from collections.abc import Callable, Iterator
 
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.geometry.measure import halved
-from geneva_cli.geometry.pieces import UNITS, prepared
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Segment, Shape
-from geneva_cli.geometry.sheet import Drawing, extent
+from geneva_cli.geometry.pieces import prepared
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Layer, Line, Segment, Shape
+from geneva_cli.geometry.sheet import (
+    DASHED,
+    DIMENSION,
+    TEXT,
+    WIDTHS,
+    Drawing,
+    Label,
+    Measure,
+    Sheet,
+    extent,
+)
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace, options
 from geneva_cli.output.formats import DXF_VERSIONS
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
 from geneva_cli.output.splines import Piece, pieces
 
 USUAL = "R2000"
+FLOAT_CODES = {*range(10, 60), *range(110, 150), *range(210, 240), *range(460, 470)}
+FLOAT_CODES |= {*range(1010, 1060)}
+# group code 70 of a DIMENSION, and the attributes that hold its points
+KINDS = {
+    "length": (0, ("defpoint2", "defpoint3", "defpoint")),
+    "angular": (5, ("defpoint4", "defpoint2", "defpoint3", "defpoint")),
+    "diameter": (3, ("defpoint", "defpoint4")),
+    "radius": (4, ("defpoint", "defpoint4")),
+}
 
 
-def chunks(drawing: Drawing, units: str, version: str = USUAL) -> Iterator[str]:
-    """The file's text; ``units`` is mm or inch, ``version`` one of ``output.DXF_VERSIONS``.
+def chunks(drawing: Drawing, version: str = USUAL) -> Iterator[str]:
+    """Yield a drawing's text.
 
-    Raises GenevaError for another unit or version, a coordinate that is not finite, a drawing
-    without shapes, or cubics in R12.
+    Raises GenevaError for an unknown version, a coordinate that is not finite, a drawing without
+    shapes, or cubics in R12.
     """
-    drawing = prepared(drawing, units)
+    drawing = prepared(drawing)
 
     def fill(document: Document, space: Modelspace) -> None:
-        _layers(document, drawing, 1.0 / UNITS[units])
+        for layer, ink in inks(drawing.layers).items():
+            name = "CENTER" if layer in CENTRE_LINES else "Continuous"
+            if layer in CENTRE_LINES:
+                _linetype(document, name, DASHES)
+            document.layers.add(layer, color=ink.number, linetype=name)
         for shape in drawing.shapes:
-            draw(space, shape)
-        extents(document, space, extent(drawing))
+            _draw(space, shape)
+        _extents(document, space, extent(drawing))
 
-    yield from dxf_text(drawing.title, units, version, fill)
-
-
-def _layers(document: Document, drawing: Drawing, millimetre: float) -> None:
-    for layer, ink in inks(drawing.layers).items():
-        name = "Continuous"
-        if layer in CENTRE_LINES:
-            name = "CENTER"
-            linetype(document, name, tuple(millimetre * d for d in DASHES))
-        document.layers.add(layer, color=ink.number, linetype=name)
+    yield from _text_of(drawing.title, version, fill)
 
 
-def draw(space: BaseLayout, shape: Shape) -> None:
-    """Draw a circle or a contour on its layer.
+def sheet_chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
+    """Yield a sheet's text, in millimetres on paper. Raises GenevaError for an unknown version."""
 
-    Raises GenevaError for cubics in R12, which has no splines.
-    """
+    def fill(document: Document, space: Modelspace) -> None:
+        for name, width in WIDTHS.items():
+            pattern = "Continuous"
+            if name in DASHED:
+                pattern = {2: "HIDDEN", 4: "CENTER"}[len(DASHED[name])]
+                _linetype(document, pattern, DASHED[name])
+            document.layers.add(name, color=7, linetype=pattern, lineweight=round(100.0 * width))
+        document.styles.add("SHEET", font="arial.ttf")
+        for shape in sheet.shapes:
+            _draw(space, shape)
+        for label in sheet.labels:
+            _text(space, label, TEXT)
+        for measure in sheet.measures:
+            _measure(document, space, measure)
+        _extents(document, space, (0.0, 0.0, sheet.width, sheet.height))
+
+    yield from _text_of(sheet.title, version, fill)
+
+
+def _draw(space: BaseLayout, shape: Shape) -> None:
     if isinstance(shape, Circle):
         space.add_circle(shape.centre, shape.radius, dxfattribs={"layer": shape.layer})
-    else:
-        _contour(space, shape)
-
-
-def _contour(space: BaseLayout, contour: Contour) -> None:
+        return
     # The bulge of 300 degrees: beyond it the chord determines the radius badly.
-    segments = [part for one in contour.segments for part in halved(one, lambda bulge: bulge > 3.7)]
-    if any(isinstance(segment, Cubic) for segment in segments):
-        if _is_r12(space):
-            raise GenevaError(
-                "--dxf-version R12 has no splines: leave out --curves spline, or take a newer one"
-            )
-        for piece in pieces(segments):
-            _entity(space, contour.layer, piece)
-    else:
-        _polyline(space, contour.layer, segments, contour.closed)
+    segments = [part for one in shape.segments for part in halved(one, lambda bulge: bulge > 3.7)]
+    if not any(isinstance(segment, Cubic) for segment in segments):
+        _polyline(space, shape.layer, segments, shape.closed)
+        return
+    if _is_r12(space):
+        raise GenevaError(
+            "--dxf-version R12 has no splines: leave out --curves spline, or take a newer one"
+        )
+    for piece in pieces(segments):
+        _entity(space, shape.layer, piece)
 
 
 def _polyline(space: BaseLayout, layer: str, segments: list[Segment], close: bool) -> None:
     points = [(*s.start, s.bulge if isinstance(s, Arc) else 0.0) for s in segments]
     if not close:
         points.append((*segments[-1].end, 0.0))
-    if _is_r12(space):  # R12 has no LWPOLYLINE
-        space.add_polyline2d(points, format="xyb", close=close, dxfattribs={"layer": layer})
-    else:
-        space.add_lwpolyline(points, format="xyb", close=close, dxfattribs={"layer": layer})
+    # R12 has no LWPOLYLINE
+    add = space.add_polyline2d if _is_r12(space) else space.add_lwpolyline
+    add(points, format="xyb", close=close, dxfattribs={"layer": layer})
 
 
 def _is_r12(space: BaseLayout) -> bool:
@@ -114,27 +144,87 @@ def _entity(space: BaseLayout, layer: str, piece: Piece) -> None:
         spline.dxf.flags = 8  # in a plane
 
 
-FLOAT_CODES = {
-    code
-    for codes in (
-        range(10, 60),
-        range(110, 150),
-        range(210, 240),
-        range(460, 470),
-        range(1010, 1060),
+def _measure(document: Document, space: Modelspace, measure: Measure) -> None:
+    if measure.kind not in KINDS:
+        _draw_measure(space, measure)
+        return
+    block = document.blocks.new_anonymous_block(type_char="D")
+    _draw_measure(block, measure)
+    factor, value = 1.0, measure.value
+    if measure.kind == "angular":
+        value = math.radians(value)
+    else:
+        (x, y), (u, v) = measure.points[:2]
+        along = (u - x) * math.cos(measure.turn) + (v - y) * math.sin(measure.turn)
+        long = abs(along) if measure.kind == "length" else math.dist((x, y), (u, v))
+        factor = value / long
+    style = f"TIMES_{factor:.4g}".replace(".", "_")
+    if style not in document.dimstyles:
+        # text above the line (dimtad) and along it (dimtih, dimtoh)
+        look = {"dimlfac": float(f"{factor:.9g}"), "dimtxt": measure.label.height}
+        look |= {"dimasz": 3.0, "dimexe": 1.5, "dimexo": 0.8, "dimgap": 0.8, "dimtad": 1}
+        look |= {"dimtih": 0, "dimtoh": 0, "dimdec": 3}
+        document.dimstyles.new(style, dxfattribs={**look, "dimtxsty": "SHEET"})
+    number, names = KINDS[measure.kind]
+    # 32: no other dimension uses this block; 128: the text stays at its place
+    attributes = {
+        "layer": DIMENSION,
+        "dimstyle": style,
+        "dimtype": number + 32 + 128,
+        "geometry": block.name,
+        "text": _signed(measure.label.text),
+        "text_midpoint": measure.label.middle,
+        "angle": math.degrees(measure.turn),
+        "actual_measurement": value,
+        **dict(zip(names, measure.points, strict=True)),
+    }
+    space.new_entity("DIMENSION", attributes)
+
+
+def _draw_measure(space: BaseLayout, measure: Measure) -> None:
+    for piece in measure.lines:
+        _draw(space, Contour(DIMENSION, (piece,), closed=False))
+    for arrow in measure.arrows:
+        tip, left, right = arrow.corners
+        space.add_solid([tip, left, right, right], dxfattribs={"layer": DIMENSION})
+    _text(space, measure.label, DIMENSION)
+
+
+def _text(space: BaseLayout, label: Label, layer: Layer) -> None:
+    space.add_text(
+        _signed(label.text),
+        height=label.height,
+        rotation=math.degrees(label.turn),
+        dxfattribs={"layer": layer, "style": "SHEET", "insert": label.at},
     )
-    for code in codes
-}
 
 
-def dxf_text(
-    title: str, units: str, version: str, fill: Callable[[Document, Modelspace], None]
+def _signed(text: str) -> str:
+    """A text with DXF's own signs, which every version has; accidental ones are separated."""
+    signs = {"Ø": "%%c", "°": "%%d", "±": "%%p"}
+    return "".join(signs.get(c, c) for c in clean(text).replace("%%", "% %"))
+
+
+def _text_of(
+    title: str, version: str, fill: Callable[[Document, Modelspace], None]
 ) -> Iterator[str]:
-    """The text of a file whose document ``fill`` fills; R12 has no unit.
-
-    Raises GenevaError for a version that is not known.
-    """
-    lines = _document(units, version, fill).split("\n")
+    """Yield the text of a file whose document ``fill`` fills; R12 has no unit."""
+    if version not in DXF_VERSIONS:
+        raise GenevaError(
+            f"--dxf-version {cut(version)}: it must be one of {', '.join(DXF_VERSIONS)}"
+        )
+    before = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
+    try:
+        document, stream = Document.new(version), io.StringIO()
+        if version != "R12":
+            document.units = 4  # millimetres
+            document.header["$MEASUREMENT"] = 1
+        fill(document, document.modelspace())
+        document.write(stream)
+    finally:
+        options.write_fixed_meta_data_for_testing = before
+    lines = stream.getvalue().split("\n")
     title = clean(title)[:200].strip()  # a line may have 255 characters
     if title:
         yield _ascii(f"999\n{title}\n")  # a comment: a text entity would be cut by machines
@@ -145,27 +235,7 @@ def dxf_text(
         yield _ascii("".join(f"{code}\n{_fixed(int(code), value)}\n" for code, value in pairs))
 
 
-def _document(units: str, version: str, fill: Callable[[Document, Modelspace], None]) -> str:
-    if version not in DXF_VERSIONS:
-        raise GenevaError(
-            f"--dxf-version {cut(version)}: it must be one of {', '.join(DXF_VERSIONS)}"
-        )
-    before = options.write_fixed_meta_data_for_testing
-    options.write_fixed_meta_data_for_testing = True
-    try:
-        document = Document.new(version)
-        if version != "R12":
-            document.units = {"mm": 4, "inch": 1}[units]
-            document.header["$MEASUREMENT"] = 1 if units == "mm" else 0
-        fill(document, document.modelspace())
-        stream = io.StringIO()
-        document.write(stream)
-    finally:
-        options.write_fixed_meta_data_for_testing = before
-    return stream.getvalue()
-
-
-def extents(document: Document, space: Modelspace, box: tuple[float, float, float, float]) -> None:
+def _extents(document: Document, space: Modelspace, box: tuple[float, float, float, float]) -> None:
     """Set the extent that a reader shows first: x0, y0, x1, y1."""
     x0, y0, x1, y1 = box
     low, high = (x0, y0, 0.0), (x1, y1, 0.0)
@@ -177,7 +247,7 @@ def extents(document: Document, space: Modelspace, box: tuple[float, float, floa
     document.set_modelspace_vport(1.1 * max(x1 - x0, y1 - y0), middle)
 
 
-def linetype(document: Document, name: str, dashes: tuple[float, ...]) -> None:
+def _linetype(document: Document, name: str, dashes: tuple[float, ...]) -> None:
     """Define a pattern of dashes and gaps, once."""
     if name not in document.linetypes:
         pattern = [d * (1 if i % 2 == 0 else -1) for i, d in enumerate(dashes)]

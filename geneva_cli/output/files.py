@@ -1,23 +1,26 @@
-"""Writing a file as a whole or not at all."""
+"""Writing a file as a whole or not at all, under a name that every system takes."""
 
 from __future__ import annotations
 
 import errno
 import hashlib
+import ntpath
 import os
 import re
 import stat
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output.locks import CAREFUL, POSIX, lock, remove, rename
-from geneva_cli.output.reserved import require_possible
-from geneva_cli.output.stopping import stopping_cleanly
+from geneva_cli.output.locks import CAREFUL, POSIX, lock, remove, stopping_cleanly
 
 # Left behind only by kill -9 or a power failure, until the next run that writes this file.
 TEMPORARY = ".{name}.geneva-{number}.tmp"
+FORBIDDEN = {*'"*:<>?|/\\', *map(chr, range(32))}  # of Windows; after a colon is a hidden stream
+DEVICES = {"CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"}  # whatever the extension
+DEVICES |= {port + number for port in ("COM", "LPT") for number in "123456789¹²³"}
 
 
 def write(path: str, chunks: Iterable[str] | Iterable[bytes], inputs: Iterable[str] = ()) -> None:
@@ -52,11 +55,9 @@ def write_errors(path: str) -> Iterator[None]:
             advice = "; close the file in other programs, or give another name"
         if error.errno == errno.ENOENT:
             folder = os.path.dirname(os.path.realpath(path))
-            made = os.path.isdir(folder)  # a folder of the system may take no new files
-            says = (
-                f"the folder {folder} takes no files" if made else f"make the folder {folder} first"
-            )
-            advice = f"; {says}"
+            advice = f"; make the folder {folder} first"
+            if os.path.isdir(folder):  # one of the system may take no new files
+                advice = f"; the folder {folder} takes no files"
         # Windows has texts of its own, in its language
         why = os.strerror(error.errno) if error.errno else error.strerror
         raise GenevaError(f"{cut(path, 300)}: cannot write: {why}{advice}") from None
@@ -91,6 +92,30 @@ def real_path(path: str, what: str = "a file") -> str:
         raise GenevaError(f'-o "{path}": the current folder is gone; change to another') from None
 
 
+def require_possible(path: str, platform: str = sys.platform) -> None:
+    """Raise GenevaError for a path with a name that this platform does not give to a file."""
+    if platform == "win32":
+        for name in ntpath.splitdrive(path)[1].replace("/", "\\").split("\\"):
+            if why := fault(name):
+                raise GenevaError(f'"{cut(path, 300)}": {why}; give another name')
+
+
+def fault(name: str) -> str:
+    """Why Windows takes no file or folder of this name; empty if it does.
+
+    >>> fault("nul.csv"), fault("null.csv")
+    ('Windows reserves the name "nul" for a device', '')
+    """
+    if name in ("", ".", ".."):
+        return ""
+    if signs := sorted(FORBIDDEN & {*name}):
+        return f"Windows takes no {signs[0]!r} in a name"
+    if name[-1] in ". ":
+        return "Windows drops a dot or a space at the end of a name"
+    stem = name.partition(".")[0].rstrip(" ")
+    return f'Windows reserves the name "{stem}" for a device' if stem.upper() in DEVICES else ""
+
+
 def refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:
     """Refuse to replace a regular file that the run has read.
 
@@ -115,13 +140,22 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
     folder, name = os.path.split(path)
     # The temporary name holds 200 bytes of it: a file system allows 255 in all.
     name = name.encode(errors="surrogateescape")[:200].decode(errors="replace")
-    _remove_stale(folder, name)
+    # Of the temporary files of killed runs nobody holds the lock.
+    left = re.compile(rf"\.{re.escape(name)}\.geneva-\d{{1,9}}\.tmp")
+    with suppress(OSError):  # a folder that can be written but not listed
+        for entry in filter(left.fullmatch, os.listdir(folder)):
+            stale = os.path.join(folder, entry)
+            with suppress(OSError), open(os.open(stale, os.O_RDONLY | CAREFUL), "rb") as file:
+                lock(file.fileno())
+                if stat.S_ISREG(os.lstat(stale).st_mode):
+                    remove(file, stale)
     number = os.getpid()
-    while os.path.lexists(temporary := os.path.join(folder, _temporary(name, number))):
+    temporary = os.path.join(folder, TEMPORARY)
+    while os.path.lexists(own := temporary.format(name=name, number=number)):
         number += 1  # another run's file, which must not be touched
     with stopping_cleanly():
         try:
-            with open(temporary, "xb") as file:
+            with open(own, "xb") as file:
                 with suppress(OSError):  # a file system without locks
                     lock(file.fileno())
                 if old is not None:
@@ -129,29 +163,12 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
                 yield file
                 file.flush()
                 os.fsync(file.fileno())
-                rename(file, temporary, path)
+                if not POSIX:  # Windows renames no open file
+                    file.close()
+                os.replace(own, path)
         finally:
             with suppress(FileNotFoundError):
-                os.unlink(temporary)
-
-
-def _temporary(name: str, number: int | str) -> str:
-    return TEMPORARY.format(name=name, number=number)
-
-
-def _remove_stale(folder: str, name: str) -> None:
-    """Remove temporary files of this file that killed runs have left: nobody holds their lock."""
-    left = re.compile(re.escape(_temporary(name, "0")).replace(r"\-0\.", r"\-\d{1,9}\."))
-    with suppress(OSError):  # a folder that can be written but not listed
-        for entry in filter(left.fullmatch, os.listdir(folder)):
-            _remove_unlocked(os.path.join(folder, entry))
-
-
-def _remove_unlocked(path: str) -> None:
-    with suppress(OSError), open(os.open(path, os.O_RDONLY | CAREFUL), "rb") as file:
-        lock(file.fileno())
-        if stat.S_ISREG(os.lstat(path).st_mode):
-            remove(file, path)
+                os.unlink(own)
 
 
 def take_after(descriptor: int, old: os.stat_result) -> None:

@@ -17,15 +17,14 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, below, cut, few
 from geneva_cli.output.files import (
     digest_of,
+    fault,
     place,
     real_path,
     take_after,
     write,
     write_errors,
 )
-from geneva_cli.output.locks import close_folder, lock_or_refuse, open_to_lock
-from geneva_cli.output.reserved import require_shareable
-from geneva_cli.output.stopping import holding_signals, stopping_cleanly
+from geneva_cli.output.locks import folder_locked, holding_signals, stopping_cleanly
 
 LIST = "contents.csv"
 COLUMNS = ("file", "content", "sha256")
@@ -34,19 +33,12 @@ COLUMNS = ("file", "content", "sha256")
 TEMPORARY = ".geneva-export.tmp"
 
 
-class Entry(NamedTuple):
-    """A file of a folder, and what it holds."""
-
-    file: str
-    content: str
-
-
 class Row(NamedTuple):
-    """A line of the list."""
+    """A line of the list: a file, what it holds, and its digest."""
 
     file: str
     content: str
-    digest: str
+    digest: str = ""
 
 
 class Filling(NamedTuple):
@@ -58,7 +50,7 @@ class Filling(NamedTuple):
 
 @contextmanager
 def filling_folder(
-    path: str, entries: Iterable[Entry], inputs: Iterable[str] = (), force: bool = False
+    path: str, entries: Iterable[Row], inputs: Iterable[str] = (), force: bool = False
 ) -> Iterator[Filling]:
     """Give an empty folder whose files go to ``path`` if the block ends without an error.
 
@@ -69,10 +61,15 @@ def filling_folder(
     """
     real, entries, inputs = real_path(path, "a folder"), list(entries), list(inputs)
     for entry in entries:
-        require_shareable(entry.file)
+        if why := fault(entry.file):  # others may have Windows
+            raise GenevaError(f'"{entry.file}": {why}; give another name')
     if os.path.lexists(real) and not os.path.isdir(real):
         raise GenevaError(f"{cut(path, 300)}: this is a file; give -o the name of a folder")
     filling = Filling(os.path.join(real, TEMPORARY), [])
+    says = (
+        f"{cut(path, 300)}: another run is writing into this folder; wait until it ends, or give "
+        "-o another folder"
+    )
 
     def require_own() -> None:
         """Raise GenevaError if a file that would be replaced is a person's, or an input."""
@@ -92,20 +89,29 @@ def filling_folder(
                 f"{few(others[0], others)}; --force replaces them, or give -o another folder"
             )
 
-    with write_errors(path), stopping_cleanly(), _locked(path, real):
-        require_own()  # before the work
-        shutil.rmtree(filling.new, ignore_errors=True)
+    with write_errors(path), stopping_cleanly():
+        is_new = not os.path.isdir(real)
+        if is_new:
+            os.mkdir(real)
         try:
-            os.mkdir(filling.new)
-            yield filling
-            require_own()  # a person may have changed a file meanwhile
-            with holding_signals():
-                filling.kept.extend(_replace(real, filling.new, entries))
+            with folder_locked(real, says):
+                require_own()  # before the work
+                shutil.rmtree(filling.new, ignore_errors=True)
+                try:
+                    os.mkdir(filling.new)
+                    yield filling
+                    require_own()  # a person may have changed a file meanwhile
+                    with holding_signals():
+                        filling.kept.extend(_replace(real, filling.new, entries))
+                finally:
+                    shutil.rmtree(filling.new, ignore_errors=True)
         finally:
-            shutil.rmtree(filling.new, ignore_errors=True)
+            if is_new:
+                with suppress(OSError):  # it has files now
+                    os.rmdir(real)
 
 
-def _replace(real: str, new: str, entries: list[Entry]) -> list[str]:
+def _replace(real: str, new: str, entries: list[Row]) -> list[str]:
     """Move the new files to their places, and remove those of an earlier run; return the kept.
 
     Meanwhile the list has the old and the new digests, so that the next run knows the files of
@@ -124,7 +130,7 @@ def _replace(real: str, new: str, entries: list[Entry]) -> list[str]:
         move(LIST)
 
     before = _rows(real) or []
-    rows = [Row(*one, digest_of(os.path.join(new, one.file))) for one in entries]
+    rows = [one._replace(digest=digest_of(os.path.join(new, one.file))) for one in entries]
     own = _own(real, before)
     move_list([*before, *rows])
     for one in entries:
@@ -138,12 +144,13 @@ def _replace(real: str, new: str, entries: list[Entry]) -> list[str]:
 
 
 def _own(real: str, rows: list[Row]) -> set[str]:
-    places = {row: os.path.join(real, row.file) for row in rows if row.digest}
-    return {
-        row.file
-        for row, file in places.items()
-        if not os.path.islink(file) and digest_of(file) == row.digest
-    }
+    """The listed files that nobody has changed."""
+    own = set()
+    for row in rows:
+        file = os.path.join(real, row.file)
+        if row.digest and not os.path.islink(file) and digest_of(file) == row.digest:
+            own.add(row.file)
+    return own
 
 
 def _text(rows: list[Row]) -> str:
@@ -163,24 +170,3 @@ def _rows(real: str) -> list[Row] | None:
         if text == _text(rows) and all(os.path.basename(row.file) == row.file for row in rows):
             return rows
     return None
-
-
-@contextmanager
-def _locked(path: str, real: str) -> Iterator[None]:
-    """Hold the folder's lock. A folder that is made for it is removed if nothing is written."""
-    is_new = not os.path.isdir(real)
-    if is_new:
-        os.mkdir(real)
-    descriptor = open_to_lock(real)
-    try:
-        lock_or_refuse(
-            descriptor,
-            f"{cut(path, 300)}: another run is writing into this folder; wait until it ends, or "
-            "give -o another folder",
-        )
-        yield
-    finally:
-        close_folder(descriptor, real)
-        if is_new:
-            with suppress(OSError):  # it has files now
-                os.rmdir(real)

@@ -1,35 +1,28 @@
-"""The formats, and the choice of one by its name or by the extension of a file."""
+"""The formats of output, and which of them a file's extension or ``--format`` means."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Collection
-from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
 
 # module by --format; the extension of a file is a format's name too
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
 # for drawings only; in FORMATS they are written as tables
-MESHES = {  # of solids, in bytes
-    "stl": "mesh.stl",
-    "3mf": "mesh.threemf",
-    "obj": "mesh.obj",
-}
-DRAWN = {"dxf": "dxf", "svg": "svg.drawing_svg", "step": "step", **MESHES}
+MESHES = {"stl": "mesh_files:stl", "3mf": "mesh_files:threemf"}  # of solids, in bytes
+DRAWN = {"dxf": "dxf:chunks", "svg": "svg:chunks", "step": "step:chunks", **MESHES}
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
 CAMS = ("cam",)  # for motions only: a file for a controller
 CONTROLLERS = ("polynomial", "codesys", "beckhoff")  # what reads a cam
 PICTURES = ("png", "pdf")  # for figures only
 # for documents; the other formats of tables get their values
 DOCUMENTS = {"html": "html", "pdf": "document_pdf", "md": "document_markdown"}
-PLOTTED = ("table", "svg", *PICTURES)  # for figures; the others get their points
+PLOTTED = ("svg", *PICTURES)  # for figures; the others get their points
 EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
 EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}
 # versions that ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and all read it
 DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
-# appearance of plates in .svg
-FILLS = ("none", "tint", "hatch")
 
 
 def table_as(output: str, format: str) -> str:
@@ -67,29 +60,26 @@ def document_as(output: str, format: str) -> str:
 
 
 def is_document(output: str, format: str) -> bool:
-    """Return True if this file or format holds a document, False for a table.
-
-    Raises GenevaError if it is neither.
-    """
+    """Return True for a document, False for a table. Raises GenevaError for another format."""
     formats = dict.fromkeys((*FORMATS, *DOCUMENTS))
     return _chosen(output, format, formats, "of a report ") in DOCUMENTS
 
 
 def plotted_as(output: str, format: str) -> str:
     """The format of a figure. Raises GenevaError for an unknown one."""
-    return _chosen(output, format, dict.fromkeys((*PLOTTED, *FORMATS)))
+    return _chosen(output, format, (*PLOTTED, *FORMATS))
 
 
 def is_drawn(output: str, format: str) -> bool:
-    """Return True if this file or format holds a drawing as lines and arcs, False for a table.
+    """Return True for a drawing of lines and arcs, False for a table.
 
-    Raises GenevaError if it is neither.
+    Raises GenevaError for another format.
     """
     return drawn_as(output, format) in DRAWN
 
 
 def usual_curves(output: str, format: str) -> str:
-    """The default form of curved walls: ``spline`` in solids, ``arcs`` elsewhere.
+    """The default form of curved walls: ``spline`` in STEP, ``arcs`` elsewhere.
 
     >>> usual_curves("wheel.stp", ""), usual_curves("-", "dxf")
     ('spline', 'arcs')
@@ -113,45 +103,24 @@ def curve_tolerance(tolerance_mm: float | None, output: str, format: str) -> flo
     return 0.5 * tolerance_mm if is_mesh else tolerance_mm
 
 
-def require_own(own: dict[str, Any], name: str) -> None:
-    """Raise GenevaError for an option of another format than ``name``."""
-    # options of one format of drawings and sheets: the option as typed, and the format
-    options = {"version": ("--dxf-version", "dxf"), "fill": ("--fill", "svg")}
-    for key in own:
-        option, of = options[key]
-        if name != of:
-            raise GenevaError(f"{option} is for .{of}, and this is {name}; leave it out")
-
-
 def _chosen(output: str, format: str, formats: Collection[str], remark: str = "") -> str:
-    """The format that is given, or that of a file's extension. It must be one of ``formats``."""
-    name = format or format_of(output, formats)
-    if name not in formats:
+    """The format that is given, or that of a file's extension; on standard output, a table."""
+    name = format or ("table" if output == "-" else _named(output, ""))
+    if name in formats:
+        return name
+    if format or output == "-":
         raise GenevaError(f"--format {cut(name)}: {remark}it must be one of {', '.join(formats)}")
-    return name
+    known = ", ".join(f".{e}" for e, name in EXTENSIONS.items() if name in formats)
+    if name:
+        wrong = _wrong(name) if formats is FORMATS else ""
+        raise GenevaError(f'-o "{cut(output)}": {wrong}it must end in {known}')
+    raise GenevaError(
+        f'-o "{cut(output)}": the extension names no format ({known}); add one, or --format'
+    )
 
 
 def _named(output: str, format: str) -> str:
     return format or EXTENSIONS.get(os.path.splitext(output)[1].lower().lstrip("."), "")
-
-
-def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
-    """The format of a file's extension; for standard output, the one for people.
-
-    Raises GenevaError if that is not one of ``formats``, by default those of tables.
-    """
-    if output == "-":
-        return "table"
-    name = _named(output, "")
-    if name not in formats:
-        known = ", ".join(f".{e}" for e, name in EXTENSIONS.items() if name in formats)
-        if name:
-            wrong = _wrong(name) if formats is FORMATS else ""
-            raise GenevaError(f'-o "{cut(output)}": {wrong}it must end in {known}')
-        raise GenevaError(
-            f'-o "{cut(output)}": the extension names no format ({known}); add one, or --format'
-        )
-    return name
 
 
 def _wrong(name: str) -> str:

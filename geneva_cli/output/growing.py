@@ -17,7 +17,7 @@ from functools import partial
 from typing import Any, BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import refuse_columns, refuse_inches
+from geneva_cli.output import refuse_columns
 from geneva_cli.output.delimited import one_line, text_of
 from geneva_cli.output.files import digest_of, place, refuse_input, replacing, write_errors
 from geneva_cli.output.finite import refuse_nan
@@ -201,7 +201,6 @@ class GrowingTable:
         inputs: Iterable[str] = (),
     ) -> None:
         refuse_columns()
-        refuse_inches("csv and parquet are for programs, and in SI units")
         self.names, self.done, self.is_whole, self.message = names, 0, False, ""
         self.file: GrowingFile | None = None
         self.parquet = output.endswith(".parquet")

@@ -23,8 +23,6 @@ INKS = {
     "SHAFT": Ink(45, "#7f6f3f"),
     "ROLLER": Ink(200, "#bf00ff"),
     "BORE": Ink(1, "#ff0000"),
-    "COUPON": Ink(124, "#007f5f"),
-    "ENGRAVE": Ink(233, "#a5527c"),
     "PITCH": Ink(8, "#808080"),
     "CENTER": Ink(203, "#9152a5"),
     "GROOVE": Ink(54, "#7f7f00"),

@@ -1,4 +1,4 @@
-"""Locks that two runs cannot hold at once, on every system.
+"""Locks that two runs cannot hold at once, on every system, and signals that end a run.
 
 A file that is renamed or removed stays locked until then, except on Windows, which renames and
 removes no open file.
@@ -8,8 +8,12 @@ from __future__ import annotations
 
 import errno
 import os
-from contextlib import suppress
-from typing import IO, Any
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from types import FrameType
+from typing import IO
 
 from geneva_cli.errors import GenevaError
 
@@ -28,6 +32,11 @@ FAR = 1 << 40
 # How a file is opened that somebody may have replaced by a link or a pipe. Windows lacks both.
 CAREFUL = sum(getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NONBLOCK"))
 FOLDER_LOCK = ".geneva-export.lock"
+# Windows has no SIGHUP, and only Windows has SIGBREAK: Ctrl-Break, and a closed console.
+NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+SIGNALS = [getattr(signal, name) for name in NAMES if hasattr(signal, name)]
+
+_waiting: list[int] | None = None  # the signals that came while they are held
 
 
 def lock(descriptor: int, alone: bool = False) -> None:
@@ -38,17 +47,13 @@ def lock(descriptor: int, alone: bool = False) -> None:
     """
     if fcntl is not None:
         (fcntl.lockf if alone else fcntl.flock)(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    elif msvcrt is not None:
-        _lock_far(descriptor, msvcrt)
-    else:
+        return
+    if msvcrt is None:
         raise OSError(errno.ENOLCK, "no locks here")
-
-
-def _lock_far(descriptor: int, windows: Any) -> None:
     position = os.lseek(descriptor, 0, os.SEEK_CUR)
     os.lseek(descriptor, FAR, os.SEEK_SET)
     try:
-        windows.locking(descriptor, windows.LK_NBLCK, 1)
+        msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
     finally:
         os.lseek(descriptor, position, os.SEEK_SET)
 
@@ -62,29 +67,25 @@ def lock_or_refuse(descriptor: int, says: str, alone: bool = False) -> None:
             raise GenevaError(says) from None
 
 
-def open_to_lock(folder: str) -> int:
-    """A descriptor whose lock is that of a folder."""
-    if POSIX:
-        return os.open(folder, os.O_RDONLY)
-    return os.open(os.path.join(folder, FOLDER_LOCK), os.O_RDWR | os.O_CREAT)
+@contextmanager
+def folder_locked(folder: str, says: str) -> Iterator[None]:
+    """Hold a folder's lock within the block. Raises GenevaError with a message if another run has.
+
+    Windows opens no folder: there the lock is that of a file in it.
+    """
+    path = folder if POSIX else os.path.join(folder, FOLDER_LOCK)
+    descriptor = os.open(path, os.O_RDONLY if POSIX else os.O_RDWR | os.O_CREAT)
+    try:
+        lock_or_refuse(descriptor, says)
+        yield
+    finally:
+        os.close(descriptor)
+        if not POSIX:
+            with suppress(OSError):  # another run has opened it, and will remove it
+                os.unlink(path)
 
 
-def close_folder(descriptor: int, folder: str) -> None:
-    """End the lock of a folder."""
-    os.close(descriptor)
-    if not POSIX:
-        with suppress(OSError):  # another run has opened it, and will remove it
-            os.unlink(os.path.join(folder, FOLDER_LOCK))
-
-
-def rename(file: IO[bytes], path: str, target: str) -> None:
-    """Rename an open, locked file, which replaces the target."""
-    if not POSIX:
-        file.close()
-    os.replace(path, target)
-
-
-def remove(file: IO[Any], path: str) -> None:
+def remove(file: IO[bytes], path: str) -> None:
     """Remove an open, locked file."""
     if POSIX:
         os.unlink(path)
@@ -92,3 +93,45 @@ def remove(file: IO[Any], path: str) -> None:
     file.close()
     with suppress(PermissionError):  # another run has opened it since, and will remove it
         os.unlink(path)
+
+
+@contextmanager
+def stopping_cleanly() -> Iterator[None]:
+    """Make signals that end a run raise SystemExit, which cleans up; ignored ones stay so.
+
+    A second signal does not interrupt the cleaning up.
+    """
+    handlers = {}
+    for number in SIGNALS:
+        # Only the main thread of a program may set signals.
+        with suppress(ValueError):
+            if signal.getsignal(number) not in (signal.SIG_IGN, _stop):
+                handlers[number] = signal.signal(number, _stop)
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+
+
+@contextmanager
+def holding_signals() -> Iterator[None]:
+    """Let these signals wait for the end of a block that must not be left half done."""
+    global _waiting
+    _waiting = []
+    try:
+        yield
+    finally:
+        numbers, _waiting = _waiting, None
+        if numbers:
+            _stop(numbers[0], None)
+
+
+def _stop(number: int, frame: FrameType | None) -> None:
+    if _waiting is not None:
+        _waiting.append(number)
+        return
+    for other in SIGNALS:
+        if signal.getsignal(other) is _stop:
+            signal.signal(other, signal.SIG_IGN)
+    sys.exit(128 + number)

@@ -9,7 +9,6 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.geometry.measure import Box, bounds
-from geneva_cli.geometry.pieces import SUFFIX, UNITS
 from geneva_cli.geometry.shapes import Arc, Contour, Point
 from geneva_cli.geometry.sheet import Annotations, LevelDistance, line
 from geneva_cli.output.letters import width
@@ -20,9 +19,9 @@ ARROW = 4.5, 0.9  # an arrow's length, and half its width, mm of the page
 
 
 class Notes(NamedTuple):
-    """Annotations as drawn, in the drawing's unit: lines, arrows' heads and texts by their places.
+    """Annotations as drawn: lines, arrows' heads, and texts by the start of their base line.
 
-    A text begins at its place, on its base line. ``box`` is around the shapes and all of these.
+    ``box`` is around the shapes and all of these.
     """
 
     lines: tuple[Contour, ...]
@@ -32,33 +31,35 @@ class Notes(NamedTuple):
     box: Box
 
 
-def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> Notes:
+def notes(look: Annotations, box: Box, title: str, mm: float) -> Notes:
     """Return lines, arrows and texts around the shapes, whose box this is.
 
-    ``mm`` is a millimetre of the page in the drawing's unit; letters are 5 mm high. Distances stand
-    below the shapes; below them are the scale bar and the title.
+    ``mm`` is a millimetre of the page in those of the drawing. Distances stand below the shapes;
+    below them are the scale bar and the title.
     """
     lines: list[Contour] = []
     heads: list[tuple[Point, Point, Point]] = []
     texts: list[tuple[Point, str]] = []
-    unit, text, gap = UNITS[units], mm * LETTERS, mm * 3.0
+    text, gap = mm * LETTERS, mm * 3.0
     left, right, low, high = box.x0, box.x1, box.y0, box.y1
     for turn in look.turns:
-        first, last = ((x / unit, y / unit) for x, y in (turn.start, turn.end))
-        arc = Arc(first, last, turn.bulge)
+        arc = Arc(turn.start, turn.end, turn.bulge)
         contour = Contour("", (arc,), closed=False)
         lines.append(contour)
         (x, y), back = arc.centre, 0.5 * mm * ARROW[0] / arc.radius
         ahead = math.copysign(0.5 * math.pi - back, arc.bulge)  # that of the arc under the head
+        last = turn.end
         heads.append(_head(last, math.atan2(last[1] - y, last[0] - x) + ahead, mm))
         around = bounds(contour)
         left, right = min(left, around.x0), max(right, around.x1)
         low, high = min(low, around.y0), max(high, around.y1)
     for span in look.spans:
         low -= gap + 1.4 * text
-        lines += _span(span, unit, low, gap)
-        (a, b), shown = _ends(span, unit), span_text(span, units)
+        a, b = sorted((span.start[0], span.end[0]))
+        lines.append(line("", (a, low), (b, low)))
+        lines += [line("", end, (end[0], low - 0.4 * gap)) for end in (span.start, span.end)]
         heads += [_head((a, low), math.pi, mm), _head((b, low), 0.0, mm)]
+        shown = span_text(span)
         wide = width(shown) * text
         # a text that does not fit between the lines from the ends stands to their right
         start = 0.5 * (a + b - wide) if wide < b - a else b + gap
@@ -69,7 +70,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> Not
     y = low - gap - max(tick, 0.5 * text)
     ends = [((x, y - tick), (x, y + tick)) for x in (left, left + bar)]
     ruler = (*(line("", *end) for end in ends), line("", (left, y), (left + bar, y)))
-    label = f"{bar:g} {SUFFIX[units]}"
+    label = f"{bar:g} mm"
     texts.append(((left + bar + gap, y - 0.35 * text), label))
     right = max(right, left + bar + gap + width(label) * text)
     low = y - max(tick, 0.5 * text)
@@ -80,22 +81,9 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> Not
     return Notes(tuple(lines), ruler, tuple(heads), tuple(texts), Box(left, low, right, high))
 
 
-def _ends(span: LevelDistance, unit: float) -> tuple[float, float]:
-    a, b = sorted((span.start[0] / unit, span.end[0] / unit))
-    return a, b
-
-
-def span_text(span: LevelDistance, units: str) -> str:
-    """The name and the length, to four decimals of an inch and three of a millimetre."""
-    a, b = _ends(span, UNITS[units])
-    value = in_decimals(b - a, 4 if units == "inch" else 3)
-    return f"{span.name} = {value} {SUFFIX[units]}"
-
-
-def _span(span: LevelDistance, unit: float, low: float, gap: float) -> list[Contour]:
-    a, b = _ends(span, unit)
-    sides = (((x / unit, y / unit), (x / unit, low - 0.4 * gap)) for x, y in (span.start, span.end))
-    return [line("", *ends) for ends in (((a, low), (b, low)), *sides)]
+def span_text(span: LevelDistance) -> str:
+    """The name and the length, to three decimals of a millimetre."""
+    return f"{span.name} = {in_decimals(abs(span.end[0] - span.start[0]), 3)} mm"
 
 
 def _head(tip: Point, angle: float, mm: float) -> tuple[Point, Point, Point]:

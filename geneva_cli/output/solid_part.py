@@ -3,28 +3,20 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.inset import lines_and_arcs
 from geneva_cli.geometry.pieces import prepared
 from geneva_cli.geometry.plates import Part, Plate, Shell
-from geneva_cli.geometry.round_holes import drilled
-from geneva_cli.geometry.shapes import Circle, Contour, closed
+from geneva_cli.geometry.shapes import Circle, Contour
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.geometry.stacks import require_faces
 
 
-def solid_part(drawing: Drawing, units: str, format: str) -> Part:
-    """Return the part of a drawing; ``format`` is the name in messages.
-
-    Raises GenevaError for a drawing without solids, and for a unit other than mm.
-    """
+def solid_part(drawing: Drawing, format: str) -> Part:
+    """Return the part of a drawing. Raises GenevaError, naming the format, for one without."""
     whole = drawing.shells or drawing.solid
     if whole is None:
         raise GenevaError(
             f"no solid to write as {format}: solids are --part wheel, crank, arm and assembly. "
             "Write other drawings, and paths with --kerf, as .dxf or .svg"
         )
-    if units != "mm":
-        raise GenevaError(f"--units: {format} is always in mm; leave it out")
     return whole
 
 
@@ -37,19 +29,7 @@ def plate_contours(plate: Plate) -> tuple[Contour | Circle, ...]:
         raise GenevaError(
             f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
         )
-    if 2.0 * plate.edge.size >= plate.thickness:
-        raise GenevaError(
-            f"{plate.edge.key} = {plate.edge.size:g}: the {plate.name} is {plate.thickness:g} mm "
-            f"thick; it must be below {0.5 * plate.thickness:g}",
-            ("size", plate.edge.key),
-        )
-    shapes = prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
-    shapes = drilled(shapes, plate.cross) if plate.cross else shapes
-    if not plate.edge.size:
-        return shapes
-    outline, *holes = shapes
-    require_faces(plate._replace(outline=outline, holes=tuple(holes)))
-    return tuple(closed(shape.layer, lines_and_arcs(shape)) for shape in shapes)
+    return prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
 
 
 def require_thick(shell: Shell) -> None:

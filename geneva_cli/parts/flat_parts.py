@@ -140,7 +140,7 @@ class FlatParts(EdgedParts):
             stopped = self.mechanism.spec.wheel.stopped
             contour = wheel_contour(parts.assembly, parts.sizes, walls, stopped)
         turn = float(parts.assembly.wheel(np.zeros(1))[0])
-        return self._edged([Member(wheel_part(parts.assembly, parts.sizes, contour), turn=turn)])[0]
+        return Member(wheel_part(parts.assembly, parts.sizes, contour), turn=turn)
 
     @cached_property
     def orbiting(self) -> tuple[Member, ...]:
@@ -152,8 +152,7 @@ class FlatParts(EdgedParts):
     @cached_property
     def links(self) -> Links:
         """The links of the drive, with the pins and rollers between them, and round gears."""
-        links = drawn_links(self.mechanism, self.drawn)
-        return links._replace(cut=self._edged(links.cut), joined=self._edged(links.joined))
+        return drawn_links(self.mechanism, self.drawn)
 
     @cached_property
     def arm(self) -> CrankArm | None:
@@ -163,12 +162,12 @@ class FlatParts(EdgedParts):
     @cached_property
     def arm_plate(self) -> Plate | None:
         """The crank arm as a plate."""
-        return self._plate(arm_plate(self.outlines, self.arm)) if self.arm else None
+        return arm_plate(self.outlines, self.arm) if self.arm else None
 
     @cached_property
     def locking(self) -> tuple[Plate, ...]:
         """The locking disc, or its sectors."""
-        return tuple(map(self._plate, locking_plates(self.outlines)))
+        return tuple(locking_plates(self.outlines))
 
     @cached_property
     def rollers(self) -> tuple[Member, ...]:
@@ -188,13 +187,12 @@ class FlatParts(EdgedParts):
             centres = roller_centres(drawn.assembly)
         else:
             centres = tuple(at for link, at in roller_pins(mechanism) if link.plane == 1)
-        return self._edged(Member(plate, centre) for centre in centres for plate in plates)
+        return tuple(Member(plate, centre) for centre in centres for plate in plates)
 
     @cached_property
     def crank_hub(self) -> Plate | None:
         """The crank's hub above the disc or the arm, if the spec has one."""
-        hub = crank_hub(self.outlines)
-        return self._plate(hub) if hub else None
+        return crank_hub(self.outlines)
 
     @property
     def horn_mm(self) -> float | None:
@@ -268,7 +266,7 @@ class FlatParts(EdgedParts):
         # at mid-motion the first slot of the first wheel's frame points at the first crank
         wheel = wheel_plate(first.assembly, first.sizes, first.wheel), L, 0.0
         discs = ((plate, L + first.assembly.L, math.pi) for plate in locking_plates(first))
-        return self._edged(
+        return tuple(
             Member(plate._replace(name=f"first {plate.name}", low=low, high=high), (x, 0.0), turn)
             for plate, x, turn in (wheel, *discs)
         )
@@ -324,7 +322,7 @@ class FlatParts(EdgedParts):
         from geneva_cli.parts.slots.groove import groove_stack
 
         stack = groove_stack(self._base, self.links, self.groove[:2])
-        return self._edged(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
+        return tuple(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
 
     @cached_property
     def _framed(self) -> FrameAndShafts:
@@ -340,12 +338,12 @@ class FlatParts(EdgedParts):
     @cached_property
     def spacers(self) -> tuple[Member, ...]:
         """The rings between the frame and parts that are screwed to it."""
-        return self._edged(self._framed.spacers)
+        return self._framed.spacers
 
     @cached_property
     def bridge(self) -> tuple[Member, ...]:
         """The bridge that bears a crank's shaft from above; none where the frame bears it."""
-        return self._edged([self._framed.bridge] if self._framed.bridge else [])
+        return (self._framed.bridge,) if self._framed.bridge else ()
 
     @property
     def standing(self) -> tuple[Member, ...]:

@@ -9,14 +9,13 @@ borne by a bridge over the crank, on two posts beside all that turns about the c
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, farthest
-from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -27,30 +26,18 @@ from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
     FrameAndShafts,
-    Screwed,
-    Unborne,
     corner_radius,
     hole_without_shaft,
     mounted_plate,
-    require_walls,
     shaft_holes,
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub
 from geneva_cli.parts.shafts.hub_and_shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, tapped
-from geneva_cli.parts.shafts.shaft import (
-    Ends,
-    Seat,
-    Shaft,
-    built_shafts,
-    seat_of,
-    shoulder_length,
-    shoulder_mm,
-)
+from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.least_wall import wall_min
-from geneva_cli.spec.tables import Size
 
 
 def framed(
@@ -67,37 +54,52 @@ def framed(
     is not below its upper one.
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
-    others = (*first, *([Member(base)] if base else []))
-    adjacent = list(_passing(mechanism, outlines, bars, others))
-    lows = [-size.allowances.pin_gap_mm, *(one.low for one in adjacent)]
-    if outlines:
-        lows[0] -= outlines.sizes.arm_thickness if outlines.has_arm else 0.0
-        hub = wheel_hub(outlines.assembly, outlines.sizes)
-        lows += [hub.low] if hub else []
-    free = min(lows) - size.washer_mm
-    top = free - shoulder_length(size, L)
+    moving = [one.part for one in (*bars.cut, *bars.joined, *first)]
+    lows = [part.low for part in moving if isinstance(part, Plate)]
+    lows += [gear.plate.low for gear in bars.gears]
+    lows += [base.low] if base else []
+    if mechanism.spec.gears:
+        from geneva_cli.parts.gears.gear_pair import gear_seats
+
+        lows += [seat.low for seat in gear_seats(mechanism, outlines)]
+    arm = outlines.sizes.arm_thickness if outlines and outlines.has_arm else 0.0
+    lows.append(-size.allowances.pin_gap_mm - arm)
+    hub = wheel_hub(outlines.assembly, outlines.sizes) if outlines else None
+    lows += [hub.low] if hub else []
+    top = min(lows) - size.washer_mm
     thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
     own = list(_all_shafts(mechanism, outlines, bars, top - thick, first))
     hanging = [one for one in own if one.turns and one.low >= top]
     crank = next((one for one in hanging if same(one.at, mechanism.crank_shaft.at, L)), None)
-    bridge = None
-    if outlines and crank:
-        bridge = _bridge(mechanism, outlines, bars, crank, thick)
+    bridge = _bridge(mechanism, outlines, bars, crank, thick) if outlines and crank else None
     if bridge and crank:
         own[own.index(crank)] = crank._replace(high=bridge.high)
         hanging.remove(crank)
-    if size.shafts == "turned" and outlines:
-        adjacent += _passing_arm(outlines, own)
-    axles, bottom = built_shafts(size, own, adjacent, (top - thick, top, free))
+    axles = [one.member for one in own]
     standing = list(_standing(mechanism, bars))
-    drilled = list(_drilled(mechanism, axles, standing, top))
-    require_walls(drilled, wall_min(size, L), axles)
-    fixed = list(_fixed(bars))
+    holes: list[Circle] = []
+    for at in standing:
+        here = [one._replace(at=at) for one in axles if same(one.at, at, L)]
+        holes += shaft_holes(size, here, top)
+        if not here:
+            table = mechanism.spec.shaft
+            on_crank = at in [one.at for one in mechanism.crank_places]
+            diameter = table.crank_diameter_mm if on_crank else table.wheel_diameter_mm
+            holes.append(hole_without_shaft(diameter, at, L))
+    # clearance holes of screws into the frame, and the parts that they fix
+    fixed: list[tuple[Circle, Plate]] = []
+    for member in bars.cut:
+        if isinstance(member.part, Plate) and member.part.name in bars.standing:
+            fixed += [(hole, member.part) for hole in placed_holes(member)]
+    for gear in bars.gears:
+        for hole in gear.bolts:
+            (x, y), (u, v) = gear.at, hole.centre
+            fixed.append((Circle("BORE", (x + u, y + v), hole.radius), gear.plate))
     for plate in (base, bridge):
         if plate:  # about the crank's axis
-            screwed = placed_holes(Member(plate, (L, 0.0)))
-            fixed += [(hole, plate) for hole in screwed if not same(hole.centre, (L, 0.0), L)]
-    holes = [*drilled, *(tapped(hole) for hole, _ in fixed)]
+            bored = placed_holes(Member(plate, (L, 0.0)))
+            fixed += [(hole, plate) for hole in bored if not same(hole.centre, (L, 0.0), L)]
+    holes += [tapped(hole) for hole, _ in fixed]
     spacers = []
     for hole, part in fixed:
         if part.low - top > SAME_LENGTH * L:
@@ -108,30 +110,30 @@ def framed(
     eye = corner_radius(size, L)
     if mechanism.frame > 0.0:
         reach = max((c.radius for c in holes), default=0.0) + eye
-        eyes = [Circle("FRAME", at, reach) for at in standing]
-        plate = Plate("carrier", "FRAME", convex_hull("FRAME", eyes), tuple(holes), bottom, top)
+        outline = convex_hull("FRAME", [Circle("FRAME", at, reach) for at in standing])
+        plate = Plate("carrier", "FRAME", outline, tuple(holes), top - thick, top)
     else:
         # a frame contains every axis, drilled or not
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
-        plate = mounted_plate(holes, within, eye, (bottom, top))
+        plate = mounted_plate(holes, within, eye, (top - thick, top))
     whole = {name for axis in bars.axes for name in axis.one_piece}
-    to_fix = (name for one in own for name in one.to_fix(size) if name not in whole)
+    to_fix = [name for one in own for name in one.to_fix if name not in whole]
     return FrameAndShafts(
         plate,
         tuple(outside_links(axles, bars, L)),
         tuple(spacers),
-        tuple(Screwed(hole, part.name) for hole, part in fixed),
+        tuple((hole, part.name) for hole, part in fixed),
         tuple(dict.fromkeys(to_fix)),
         Member(bridge, (L, 0.0)) if bridge else None,
-        tuple(Unborne(one.name, _why_above(one, size, bars, top)) for one in hanging),
+        tuple((one.name, _why_above(one, mechanism, bars, top)) for one in hanging),
     )
 
 
-def _why_above(shaft: Shaft, size: Size, bars: Links, top: float) -> str:
+def _why_above(shaft: Shaft, mechanism: Mechanism, bars: Links, top: float) -> str:
     """Return the reason why a shaft ends above the frame's upper face ``top``."""
     ends = f"it ends at {shaft.low:.4g} mm, above the frame at {top:.4g} mm"
     key = f"{shaft.part}_shaft_low_mm"
-    if vars(size).get(key) is not None:
+    if vars(mechanism.spec.size).get(key) is not None:
         return f"{ends}, because {key} = {shaft.low:g}"
     if shaft.part == "wheel":
         return f"{ends}, because wheel_hub_mm = 0 ends it in the wheel"
@@ -143,26 +145,10 @@ def _bridge(
     mechanism: Mechanism, parts: Outlines, bars: Links, shaft: Shaft, thick: float
 ) -> Plate | None:
     """Return the bridge about the crank's axis; None where there is no place for one."""
-    if not (parts.sizes.crank_bore and is_bridged(mechanism)):
+    size, sizes, L = mechanism.spec.size, parts.sizes, mechanism.center_distance_mm
+    if not (sizes.crank_bore and is_bridged(mechanism)):
         return None
-    size, L = mechanism.spec.size, mechanism.center_distance_mm
-    wall = wall_min(size, L)
-    bore = shaft.bore.around + 0.5 * size.allowances.shaft_fit_mm
-    half = max(rounded_radius(HUB * bore), bore + wall)
-    # also a machine that is too small for screws has those of the bridge
-    screw = bolt_radius(None, L, half) or 0.5 * SCREWS[0].through
-    away = _swept_mm(mechanism, parts, bars) + wall + max(half, 2.0 * screw)
-    away = 0.5 * math.ceil(2.0 * away)  # mm: to half a millimetre, for the drill
-    ends = (0.0, -away), (0.0, away)
-    outline = convex_hull("FRAME", [Circle("FRAME", at, half) for at in ends])
-    holes = Circle("BORE", ORIGIN, bore), *(Circle("BORE", at, screw) for at in ends)
-    low = bridge_low(size, parts.sizes)
-    return Plate("bearing bridge", "FRAME", outline, holes, low, low + thick)
-
-
-def _swept_mm(mechanism: Mechanism, parts: Outlines, bars: Links) -> float:
-    """Return a radius about the crank's axis that no part of crank and drive turns beyond."""
-    L, sizes = mechanism.center_distance_mm, parts.sizes
+    # no part of crank and drive turns beyond the farthest of these
     far = [sizes.lock, sizes.crank_hub]
     if parts.has_arm:
         arm = crank_arm(parts)
@@ -173,21 +159,18 @@ def _swept_mm(mechanism: Mechanism, parts: Outlines, bars: Links) -> float:
         if plate.name in links:  # a block stays in its link
             reach = float(farthest(Polyarc([as_contour(plate.outline)]), 0.0, 0.0).max())
             far.append(float(np.abs(places(links[plate.name])[0] - L).max()) + reach)
-    return max(far)
-
-
-def _drilled(
-    mechanism: Mechanism, axles: Sequence[Member], standing: Sequence[Point], top: float
-) -> Iterator[Circle]:
-    """Yield the holes of the shafts that reach below the frame's upper face."""
-    L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
-    cranks = [one.at for one in mechanism.crank_places]
-    for at in standing:
-        here = [one._replace(at=at) for one in axles if same(one.at, at, L)]
-        yield from shaft_holes(mechanism.spec.size, here, top)
-        if not here:
-            diameter = shaft.crank_diameter_mm if at in cranks else shaft.wheel_diameter_mm
-            yield hole_without_shaft(diameter, at, L)
+    wall = wall_min(size, L)
+    bore = shaft.bore.around + 0.5 * size.allowances.shaft_fit_mm
+    half = max(rounded_radius(HUB * bore), bore + wall)
+    # also a machine that is too small for screws has those of the bridge
+    screw = bolt_radius(None, L, half) or 0.5 * SCREWS[0].through
+    away = max(far) + wall + max(half, 2.0 * screw)
+    away = 0.5 * math.ceil(2.0 * away)  # mm: to half a millimetre, for the drill
+    ends = (0.0, -away), (0.0, away)
+    outline = convex_hull("FRAME", [Circle("FRAME", at, half) for at in ends])
+    holes = Circle("BORE", ORIGIN, bore), *(Circle("BORE", at, screw) for at in ends)
+    low = bridge_low(size, sizes)
+    return Plate("bearing bridge", "FRAME", outline, holes, low, low + thick)
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
@@ -206,17 +189,6 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
         if axis.stands and not any(same(axis.at, one, L) for one in seen):
             seen.append(axis.at)
             yield axis.at
-
-
-def _fixed(bars: Links) -> Iterator[tuple[Circle, Plate]]:
-    """Yield the screws' holes of a guide or a gear that is fixed to the frame, with that part."""
-    for member in bars.cut:
-        if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            yield from ((hole, member.part) for hole in placed_holes(member))
-    for gear in bars.gears:
-        for hole in gear.bolts:
-            (x, y), (u, v) = gear.at, hole.centre
-            yield Circle("BORE", (x + u, y + v), hole.radius), gear.plate
 
 
 def _all_shafts(
@@ -248,7 +220,7 @@ def _all_shafts(
         half = mechanism.engagements[0].half_step
         for one in shafts(outlines, lowest, stop, on):
             yield one
-            if same(one.at, (0.0, 0.0), L):
+            if same(one.at, ORIGIN, L):
                 yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in wheels)
                 continue
             for place in cranks:
@@ -264,27 +236,3 @@ def _all_shafts(
         from geneva_cli.parts.gears.gear_pair import gear_shafts
 
         yield from gear_shafts(mechanism, outlines, ends)
-
-
-def _passing(
-    mechanism: Mechanism, outlines: Outlines | None, bars: Links, others: Iterable[Member]
-) -> Iterator[Seat]:
-    """Yield links, gears and other parts: their names, lower and upper faces."""
-    yield from (seat_of(one.part) for one in (*bars.cut, *bars.joined, *others))
-    yield from (seat_of(gear.plate) for gear in bars.gears)
-    if mechanism.spec.gears:
-        from geneva_cli.parts.gears.gear_pair import gear_seats
-
-        yield from gear_seats(mechanism, outlines)
-
-
-def _passing_arm(outlines: Outlines, own: Iterable[Shaft]) -> Iterator[Seat]:
-    """Yield the faces of an arm whose end passes a wheel's shaft nearer than its shoulder."""
-    if not outlines.has_arm:
-        return
-    arm, L = crank_arm(outlines), outlines.assembly.L
-    away = L - max(math.hypot(*pin.centre) for pin in arm.pins) - arm.eye
-    high = -outlines.assembly.full.spec.size.allowances.pin_gap_mm
-    for one in own:
-        if one.part == "wheel" and away < 0.5 * shoulder_mm(one):
-            yield Seat("arm", high - outlines.sizes.arm_thickness, high)

@@ -5,18 +5,13 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import combinations
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hull import convex_hull
-from geneva_cli.geometry.plates import Member, Plate, Stack
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point
-from geneva_cli.geometry.stacks import apart
+from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point, convex_hull
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.shafts.bores import around
 from geneva_cli.parts.shafts.screws import Screws, screw_through, tapped
-from geneva_cli.parts.shafts.shaft import SERIES_60
 from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
@@ -63,59 +58,17 @@ def corner_radius(size: Size, L: float) -> float:
 
 
 def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> Iterator[Circle]:
-    """Yield the holes of a frame for the shafts that reach below its upper face ``top``.
-
-    They are as wide as the bearings on turned shafts, or as bores for plain ones.
-    """
+    """Yield the holes of a frame for the shafts that reach below its upper face ``top``."""
     for axle in axles:
-        shaft, at = axle.part, axle.at
-        assert isinstance(shaft, Plate | Stack)
-        if shaft.low >= top:
-            continue
-        if isinstance(shaft, Stack):
-            # both are exactly the numbers of which the steps were made
-            seat = next(step for step in shaft.plates if step.high == top)
-            bearing = next(one for one in SERIES_60 if one.bore == 2.0 * around(seat.outline))
-            yield Circle("BORE", at, 0.5 * bearing.outside)
-        else:
-            radius = around(shaft.outline) + 0.5 * size.allowances.shaft_fit_mm
-            yield Circle("BORE", at, radius)
+        assert isinstance(axle.part, Plate)
+        if axle.part.low < top:
+            radius = around(axle.part.outline) + 0.5 * size.allowances.shaft_fit_mm
+            yield Circle("BORE", axle.at, radius)
 
 
 def hole_without_shaft(diameter_mm: float | None, at: Point, L: float) -> Circle:
     """Return the hole for a part that is one piece with its shaft, of the spec or L/10 wide."""
     return Circle("BORE", at, half_or(diameter_mm, bore_radius(L / 20.0)))
-
-
-def require_walls(holes: list[Circle], least: float, axles: list[Member]) -> None:
-    """Raise GenevaError where the bearings of turned shafts leave less than the least wall."""
-    if not any(isinstance(one.part, Stack) for one in axles):
-        return
-    for one, other in combinations(holes, 2):
-        wall = apart(one, other)
-        if wall < least:
-            both = (hole.centre for hole in (one, other))
-            names = [next((a.part.name for a in axles if a.at == at), "a hole") for at in both]
-            raise GenevaError(
-                f'shafts = "turned": {" and ".join(names)} leave a wall of {wall:.4g} mm between '
-                f"their bearings in the frame, and wall_min_mm is {least:.4g}; smaller bores have "
-                "smaller bearings",
-                ("size", "shafts"),
-            )
-
-
-class Unborne(NamedTuple):
-    """A shaft that turns and does not reach the frame, and the reason."""
-
-    name: str
-    reason: str
-
-
-class Screwed(NamedTuple):
-    """A screw of a part that is fixed to the frame: its clearance hole, and the part's name."""
-
-    hole: Circle
-    part: str
 
 
 class FrameAndShafts(NamedTuple):
@@ -124,20 +77,20 @@ class FrameAndShafts(NamedTuple):
     plate: Plate
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
-    screwed: tuple[Screwed, ...] = ()
+    screwed: tuple[tuple[Circle, str], ...] = ()  # clearance holes of screws, and what they fix
     to_fix: tuple[str, ...] = ()  # names of what the shafts turn, and nothing holds on them
     bridge: Member | None = None  # bears the crank's shaft from above
-    unborne: tuple[Unborne, ...] = ()
+    unborne: tuple[tuple[str, str], ...] = ()  # shafts that do not reach it, and why
 
     @property
     def threads(self) -> tuple[Circle, ...]:
         """The tapped holes of the frame."""
-        return tuple(tapped(one.hole) for one in self.screwed)
+        return tuple(tapped(hole) for hole, _ in self.screwed)
 
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws that fix parts to the frame, and those of its mounting holes."""
-        kinds = Counter((one.part, one.hole.radius) for one in self.screwed)
+        kinds = Counter((part, hole.radius) for hole, part in self.screwed)
         fixed = [Screws(part, n, 2.0 * r, "the frame") for (part, r), n in kinds.items()]
         mounts = mounts_of(self.plate)
         if mounts:

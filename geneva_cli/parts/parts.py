@@ -7,10 +7,10 @@ its first use: most runs need few of the parts.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, ClassVar, Self, TypeAlias
 
-from geneva_cli.geometry.plates import Edge, Member, Plate, edged, plates
+from geneva_cli.geometry.plates import Member
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import named, parts_class, thing
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geneva_cli.geometry.shapes import Circle
     from geneva_cli.motion.pivots import Dimension
     from geneva_cli.parts.gears.gear_blanks import Gear
-    from geneva_cli.parts.mounted_plate import FrameAndShafts, Unborne
+    from geneva_cli.parts.mounted_plate import FrameAndShafts
     from geneva_cli.parts.outlines.outlines import Outlines
     from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.shafts.screws import Screws
@@ -58,8 +58,8 @@ class Parts(TurnedParts):
         return ()
 
     @property
-    def unborne(self) -> tuple[Unborne, ...]:
-        """The shafts that turn and have no bearing."""
+    def unborne(self) -> tuple[tuple[str, str], ...]:
+        """The shafts that turn and have no bearing, each with the reason."""
         return ()
 
     @property
@@ -84,7 +84,7 @@ class Parts(TurnedParts):
 
     @property
     def turn(self) -> FullTurn:
-        """The full turn; raises WorkLimit where it takes too long."""
+        """The full turn; raises WorkLimit where it takes too many positions."""
         if isinstance(self._turn, WorkLimit):
             raise self._turn
         return self._turn
@@ -181,7 +181,7 @@ class Parts(TurnedParts):
 
 
 class EdgedParts(Parts):
-    """Parts of wheels and racks: plates with the edges of ``[size]``, frame and shafts."""
+    """Parts of wheels and racks: plates, frame and shafts."""
 
     def writer(self, fine: float) -> Writer:
         """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
@@ -205,17 +205,17 @@ class EdgedParts(Parts):
     @property
     @abstractmethod
     def _framed(self) -> FrameAndShafts:
-        """The frame and the shafts with sharp edges, computed once."""
+        """The frame and the shafts, computed once."""
 
     @cached_property
     def shafts(self) -> tuple[Member, ...]:
         """All shafts, whether they reach the frame or not."""
-        return self._edged(self._framed.shafts)
+        return self._framed.shafts
 
     @cached_property
     def frame(self) -> Member:
         """The frame, which holds the shafts."""
-        return self._edged([Member(self._framed.plate)])[0]
+        return Member(self._framed.plate)
 
     @property
     def frame_threads(self) -> tuple[Circle, ...]:
@@ -233,8 +233,8 @@ class EdgedParts(Parts):
         return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
 
     @property
-    def unborne(self) -> tuple[Unborne, ...]:
-        """The shafts that turn and have no bearing."""
+    def unborne(self) -> tuple[tuple[str, str], ...]:
+        """The shafts that turn and have no bearing, each with the reason."""
         return self._framed.unborne
 
     @property
@@ -244,23 +244,7 @@ class EdgedParts(Parts):
 
     def require(self) -> None:
         """Raise GenevaError for a part that cannot be built."""
-        from geneva_cli.geometry.stacks import require_faces
-
-        for member in self.required:
-            for plate in plates(member.part):
-                require_faces(plate)
-
-    @property
-    def _edge(self) -> Edge:
-        """The edges of all plates but gears, whose edges are teeth."""
-        size = self.mechanism.spec.size
-        return Edge(size.edge_mm, rounded=size.edge_chamfer_mm is None)
-
-    def _plate(self, plate: Plate) -> Plate:
-        return plate._replace(edge=self._edge)
-
-    def _edged(self, members: Iterable[Member]) -> tuple[Member, ...]:
-        return tuple(edged(one, self._edge) for one in members)
+        _ = self.required
 
 
 def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:

@@ -30,7 +30,7 @@ def _kind(solid: Solid) -> Kind:
     if isinstance(solid, Shell):
         # shells of one kind lie at different places, and may differ by rounding
         return solid.name, f"{solid.volume:.9g}"
-    if isinstance(solid, Plate) and not solid.cross:
+    if isinstance(solid, Plate):
         # thicknesses are differences of heights: to a nanometre
         return solid._replace(low=0.0, high=0.0), round(solid.thickness, 6)
     return solid
@@ -159,7 +159,7 @@ def with_centre_marks(drawing: Drawing) -> Drawing:
             arcs = [piece for piece in shape.segments if isinstance(piece, Arc)]
             if shape.layer != "BORE" or not arcs:
                 continue
-            widest = max(arcs, key=lambda arc: arc.radius)  # dog bones are smaller
+            widest = max(arcs, key=lambda arc: arc.radius)
             x, y = (round(v, 9) + 0.0 for v in widest.centre)  # mm; removes rounding errors
             at, radius = (x, y), widest.radius
         least[at] = min(least.get(at, radius), radius)

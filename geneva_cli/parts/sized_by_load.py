@@ -32,7 +32,6 @@ from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.pin import PinSize, pin
 from geneva_cli.loads.strength.shaft_stress import shear_MPa
 from geneva_cli.loads.tolerance.locking import Lock
-from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
@@ -188,15 +187,13 @@ def horn_MPa(
 ) -> Array:
     """Return the greatest stress in the horns of wheels 1 mm thick, (m,) for m designs.
 
-    Under the roller, in every direction in which they turn, or under the torque in the dwell.
-    ``known`` is that of the first direction, if computed already.
+    Under the roller, or under the torque in the dwell. ``known`` is that under the roller, if
+    computed already.
     """
     search = single_stress if isinstance(machine.design, int) else greatest_stress
-    sizes, (_, *others) = (half_width, by.recess), every_way(machine)
-    own = known or search(horns, machine, sizes)
-    each = [own.stress_MPa, *(search(horns, way, sizes).stress_MPa for way in others)]
+    own = known or search(horns, machine, (half_width, by.recess))
     held = lock.loaded_locks(machine, half_width, by, 1.0)
-    rows = np.broadcast_arrays(*each, *([held.horn_stress_MPa] if held else []))
+    rows = np.broadcast_arrays(own.stress_MPa, *([held.horn_stress_MPa] if held else []))
     return np.fmax(0.0, np.fmax.reduce(rows))
 
 

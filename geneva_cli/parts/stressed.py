@@ -62,7 +62,7 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     hub_mm = 0.0  # length of the wheel's hub
     if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
         hub_mm = value_or(size.wheel_hub_length_mm, size.allowances.pin_gap_mm + thick)
-    end = _to_frame(assembly, sizes, hub_mm), thick, L
+    end = _to_frame(assembly, sizes, hub_mm), thick
     crank = sizes.arm_bore or sizes.crank_bore
     crank_shaft = shaft_of(spec, "crank", crank, *end)
     if sizes.crank_bore and is_bridged(assembly.full):
@@ -91,23 +91,14 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     )
 
 
-def shaft_of(
-    spec: Spec, part: str, bore: float, to_frame: float, thick: float, L: float
-) -> ShaftSize:
+def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) -> ShaftSize:
     """Return a shaft of the spec's dimensions, or else as it is in its bearing; NaN for none.
 
-    A plain shaft is as wide as its bore, and borne in the middle of the frame. A turned one is as
-    wide as its bearing's bore, whose middle is half its width below the frame's upper face. That
-    face is ``to_frame`` mm from the contact's middle, and a frame of plain shafts ``thick``.
+    It is as wide as its bore, and borne in the middle of a frame ``thick`` mm, whose upper face is
+    ``to_frame`` mm from the contact's middle.
     """
-    size, table = spec.size, vars(spec.shaft)
+    table = vars(spec.shaft)
     diameter, overhang = 2.0 * bore or math.nan, to_frame + 0.5 * thick
-    if size.shafts == "turned":
-        from geneva_cli.parts.shafts.shaft import bearing_within, shoulder_length
-
-        if bearing := bearing_within(diameter):
-            diameter = bearing.bore
-            overhang = to_frame + shoulder_length(size, L) + 0.5 * bearing.width
     own = table[f"{part}_diameter_mm"], table[f"{part}_overhang_mm"]
     return ShaftSize(value_or(own[0], diameter), value_or(own[1], overhang))
 

@@ -18,7 +18,7 @@ from geneva_cli.spec.materials import wheel_material
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from geneva_cli.geometry.mass import MassProperties
+    from geneva_cli.geometry.plates import MassProperties
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
@@ -34,7 +34,7 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     own: Callable[[Mechanism], MassProperties] | None = thing(spec.wheel.NAME, "wheel_body")
     if own:
         return own(mechanism)
-    from geneva_cli.geometry.mass import added, mass_properties
+    from geneva_cli.geometry.plates import added, mass_properties
 
     where, size = machine_sizes(mechanism)
     contour = wheel_contour(where, size, turned_walls(where, size), spec.wheel.stopped)

@@ -42,17 +42,13 @@ class Accept(SpecTable):
     wheel_left_out: Reason = None
     weight_to_one_side: Reason = None
     unbalanced: Reason = None
-    unbalance_windup: Reason = None
     far_mass: Reason = None
     unlikely_material: Reason = None
     nothing_to_act_on: Reason = None
     driven_by_one_wall: Reason = None
-    differs_backwards: Reason = None
-    tuned_forwards_only: Reason = None
     lags_behind: Reason = None
     roller_overtakes: Reason = None
     short_motion: Reason = None
-    off_tune: Reason = None
     stout_horns: Reason = None
     tolerance_left_out: Reason = None
     not_every_machine_turns: Reason = None
@@ -67,8 +63,7 @@ class Accept(SpecTable):
 
     # warnings of `geneva vibration` and `geneva tolerance` alone
     ELSEWHERE: ClassVar[tuple[str, ...]] = (
-        *("unbalance-windup", "short-motion", "off-tune"),
-        *("tolerance-left-out", "not-every-machine-turns"),
+        *("short-motion", "tolerance-left-out", "not-every-machine-turns"),
     )
 
     def __post_init__(self) -> None:

@@ -6,7 +6,7 @@ other keys. The annotations are objects, since evaluating text on import would t
 
 from collections.abc import Callable
 from dataclasses import field
-from typing import Annotated, ClassVar, Self
+from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
@@ -128,9 +128,6 @@ class Size(SpecTable):
         NotNegative,
         "diameter by which bores are wider than their shafts and pins; default 0, or by process",
     ] = None
-    shafts: Annotated[
-        str, OneOf(("plain", "turned")), "turned: with bearing seat, shoulder and circlip grooves"
-    ] = "plain"
     arm_bore_mm: Annotated[
         Positive, "diameter of the crank's shaft in the arm; default crank_bore_mm, or by load"
     ] = None
@@ -163,18 +160,6 @@ class Size(SpecTable):
     ] = "round"
     wheel_flat_mm: Annotated[
         Positive, "depth of the flat in the wheel's D bore; default bore/10"
-    ] = None
-    wheel_screw_mm: Annotated[
-        Positive, "set screw through the wheel's hub: its thread's diameter"
-    ] = None
-    crank_screw_mm: Annotated[
-        Positive, "set screw through the crank's hub: its thread's diameter"
-    ] = None
-    wheel_clamp_mm: Annotated[
-        Positive, "clamp screw of the wheel's slit hub: its thread's diameter"
-    ] = None
-    crank_clamp_mm: Annotated[
-        Positive, "clamp screw of the crank's slit hub: its thread's diameter"
     ] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[
@@ -393,11 +378,6 @@ class Mass(SpecTable):
     thickness_mm: Annotated[Positive, "thickness; required with a density"] = None
     count: Annotated[int, Range(1, 1000), "number of equal bodies"] = 1
     radius_mm: Annotated[float, NOT_NEGATIVE, "distance from the wheel's axis to the body's"] = 0.0
-    angle_deg: Annotated[
-        float,
-        Range(-360.0, 360.0),
-        "carousel: direction of a single body from the first slot, positive as the wheel turns",
-    ] = 0.0
     name: Annotated[str, None, "name of the body"] = ""
 
     # sizes of each shape, from which its mass or inertia follows
@@ -440,15 +420,6 @@ class Mass(SpecTable):
             below = f"must be below diameter_mm = {self.diameter_mm:g}"
             return f"bore_mm = {self.bore_mm:g} {below}", "bore_mm"
         return ()
-
-    @property
-    def backwards(self) -> Self:
-        """The body on a wheel that turns the other way, as seen from its other side.
-
-        >>> Mass("point", mass_kg=1.0, radius_mm=50.0, angle_deg=30.0).backwards.angle_deg
-        -30.0
-        """
-        return self.replace(angle_deg=0.0 - self.angle_deg)
 
 
 class Support(SpecTable):

@@ -1,4 +1,4 @@
-"""Values with a unit, such as ``"8 in"``, in the unit of their key; and numbers shown in inches."""
+"""Values with a unit, such as ``"8 in"``, in the unit of their key."""
 
 from __future__ import annotations
 
@@ -143,15 +143,6 @@ def with_unit(typed: str, value: object, key: str) -> str:
             continue
         return f'{key} = "{text}"'
     return ""
-
-
-def ratio(unit: str, other: str) -> float:
-    """How many of another unit one unit is.
-
-    >>> ratio("ft", "in")
-    12.0
-    """
-    return float(_unit(unit).size / _unit(other).size)
 
 
 def _hint(text: str, own: str | None) -> str:

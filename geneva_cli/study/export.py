@@ -11,7 +11,8 @@ from functools import partial
 from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
-from geneva_cli.drawings.coupon import single_parts
+from geneva_cli.drawings.catalogue import without_sheet
+from geneva_cli.drawings.single_parts import single_parts
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
 from geneva_cli.output.folder import LIST
@@ -68,7 +69,7 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
     """The files of a design for a trade, and parts that cannot be built.
 
     A spherical machine has no bed of parts, and its outlines are those of wheel, crank and arm laid
-    flat.
+    flat. Neither it nor a rack has a sheet.
 
     >>> files, _ = export_files(Design(External(6)), trade_of("laser"))
     >>> [file.name for file in files][:3]
@@ -95,8 +96,9 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
                 more = f"-{seen[stem]}" if seen[stem] > 1 else ""
                 content, work = f"{one.name}: {SINGLE[format]}", partial(draw, one.drawing)
                 files.append(ExportFile(f"{stem}{more}.{format}", content, work))
-    # shells do not lie on a bed
-    names = [name for name in trade.whole if not (bent and name.startswith("plate."))]
+    lacks = {"sheet.pdf"} if without_sheet(design.mechanism) else set()
+    lacks |= {"plate.3mf"} if bent else set()  # shells do not lie on a bed
+    names = [name for name in trade.whole if name not in lacks]
     files += [ExportFile(name, CONTENTS[name], partial(_write, design, name)) for name in names]
     parts_list = partial(show, design.part_table("parts"))
     files.append(ExportFile("parts.csv", "list of parts", parts_list))

@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME, LeftOut, figure
 from geneva_cli.specfile.columns import read_columns
-from geneva_cli.study.spec_texts import designs_of, spec_texts
+from geneva_cli.study.compare import designs_of
 from geneva_cli.verdict.quantities.quantity_names import whole_name
 
 POINTS_MARKED = 40  # marks of more points of a curve would touch
@@ -34,8 +34,7 @@ def of_specs(
     >>> [curve.name for curve in cycles.panels[0].curves]
     ['internal-z6', 'turret']
     """
-    texts = spec_texts(paths, tuple(settings), vary)
-    designs = designs_of(texts, reverse)
+    designs = designs_of(paths, tuple(settings), vary, reverse)
     names = []
     for name in pick:  # acceleration shows acceleration.max
         try:

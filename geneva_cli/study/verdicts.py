@@ -16,7 +16,6 @@ from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 from geneva_cli.verdict.headline import (
     anew_lines,
-    both_ways_lines,
     chosen_lines,
     failure_lines,
     headline,
@@ -38,7 +37,6 @@ class Verdict(NamedTuple):
     unused: tuple[str, ...] = ()  # names of accepted warnings that do not occur
     with_units: tuple[str, ...] = ()  # inputs that have a unit in the file
     error: str = ""
-    both_ways: bool = False  # True if the machine must turn both ways
     chosen: ByLoad = ByLoad({}, {})
 
     @property
@@ -47,13 +45,16 @@ class Verdict(NamedTuple):
         return not self.error and all_pass(self.checks)
 
 
-def verdict(path: str, settings: Sequence[str] = (), to_mm: float | None = None) -> Verdict:
+def verdict(
+    path: str, settings: Sequence[str] = (), to_mm: float | None = None, reverse: bool = False
+) -> Verdict:
     """Return the verdict on one spec; ``settings``, texts ``KEY=VALUE``, replace its own keys.
 
-    ``to_mm`` is the tolerance of the proof that no parts collide.
+    ``to_mm`` is the tolerance of the proof that no parts collide. With ``reverse`` the machine
+    turns the other way.
     """
     try:
-        design = load(path, settings)
+        design = load(path, settings, reverse)
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
@@ -62,7 +63,6 @@ def verdict(path: str, settings: Sequence[str] = (), to_mm: float | None = None)
             warnings=tuple(design.check_warnings),
             unused=tuple(design.unused_acceptances),
             with_units=tuple(design.with_units),
-            both_ways=design.spec.drive.both_ways,
             chosen=design.chosen_by_load,
         )
     except GenevaError as error:
@@ -70,7 +70,10 @@ def verdict(path: str, settings: Sequence[str] = (), to_mm: float | None = None)
 
 
 def verdicts(
-    paths: list[str], settings: Sequence[str] = (), to_mm: float | None = None
+    paths: list[str],
+    settings: Sequence[str] = (),
+    to_mm: float | None = None,
+    reverse: bool = False,
 ) -> Iterator[Verdict]:
     """The verdicts on specs, in their order, each as ``verdict`` returns it.
 
@@ -78,22 +81,17 @@ def verdicts(
     """
     if list(paths).count("-") > 1:
         raise GenevaError("<stdin>: given twice, but it can be read only once; name it once")
-    judge = partial(verdict, settings=settings, to_mm=to_mm)
+    judge = partial(verdict, settings=settings, to_mm=to_mm, reverse=reverse)
     files = [path for path in paths if path != "-"]
     others = mapped(judge, files, min(len(files), cores()), "specs")
     for path in tracked(paths, "specs", len(paths)):
         yield judge(path) if path == "-" else next(others)
 
 
-def checks_table(verdicts: Sequence[Verdict], directed: bool = False) -> Table:
-    """A table with one row for each check of each spec.
-
-    It has the column ``direction`` if ``directed``, or if a machine turns both ways.
-    """
-    directed = directed or any(v.both_ways for v in verdicts)
-    columns = "spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why"
-    names = (*columns, *(["direction"] if directed else []))
-    own = "name", *columns[2:-1], "remark", *names[len(columns) :]
+def checks_table(verdicts: Sequence[Verdict]) -> Table:
+    """A table with one row for each check of each spec."""
+    names = "spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why"
+    own = "name", *names[2:-1], "remark"
     rows = [(v.path, *(getattr(c, name) for name in own)) for v in verdicts for c in v.checks]
     # a narrow window shows the limit rather than the angle, which is not known for most checks
     first = ("spec", "check", "value", "must_be", "limit", "passes", "nearest", "at_deg", "why")
@@ -109,7 +107,7 @@ def checks_record(verdicts: Sequence[Verdict]) -> Table:
     warnings = [(v.path, w.name, w.plain, w.accepted or None) for v in verdicts for w in v.warnings]
     errors = [(v.path, v.error) for v in verdicts if v.error]
     paths, chosen = [v.path for v in verdicts], [v.chosen.record for v in verdicts]
-    rows = checks_table(verdicts, directed=True)  # keys are those of every machine
+    rows = checks_table(verdicts)
     return record_table(
         {
             "rows": (rows, rows_table(("spec", "error"), errors)) if errors else rows,
@@ -131,8 +129,7 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     judged = [v for v in verdicts if not v.error]
     if len(verdicts) == len(judged) == 1:
         (verdict,) = verdicts
-        both = both_ways_lines(verdict.checks) if verdict.both_ways else ()
-        lines = (*_lines(verdict), *proof_lines(verdict.checks), *both, *tightest(verdict.checks))
+        lines = (*_lines(verdict), *proof_lines(verdict.checks), *tightest(verdict.checks))
         lines += (*chosen_lines(verdict.chosen, verdict.path),)
         summaries = [_head(verdict)._replace(lines=lines)]
     else:

@@ -14,11 +14,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
-from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.verdict.both_directions import worst_checks
-from geneva_cli.verdict.checks import pushed_round, single_check
+from geneva_cli.verdict.checks import checks, pushed_round, single_check
 from geneva_cli.verdict.checks.all_checks import (
     LIMITS,
     MOTION,
@@ -62,7 +60,7 @@ def judged(mechanism: Mechanism, machine: Parts | None = None, parts: bool = Tru
 
     Without such a change they say why, and name a change with which they pass themselves.
     """
-    rows = worst_checks(mechanism, machine, parts)
+    rows = checks(mechanism, machine, parts)
     failing = tuple(c for c in rows if c.passes is False)
     if not failing:
         return rows
@@ -106,46 +104,44 @@ def _with_change(check: Check, change: str, anew: str) -> Check:
 
 
 class Trial:
-    """A machine with a changed spec, and its parts in every direction in which it must serve."""
+    """A machine with a changed spec, and its parts."""
 
     def __init__(self, spec: Spec, like: Mechanism) -> None:
         self.machine = build(spec, like)
 
     @cached_property
-    def ways(self) -> list[Parts]:
-        """The parts of each direction; an error in them does not name the roller that fits."""
+    def built(self) -> Parts:
+        """The parts; an error in them does not name the roller that fits."""
         from geneva_cli.parts.parts import parts_of
 
-        return [parts_of(way, advice=False) for way in every_way(self.machine)]
+        return parts_of(self.machine, advice=False)
 
     def spare(self, name: str) -> float:
-        """The least margin of a check in all directions, negative where it fails."""
-        rows: list[Check | None] = []
-        for way in self.ways:
-            if name in PUSHED:
-                pushed = pushed_round(way.mechanism) if way.mechanism.no_turn else []
-                rows += [check for check in pushed if check.name == name]
-            elif name in OF_TURN:
-                rows.append(check_named(TURNING, name, way, way.turned.turn))
-            else:
-                if name == "parts":
-                    _ = way.turned
-                rows.append(single_check(way.mechanism, name, way))
-        return min((row.spare for row in rows if row), default=math.inf)
+        """The margin of a check, negative where it fails."""
+        row: Check | None
+        if name in PUSHED:
+            pushed = pushed_round(self.machine) if self.machine.no_turn else []
+            row = next((check for check in pushed if check.name == name), None)
+        elif name in OF_TURN:
+            row = check_named(TURNING, name, self.built, self.built.turned.turn)
+        else:
+            if name == "parts":
+                _ = self.built.turned
+            row = single_check(self.machine, name, self.built)
+        return row.spare if row else math.inf
 
     def rows(self, parts: bool, turn: bool) -> Iterator[Check]:
-        """All checks in all directions, the quick ones first."""
-        for way in self.ways:
-            spec = way.mechanism.spec
-            for among in (MOTION, LIMITS):
-                yield from untold(among, way.mechanism)
-            if parts and spec.is_turned and spec.has_parts:
-                yield from untold(standing(way.mechanism), way.built)
-            if parts and spec.is_turned and turn:
-                if way.mechanism.no_turn:
-                    yield from pushed_round(way.mechanism)
-                else:
-                    yield from untold(TURNING, way, way.turned.turn)
+        """All checks, the quick ones first."""
+        machine = self.machine
+        for among in (MOTION, LIMITS):
+            yield from untold(among, machine)
+        if parts and machine.spec.is_turned and machine.spec.has_parts:
+            yield from untold(standing(machine), self.built.built)
+        if parts and machine.spec.is_turned and turn:
+            if machine.no_turn:
+                yield from pushed_round(machine)
+            else:
+                yield from untold(TURNING, self.built, self.built.turned.turn)
 
 
 class Adviser:

@@ -15,7 +15,7 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.spec.tables import Motor
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.mass import MassProperties
+    from geneva_cli.geometry.plates import MassProperties
 
 
 def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> list[Notice]:
@@ -116,12 +116,6 @@ def _keys_without_effect(spec: Spec) -> Iterator[Notice]:
             "nothing-to-act-on",
             "[motor] has no load to drive, so no motor or flywheel is computed: set "
             f"{spec.load_keys}",
-        )
-    if not spec.drive.wheels_on_carrier and any(one.angle_deg for one in spec.mass):
-        yield Notice(
-            "nothing-to-act-on",
-            "angle_deg in [[mass]] has an effect on a carrier only: remove it, or set "
-            'kind = "carousel" in [drive]',
         )
     support = spec.support
     if bool(support.friction) != bool(support.radius_mm):

@@ -11,7 +11,7 @@ from geneva_cli.loads.carried import weight_kg
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, STRESS
-from geneva_cli.loads.impacts.arrival import arrival
+from geneva_cli.loads.impacts.reversal import arrival
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import summaries
@@ -107,11 +107,11 @@ def _lags(mechanism: Mechanism) -> Iterator[Notice]:
 def _unbalanced(cycle: Cycle, sums: Mapping[str, LoadSummary[float | None]]) -> Iterator[Notice]:
     """A warning about single bodies off the wheel's axis, whose force its shaft bears.
 
-    On a carrier the loads count that force; behind gears another shaft bears it.
+    Behind gears another shaft bears it.
     """
     spec = cycle.mechanism.spec
     bodies = [one for one in spec.mass if one.to_one_side]
-    if not bodies or cycle.case.frame or spec.support.gear_ratio != 1.0:
+    if not bodies or spec.support.gear_ratio != 1.0:
         return
     peaks = worst(cycle.mechanism)
     # at most: the peaks need not coincide, nor the bodies stand on one side

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from geneva_cli.answer import FAILS, PASSES, WARNS, SummaryLine
 from geneva_cli.errors import Notice, is_warning, open_warnings
 from geneva_cli.names import spoken
-from geneva_cli.output import shown, shown_text
 from geneva_cli.output.document.blocks import value_text
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.all_checks import JAMS
@@ -113,7 +112,7 @@ def warning(text: str) -> SummaryLine:
     explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
     if isinstance(text, Notice) and text.accepted:
         return SummaryLine("accepted", f"{text.name}: {text.accepted}", explained)
-    return SummaryLine("warning", shown_text(text), explained, WARNS)
+    return SummaryLine("warning", text, explained, WARNS)
 
 
 def unused_lines(names: Iterable[str]) -> list[SummaryLine]:
@@ -148,7 +147,6 @@ def compared_text(check: Check, unit: str) -> str:
     assert check.value is not None
     assert check.limit is not None
     where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
-    where += f" {check.direction}" if check.direction else ""
     limit = measured(check.limit, unit) if unit == "deg" else bare(check.limit, unit)
     return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
 
@@ -159,21 +157,6 @@ def proof_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     for check in checks:
         if check.is_proof:
             yield SummaryLine(labels.get(check.name, "turn"), check.why)
-
-
-def both_ways_lines(checks: Sequence[Check]) -> Iterator[SummaryLine]:
-    """The line on a machine that must turn both ways: whether it may, and what is worse."""
-    worse = [spoken(check.name)[0] for check in checks if check.direction == "backwards"]
-    better = any(check.direction == "forwards" for check in checks)
-    shown = 3  # the table has them all
-    names = ", ".join(worse[:shown]) + (f" and {len(worse) - shown} more" * (len(worse) > shown))
-    text = "every check is the same in both directions"
-    if worse:
-        text = f"backwards is worse for {names}"
-    elif better:
-        text = "forwards is worse"
-    failing = any(check.passes is False for check in checks)
-    yield SummaryLine("both ways", f"{'no' if failing else 'yes'}: {text}")
 
 
 def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
@@ -206,7 +189,6 @@ def measured(value: float, unit: str = "", digits: int = 4) -> str:
     >>> measured(8.25622, "mm"), measured(-58.2111, "deg")
     ('8.256 mm', '-58.21°')
     """
-    value, unit = shown(value, unit)
     return value_text(value, "°" if unit == "deg" else unit, digits)
 
 
@@ -216,7 +198,7 @@ def bare(value: float, unit: str, digits: int = 4) -> str:
     >>> bare(8.25622, "mm")
     '8.256'
     """
-    return value_text(shown(value, unit)[0], "", digits)
+    return value_text(value, "", digits)
 
 
 def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:

@@ -79,8 +79,6 @@ arm_stress_MPa: arm_thickness_mm*10 arm_eye_mm*3 arm_hub_mm*3 arm_thickness_mm= 
 first_pin_stress_MPa: roller_radius_mm*3 pin_mm*1.9 LARGER
 first_horn_stress_MPa first_arm_stress_MPa: link_thickness_mm*10 LARGER
 first_crank_shaft_stress_MPa: link_bore_mm*5 LARGER
-wheel_clamp_Nm: wheel_hub_mm*5 wheel_clamp_mm=2,2.5,3,4,5,6,8,10,12,16,20 LARGER
-crank_clamp_Nm: crank_hub_mm*5 crank_clamp_mm=2,2.5,3,4,5,6,8,10,12,16,20 LARGER
 wheel_key_pressure_MPa: wheel_thickness_mm*10 wheel_bore_mm*5 LARGER
 crank_key_pressure_MPa: arm_thickness_mm*10 arm_bore_mm*5 LARGER
 pressure_angle_deg: motion.ratio=matched LONGER SLOTS

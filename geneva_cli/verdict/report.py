@@ -56,7 +56,6 @@ def _in_one_line(check: Check) -> str:
     if check.value is None or check.limit is None:
         return check.not_computed
     where = "" if check.at_deg is None else f" at {check.at_deg:.6g}°"
-    where += f" {check.direction}" if check.direction else ""
     value, limit = in_digits(check.value, 6), in_digits(check.limit, 6)
     change = f"; nearest change: {check.nearest}" if check.nearest else ""
     why = f"; {check.remark}" if check.remark else ""

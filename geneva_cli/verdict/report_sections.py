@@ -184,8 +184,7 @@ def vibration(parts: Parts) -> Values:
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
         return none
     # only for elastic shafts: the modules of vibration take a twentieth of a short report
-    from geneva_cli.loads.vibration.oscillator import required_oscillator
-    from geneva_cli.loads.vibration.vibration_answers import values
+    from geneva_cli.loads.vibration.vibration import required_oscillator, values
 
     try:
         results = values(mechanism, required_oscillator(mechanism))
@@ -245,7 +244,7 @@ def _cut_radii(parts: Parts) -> Values:
 
         where = assembly(parts.mechanism)
         ends = roller_paths(where).ends
-        mouth = max(where.L * scalar(s.entry_reach) for s in where.kinds)
+        mouth = max(where.L * scalar(s.reach(s.entry_deg)) for s in where.kinds)
         bottom = max(ends) if inside else min(ends)
         with suppress(GenevaError):  # ``parts.none`` gives the reason
             rim = machine_sizes(parts.mechanism)[1].rim

@@ -80,11 +80,11 @@ def _bearing_warnings(parts: Parts) -> Iterator[Notice]:
         unborne = parts.built.unborne
     except GenevaError:  # the check of the parts has the reason
         return
-    for one in unborne:
-        part = one.name.partition("'")[0]
+    for name, reason in unborne:
+        part = name.partition("'")[0]
         yield Notice(
             "no-bearing",
-            f"the {one.name} has no bearing: {one.reason}. Hold it from above: "
+            f"the {name} has no bearing: {reason}. Hold it from above: "
             f"{part}_shaft_high_mm makes it longer",
         )
 
@@ -126,7 +126,7 @@ def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
 
 def _holes(solid: Solid) -> Iterator[tuple[float, float]]:
     """Yield the widths of a part's holes and its thickness, if it is cut out of a plate."""
-    from geneva_cli.drawings.coupon import is_cut
+    from geneva_cli.drawings.single_parts import is_cut
     from geneva_cli.geometry.plates import Plate, Shell
 
     if isinstance(solid, Shell):
@@ -157,7 +157,7 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
         if getattr(size, key) is not None:
             why = (
                 f'is less than process = "{size.process}" holds at these sizes, so that the parts '
-                "may not go together; a fit coupon shows what your machine holds"
+                "may not go together"
             )
         yield Notice("narrow-for-process", f"{key} = {own:g} {why}: set {key} to {needed:g}")
 

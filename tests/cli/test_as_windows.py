@@ -46,7 +46,6 @@ profile spec.toml --part wheel -o wheel.svg
 profile spec.toml --part wheel -o wheel.step
 profile spec.toml --part wheel -o wheel.stl
 profile spec.toml --part wheel -o wheel.3mf
-profile spec.toml --part wheel -o wheel.obj
 profile spec.toml --part sheet -o sheet.pdf
 plot spec.toml -o plot.svg
 plot spec.toml -o plot.png
@@ -164,10 +163,10 @@ HOLD = """
 import sys
 import as_windows  # it leaves out what Windows lacks
 from contextlib import closing
-from geneva_cli.output.folder import Entry, filling_folder
+from geneva_cli.output.folder import Row, filling_folder
 from geneva_cli.output.growing import GrowingFile
 with closing(GrowingFile("rows.csv", "a,b\\n", "request", False)) as file:
-    with filling_folder("shop", [Entry("a.txt", "a text")]) as filling:
+    with filling_folder("shop", [Row("a.txt", "a text")]) as filling:
         file.append(b"1,2\\n", 1)
         print("held", flush=True)
         sys.stdin.readline()

@@ -104,7 +104,6 @@ UNKNOWN = [
     key("size-or-deviation", "[size]\nroller_diameter_mm = 8\n", 2, "twice roller_radius_mm)"),
     key("gearing-as-a-key", "internal = true\n", 1, 'did you mean gearing = "internal"?'),
     key("inches", '[size]\ncenter_distance_mm = 8"\n', 2, 'write "8 in"'),
-    key("reverse", "[drive]\nreverse = true\n", 2, 'did you mean "both_ways"'),
     wheel("inner", 'gearing = "inner"', 'did you mean "internal"?'),
     key("law", '[motion]\nlaw = "cycloid"\n', 2, "law must be one of", 'did you mean "cycloidal"?'),
     key("key-of-another-kind", "[drive]\nA = 0.5\n", 2, "A belongs", '"side-crank"'),
@@ -124,7 +123,7 @@ TYPES = [
 VALUES = [
     wheel("z-2", "z = 2", "z = 2", "at least 3"),
     wheel("z-billion", "z = 1_000_000_000", "at most 1000000"),
-    key("speed-negative", "[drive]\nn_rpm = -60\n", 2, "n_rpm = -60", "above 0", "both_ways"),
+    key("speed-negative", "[drive]\nn_rpm = -60\n", 2, "n_rpm = -60", "above 0", "--reverse"),
     key("speed-nan", "[drive]\nn_rpm = nan\n", 2, "n_rpm = nan", "above 0"),
     key("A-1", SIDE + "A = 1\n", 3, "A = 1", "below 1"),
     key("A-400-digits", SIDE + "A = 1" + "0" * 400 + "\n", 3, "A = 1", "below 1"),

@@ -23,8 +23,7 @@ from geneva_cli.drawings.catalogue import PARTS
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.loads import cycle_figures, load_tables
 from geneva_cli.loads.sizing import SHOWN_SIZING
-from geneva_cli.loads.vibration import vibration_answers
-from geneva_cli.loads.vibration.vibration import SpeedToAvoid
+from geneva_cli.loads.vibration import vibration
 from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import Entry, entries
 from geneva_cli.motion import motion_table as motion
@@ -116,17 +115,17 @@ def quantities() -> set[str]:
     }
     out |= {f"loads.{name}" for name in of_loads} | {"loads.reversals_deg"}
     out |= {f"sizing.{name}" for name in SHOWN_SIZING}
-    out |= {f"vibration.avoid.{name}" for name in SpeedToAvoid._fields}
-    out |= {f"vibration.{name}" for name in (*vibration_answers.STATION_COLUMNS, "avoid")}
+    out |= {f"vibration.avoid.{name}" for name in vibration.AVOID_COLUMNS}
+    out |= {f"vibration.{name}" for name in (*vibration.STATION_COLUMNS, "avoid")}
     out |= {
-        *vibration_answers.SPECTRUM_COLUMNS,
+        *vibration.SPECTRUM_COLUMNS,
         *survey.NAMES,
         *motion.motion_columns(load(str(repo.DESIGNS / "wandering-hours.toml")).mechanism),
         *cycle_figures.AXIS_BY_NAME,
         *CamFactors._fields,
     }
     out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR}
-    out |= set(checks_table([], directed=True).names)
+    out |= set(checks_table([]).names)
     out |= {*WALLED, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
     out |= {"dwell_position_share", "motion_play_share"}  # of a histogram
     return out | {f"tolerance.{name}" for name in tolerance_names()}
@@ -172,9 +171,8 @@ def test_no_entry_names_no_quantity(quantities: set[str]):
 # A command, or lines of a spec, that shows the warning or the failing check, and one that does not.
 EXAMPLES_OF = tomllib.loads((repo.ROOT / "tests/cli/examples.toml").read_text(encoding="utf-8"))
 
-# Shown by points of a file, a value that is null without a word, a body on a carousel, which no
-# design has off its axis, and drawings.
-WITHOUT_RUN = {"rounded-points", "not-known", "unbalance-windup", "outline-units", "ideal-machine"}
+# Shown by points of a file, a value that is null without a word, and drawings.
+WITHOUT_RUN = {"rounded-points", "not-known", "outline-units", "ideal-machine"}
 WARNINGS = [e for e in entries() if e.group == "warning" and e.names[0] not in WITHOUT_RUN]
 
 # A missing proof of the gap does not fail. The others need drawings: tests/extras/outline has them.

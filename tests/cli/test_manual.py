@@ -55,7 +55,7 @@ def invoke(arguments: list[str]) -> str:
 
 
 def run(command: str) -> str:
-    """What a reader sees, on a terminal without colours; of charts those of a pipe, in ASCII."""
+    """What a reader sees, on a terminal without colours."""
     program, *arguments = shlex.split(command)
     assert program == "geneva"
     with pytest.MonkeyPatch.context() as patch:

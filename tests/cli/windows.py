@@ -8,7 +8,6 @@ from contextlib import contextmanager
 import pytest
 
 from geneva_cli.output import text
-from geneva_cli.output.plot import plot_text
 from geneva_cli.output.terminal import page_reader
 from geneva_cli.output.terminal import terminal_tables as terminal
 from geneva_cli.output.terminal.layout import Window
@@ -81,8 +80,8 @@ def look_at_page(page):
 
 @contextmanager
 def looking():
-    """Look at every table, and every chart in text, that is printed meanwhile."""
-    tables, charts, fitted = text.chunks, plot_text.chunks, terminal.chunks
+    """Look at every table that is printed meanwhile."""
+    tables, fitted = text.chunks, terminal.chunks
 
     def shown(table):
         look_at_table(table, fitted)
@@ -92,13 +91,7 @@ def looking():
         look_at_table(table, fitted)
         return fitted(table, window)
 
-    def drawn(figure, *where):
-        for columns, unicode in itertools.product(COLUMNS, STYLED):
-            require_width("".join(charts(figure, columns, unicode)).splitlines(), columns)
-        return charts(figure, *where)
-
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(text, "chunks", shown)
         patch.setattr(terminal, "chunks", seen)
-        patch.setattr(plot_text, "chunks", drawn)
         yield

@@ -18,10 +18,7 @@ from shapely.ops import unary_union
 
 from geneva_cli import Crank, Cycloidal, Design, EllipticalGears, External, Load, Motion
 from geneva_cli.drawings.parts_list import parts_list
-from geneva_cli.motion.both_ways import backwards
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import may_vary
-from geneva_cli.motion.mechanism import build
 
 pytestmark = pytest.mark.usefixtures("no_advice")
 
@@ -279,11 +276,8 @@ def test_gears_turn_cranks_whose_slots_a_law_gives():
         assert turned == pytest.approx(own.motion(one.own_deg(x), 0).c[0], abs=1e-14)
 
 
-def test_slots_do_not_vary_in_a_batch_of_cranks_that_turn_both_ways():
-    """Backwards the second of two cranks stands z - 2 steps from the first, not 2."""
-    one_way = Spec(External(6), Crank(rollers=2, crank_steps=(0, 2)))
-    both_ways = one_way.replace(drive=one_way.drive.replace(both_ways=True))
-    assert may_vary(one_way, "wheel.z")
-    assert not may_vary(both_ways, "wheel.z")
-    turned = [backwards(build(both_ways.with_("wheel.z", z))).spec.drive for z in (6, 7)]
+def test_backwards_the_second_of_two_cranks_stands_at_the_other_steps():
+    """z - 2 steps from the first, not 2."""
+    design = Design(External(6), Crank(rollers=2, crank_steps=(0, 2)))
+    turned = [design.with_("wheel.z", z).backwards.spec.drive for z in (6, 7)]
     assert [drive.crank_steps for drive in turned] == [(0.0, 4.0), (0.0, 5.0)]

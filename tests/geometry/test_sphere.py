@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from geneva_cli.geometry.plates import Shell
-from geneva_cli.geometry.round_holes import RoundHole
 from geneva_cli.geometry.sphere import (
     Cap,
     Region,
@@ -17,7 +16,7 @@ from geneva_cli.geometry.sphere import (
     place,
     unit,
 )
-from geneva_cli.geometry.sphere_arcs import SphereArcs
+from geneva_cli.geometry.sphere_arcs import RoundHole, SphereArcs
 
 POLE = (0.0, 0.0, 1.0)
 CLOSE = 1e-14  # sums of some numbers up to 2 pi

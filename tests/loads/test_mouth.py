@@ -10,7 +10,7 @@ from words import Spec, Wheel
 import geneva_cli
 from geneva_cli import Design, Epicyclic, External, SideCrank
 from geneva_cli.design import load
-from geneva_cli.loads.impacts.shock import mouth_contacts
+from geneva_cli.loads.impacts.entry import mouth_contacts
 from geneva_cli.motion.mechanism import build
 from tests.repo import ROOT
 

@@ -19,8 +19,8 @@ from geneva_cli import (
     Spherical,
     Tolerance,
 )
-from geneva_cli.loads.impacts import change_of_sides
-from geneva_cli.loads.impacts.impacts import entry_impacts
+from geneva_cli.loads.impacts.entry import entry_impacts
+from geneva_cli.loads.impacts.reversal import changes, drag_over, impacts_of, lasting_drag_Nm
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.spec.tables import RollerMaterial, WheelMaterial
 
@@ -52,9 +52,9 @@ def test_the_values_of_the_theory():
     contact = contact_of(of(External(3)), 1e-4)
     near(contact.at_deg, mp.mpf("-30.81025092485702"))
     near(contact.jump, mp.mpf("-0.023909826405751256"))
-    [impact] = impacts_in(of(External(3)), 1e-4)
-    near(impact.at_deg, mp.mpf("0.55220712276288262"))
-    near(impact.speed, mp.mpf("0.031071640094697492"))
+    [(_, at_deg, speed)] = impacts_in(of(External(3)), 1e-4)
+    near(at_deg, mp.mpf("0.55220712276288262"))
+    near(speed, mp.mpf("0.031071640094697492"))
 
 
 @pytest.mark.parametrize("z", [3, 4, 6, 24, 200])
@@ -174,33 +174,33 @@ def test_impact_by_search(gearing, sign, z, play, drag):
     def gap(x):
         return w0 + v0 * x - drag * x * x / 2 - wheel(start + x) - play
 
-    [found] = impacts_in(of(gearing(z)), play, drag)
-    x = mp.findroot(gap, mp.radians(found.at_deg) - start)
-    near(found.from_deg, deg(start), 1e-11)
-    near(found.at_deg, deg(start + x), 1e-11)
-    near(found.speed, mp.diff(gap, x), 1e-10)
+    [(from_deg, at_deg, speed)] = impacts_in(of(gearing(z)), play, drag)
+    x = mp.findroot(gap, mp.radians(at_deg) - start)
+    near(from_deg, deg(start), 1e-11)
+    near(at_deg, deg(start + x), 1e-11)
+    near(speed, mp.diff(gap, x), 1e-10)
 
 
 def test_small_plays_keep_their_digits():
     """phi -> (6 q / |psi3|)^(1/3), and the speed |psi3| phi² / 2."""
     l = mp.sin(mp.pi / 3)
     jerk = l * (1 + l) / (1 - l) ** 3  # -psi3(0)
-    [found] = impacts_in(of(External(3)), 1e-15)
+    [(_, at_deg, speed)] = impacts_in(of(External(3)), 1e-15)
     phi = (6 * mp.mpf(1e-15) / jerk) ** (mp.mpf(1) / 3)
-    near(found.at_deg, deg(phi), 1e-7)  # the next term is of order phi²
-    near(found.speed, jerk * phi**2 / 2, 1e-6)
+    near(at_deg, deg(phi), 1e-7)  # the next term is of order phi²
+    near(speed, jerk * phi**2 / 2, 1e-6)
 
 
 def test_a_drag_ends_the_change_of_sides():
     heavy = Design(External(6), load=Load(inertia_kgm2=0.4, torque_Nm=1.0))
-    drag = change_of_sides.lasting_drag_Nm(heavy.mechanism)
+    drag = lasting_drag_Nm(heavy.mechanism)
     # I w² times the peak acceleration, which brakes as it drives
     w = 2 * mp.pi
     near(drag, mp.mpf("0.4") * w**2 * mp.mpf(heavy.peaks.acceleration.max) - 1, 1e-13)
-    for more, changes in ((-1e-6, 2), (1e-6, 0)):
+    for more, count in ((-1e-6, 2), (1e-6, 0)):
         load = Load(inertia_kgm2=0.4, torque_Nm=1.0 + drag + more)
-        over = change_of_sides.drag_over(Design(External(6), load=load).mechanism)
-        assert len(change_of_sides.changes(of(External(6)), np.array([[over]])).x) == changes
+        over = drag_over(Design(External(6), load=load).mechanism)
+        assert len(changes(of(External(6)), np.array([[over]]))[1]) == count
 
 
 def test_force_by_the_energy():
@@ -270,13 +270,13 @@ def test_a_wheel_that_does_not_cross_its_play_is_struck_by_the_wall_it_left():
     D = 1.0 - 2.0 * ratio * np.cos(x) + ratio**2
     torque = drag - ratio * (1.0 - ratio**2) * np.sin(x) / D**2
     start = np.flatnonzero((torque[:-1] > 0.0) & (torque[1:] <= 0.0))[0]
-    speed = -np.cumsum(torque[start:]) * step
-    ahead = np.cumsum(speed) * step
+    rate = -np.cumsum(torque[start:]) * step
+    ahead = np.cumsum(rate) * step
     assert ahead.max() < play  # the other wall is not reached
     back = np.flatnonzero(ahead > 0.0)[-1]
     (engagement,) = Design(External(5)).mechanism.engagements
-    at = change_of_sides.changes(engagement, np.array([[drag]]))
-    struck = change_of_sides.impacts_of(engagement, at, np.full(2, play), np.array([[drag]]))
-    assert struck.at_deg[0] == pytest.approx(math.degrees(x[start + back]), rel=1e-4)
-    assert struck.speed[0] == pytest.approx(-speed[back], rel=1e-4)
-    assert np.isnan(struck.speed[1])  # no wall is left at the second change
+    at = changes(engagement, np.array([[drag]]))
+    at_deg, speed = impacts_of(engagement, at, np.full(2, play), np.array([[drag]]))
+    assert at_deg[0] == pytest.approx(math.degrees(x[start + back]), rel=1e-4)
+    assert speed[0] == pytest.approx(-rate[back], rel=1e-4)
+    assert np.isnan(speed[1])  # no wall is left at the second change

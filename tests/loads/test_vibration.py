@@ -9,7 +9,8 @@ from swings import shares
 from words import law
 
 from geneva_cli import External
-from geneva_cli.loads.vibration.panels import law_shape, shape
+from geneva_cli.loads.vibration.panels import law_shape
+from geneva_cli.loads.vibration.panels import motion_shapes as shape
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 

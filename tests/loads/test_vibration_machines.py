@@ -13,10 +13,10 @@ from words import load, points
 
 from geneva_cli import Crank, Design, External, Shaft, SideCrank
 from geneva_cli.drives.noncircular_gears import NoncircularGears
-from geneva_cli.loads.vibration.maxima import lobes
-from geneva_cli.loads.vibration.oscillator import Oscillator
-from geneva_cli.loads.vibration.panels import law_shape, shape
-from geneva_cli.loads.vibration.vibration import oscillators_of, speeds_to_avoid
+from geneva_cli.loads.vibration.panels import law_shape
+from geneva_cli.loads.vibration.panels import motion_shapes as shape
+from geneva_cli.loads.vibration.swing import Oscillator, local_maxima
+from geneva_cli.loads.vibration.vibration import Oscillators, speeds_to_avoid
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -136,9 +136,9 @@ def test_dynamic_factor_against_a_solver(kind, ratio, damping):
 def test_steady_state_is_where_marching_ends(damping):
     """Unlike steps, cycle after cycle by the state's own 2 x 2 matrix, until nothing changes."""
     machine = build(Spec(External(6, steps_deg=(72.0, 48.0))))
-    load_ = Oscillator(4.0, damping)
+    ratio = 4.0
     first = machine.engagements[0].motion_deg
-    wn = 2.0 * math.pi * load_.ratio / first  # by degrees of the input
+    wn = 2.0 * math.pi * ratio / first  # by degrees of the input
     wd = wn * math.sqrt(1.0 - damping * damping)
 
     def free(y, angle):
@@ -151,7 +151,7 @@ def test_steady_state_is_where_marching_ends(damping):
 
     owns = []
     for engagement in machine.engagements:
-        z = by_gauss(engagement, load_.ratio * engagement.motion_deg / first, damping)
+        z = by_gauss(engagement, ratio * engagement.motion_deg / first, damping)
         own = np.array([z.imag, wd * z.real - damping * wn * z.imag])
         owns.append(own * engagement.half_step)
     y, found = np.zeros(2), [0.0, 0.0]
@@ -161,28 +161,27 @@ def test_steady_state_is_where_marching_ends(damping):
             back = (y[1] + damping * wn * y[0]) / wd
             found[i] = math.hypot(y[0], back) / engagement.half_step
             y = free(y, machine.dwell_deg(i))
-    assert oscillators_of(machine, load_).steady_share[:, 0] == pytest.approx(found, rel=1e-9)
+    own = Oscillators(machine, Oscillator(np.array([ratio]), np.array([damping])))
+    assert own.steady_share()[:, 0] == pytest.approx(found, rel=1e-9)
 
 
-def test_a_lobe_is_where_the_slope_of_the_closed_form_vanishes():
+def test_a_maximum_is_where_the_slope_of_the_closed_form_vanishes():
     """Of |sin pi l|/(pi l (l² - 1)): pi l cot pi l = 1 + 2 l²/(l² - 1), between two integers."""
     form = law_shape(load_law("cycloidal"))
-    low, high = np.array([0.6]), np.array([30.0])
-    found = lobes(lambda _, ratio: shares(form, ratio, 0.0), low, high)
-    l = found.ratio
+    l = local_maxima(lambda ratio: shares(form, ratio, 0.0), 0.6, 30.0)
     assert np.floor(l).tolist() == list(range(2, 30))
     slope = math.pi * l / np.tan(math.pi * l) - 1.0 - 2.0 * l * l / (l * l - 1.0)
     # its own slope is -pi² l there and steeper: the places are right to 1e-12
     assert np.abs(slope / (math.pi**2 * l)).max() < 1e-12
     exact = np.abs(np.sin(math.pi * l)) / (math.pi * l * (l * l - 1.0))
-    assert found.share == pytest.approx(exact, rel=1e-12)
+    assert shares(form, l, 0.0) == pytest.approx(exact, rel=1e-12)
 
 
 @pytest.mark.long
 def test_speeds_to_avoid_are_the_greatest_nearby():
     """Of unlike engagements the worst counts; none is missed by a fine scan over the speeds."""
     machine = build(Spec(External(6, steps_deg=(72.0, 48.0))))
-    avoid = speeds_to_avoid(machine, Oscillator(4.0, 0.0))
+    avoid = speeds_to_avoid(Oscillators(machine, Oscillator(np.array([4.0]), np.zeros(1))))
     n = np.geomspace(30.0, 120.0, 20001)
     ratio = 4.0 * 60.0 / n
     every = [
@@ -191,21 +190,11 @@ def test_speeds_to_avoid_are_the_greatest_nearby():
     ]
     worst = np.max(every, axis=0)
     at = 1 + np.flatnonzero((worst[1:-1] > worst[:-2]) & (worst[1:-1] > worst[2:]))
-    assert [a.rpm for a in avoid] == pytest.approx(n[at].tolist(), rel=2e-4)
-    assert [a.residual_share for a in avoid] == pytest.approx(worst[at].tolist(), rel=1e-5)
-    for a in avoid:
-        assert (a.from_rpm / a.rpm) ** 2 == pytest.approx(0.8)
-        assert (a.to_rpm / a.rpm) ** 2 == pytest.approx(1.2)
-
-
-@pytest.mark.long
-def test_the_worst_stiffness_within_a_fifth():
-    machine = build(Spec(External(6)))
-    form = shape(machine.engagements[0].motion)
-    for ratio in (0.4, 2.9, 10.0, 10.5):
-        fine = ratio * np.sqrt(np.linspace(0.8, 1.2, 4001))
-        found = oscillators_of(machine, Oscillator(ratio, 0.0)).worst_share[0]
-        assert found == pytest.approx(shares(form, fine, 0.0).max(), rel=1e-6)
+    assert [rpm for rpm, *_ in avoid] == pytest.approx(n[at].tolist(), rel=2e-4)
+    assert [share for *_, share in avoid] == pytest.approx(worst[at].tolist(), rel=1e-5)
+    for rpm, low, high, _ in avoid:
+        assert (low / rpm) ** 2 == pytest.approx(0.8)
+        assert (high / rpm) ** 2 == pytest.approx(1.2)
 
 
 def test_units_and_the_shaft():

@@ -14,11 +14,9 @@ from witness import krasniqi, mp, near
 from words import LAWS, Spec, Wheel, named, points
 
 from geneva_cli.errors import marking
-from geneva_cli.loads.vibration.tuned import Tuned
 from geneva_cli.motion.batch import taken
-from geneva_cli.motion.laws.law_peaks import greatest
-from geneva_cli.motion.laws.scca import SineConstantCosine
-from geneva_cli.motion.laws.standard import SineGroup
+from geneva_cli.motion.laws.law import greatest
+from geneva_cli.motion.laws.standard import SineConstantCosine, SineGroup
 from geneva_cli.motion.laws.table_law import TableLaw
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
@@ -129,11 +127,6 @@ def test_greatest_values_against_the_search_over_arrays(seed):
         SineGroup(draw.uniform(-0.3, 0.3)),
         SineGroup(draw.uniform(-10.0, 10.0)),
         SineConstantCosine(b=b, c=c - b, d=1.0 - c),
-        Tuned(
-            period_ratio=math.exp(draw.uniform(-2.9, 4.0)),
-            of=draw.choice(["4-5-6-7", "sine-group"]),
-        ),
-        Tuned(period_ratio=draw.uniform(0.5, 5.0), damping_ratio=draw.uniform(0.0, 0.99)),
     ]
     for law in laws:
         motion = LawMotion(-60.0, 60.0, 0.5, law)

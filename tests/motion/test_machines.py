@@ -20,10 +20,10 @@ from load_states import state
 from witness import mp, to_degrees, to_radians
 from words import load
 
+from geneva_cli import Design
 from geneva_cli.drives.transmission import Transmission
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
-from geneva_cli.motion.both_ways import backwards
 from geneva_cli.motion.motion_table import motion_table
 from geneva_cli.motion.peaks import QUANTITIES, worst
 from geneva_cli.motion.timing import timings
@@ -612,7 +612,7 @@ def test_backwards_is_the_witness_in_a_mirror(machine, witness, case):
     Even derivatives change sign. What is rounded are the places of two machines: twice the bars.
     """
     m = machine(case)
-    turned = backwards(m)
+    turned = Design.of(m.spec).backwards.mechanism
     n = len(m.engagements)
     assert (len(turned.engagements), turned.period_deg) == (n, m.period_deg)
     for i, (s, w) in enumerate(zip(m.engagements, witness(case), strict=True)):

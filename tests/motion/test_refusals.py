@@ -205,8 +205,8 @@ CRANKS = [
 CAROUSELS = [
     case(
         "unbalanced",
-        WHEEL + ORBIT + BODY + "radius_mm = 50\n[motion]\nlaw = @",
-        '"cycloidal"',
+        WHEEL + ORBIT + BODY + "radius_mm = @",
+        "50",
         5,
         "balanced",
         "count to 2",

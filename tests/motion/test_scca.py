@@ -10,7 +10,7 @@ import pytest
 from witness import LAWS, SineLaw, mp
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.laws.scca import SineConstantCosine
+from geneva_cli.motion.laws.standard import SineConstantCosine
 from geneva_cli.study.law_values import characteristic
 
 pi = math.pi

@@ -44,7 +44,7 @@ where = assembly(curved)
 tell(slot_walls(where, sizes(where), curved.engagements[0], 0.001))
 tell([c.tolist() for c in motion_table(load("designs/table-law.toml"), 999).columns])
 tell([c.tolist() for c in motion_table(load(sys.argv[1]), 999).columns])
-for name in ("cam-geneva", "tuned-dial"):
+for name in ("cam-geneva", "turret"):
     own = design.load(f"designs/{name}.toml", ["shaft.stiffness_Nm_rad=1000"])
     tell(own.loads_table.to_dict())
     tell([own.vibration().to_dict(), own.spectrum(21).to_rows()])

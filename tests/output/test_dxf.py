@@ -4,7 +4,7 @@ import io
 import math
 
 import pytest
-from drawing_witness import apart, contours, drawn_shapes, dxf_document, dxf_shapes, scaled
+from drawing_witness import apart, contours, drawn_shapes, dxf_document, dxf_shapes
 from ezdxf import recover
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -21,8 +21,8 @@ SAME = 2e-9
 QUICK = settings(max_examples=some(40, 15))
 
 
-def text(drawing, units="mm"):
-    return "".join(chunks(drawing, units))
+def text(drawing):
+    return "".join(chunks(drawing))
 
 
 def of(*shapes, title="", look=None):
@@ -60,8 +60,8 @@ MANY = of(
 )
 
 
-def entities(drawing, units="mm"):
-    return list(dxf_document(text(drawing, units)).modelspace())
+def entities(drawing):
+    return list(dxf_document(text(drawing)).modelspace())
 
 
 @pytest.mark.long
@@ -124,32 +124,25 @@ def test_smooth_cubics_are_one_spline(joints):
     assert apart(dxf_shapes(text(drawing)), drawn_shapes(drawing)) < SAME
 
 
-@pytest.mark.parametrize(
-    ("units", "number", "measurement", "unit"), [("mm", 4, 1, 1.0), ("inch", 1, 0, 25.4)]
-)
-def test_the_header(units, number, measurement, unit):
-    document = dxf_document(text(MANY, units))
+def test_the_header():
+    document = dxf_document(text(MANY))
     header = document.header
     assert document.dxfversion == "AC1015"
-    assert (header["$INSUNITS"], header["$MEASUREMENT"]) == (number, measurement)
+    assert (header["$INSUNITS"], header["$MEASUREMENT"]) == (4, 1)
     box = extent(MANY)
     low, high = tuple(header["$EXTMIN"]), tuple(header["$EXTMAX"])
-    assert low == pytest.approx((box.x0 / unit, box.y0 / unit, 0.0), abs=1e-11)
-    assert high == pytest.approx((box.x1 / unit, box.y1 / unit, 0.0), abs=1e-11)
-    wanted = drawn_shapes(scaled(MANY, 1.0 / unit))
-    assert apart(dxf_shapes(text(MANY, units)), wanted) < SAME
+    assert low == pytest.approx((box.x0, box.y0, 0.0), abs=1e-11)
+    assert high == pytest.approx((box.x1, box.y1, 0.0), abs=1e-11)
+    assert apart(dxf_shapes(text(MANY)), drawn_shapes(MANY)) < SAME
     center = document.linetypes.get("CENTER").simplified_line_pattern()
-    assert sum(center) == pytest.approx(12.5 / unit, abs=1e-9)
+    assert sum(center) == pytest.approx(12.5, abs=1e-9)
 
 
 def test_audit_finds_nothing():
     for drawing in (MANY, of(bow()), of(smooth())):
-        for units in ("mm", "inch"):
-            written = text(drawing, units)
-            audit = dxf_document(written).audit()
-            assert not audit.errors
-            assert not audit.fixes
-            _, audit = recover.read(io.BytesIO(written.encode()))
+        written = text(drawing)
+        _, recovered = recover.read(io.BytesIO(written.encode()))
+        for audit in (dxf_document(written).audit(), recovered):
             assert not audit.errors
             assert not audit.fixes
 
@@ -175,8 +168,6 @@ def test_the_comparison_can_fail():
 
 
 def test_refusals():
-    with pytest.raises(GenevaError, match="--units cm: it must be one of mm, inch"):
-        text(MANY, "cm")
     with pytest.raises(GenevaError, match="layer BORE: a circle at nan: coordinates must be"):
         text(of(Circle("BORE", (0.0, 0.0), math.nan)))
     with pytest.raises(GenevaError, match="nothing to draw"):

@@ -16,7 +16,7 @@ ROUND = of(bow(), Circle("BORE", (0.0, 4.0), 2.0), bow(-0.3, "GROOVE"), title="Ã
 
 
 def text(drawing, version):
-    return "".join(chunks(drawing, "mm", version=version))
+    return "".join(chunks(drawing, version))
 
 
 @pytest.mark.parametrize("version", NUMBERS)

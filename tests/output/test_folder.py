@@ -10,7 +10,7 @@ import pytest
 from repo import posix
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.folder import LIST, TEMPORARY, Entry, filling_folder
+from geneva_cli.output.folder import LIST, TEMPORARY, Row, filling_folder
 
 # A run that fills "out" and stops at a point: the n-th call of a function ends it.
 RUN = """
@@ -28,7 +28,7 @@ def at(n, name, act):
 
 me, text = os.getpid(), sys.argv[1]
 exec(sys.argv[2])
-with folder.filling_folder("out", [folder.Entry(f, "") for f in "ab"]) as filling:
+with folder.filling_folder("out", [folder.Row(f, "") for f in "ab"]) as filling:
     for name in "ab":
         write(os.path.join(filling.new, name), [text])
 """
@@ -93,7 +93,7 @@ def test_an_error_removes_only_a_folder_that_is_new(folder):
     for kept in (False, True):
         if kept:
             folder.mkdir()
-        with pytest.raises(ZeroDivisionError), filling_folder("out", [Entry("a", "")]):
+        with pytest.raises(ZeroDivisionError), filling_folder("out", [Row("a", "")]):
             raise ZeroDivisionError
         assert folder.exists() == kept
 

@@ -17,15 +17,14 @@ from hypothesis import strategies as st
 from geneva_cli import Design, External, Size
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.mass import face
 from geneva_cli.geometry.measure import bounds
 from geneva_cli.geometry.moments import area
-from geneva_cli.geometry.plates import Plate, Shell, solids
+from geneva_cli.geometry.plates import Plate, Shell, face, solids
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, closed
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.inks import INKS
-from geneva_cli.output.mesh import obj, stl, threemf
-from geneva_cli.output.mesh.solids import DECIMALS, bodies
+from geneva_cli.output.mesh_files import stl, threemf
+from geneva_cli.output.meshes import DECIMALS, bodies
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 NEAR = 10.0**-DECIMALS  # mm: rounding of coordinates
@@ -41,8 +40,8 @@ SHAPE = closed(
 HOLES = Circle("BORE", (20.0, 15.0), 4.0), Circle("BORE", (32.0, 15.0), 3.0)
 
 
-def mesh_of(surface):
-    return trimesh.Trimesh(surface.corners, surface.triangles, process=False)
+def mesh_of(body):
+    return trimesh.Trimesh(body.corners, body.triangles, process=False)
 
 
 def require_closed(mesh):
@@ -51,8 +50,8 @@ def require_closed(mesh):
 
 
 def one(plate, tolerance):
-    (body,) = bodies(Drawing("", (), solid=plate, tolerance=tolerance), "mm", "STL")
-    return mesh_of(body.surface)
+    (body,) = bodies(Drawing("", (), solid=plate, tolerance=tolerance), "STL")
+    return mesh_of(body)
 
 
 @pytest.mark.parametrize("tolerance", [1.0, 0.1, 0.01, 1e-4])
@@ -103,7 +102,7 @@ def test_a_part_thinner_than_the_decimals_is_refused(radius):
     """All corners of a pin of 12 nanometres are one corner; of a thinner one even the outline."""
     pin = Plate("pin", "LINK", Circle("LINK", (0.0, 0.0), radius), (), 0.0, 15.0)
     with pytest.raises(GenevaError, match="pin: its outline and holes leave no wall"):
-        list(stl.data(Drawing("", (), solid=pin, tolerance=0.01), "mm"))
+        list(stl(Drawing("", (), solid=pin, tolerance=0.01)))
 
 
 @pytest.mark.sampled(14)
@@ -113,8 +112,8 @@ def test_every_part_of_every_design(design):
     tolerance = 0.02
     drawing = load(str(design)).drawing("assembly", tolerance, "spline")
     whole = list(dict.fromkeys(solids(drawing.shells or drawing.solid)))
-    for solid, body in zip(whole, bodies(drawing, "mm", "STL"), strict=True):
-        mesh = mesh_of(body.surface)
+    for solid, body in zip(whole, bodies(drawing, "STL"), strict=True):
+        mesh = mesh_of(body)
         require_closed(mesh)
         if isinstance(solid, Shell):
             require_near_spheres(mesh, solid, tolerance)
@@ -154,25 +153,16 @@ def small():
 
 
 def test_stl(small):
-    mesh = trimesh.load(io.BytesIO(b"".join(stl.data(small, "mm"))), file_type="stl")
+    mesh = trimesh.load(io.BytesIO(b"".join(stl(small))), file_type="stl")
     volume = sum(solid_volume(one) for one in solids(small.solid))
     assert mesh.volume == pytest.approx(volume, rel=0.02)
     normals = np.cross(*(mesh.triangles[:, k] - mesh.triangles[:, 0] for k in (1, 2)))
     assert (np.einsum("ij,ij->i", normals, mesh.face_normals) > 0.0).all()
 
 
-def test_obj(small):
-    text = b"".join(obj.data(small, "mm")).decode()
-    mesh = trimesh.load(io.StringIO(text), file_type="obj")
-    volume = sum(solid_volume(one) for one in solids(small.solid))
-    assert mesh.volume == pytest.approx(volume, rel=0.02)
-    names = [line[2:] for line in text.splitlines() if line.startswith("o ")]
-    assert names == [one.name.replace(" ", "_") for one in solids(small.solid)]
-
-
 def test_3mf(small):
     """Objects in mm with name and colour, an item for each place, and no date."""
-    archive = zipfile.ZipFile(io.BytesIO(b"".join(threemf.data(small, "mm"))))
+    archive = zipfile.ZipFile(io.BytesIO(b"".join(threemf(small))))
     assert {entry.date_time for entry in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
     root = ElementTree.fromstring(archive.read("3D/3dmodel.model"))
     assert root.get("unit") == "millimeter"
@@ -201,13 +191,10 @@ def solid_volume(solid):
     return solid.volume if isinstance(solid, Shell) else solid.thickness * face(solid).area
 
 
-@pytest.mark.parametrize("module", [stl, obj, threemf])
-def test_refused(module):
-    drawing = Design(External(4)).drawing("slot", 0.1)
+@pytest.mark.parametrize("written", [stl, threemf])
+def test_refused(written):
     with pytest.raises(GenevaError, match="no solid to write"):
-        list(module.data(drawing, "mm"))
-    with pytest.raises(GenevaError, match="is always in mm; leave it out"):
-        list(module.data(Drawing("", (), solid=Plate("p", "ARM", SHAPE, (), 0.0, 1.0)), "inch"))
+        list(written(Design(External(4)).drawing("slot", 0.1)))
 
 
 def test_a_plate_has_every_part_once_for_each_in_the_machine():

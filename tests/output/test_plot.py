@@ -1,4 +1,4 @@
-"""Figures as they are written: what stands in the SVG, on a terminal, and in a picture."""
+"""Figures as they are written: what stands in the SVG, and in a picture."""
 
 import io
 import itertools
@@ -19,7 +19,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
 from geneva_cli.output import letters, show_figure
 from geneva_cli.output.inks import LIGHT, colour
-from geneva_cli.output.plot import plot_png, plot_svg, plot_text
+from geneva_cli.output.plot import plot_svg
 from geneva_cli.output.plot.plot_layout import PAGE, labels, ticks
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
@@ -179,7 +179,6 @@ def test_a_hostile_title():
     root, found = boxes(svg_of(figure))
     assert not list(root.iter(f"{SVG}script"))
     assert max(box[2] for box in found) <= float(root.get("width"))
-    assert "\x1b" not in "".join(plot_text.chunks(figure))
 
 
 # Numbers on axes
@@ -196,37 +195,6 @@ def test_ticks_are_round():
             found = ticks(low, high, most)
             assert 1 <= len(found) <= most
             assert all(low - 1e-9 <= x <= high + 1e-9 for x in found)
-
-
-# As text
-
-
-def lines_of(figure, **settings):
-    return "".join(plot_text.chunks(figure, **settings)).splitlines()
-
-
-@pytest.mark.sampled(42)
-@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
-def test_a_chart_fits_and_is_ascii(path):
-    figure = load(str(path)).figure()
-    assert max(map(len, lines_of(figure))) <= 80
-    assert "".join(lines_of(figure)).isascii() or not figure.title.isascii()
-    for columns in (40, 57, 120):
-        assert max(map(len, lines_of(figure, columns=columns, unicode=True))) <= columns
-
-
-def test_a_chart_shows_the_curve(pressed):
-    """The top of the wheel's velocity is at mid-motion, its ends and the dwell on the zero line."""
-    figure = pressed._replace(panels=pressed.panels[1:2])
-    body = [line[12:] for line in lines_of(figure) if line[11:12] == "|"]
-    assert len(body) == 16
-    top = body[0]
-    middle = 0.5 * (top.index("*") + top.rindex("*")) / (80 - 13 - 1)
-    assert middle == pytest.approx(60.0 / 360.0, abs=1.0 / 66.0)
-    assert body[-1].endswith("*" * 40)
-    assert {"*" in line for line in body} == {True}
-    braille = lines_of(figure, unicode=True)
-    assert any(0x2800 < ord(c) < 0x2900 for line in braille for c in line)
 
 
 # Files
@@ -255,10 +223,10 @@ def test_a_dot_of_a_png(draws, across, monkeypatch):
     monkeypatch.setattr(plot_svg, "blocks", lambda figure: [Dots(draws)])
     panel = Panel(Axis("velocity", "Velocity"), (Curve(1, "one", (([0.0], [0.0]),)),))
     figure = Figure("", Axis("x", "x"), (panel,), (0.0, 1.0), ())
-    pixels = imread(io.BytesIO(plot_png.png_bytes(figure)))[..., :3]
+    pixels = imread(io.BytesIO(plot_svg.png_bytes(figure)))[..., :3]
     ink = np.array(to_rgb(colour(1, LIGHT)))
     share = (1.0 - pixels).sum(axis=2) / (1.0 - ink).sum()  # of a pixel that the dot covers
-    scale = plot_png.WIDE / PAGE  # pixels of a px
+    scale = plot_svg.WIDE / PAGE  # pixels of a px
     y, x = (np.average(i, weights=share) + 0.5 for i in np.indices(share.shape))
     assert (x / scale, y / scale) == pytest.approx((200.0, 40.0), abs=0.05 / scale)
     assert share.sum() == pytest.approx(math.pi / 4.0 * (across * scale) ** 2, rel=0.05)
@@ -270,7 +238,7 @@ def test_letters_of_a_png_are_drawn():
     titles = ("", "W", "WWWW")
     drawn = [
         imread(
-            io.BytesIO(plot_png.png_bytes(Figure(title, Axis("x", "x"), (panel,), (0.0, 1.0), ())))
+            io.BytesIO(plot_svg.png_bytes(Figure(title, Axis("x", "x"), (panel,), (0.0, 1.0), ())))
         )
         for title in titles
     ]

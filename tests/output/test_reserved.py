@@ -8,9 +8,9 @@ import pytest
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import files
-from geneva_cli.output.folder import Entry, filling_folder
+from geneva_cli.output.files import fault, require_possible
+from geneva_cli.output.folder import Row, filling_folder
 from geneva_cli.output.growing import GrowingFile
-from geneva_cli.output.reserved import fault, require_possible
 
 # as Microsoft lists them, "Naming Files, Paths, and Namespaces"
 RESERVED = "nul nul.csv AUX.txt con prn.tar.gz Com1 LPT9.dxf com¹.csv CONIN$ ab:c.csv a. ... a* a?"
@@ -61,7 +61,7 @@ def test_elsewhere_only_a_folder_for_others_is_refused(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert files.real_path("aux.csv") == os.path.realpath("aux.csv")
     wrong = pytest.raises(GenevaError, match=r'"aux\.csv": Windows reserves the name "aux"')
-    with wrong, filling_folder("shop", [Entry("aux.csv", "points")]):
+    with wrong, filling_folder("shop", [Row("aux.csv", "points")]):
         pass
     assert not os.path.exists("shop")
 

@@ -15,9 +15,8 @@ from words import Motion, Spec, Wheel
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sheet import CAPITALS, WIDTHS, width
-from geneva_cli.output import draw_sheet
+from geneva_cli.output import draw_sheet, dxf, pdf, svg
 from geneva_cli.output.formats import DXF_VERSIONS, is_drawn, sheet_as
-from geneva_cli.output.sheets import sheet_dxf, sheet_pdf, sheet_svg
 from geneva_cli.spec.tables import Size
 
 NAME = "{http://www.w3.org/2000/svg}"
@@ -66,7 +65,7 @@ def objects(text):
 
 @pytest.mark.long
 def test_a_pdf_is_whole(sheet):
-    text = "".join(sheet_pdf.chunks(sheet))
+    text = "".join(pdf.sheet_chunks(sheet))
     assert text.isascii()
     found, trailer = objects(text)
     assert "/Root 1 0 R" in trailer
@@ -92,7 +91,7 @@ def test_a_pdf_is_whole(sheet):
 
 
 def test_an_svg_has_all_texts_where_they_are(sheet):
-    root = ElementTree.fromstring("".join(sheet_svg.chunks(sheet)))
+    root = ElementTree.fromstring("".join(svg.sheet_chunks(sheet)))
     x, y, w, h = map(float, root.get("viewBox").split())
     assert (x, y, w, h) == (0.0, -sheet.height, sheet.width, sheet.height)
     assert root.get("width") == f"{sheet.width:.9f}mm"
@@ -112,12 +111,12 @@ def test_an_svg_has_all_texts_where_they_are(sheet):
 @pytest.mark.parametrize("version", DXF_VERSIONS)
 def test_a_dxf_has_dimensions_that_measure_themselves(sheet, version):
     """ezdxf measures each between its own points; times its style's factor it is the part's."""
-    written = "".join(sheet_dxf.chunks(sheet, version))
+    written = "".join(dxf.sheet_chunks(sheet, version))
     document, audit = recover.read(io.BytesIO(written.encode()))
     assert not audit.errors
     assert not audit.fixes
     found = list(document.modelspace().query("DIMENSION"))
-    wanted = [m for m in sheet.measures if m.kind in sheet_dxf.KINDS]
+    wanted = [m for m in sheet.measures if m.kind in dxf.KINDS]
     assert len(found) == len(wanted) > 15
     for dimension, m in zip(found, wanted, strict=True):
         measured = dimension.get_measurement()

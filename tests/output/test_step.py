@@ -41,7 +41,7 @@ HOLES = (
 
 
 def text(part, title=""):
-    return "".join(chunks(Drawing(title, (), solid=part), "mm"))
+    return "".join(chunks(Drawing(title, (), solid=part)))
 
 
 def plates(part):
@@ -82,7 +82,7 @@ def test_machines(name, curves):
     design = load(str(repo.DESIGNS / f"{name}.toml"))
     for part in ("wheel", "crank", "arm", "assembly"):
         drawing = design.drawing(part, 0.01, curves)
-        file = File("".join(chunks(drawing, "mm")))
+        file = File("".join(chunks(drawing)))
         bodies, wanted = file.all("MANIFOLD_SOLID_BREP"), plates(drawing.solid)
         assert len(bodies) == len(wanted)
         for body, plate in zip(bodies, wanted, strict=True):
@@ -119,7 +119,7 @@ def tree(file):
 
 def test_the_machine_is_an_assembly_at_input_angle_0():
     design = Design(External(6), title="Machine")
-    file = File("".join(chunks(design.drawing("assembly"), "mm")))
+    file = File("".join(chunks(design.drawing("assembly"))))
     found = {name: (user, at, turn) for user, name, at, turn in tree(file)}
     assert found["wheel"] == ("Machine", (0.0, 0.0), 0.0)
     # the crank is in its own frame, its roller ahead: that points at the wheel's axis
@@ -131,14 +131,14 @@ def test_the_machine_is_an_assembly_at_input_angle_0():
 
 def test_like_parts_are_one_product():
     design = load(str(repo.DESIGNS / "three-rollers-z4.toml"))
-    file = File("".join(chunks(design.drawing("crank"), "mm")))
+    file = File("".join(chunks(design.drawing("crank"))))
     assert len(file.all("PRODUCT")) == 4  # crank, disc, roller, pin
     uses = [name for _, name, _, _ in tree(file)]
     assert sorted(uses) == ["locking disc", *["pin"] * 3, *["roller"] * 3]
 
 
 def test_colours():
-    file = File("".join(chunks(Design(External(6)).drawing("assembly"), "mm")))
+    file = File("".join(chunks(Design(External(6)).drawing("assembly"))))
     styled = [file.values(number) for number in file.all("STYLED_ITEM")]
     assert [body for _, _, body in styled] == file.all("MANIFOLD_SOLID_BREP")
     found = []
@@ -197,13 +197,12 @@ def test_titles_in_any_script():
 
 
 @pytest.mark.parametrize(
-    ("drawing", "units", "said"),
+    ("drawing", "said"),
     [
-        (Drawing("", (SQUARE,)), "mm", "no solid"),
-        (Drawing("", (), solid=Plate("p", "CRANK", SQUARE, (), 0.0, 1.0)), "inch", "in mm"),
-        (Drawing("", (), solid=Plate("p", "CRANK", SQUARE, (), 1.0, 1.0)), "mm", "must be thicker"),
+        (Drawing("", (SQUARE,)), "no solid"),
+        (Drawing("", (), solid=Plate("p", "CRANK", SQUARE, (), 1.0, 1.0)), "must be thicker"),
     ],
 )
-def test_refused(drawing, units, said):
+def test_refused(drawing, said):
     with pytest.raises(GenevaError, match=said):
-        list(chunks(drawing, units))
+        list(chunks(drawing))

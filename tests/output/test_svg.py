@@ -2,8 +2,7 @@
 
 from xml.etree import ElementTree
 
-import pytest
-from drawing_witness import apart, contours, drawn_shapes, dxf_shapes, scaled, svg_shapes
+from drawing_witness import apart, contours, drawn_shapes, dxf_shapes, svg_shapes
 from hypothesis import given, settings
 from sampling import some
 from test_dxf import MANY, of
@@ -11,7 +10,7 @@ from test_dxf import MANY, of
 from geneva_cli.geometry.sheet import extent
 from geneva_cli.output import dxf
 from geneva_cli.output.inks import INKS, OTHERS
-from geneva_cli.output.svg.drawing_svg import MARGIN, STROKE, chunks
+from geneva_cli.output.svg import MARGIN, STROKE, chunks
 
 # mm. The last decimal is 1e-9; a radius that is off by half of that moves an arc's centre by up to
 # 4 times as much (at 150 and 210 degrees), and a chord's ends add to it.
@@ -20,17 +19,17 @@ QUICK = settings(max_examples=some(40, 15))
 NAME = "{http://www.w3.org/2000/svg}"
 
 
-def text(drawing, units="mm"):
-    return "".join(chunks(drawing, units))
+def text(drawing):
+    return "".join(chunks(drawing))
 
 
-def root(drawing, units="mm"):
-    return ElementTree.fromstring(text(drawing, units))
+def root(drawing):
+    return ElementTree.fromstring(text(drawing))
 
 
-def view(drawing, units="mm"):
+def view(drawing):
     """Left, right, bottom and top of the view, y up."""
-    x, y, width, height = map(float, root(drawing, units).get("viewBox").split())
+    x, y, width, height = map(float, root(drawing).get("viewBox").split())
     return x, x + width, -y - height, -y
 
 
@@ -45,23 +44,20 @@ def test_any_contour_is_read_back(contour):
         assert inside <= outside - MARGIN - 0.5 * STROKE
 
 
-@pytest.mark.parametrize(("units", "suffix", "unit"), [("mm", "mm", 1.0), ("inch", "in", 25.4)])
-def test_true_size_and_layers(units, suffix, unit):
-    svg = root(MANY, units)
+def test_true_size_and_layers():
+    svg = root(MANY)
     _, _, width, height = svg.get("viewBox").split()
-    assert (svg.get("width"), svg.get("height")) == (width + suffix, height + suffix)
+    assert (svg.get("width"), svg.get("height")) == (width + "mm", height + "mm")
     groups = svg.findall(f"{NAME}g")
     assert tuple(g.get("id") for g in groups) == MANY.layers
     assert [g.get("id") for g in groups if g.get("stroke-dasharray")] == ["PITCH"]
     assert len({g.get("stroke") for g in groups}) == len(groups)
-    assert {float(g.get("stroke-width")) for g in groups} == {round(0.25 / unit, 9)}
+    assert {float(g.get("stroke-width")) for g in groups} == {0.25}
     assert svg.get("fill") == "none"
     assert svg.find(f"{NAME}title").text == MANY.title
     assert not list(svg.iter(f"{NAME}text"))
-    wanted = drawn_shapes(scaled(MANY, 1.0 / unit))
-    assert apart(svg_shapes(text(MANY, units)), wanted) < SAME
-    read = dxf_shapes("".join(dxf.chunks(MANY, units)))
-    assert apart(svg_shapes(text(MANY, units)), read) < SAME
+    assert apart(svg_shapes(text(MANY)), drawn_shapes(MANY)) < SAME
+    assert apart(svg_shapes(text(MANY)), dxf_shapes("".join(dxf.chunks(MANY)))) < SAME
 
 
 def luminance(rgb):

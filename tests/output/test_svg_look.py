@@ -10,12 +10,8 @@ from shapely.geometry import Polygon
 from words import Drive, Spec, Wheel
 
 from geneva_cli.design import Design
-from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.mass import face
-from geneva_cli.geometry.plates import plates
-from geneva_cli.output import draw
-from geneva_cli.output.formats import FILLS
-from geneva_cli.output.svg.drawing_svg import chunks
+from geneva_cli.geometry.plates import face, plates
+from geneva_cli.output.svg import chunks
 from geneva_cli.spec.tables import Size
 
 NAME = "{http://www.w3.org/2000/svg}"
@@ -30,25 +26,21 @@ def assembly():
     return design().drawing("assembly", 0.01)
 
 
-def root(drawing, units="mm", **own):
-    return ElementTree.fromstring("".join(chunks(drawing, units, **own)))
+def root(drawing):
+    return ElementTree.fromstring("".join(chunks(drawing)))
 
 
 def groups(svg):
     return {g.get("id"): g for g in svg.findall(f"{NAME}g")}
 
 
-@pytest.mark.parametrize(
-    ("units", "unit", "shown"), [("mm", 1, "100 mm"), ("inch", 25.4, "3.937 in")]
-)
-def test_the_centre_distance_is_written_and_drawn(assembly, units, unit, shown):
-    svg = root(assembly, units)
-    assert f"L = {shown}" in [t.text for t in svg.iter(f"{NAME}text")]
+def test_the_centre_distance_is_written_and_drawn(assembly):
+    svg = root(assembly)
+    assert "L = 100 mm" in [t.text for t in svg.iter(f"{NAME}text")]
     lines = [svg_path(p.get("d")) for p in groups(svg)["NOTES"] if not p.get("id")]
     level = [(a, b) for ((a, b, _),) in (one for one in lines if len(one) == 1)]
     assert any(
-        abs(a[1] - b[1]) < 1e-9 and abs(a[0]) < 1e-8 and abs(b[0] - 100.0 / unit) < 1e-8
-        for a, b in level
+        abs(a[1] - b[1]) < 1e-9 and abs(a[0]) < 1e-8 and abs(b[0] - 100.0) < 1e-8 for a, b in level
     )
 
 
@@ -81,23 +73,8 @@ def test_a_fill_is_what_the_plates_are(assembly):
         area = outer.area - sum(hole.area for hole in holes)
         assert area == pytest.approx(face(plate).area, rel=1e-3)  # of 96 chords a piece
     # the layers themselves are what they are without it
-    assert apart(svg_shapes("".join(chunks(assembly, "mm"))), drawn_shapes(assembly)) < 1e-8
+    assert apart(svg_shapes("".join(chunks(assembly))), drawn_shapes(assembly)) < 1e-8
 
 
-def test_fills(assembly):
-    assert "FILL" not in groups(root(assembly, fill="none"))
-    hatched = root(assembly, fill="hatch")
-    patterns = {p.get("id"): p for p in hatched.iter(f"{NAME}pattern")}
-    turns = [p.get("patternTransform") for p in patterns.values()]
-    assert len(set(turns)) == len(turns) > 2
-    used = {re.match(r"url\(#(.*)\)", p.get("fill"))[1] for p in groups(hatched)["FILL"]}
-    assert used == set(patterns)
-    wheel = design().drawing("wheel", 0.01)
-    assert len(list(groups(root(wheel, fill="tint"))["FILL"])) == 1
-    with pytest.raises(GenevaError, match="--fill blue: it must be one of none, tint, hatch"):
-        root(assembly, fill="blue")
-    with pytest.raises(GenevaError, match="--fill: this drawing has no plates"):
-        root(design().drawing("slot", 0.01), fill="tint")
-    with pytest.raises(GenevaError, match=r"--fill is for .svg, and this is dxf; leave it out"):
-        draw(wheel, "-", "dxf", fill="tint")
-    assert FILLS == ("none", "tint", "hatch")
+def test_parts_to_cut_are_not_filled():
+    assert "FILL" not in groups(root(design().drawing("wheel", 0.01)))

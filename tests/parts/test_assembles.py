@@ -15,7 +15,7 @@ from shapely import affinity
 
 from geneva_cli import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Stack
+from geneva_cli.geometry.plates import Group
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion import registry
 from geneva_cli.motion.pivots import Joint
@@ -110,9 +110,6 @@ def flat(part, at, turn, body):
         for one in part.members:
             there = at + cmath.rect(1.0, turn) * complex(*one.at)
             yield from flat(one.part, there, turn + one.turn, body)
-    elif isinstance(part, Stack):
-        for plate in part.plates:
-            yield Solid(plate._replace(name=part.name), at, turn, body)
     else:
         yield Solid(part, at, turn, body)
 
@@ -280,27 +277,12 @@ def test_a_process_leaves_space_for_all_but_press_fits(kind, process, tmp_path):
     require_space(design)
 
 
-@pytest.mark.sampled(12)
-@pytest.mark.usefixtures("no_advice")
-@pytest.mark.parametrize("kind", registry.DRIVES)
-def test_turned_shafts_leave_space(kind, tmp_path):
-    """Of every kind; shoulders and circlips meet no part that passes them in a turn."""
-    spec = tmp_path / f"{kind}.toml"
-    spec.write_text(template(kind) if kind != "crank" else "[wheel]\nz = 6\n")
-    keys = ["size.shafts=turned"]
-    keys += ["size.link_bore_mm=5"] if kind == "geneva-pair" else []
-    design = load(str(spec), keys)
-    assert "turned" not in " ".join(check.why for check in design.checks)
-    require_space(design)
-
-
 def require_space(design):
     """Nothing overlaps but pins in their press fits, by half the fit; wheel and arm are apart."""
     allowed = design.spec.size.allowances
     parts = design.parts
     every = list(solids(parts))
-    if design.spec.size.shafts == "plain":  # turned ones have bearings and grooves
-        assert not list(misfits(every, design.mechanism.center_distance_mm, allowed.shaft_fit_mm))
+    assert not list(misfits(every, design.mechanism.center_distance_mm, allowed.shaft_fit_mm))
     met = {tuple(sorted(pair[:2])) for pair in overlaps(design, every)}
     pressed = {pair for pair in met if any("pin" in name.split() for name in pair)}
     assert met == pressed or refused_by_a_check(design), met

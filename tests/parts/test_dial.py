@@ -8,7 +8,7 @@ from shapely.geometry import Polygon
 from words import Spec, Wheel
 
 from geneva_cli.design import Design
-from geneva_cli.geometry.mass import mass_properties
+from geneva_cli.geometry.plates import mass_properties
 from geneva_cli.geometry.shapes import Contour, Line
 from geneva_cli.parts.outlines.wheel_circles import wheel_plate
 from geneva_cli.parts.wheel_body import wheel_body

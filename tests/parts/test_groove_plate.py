@@ -7,8 +7,7 @@ from shapely.geometry import LineString
 
 from geneva_cli import load
 from geneva_cli.drawings.parts_list import parts_list
-from geneva_cli.geometry.mass import mass_properties
-from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.plates import mass_properties, plates
 from geneva_cli.geometry.shapes import Circle
 
 SAGITTA = 1e-3  # mm, of the chords that shapely is given

@@ -11,8 +11,7 @@ import repo
 from geneva_cli import load
 from geneva_cli.drawings.catalogue import CUT, DRAWINGS
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.dxf import chunks
-from geneva_cli.output.sheets.sheet_dxf import chunks as sheet_chunks
+from geneva_cli.output.dxf import chunks, sheet_chunks
 
 pytestmark = pytest.mark.usefixtures("made_once")
 TOLERANCE = 0.05  # mm: coarse walls are quick, and have the same layers
@@ -48,14 +47,14 @@ def test_requested_crosses_are_on_a_layer_of_their_own(name):
         marked = design.drawing(part, TOLERANCE, centre_marks=True)
         assert marked.shapes[: len(plain.shapes)] == plain.shapes
         assert {shape.layer for shape in marked.shapes[len(plain.shapes) :]} <= {"CENTER"}
-    texts = ["".join(chunks(design.drawing("frame", TOLERANCE, centre_marks=on), "mm"))
+    texts = ["".join(chunks(design.drawing("frame", TOLERANCE, centre_marks=on)))
              for on in (False, True)]  # fmt: skip
     layers = [{e.dxf.layer for e in ezdxf.read(io.StringIO(text)).modelspace()} for text in texts]
     assert layers[1] - layers[0] == {"CENTER"}
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", ["turret", "spherical-z6"])
+@pytest.mark.parametrize("name", ["turret", "four-bar-z4"])
 def test_a_sheets_layers_have_the_manuals_names(name):
     text = "".join(sheet_chunks(load(str(repo.DESIGNS / f"{name}.toml")).sheet(TOLERANCE)))
     document = ezdxf.read(io.StringIO(text))

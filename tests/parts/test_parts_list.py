@@ -25,15 +25,6 @@ DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))
 SAME = 1e-9  # radians, as far as a machine must come out from its printed dimensions
 
 
-def tuned(u, d):
-    """y + 2 zeta y'/w + y''/w², y the polynomial 4-5-6-7 and w its turns in a motion."""
-    assert d["law's of"] == "4-5-6-7"
-    y = np.polynomial.Polynomial([0, 0, 0, 0, 35, -84, 70, -20])
-    w = math.tau * d["law's period_ratio"]
-    zeta = d["law's damping_ratio"]
-    return float(y(u) + 2.0 * zeta / w * y.deriv()(u) + y.deriv(2)(u) / w**2)
-
-
 def through_points(d, folder):
     """SciPy's quintic spline through the points of the file that the list names, at rest."""
     rows = np.loadtxt(folder / d["law's file"], delimiter=",", skiprows=1)
@@ -44,8 +35,6 @@ def through_points(d, folder):
 def law_of(d, folder):
     """A law by its printed name and numbers."""
     name = d["law"]
-    if name == "tuned":
-        return lambda u: tuned(u, d)
     if name == "table":
         return through_points(d, folder)
     law = krasniqi(d["law's lambda"]) if name == "sine-group" else LAWS[name]

@@ -21,8 +21,7 @@ from build123d import GeomType, import_step
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.mass import face
-from geneva_cli.geometry.plates import plates, solids
+from geneva_cli.geometry.plates import face, plates, solids
 from geneva_cli.geometry.shapes import Arc, Circle, Line
 from geneva_cli.manual import page
 

@@ -55,7 +55,6 @@ WORDED = {
     "wheel_keyway": ("DIN 6885-1",),
     "crank_bore": ("round", "D", "hex"),
     "wheel_bore": ("round", "D", "hex"),
-    "shafts": ("plain", "turned"),
 }
 TAKEN = (
     "center_distance_mm",
@@ -131,10 +130,6 @@ def usual(rng, key, L, R, r, outside):
         "dial_bolt_circle_mm": L / 2.0,
         "wheel_flat_mm": 0.02 * L,
         "crank_flat_mm": 0.02 * R,
-        "wheel_screw_mm": 0.02 * L,
-        "crank_screw_mm": 0.02 * R,
-        "wheel_clamp_mm": 0.02 * L,
-        "crank_clamp_mm": 0.02 * R,
         "edge_chamfer_mm": 0.05 * r,
         "edge_fillet_mm": 0.05 * r,
     }
@@ -222,9 +217,6 @@ def motion(rng, kind, gearing):
     lines = [f'law = "{law}"']
     if law == "sine-group" and rng.random() < 0.9:
         lines.append(f"lambda = {rng.choice([0.1, -0.125, 0.08333, rng.uniform(-0.3, 0.3)])!r}")
-    if law == "tuned":
-        lines.append(f"period_ratio = {rng.choice([0.5, 1.0, 2.0, 3.7, rng.uniform(0.1, 30.0)])!r}")
-        lines.append(f'of = "{rng.choice(["4-5-6-7", "sine-group"])}"')
     if law == "scca":
         b, d = rng.choice([(0.25, 0.25), (0.0, 1.0), (1.0, 0.0), (0.001, 0.999), (0.4, 0.125)])
         lines += [f"b = {b!r}", f"c = {1.0 - b - d!r}", f"d = {d!r}"]
@@ -362,7 +354,7 @@ def fitting(text):
 
 
 def bodies(rng, L, orbits):
-    """One to three bodies on the wheel, of every shape; of one that orbits with directions."""
+    """One to three bodies on the wheel, of every shape; on one that orbits they are balanced."""
     text = []
     for _ in range(rng.randint(1, 3)):
         shape = rng.choice(["disc", "ring", "block", "point"])
@@ -373,10 +365,8 @@ def bodies(rng, L, orbits):
         radius = rng.choice([0.0, near(rng, 0.5 * L)])
         if radius or shape == "point":
             text.append(f"radius_mm = {radius or near(rng, L)!r}")
-        if rng.random() < 0.3:
-            text.append(f"count = {rng.randint(1, 5)}")
-        if orbits and rng.random() < 0.5:
-            text.append(f"angle_deg = {rng.choice([0, 90, -180, rng.uniform(-360, 360)])!r}")
+        if orbits or rng.random() < 0.3:
+            text.append(f"count = {rng.randint(1 + orbits, 5)}")
     return text
 
 

@@ -25,7 +25,7 @@ from functools import partial
 import numpy as np
 from exact.cases import MACHINES
 from exact.machines import machines
-from exact.others import arrays, chords
+from exact.others import chords
 from exact.table import DIGITS, LIMIT, Table
 from witness import LAWS as LAW_WITNESSES
 from witness import SIGN, mp
@@ -49,7 +49,6 @@ def missing():
 def parts(sample):
     """The parts of the table: for each name a function that fills the table."""
     out = {name: partial(machines, name=name) for name in MACHINES}
-    out["classic arrays"] = arrays
     for name in LAWS:
         out[f"chords, {name}"] = partial(chords, rng=random.Random(name), name=name)
     return out

@@ -97,7 +97,7 @@ def test_the_random_machines_are_of_every_kind_and_have_every_key():
     for kind in DRIVES:
         assert f'kind = "{kind}"' in said, kind
     words = ["internal", "spherical", "linear", "offset_mm", "steps_deg", "roller_angles_deg"]
-    words += ["stop = true", "[drive.before]", "[[mass]]", "angle_deg = ", "crank_steps"]
+    words += ["stop = true", "[drive.before]", "[[mass]]", "crank_steps"]
     words += ["guide_friction", "stiffness_Nm_rad"]
     words += [field.key for field in [*fields(Size), *fields(Limits)]]
     for word in words:

@@ -23,7 +23,7 @@ COMMANDS = (
     "peaks side-crank-z6.toml --format json",
     "motion press-curved.toml --samples 9 --format csv",
     "loads turret.toml --format json",
-    "vibration tuned-dial.toml --format json",
+    "vibration turret.toml --period-ratio 3 --format json",
     "tolerance tolerances.toml --format json",
     "check limits.toml turret.toml",
     "report press-straight.toml",

@@ -52,11 +52,12 @@ def test_a_turret_gets_one_motor() -> None:
 
 
 def test_vibration_names_the_speeds_to_avoid() -> None:
-    one = design("tuned-dial")
-    record = one.vibration()
-    (summary,) = of_vibration(one, record).summaries
+    one = design("turret")
+    record = one.vibration(3.3, 0.02)
     speeds = record.to_dict()["speeds_to_avoid_rpm"]
+    (summary,) = of_vibration(one, record).summaries
     assert line(summary, "avoid").text == ", ".join(f"{rpm:.4g}" for rpm in speeds) + " rpm"
+    (summary,) = of_vibration(one, design("cam-geneva").vibration(80.0, 0.01)).summaries
     assert "practically at rest" in line(summary, "residual").text
 
 

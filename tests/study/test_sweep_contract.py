@@ -2,8 +2,6 @@
 
 import pytest
 
-from geneva_cli.design import load
-from geneva_cli.motion.many import may_vary
 from geneva_cli.study.sweep.request import request
 
 
@@ -14,20 +12,6 @@ def swept(tmp_path, text, *vary, pick):
     rows = [row for block in request(str(path), vary, pick=pick).blocks() for row in block]
     assert [row[-1] for row in rows] == [None] * len(rows)
     return [row[:-1] for row in rows]
-
-
-@pytest.mark.long
-def test_slots_of_an_unbalanced_wheel_on_a_carrier_vary_alone(tmp_path):
-    """A turn of the wheel has as many motions as slots: the sweep ended in a traceback."""
-    text = '[wheel]\nz = 5\n[drive]\nkind = "carousel"\n[load]\ninertia_kgm2 = 0.1\n[[mass]]\n'
-    text += 'shape = "point"\nmass_kg = 0.7\nradius_mm = 120\nangle_deg = 40\n'
-    rows = swept(tmp_path, text, "wheel.z=5,6", pick="loads.input_torque_Nm.max")
-    path = str(tmp_path / "spec.toml")
-    assert not may_vary(load(path).spec, "wheel.z")
-    single = [load(path, [f"wheel.z={z}"]).loads["input_torque_Nm"] for z in (5, 6)]
-    # the cycle searches more functions together: its places may differ by rounding
-    sizes = [max(one.max, -one.min) for one in single]
-    assert [row[1] for row in rows] == pytest.approx(sizes, rel=1e-15)
 
 
 @pytest.mark.sampled(2)

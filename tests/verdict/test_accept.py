@@ -82,7 +82,7 @@ def test_lists_of_texts_have_the_reason(spec: str) -> None:
 
 def test_warnings_of_other_commands_are_accepted_there() -> None:
     """``vibration`` and ``tolerance`` alone have them: check says nothing of them."""
-    accept = Accept(off_tune="a prototype", tolerance_left_out="agreed")
+    accept = Accept(short_motion="a prototype", tolerance_left_out="agreed")
     assert Design(External(6), accept=accept).unused_acceptances == []
     assert Design(External(30), accept=Accept(loose_fit="x")).unused_acceptances == ["loose-fit"]
 

@@ -209,7 +209,7 @@ def test_mean_jump_of_a_million(wheel, key, s):
     ],
 )
 def test_the_table_of_jumps_against_each_exact_one(design):
-    from geneva_cli.loads.impacts.shock import first_contacts
+    from geneva_cli.loads.impacts.entry import first_contacts
 
     design = load(str(ROOT / "designs" / f"{design}.toml")) if isinstance(design, str) else design
     one = entry_jumps(design.mechanism)[0]

@@ -5,7 +5,16 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.cli.options import Format, Output, Settings, flag, option, outline_settings, say
+from geneva_cli.cli.options import (
+    Format,
+    Output,
+    Reverse,
+    Settings,
+    flag,
+    option,
+    outline_settings,
+    say,
+)
 from geneva_cli.errors import clean, open_warnings
 
 EXAMPLES = ("geneva check spec.toml", "geneva check spec.toml --set size.slot_clearance_mm=0.05")
@@ -18,6 +27,7 @@ def run(
     verbose: Annotated[
         bool, typer.Option("-v", "--verbose", help="Every check, a row each.")
     ] = False,
+    reverse: Reverse = False,
     certify: Annotated[float | None, option("MM", "Prove that no parts overlap by more.")] = None,
     wheel: Annotated[
         str | None, option("FILE", "The wheel as somebody drew it: .dxf or .svg.", DRAWN)
@@ -43,7 +53,7 @@ def run(
 
     name = table_as(output, format)
     drawn = outline_settings(wheel, crank, slack)
-    results = list(verdicts(specs, [*(settings or ()), *drawn], certify))
+    results = list(verdicts(specs, [*(settings or ()), *drawn], certify, reverse))
     judged = [v for v in results if not v.error]
     if judged or name == "json":
         answer = of_checks(results, verbose or name != "table", name == "json")

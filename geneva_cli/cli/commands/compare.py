@@ -42,12 +42,10 @@ def run(
     --against compares one spec with a cam indexer and a servo.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import refuse_inches, show
+    from geneva_cli.output import show
     from geneva_cli.study.compare import compare
     from geneva_cli.study.compare import differing as only_differing
 
-    if ratio:
-        refuse_inches("ratios have no unit")
     if against:
         from geneva_cli.spec.load_named import load_extra
 

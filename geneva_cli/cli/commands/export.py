@@ -49,7 +49,7 @@ def run(
     """
     from geneva_cli.design import load
     from geneva_cli.output import show
-    from geneva_cli.output.folder import Entry, filling_folder
+    from geneva_cli.output.folder import Row, filling_folder
     from geneva_cli.study.export import export_files, shop_warnings, trade_of
     from geneva_cli.table import rows_table
 
@@ -61,7 +61,7 @@ def run(
     if design.spec.is_turned:
         require_written(design, design.judge(), force)
     files, missing = export_files(design, needed)
-    entries = [Entry(file.name, file.content) for file in files]
+    entries = [Row(file.name, file.content) for file in files]
     with filling_folder(output, entries, design.spec.files, force) as filling:
         for file in files:
             file.write(os.path.join(filling.new, file.name))

@@ -33,13 +33,12 @@ def run(
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
-        str, option("FORMAT", "table (a chart in text), svg, png, pdf, csv, json or md.")
+        str, option("FORMAT", "svg, png, pdf, or of the points table, csv, json or md.")
     ] = "",
 ) -> None:
     """Plot curves over a cycle, exact at peaks and jumps; or columns of a csv, such as a sweep's.
 
-    Without -o it prints a chart in text. png and pdf need the extra geneva-cli[plot]. More:
-    `geneva help plots`.
+    Without -o it prints points. png needs the extra geneva-cli[plot]. `geneva help plots`.
     """
     from geneva_cli.output import show_figure
     from geneva_cli.output.formats import plotted_as

@@ -14,7 +14,7 @@ from geneva_cli.cli.options import (
 )
 from geneva_cli.drawings.catalogue import is_sheet, require_tolerance
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import draw, draw_sheet, in_units, show
+from geneva_cli.output import draw, draw_sheet, show
 from geneva_cli.output.formats import (
     DRAWN,
     FORMATS,
@@ -55,21 +55,12 @@ def run(
     cutter: Annotated[
         float | None, option("MM", "Diameter of a milling cutter that must fit.", CUT)
     ] = None,
-    dog_bones: Annotated[
-        bool, flag("--dog-bones", "Free the corners that this cutter leaves round.", CUT)
-    ] = False,
     center_marks: Annotated[
         bool, flag("--center-marks", "A cross in every circle, on layer CENTER.", DRAWING)
     ] = False,
-    units: Annotated[
-        str, option("UNIT", "Unit of drawings and tables: mm or inch.", DRAWING)
-    ] = "mm",
     dxf_version: Annotated[
         str | None,
         option("VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING),
-    ] = None,
-    fill: Annotated[
-        str | None, option("LOOK", "Plates in .svg: none, tint or hatch.", DRAWING)
     ] = None,
     force: Annotated[bool, flag("--force", "Draw even a machine that jams.")] = False,
     settings: Settings = None,
@@ -85,21 +76,17 @@ def run(
 
     curves = curves or usual_curves(output, format)
     tolerance = curve_tolerance(tolerance, output, format)
-    _require(curves, units, dog_bones, cutter)
+    if curves not in WALLS:
+        raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
     sheet = is_sheet(part)
     drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
     design = load(spec, settings or ())
-    own = {"version": dxf_version} if dxf_version is not None else {}
-    own |= {"fill": fill} if fill is not None else {}
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
         _refuse(kerf, cutter, center_marks)
-        if own:
-            raise GenevaError(
-                "--dxf-version and --fill are for drawings; this is a table of points"
-            )
-        with in_units(units):
-            show(design.part_table(part, tolerance, samples), output, format, files)
+        if dxf_version is not None:
+            raise GenevaError("--dxf-version is for drawings; this is a table of points")
+        show(design.part_table(part, tolerance, samples), output, format, files)
         warn(design)
         return
     if samples is not None:
@@ -109,31 +96,14 @@ def run(
         require_written(design, design.judge(part), force)
     if sheet:
         _refuse(kerf, cutter, center_marks)
-        if fill is not None:
-            raise GenevaError(
-                "--fill is for single parts and the assembly; a sheet has lines alone"
-            )
-        draw_sheet(design.sheet(tolerance, curves, part, units), output, format, files, **own)
+        draw_sheet(design.sheet(tolerance, curves, part), output, format, files, dxf_version or "")
     else:
         if cutter is not None:
-            require_written(design, design.cutter(part, cutter, dog_bones), force)
-        bones = cutter if dog_bones else None
-        drawing = design.drawing(part, tolerance, curves, kerf, bones, center_marks)
+            require_written(design, design.cutter(part, cutter), force)
+        drawing = design.drawing(part, tolerance, curves, kerf, center_marks)
         shown = drawing if kerf is not None else design.drawing_over(drawing)
-        draw(shown, output, format, units, files, **own)
+        draw(shown, output, format, files, dxf_version or "")
     warn(design)
-
-
-def _require(curves: str, units: str, dog_bones: bool, cutter: float | None) -> None:
-    """Raise GenevaError for values with which no drawing can be written."""
-    from geneva_cli.geometry.pieces import UNITS
-
-    if curves not in WALLS:
-        raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-    if units not in UNITS:
-        raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
-    if dog_bones and cutter is None:
-        raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
 
 
 def _refuse(kerf: float | None, cutter: float | None, marks: bool) -> None:

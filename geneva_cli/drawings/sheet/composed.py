@@ -28,7 +28,7 @@ from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.spec.materials import material_names
 from geneva_cli.spec.workshops import workshop
-from geneva_cli.spec.written import is_metric, length, number
+from geneva_cli.spec.written import length, number
 
 
 def on_paper(
@@ -58,10 +58,7 @@ def on_paper(
                 sheet = _composed(spec, paper, scale, rows, [*parts, *one])
                 if sheet is not None:
                     return sheet
-    raise GenevaError(
-        "--part sheet: the parts and their tables do not fit on one A1 sheet; a coarser "
-        "--tolerance makes shorter tables"
-    )
+    raise GenevaError("--part sheet: the parts and their tables do not fit on one A1 sheet")
 
 
 def _inside(paper: PaperSize) -> Box:
@@ -74,13 +71,13 @@ def _composed(
     area = _inside(paper)
     if is_overfull(blocks, area):
         return None
-    materials = [_in_inches(name) for name in material_names(spec)]
+    materials = material_names(spec)
     general = {
         "scale": scale_name(scale),
         "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
         "material": materials[0] if len(set(materials)) == 1 else "see list",
         "tolerances": workshop(spec.size.process).tolerances,
-        "units": f"{'mm' if is_metric() else 'inch'}, degrees",
+        "units": "mm, degrees",
         "size": paper.name,
         "sheet": "1/1",
     }
@@ -101,7 +98,6 @@ def _composed(
         (*frame(paper), *(s for b in all_blocks for s in b.shapes)),
         tuple(label for b in all_blocks for label in b.labels),
         tuple(m for b in all_blocks for m in b.measures),
-        "mm" if is_metric() else "inch",
     )
 
 
@@ -110,7 +106,7 @@ def _fields(spec: Spec) -> list[dict[str, str]]:
     hard = f"{own.flank_hardness_HRC:g} HRC" if own.flank_hardness_HRC else ""
     working = filter(None, (_rough(own.flank_roughness_um), hard))
     surfaces = {
-        "roughness": _rough(own.roughness_um) or _micro(workshop(spec.size.process).roughness),
+        "roughness": _rough(own.roughness_um) or workshop(spec.size.process).roughness,
         "edges": edge_note(spec.size) or "free of burrs",
         "faces that roll, slide, lock": ", ".join(working),
     }
@@ -120,12 +116,7 @@ def _fields(spec: Spec) -> list[dict[str, str]]:
 
 
 def _rough(roughness_um: float | None) -> str:
-    return _micro(f"Ra {roughness_um:g}") if roughness_um else ""
-
-
-def _micro(roughness: str) -> str:
-    """Return a roughness; with its unit on a sheet in inches, where it might be in microinches."""
-    return roughness if is_metric() or not roughness.startswith("Ra") else f"{roughness} µm"
+    return f"Ra {roughness_um:g}" if roughness_um else ""
 
 
 def _items(rows: list[dict[str, Any]]) -> Block:
@@ -135,34 +126,19 @@ def _items(rows: list[dict[str, Any]]) -> Block:
             str(row["name"]),
             str(row["count"]),
             length(row["thickness_mm"]),
-            _rounded(row["mass_kg"] / _mass_unit()[1]),
-            _in_inches(row["material"]),
+            _rounded(row["mass_kg"]),
+            row["material"],
         )
         for i, row in enumerate(rows, 1)
     ]
-    heading = ("item", "part", "count", "t", f"{_mass_unit()[0]} each", "material")
+    heading = ("item", "part", "count", "t", "kg each", "material")
     columns = (12.0, 66.0, 14.0, 20.0, 24.0, 44.0)  # mm
     return table((), [heading, *lines], columns)
 
 
-def _in_inches(material: str) -> str:
-    """Return the name of a material; on a sheet in inches, a density in pounds."""
-    if is_metric():
-        return material
-    from geneva_cli.output.inches import text_in_inches
-
-    return text_in_inches(material)
-
-
 def _mass(kg: float) -> str:
     """Return a mass with its unit, mg where kg would have too many zeros for the field."""
-    if not is_metric():
-        return f"{_rounded(kg / _mass_unit()[1])} lb"
     return f"{_rounded(kg)} kg" if kg >= 1e-3 else f"{_rounded(1e6 * kg)} mg"
-
-
-def _mass_unit() -> tuple[str, float]:
-    return ("kg", 1.0) if is_metric() else ("lb", 0.45359237)
 
 
 def _rounded(mass: float) -> str:

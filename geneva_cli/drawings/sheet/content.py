@@ -16,7 +16,7 @@ from geneva_cli.drawings.sheet.paper import scale_name, smaller
 from geneva_cli.drawings.sheet.view import Block, View
 from geneva_cli.geometry.board import chords
 from geneva_cli.geometry.measure import at, bounds, bounds_of, mapped
-from geneva_cli.geometry.plates import Member, Plate, Stack, in_place, plates, steps_of
+from geneva_cli.geometry.plates import Member, Plate, in_place, plates
 from geneva_cli.geometry.shapes import Circle, Point, Shape, two_arcs
 from geneva_cli.geometry.sheet import HATCH, OUTLINE, Sheet, line, rectangle
 from geneva_cli.motion.machine_spec import Spec
@@ -48,8 +48,7 @@ def shown_on_sheet(
     boxes = [bounds(plate.outline) for plate in (*apart, *plates(every[-1]))]
     area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
     kinds = enumerate(alike(every), 1)
-    flat = ((i, one) for i, kind in kinds for one in kind if isinstance(one, Plate | Stack))
-    items = {step: i for i, part in flat for step in steps_of(part)}
+    items = {one: i for i, kind in kinds for one in kind if isinstance(one, Plate)}
     # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
     cut = faces(members, 500.0 / max(sizes))
     return SheetContent(members, together, rows, max(sizes), area, items, cut)

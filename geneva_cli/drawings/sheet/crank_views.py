@@ -25,7 +25,6 @@ from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import radius_of
 from geneva_cli.parts.shafts.fits import Fits
-from geneva_cli.parts.shafts.held_hubs import hub_note
 from geneva_cli.spec.written import degrees, length
 
 
@@ -41,7 +40,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
     for hub in hubs:
-        draw_hub(view, hub, hub_note(mechanism.spec.size, "crank"))
+        draw_hub(view, hub)
     bored(view, bores, mechanism.spec.size, "crank")
     arcs = [s for contour in contours for s in contour.segments if isinstance(s, Arc)]
     locking = [

@@ -10,7 +10,7 @@ from functools import partial
 from typing import TypeAlias
 
 from geneva_cli.drawings.part_drawings import machine
-from geneva_cli.drawings.sheet import points, sized
+from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.content import SheetContent, sheet_of, shown_on_sheet
 from geneva_cli.drawings.sheet.crank_views import (
     draw_arm,
@@ -30,20 +30,16 @@ from geneva_cli.geometry.sheet import Sheet
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.parts import EdgedParts, Parts
+from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.shafts.fits import Fits
-from geneva_cli.parts.shafts.shaft import FIX
-from geneva_cli.spec.written import length, quantity
+from geneva_cli.spec.written import length, number
 
 
 def sheet(parts: FlatParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
     mechanism, L = parts.mechanism, parts.mechanism.center_distance_mm
     shown = shown_on_sheet(mechanism.spec, parts.members, machine(parts).shapes)
-    tolerance = parts.tolerance or 0.0
     fixed = [
-        *points.tables(parts.outlines, tolerance),
-        *points.gear_tables(mechanism, tolerance),
         *round_parts((*parts.links.joined, *parts.spacers), mechanism),
         *layout(mechanism),
     ]
@@ -64,7 +60,6 @@ def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View
         yield view
     yield from rolling(begin, parts.mechanism)
     yield from linked(begin, parts)
-    yield from geared(begin, parts)
     yield from _standing(parts, begin)
 
 
@@ -110,7 +105,7 @@ def layout(mechanism: Mechanism) -> list[Block]:
     rows = [("drive", "x or value", "y or unit")]
     rows += [(p.name, length(p.x_mm), length(p.y_mm)) for p in own if isinstance(p, Pivot)]
     rows += [
-        (d.name, *((d.value, d.unit) if isinstance(d.value, str) else quantity(d.value, d.unit)))
+        (d.name, d.value if isinstance(d.value, str) else number(d.value), d.unit)
         for d in own
         if isinstance(d, Dimension)
     ]
@@ -126,7 +121,7 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: Parts) -> 
     Its fits are those of the process, for the thickness of the first part.
     """
     process, to_fix = parts.mechanism.spec.size.process, parts.to_fix
-    unborne = {one.name for one in parts.unborne}
+    unborne = {name for name, _ in parts.unborne}
 
     def begin(*names: str, thick: bool = True) -> View:
         titles: list[str] = []
@@ -148,32 +143,11 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: Parts) -> 
 
 
 def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
-    """Yield views of links and round gears, each once; two wheels in series have no gears."""
+    """Yield views of links, each once."""
     bars = parts.links
     for one in {member.part: member for member in bars.cut}.values():
         view = begin(one.part.name)
         draw_link(view, one, bars, parts.mechanism)
-        yield view
-    for gear in parts.toothed:
-        from geneva_cli.drawings.sheet.gears import draw_gear  # most machines have no gears
-
-        view = begin(gear.name)
-        draw_gear(view, gear, parts.mechanism.spec.size)
-        yield view
-
-
-def geared(begin: Begin, parts: EdgedParts) -> Iterator[View]:
-    """Yield the view of noncircular gears in mesh, if there are any."""
-    if parts.gear_pair:
-        from geneva_cli.drawings.sheet.gears import draw_gears
-        from geneva_cli.parts.gears.gear_curves import pair_teeth
-
-        names = [member.part.name for member in parts.gear_pair]
-        view, to_fix = begin(*names), set(names).intersection(parts.to_fix)
-        if len(to_fix) == 1:  # of the two gears in this view
-            view.notes[view.notes.index(FIX)] = f"{to_fix.pop()}: {FIX}"
-        size = parts.mechanism.spec.size
-        draw_gears(view, parts.gear_pair, size, pair_teeth(parts.mechanism.spec.gears, size))
         yield view
 
 

@@ -8,22 +8,22 @@ from geneva_cli.parts.shafts.fits import Fits, toleranced
 from geneva_cli.parts.shafts.screws import SCREWS, screw_through
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.workshops import workshop
-from geneva_cli.spec.written import deviation, length
+from geneva_cli.spec.written import length
 
 
-def plain(value: float, sign: str = "", off: float = 0.0, fine: bool = False) -> str:
-    """Return a size, with a plus-minus deviation ``off`` if it is not 0; ``fine`` in any case.
+def plain(value: float, sign: str = "", off: float = 0.0) -> str:
+    """Return a size, with a plus-minus deviation ``off`` if it is not 0.
 
     >>> plain(5.0, "R "), plain(100.0, off=0.02)
     ('R 5', '100 ±0.02')
     """
-    shown = f"{sign}{length(value, fine or off > 0.0)}"
-    return f"{shown} ±{deviation(off)}" if off else shown
+    shown = f"{sign}{length(value)}"
+    return f"{shown} ±{off:g}" if off else shown
 
 
 def fitted(fits: Fits, value: float, sign: str, fit: str, off: float = 0.0) -> str:
     """Return a size with its deviation if the spec has one, otherwise with a fit."""
-    shown = plain(value, sign, off, fine=True)
+    shown = plain(value, sign, off)
     return shown if off else fits.text(value, shown, fit)
 
 
@@ -49,7 +49,7 @@ def made(fits: Fits, mechanism: Mechanism, what: str, half: float) -> str:
     if what != "pin hole" or is_pressed:
         return shown
     pin = 2.0 * half + clear.press_fit_mm
-    return f"{shown}, drill and ream to {toleranced(pin, plain(pin, 'Ø ', fine=True), 'P7')}"
+    return f"{shown}, drill and ream to {toleranced(pin, plain(pin, 'Ø '), 'P7')}"
 
 
 def bore(fits: Fits, radius: float) -> str:

@@ -9,13 +9,13 @@ from typing import NamedTuple
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.geometry.measure import at, bounds
-from geneva_cli.geometry.plates import Plate, Stack
+from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, polygon
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.mounted_plate import mounts_of
 from geneva_cli.parts.outlines.wheel_circles import about_axis
-from geneva_cli.parts.shafts.bores import Bore, around, bore_in, radius_of, section_note
+from geneva_cli.parts.shafts.bores import Bore, around, bore_of, radius_of, section_note
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.written import length, number
 
@@ -64,7 +64,7 @@ def draw_frame(
 def draw_groove(
     view: View, flanks: tuple[Shape, ...], half: float, plate: Plate | None = None
 ) -> None:
-    """Draw a cam's groove, in its plate if there is one; a table has the groove's points."""
+    """Draw a cam's groove, in its plate if there is one."""
     round_ = (plate.outline, *plate.holes) if plate else ()
     mounts = [hole for hole in round_[1:] if isinstance(hole, Circle) and math.hypot(*hole.centre)]
     for shape in (*round_, *flanks):
@@ -76,6 +76,7 @@ def draw_groove(
     outer = max(places, key=lambda p: math.hypot(*p))
     view.cross((0.0, 0.0), math.hypot(*outer))
     view.note(outer, f"groove {sized.fitted(view.fits, 2.0 * half, '', 'H7')} wide")
+    view.remark("flanks as in the groove's dxf")
     for hole in round_:
         if isinstance(hole, Circle) and hole not in mounts:
             text = sized.plain(2.0 * hole.radius, "Ø ")
@@ -83,34 +84,24 @@ def draw_groove(
     bolted(view, mounts)
 
 
-def draw_hub(view: View, hub: Plate, screw: str) -> None:
-    """Draw the diameter of a hub that is already drawn, and note its screw, if it has one."""
+def draw_hub(view: View, hub: Plate) -> None:
+    """Draw the diameter of a hub that is already drawn."""
     radius = around(hub.outline)
     whole = Circle(hub.layer, ORIGIN, radius)
     view.diameter([whole], f"{hub.name} {sized.plain(2.0 * radius, 'Ø ')}")
-    if screw:
-        view.remark(screw)
 
 
-def draw_shaft(view: View, shaft: Plate | Stack) -> None:
-    """Draw a shaft from the side, with the size and length of each step."""
-    steps = [shaft] if isinstance(shaft, Plate) else list(shaft.plates)
-    long, first = shaft.thickness, around(steps[0].outline)
-    for step in steps:
-        low, high, radius = step.low - shaft.low, step.high - shaft.low, around(step.outline)
-        corners = [(low, -radius), (high, -radius), (high, radius), (low, radius)]
-        view.draw(polygon("", corners), OUTLINE)
+def draw_shaft(view: View, shaft: Plate) -> None:
+    """Draw a shaft from the side."""
+    long, radius = shaft.thickness, around(shaft.outline)
+    corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
+    view.draw(polygon("", corners), OUTLINE)
     view.centre_line((0.0, 0.0), (long, 0.0))
-    view.linear((0.0, -first), (long, -first), 0.0, length(long))
-    if isinstance(shaft, Plate):
-        view.linear((0.0, -first), (0.0, first), 0.5 * math.pi, _diameter(view, shaft.outline))
-        note = section_note(shaft.outline)
-        if note:
-            view.remark(note if view.fits.turned.is_iso else note.replace(" P9", ""))
-        return
-    for step in steps:
-        radius, size = around(step.outline), f"{length(step.thickness)} long"
-        view.remark(f"{sized.plain(2.0 * radius, 'Ø ')}, {size}: {step.name}")
+    view.linear((0.0, -radius), (long, -radius), 0.0, length(long))
+    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, _diameter(view, shaft.outline))
+    note = section_note(shaft.outline)
+    if note:
+        view.remark(note if view.fits.turned.is_iso else note.replace(" P9", ""))
 
 
 def _diameter(view: View, section: Shape) -> str:
@@ -143,9 +134,11 @@ def bored(view: View, bores: Sequence[Shape], size: Size, part: str, axis: Point
     for shape in bores[:1]:
         form: Bore = Bore(radius_of(shape))
         if isinstance(shape, Contour):
-            form = bore_in(size, part, shape).cut
-        if form.is_round:
-            view.diameter([Circle("", axis, form.radius)], sized.bore(view.fits, form.radius))
+            # without the rounding errors of the sum, which would choose another key
+            form = bore_of(size, part, round(form.radius - size.allowances.around_shaft_mm, 9))
+        if form.form != "hex":
+            cut = form.radius + form.loose
+            view.diameter([Circle("", axis, cut)], sized.bore(view.fits, cut))
         if isinstance(shape, Contour):
             x, y = at(shape.segments[0], 0.5)
             turn = math.degrees(math.atan2(y, x))

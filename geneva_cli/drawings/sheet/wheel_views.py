@@ -19,12 +19,11 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.slot_ends import cut_walls
 from geneva_cli.parts.projection import outlines_of
-from geneva_cli.parts.shafts.held_hubs import hub_note
 from geneva_cli.spec.written import degrees, length
 
 
 def draw_wheel(view: View, parts: FlatParts) -> None:
-    """Draw the wheel with all its dimensions; a table has the points of curved slots."""
+    """Draw the wheel with all its dimensions but the flanks of curved slots."""
     outlines = parts.outlines
     assembly, sizes = outlines.assembly, outlines.sizes
     wheel, *hubs = plates(parts.wheel.part)
@@ -45,6 +44,9 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
         number_of = sum(1 for one, _ in assembly.slots if one is engagement)
         if not engagement.slot.curved:
             _slot(view, outlines, engagement, number_of)
+            continue
+        width = sized.made(view.fits, assembly.mechanism, "slot", sizes.half_width)
+        view.remark(f"{times(number_of, 'slot')}, {width} wide: flanks as in the wheel's dxf")
     up = 0.5 * math.pi
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
     _steps(view, outlines, reach)
@@ -59,7 +61,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     if sizes.arm - sizes.half_width - sizes.recess < sizes.horn_tip:
         view.remark(f"horns cut square to the slots where they are {length(sizes.horn_tip)} wide")
     for hub in hubs:
-        draw_hub(view, hub, hub_note(assembly.mechanism.spec.size, "wheel"))
+        draw_hub(view, hub)
     bored(view, bores, assembly.mechanism.spec.size, "wheel")
     bolted(view, screwed)
 

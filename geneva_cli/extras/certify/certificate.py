@@ -22,10 +22,8 @@ from geneva_cli.table import Table, rows_table
 
 if TYPE_CHECKING:
     from geneva_cli.extras.certify.balls import Ball
-    from geneva_cli.extras.certify.decimals import Formula
     from geneva_cli.extras.certify.enclosures import BoundedSpan, Greatest
 
-DECIMALS, DOUBLES = "the decimals as written", "the spec's numbers as doubles"
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
 DIGITS = 15  # that are printed: as many as every double keeps
 NARROW_DEG = 1e-6  # a narrower place is one angle for people
@@ -69,7 +67,6 @@ class Certificate(NamedTuple):
     mirrored: bool  # True for two places that mirror each other
     intervals: int
     open: Open | None
-    about: str = DOUBLES
 
     @property
     def proved(self) -> bool:
@@ -128,13 +125,10 @@ class Certificate(NamedTuple):
         return near and self.low * (1.0 - TIE) <= size <= self.high * (1.0 + TIE)
 
 
-def certificate(
-    mechanism: Mechanism, quantity: str, limit: int = LIMIT, decimals: bool = True
-) -> Certificate:
+def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Certificate:
     """The certificate of a machine's peak over all its engagements, with so many intervals each.
 
-    It is about the decimals of the spec, for machines whose formulas allow it and unless
-    ``decimals`` is False; else about the spec's numbers as doubles. Loads are about doubles.
+    It is about the spec's numbers as doubles.
 
     Raises GenevaError without python-flint, and for a quantity that has no certificate.
     """
@@ -150,26 +144,22 @@ def certificate(
     if find_spec("flint") is None:
         raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
     from geneva_cli.extras.certify.balls import precision
-    from geneva_cli.extras.certify.decimals import exact_rates
     from geneva_cli.extras.certify.enclosures import greatest
 
     each = mechanism.engagements
     with precision():
-        exact = exact_rates(mechanism) if decimals and quantity in QUANTITIES else None
         peaks: list[Greatest] = []
-        for i, e in enumerate(each):
+        for e in each:
             if quantity in LOADS:
                 formula = load_formula(mechanism, e, quantity)
             else:
-                formula = _peak(exact[i] if exact else e.motion.rate, quantity)
-            # in doubles a motion has the seams that the program computes it with
-            seams = (e.entry_deg, e.exit_deg) if exact else {*e.motion.seams_deg, *e.slot.seams_deg}
-            peaks.append(greatest(_curve(formula), seams, limit, not exact))
-    about = DECIMALS if exact else DOUBLES
-    return _combined(mechanism, quantity, peaks)._replace(about=about)
+                formula = _peak(e.motion.rate, quantity)
+            seams = {*e.motion.seams_deg, *e.slot.seams_deg}
+            peaks.append(greatest(_curve(formula), seams, limit))
+    return _combined(mechanism, quantity, peaks)
 
 
-def _peak(rate: Formula, quantity: str) -> Formula:
+def _peak(rate: Callable[[Number, int], Jet], quantity: str) -> Callable[[Number, int], Jet]:
     """Velocity, acceleration, jerk or power from the wheel's rate."""
 
     def formula(x: Number, order: int) -> Jet:
@@ -184,7 +174,7 @@ def _peak(rate: Formula, quantity: str) -> Formula:
     return formula
 
 
-def _curve(formula: Formula) -> Callable[[Ball, int], Sequence[Ball]]:
+def _curve(formula: Callable[[Number, int], Jet]) -> Callable[[Ball, int], Sequence[Ball]]:
     """Taylor coefficients of a formula at a ball of input angles in degrees."""
     from geneva_cli.extras.certify.balls import ball_of
 
@@ -235,7 +225,7 @@ def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> T
     proofs = [certificate(mechanism, quantity) for quantity in QUANTITIES]
     rows = [_row(one) for one in proofs]
     table = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
-    texts = [*(one.text for one in proofs), f"holds for {proofs[0].about}"]
+    texts = [one.text for one in proofs]
     value = tuple(texts) if for_people else table
     return peaks.replaced(names=(*peaks.names, "certificate"), columns=[*peaks.columns, (value,)])
 
@@ -250,9 +240,8 @@ def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[s
     proofs = {name: certificate(mechanism, name) for name, why in reasons.items() if not why}
     if for_people:
         refused = [f"{name}.max not proved: {why}" for name, why in reasons.items() if why]
-        about = [f"holds for {DOUBLES}"] if proofs else []
-        return (*[one.text for one in proofs.values()], *refused, *about)
-    names = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "about", "open")
+        return (*[one.text for one in proofs.values()], *refused)
+    names = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "open")
     none: dict[str, object] = dict.fromkeys(names) | {"places": (), "proved": False, "intervals": 0}
     rows = [
         (_row(proofs[name]) if name in proofs else none | {"quantity": name}) | {"why": why or None}
@@ -270,6 +259,5 @@ def _row(one: Certificate) -> dict[str, object]:
         "places": tuple(map(tuple, one.places)),
         "proved": one.proved,
         "intervals": one.intervals,
-        "about": one.about,
         "open": None if one.open is None else one.open._asdict(),
     }

@@ -7,7 +7,7 @@ enclosed for either.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, TypeAlias, cast
 
 from geneva_cli.loads.contact import contact
@@ -19,7 +19,6 @@ from geneva_cli.numerics.arrays import Undecided, enclosed
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
-    from geneva_cli.extras.certify.decimals import Formula
     from geneva_cli.motion.engagement import Engagement
     from geneva_cli.motion.mechanism import Mechanism
 
@@ -33,8 +32,6 @@ def not_proved(mechanism: Mechanism, quantity: str) -> str:
     """The reason why a load has no certificate; empty if it has one."""
     if not mechanism.spec.is_loaded:
         return f"no load: set {mechanism.spec.load_keys}"
-    if mechanism.unbalanced:
-        return "a body stands off the axis of a wheel on a carrier"
     if quantity != WHEEL_TORQUE and load_case(mechanism).guided:
         return "friction in a rack's guide"
     if quantity == WHEEL_TORQUE or mechanism.engagements[0].slot.walls_flat:
@@ -42,7 +39,9 @@ def not_proved(mechanism: Mechanism, quantity: str) -> str:
     return "the slot is curved, or gears drive for part of the motion"
 
 
-def load_formula(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:
+def load_formula(
+    mechanism: Mechanism, engagement: Engagement, quantity: str
+) -> Callable[[Number, int], Jet]:
     """A load as a jet by the input angle, at one angle in degrees from mid-motion."""
     case = load_case(mechanism)
 

@@ -92,15 +92,14 @@ class _Piece(NamedTuple):
         return a - 3.0 * (b - x), b + 3.0 * (x - a)
 
 
-def greatest(curve: Curve, seams: Iterable[float], limit: int, sharp: bool = True) -> Greatest:
+def greatest(curve: Curve, seams: Iterable[float], limit: int) -> Greatest:
     """The greatest size of a curve from the first seam to the last, with at most so many intervals.
 
-    Between two seams, in degrees, the curve is one analytic formula. The first and the last are
-    exact if ``sharp``; else they are within ``EDGE_DEG`` of the curve's ends.
+    Between two seams, in degrees, the curve is one analytic formula.
     """
     ends = sorted(seams)
     pieces = [
-        _Piece(a, b, sharp and a == ends[0], sharp and b == ends[-1])
+        _Piece(a, b, a == ends[0], b == ends[-1])
         for a, b in pairwise(distinct(ends, 4.0 * EDGE_DEG))  # as near as their errors: one
     ]
     return _Search(curve, limit).run(pieces)

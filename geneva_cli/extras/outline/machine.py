@@ -25,16 +25,14 @@ from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_ranges import FreeRanges, levels
 
 EXACT_MM, MOST_MM = 1e-6, 1e-3  # overlaps that count as touching: of exact arcs, of short lines
-
 OFF_AXIS = 0.05  # of L: farther from the origin is no wheel with a bolt or a slot less
 
 
 class Roller(NamedTuple):
-    """A roller of the crank, mm; ``is_drawn`` if the crank's drawing has it."""
+    """A roller of the crank, mm."""
 
     distance: float  # from the crank's axis
     radius: float
-    is_drawn: bool
     ideal_distance: float  # with which it would enter without an impact
 
 
@@ -55,13 +53,8 @@ class DrawnMachine(NamedTuple):
         """How far the wheel should turn in a turn of the crank, radians."""
         return sum(2.0 * motion.engagement.half_step for motion in self.assembly.motions)
 
-    @property
-    def slots_a_turn(self) -> int:
-        """Number of slots that a turn of the crank should pass."""
-        return len(self.assembly.motions)
-
     def deepest(self, points: Sequence[Point]) -> tuple[float, Point]:
-        """Return how deep points of the crank lie in the wheel in the middle of the dwell, mm.
+        """How deep points of the crank lie in the wheel in the middle of the dwell, mm.
 
         The place is that of the deepest one, in the wheel's own frame; the depth is below 0 if all
         lie outside.
@@ -75,35 +68,49 @@ class DrawnMachine(NamedTuple):
 
 
 def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
-    """Return a machine with the drawings of its ``[outline]``.
+    """A machine with the drawings of its ``[outline]``.
 
     Raises GenevaError for a drawing that cannot be read or is no outline, for a machine that no
     crank turns, and where no part reaches the other.
     """
     spec, place = mechanism.spec, _assembly(mechanism)
-    outline, notes = spec.outline, list[Notice]()
+    notes = list[Notice]()
     wheel, crank = (_drawn(spec, part, notes) for part in ("wheel", "crank"))
     if not (wheel and crank):
         own = parts_of(mechanism).flat.outlines
-    theirs = wheel.contours if wheel else (own.wheel,)
-    ours, roller = _with_rollers(crank, mechanism, place, tuple(own.crank) if not crank else ())
-    rounded = sum(drawn.slack for drawn in (wheel, crank) if drawn)
-    slack = outline.slack_mm or min(max(rounded, EXACT_MM), MOST_MM)
-    L, z = place.L, spec.wheel.z
-    both = Polyarc(theirs), Polyarc(ours)
-    _require_reach(*both, L)
-    if wheel and len(place.kinds) == 1:
-        _require_centre(theirs, L)
-    free = FreeRanges(*both, L, place.sign, math.tau / z, slack)
-    first = place.motions[0]
-    dwell = _dwell_deg(place)
-    start = math.radians(first.entry - 0.5 * dwell)
-    rest = -first.engagement.half_step
+    theirs = tuple(loop.contour for loop in wheel[0]) if wheel else (own.wheel,)
+    ours, roller = _with_rollers(crank[0] if crank else own.crank, mechanism, place)
+    rounded = sum(drawn[1] for drawn in (wheel, crank) if drawn)
+    slack = spec.outline.slack_mm or min(max(rounded, EXACT_MM), MOST_MM)
+    L, both = place.L, (Polyarc(theirs), Polyarc(ours))
+    far, (inner, rim) = float(levels(both[1])[1].max()), levels(both[0])
+    near, most = float(inner.min()), float(rim.max())
+    if both[0].signed(np.zeros((1, 2)))[0] < 0.0:  # the wheel's material lies about its axis
+        near = 0.0
+    if L - far > most or L + far < near:
+        raise GenevaError(
+            f"no part reaches the other. The crank reaches {far:.6g} mm from its axis, the wheel "
+            f"lies {near:.6g} to {most:.6g} mm from its own. The axes are {L:.6g} mm apart: set "
+            "center_distance_mm in [size], and check the drawings' units",
+            ("outline",),
+        )
+    if wheel and len(place.kinds) == 1:  # of equal steps
+        x, y = total(map(moments, theirs)).centroid
+        if math.hypot(x, y) > OFF_AXIS * L:
+            raise GenevaError(
+                f"the drawn wheel's centre is at {shown((x, y))}, but its axis is the drawing's "
+                "origin: move the drawing there",
+                ("outline", "wheel"),
+            )
+    free = FreeRanges(*both, L, place.sign, math.tau / spec.wheel.z, slack)
+    first, last = place.motions[0], place.motions[-1]
+    dwell_deg = first.entry + place.turn_deg - last.exit
+    start, rest = math.radians(first.entry - 0.5 * dwell_deg), -first.engagement.half_step
     return DrawnMachine(place, theirs, ours, roller, free, start, rest, tuple(notes))
 
 
 def crank_jet(mechanism: Mechanism, input_deg: Array) -> tuple[Jet, Array]:
-    """Return the crank's angle, radians, with its derivatives by the input's, and whole turns.
+    """The crank's angle, radians, with its derivatives by the input's, and whole turns.
 
     The angle is within half a turn of mid-motion; the turns are those of the crank beside it.
     """
@@ -112,29 +119,11 @@ def crank_jet(mechanism: Mechanism, input_deg: Array) -> tuple[Jet, Array]:
     whole = np.round((input_deg - first.mid_deg) / turn_deg)
     x, y = first.path(input_deg - first.mid_deg - turn_deg * whole, 3)
     out = atan2(y, 1.0 - x) if mechanism.spec.wheel.SIGN > 0.0 else atan2(y, x - 1.0)
-    size = np.zeros(len(input_deg))
-    return Jet([c + size for c in out.c]), whole
-
-
-def _require_centre(wheel: tuple[Contour, ...], L: float) -> None:
-    """Refuse a drawing of equal steps that does not lie about its origin, the wheel's axis."""
-    x, y = total(map(moments, wheel)).centroid
-    if math.hypot(x, y) > OFF_AXIS * L:
-        raise GenevaError(
-            f"the drawn wheel's centre is at {shown((x, y))}, but its axis is the drawing's "
-            "origin: move the drawing there",
-            ("outline", "wheel"),
-        )
-
-
-def _dwell_deg(place: Assembly) -> float:
-    """Return the dwell before the first motion of the plain crank, degrees."""
-    first, last = place.motions[0], place.motions[-1]
-    return first.entry + place.turn_deg - last.exit
+    return Jet([c + np.zeros(len(input_deg)) for c in out.c]), whole
 
 
 def _assembly(mechanism: Mechanism) -> Assembly:
-    """Return the positions of the crank; its rollers must go round its axis."""
+    """The positions of the crank; its rollers must go round its axis."""
     wheel = mechanism.spec.wheel
     if not wheel.FLAT:
         raise GenevaError(
@@ -144,8 +133,7 @@ def _assembly(mechanism: Mechanism) -> Assembly:
         )
     place = assembly(mechanism)
     at = np.linspace(-180.0, 180.0, 9)
-    axis = np.array((place.L, 0.0))
-    first = place.pin(0, at) - axis
+    first = place.pin(0, at) - np.array((place.L, 0.0))
     ahead = np.pi - np.radians(at) if place.sign > 0.0 else np.radians(at)
     R = np.hypot(*first.T)
     aligned = np.abs(first - R[:, None] * np.column_stack((np.cos(ahead), np.sin(ahead)))).max()
@@ -158,19 +146,11 @@ def _assembly(mechanism: Mechanism) -> Assembly:
     return place
 
 
-class _Drawn(NamedTuple):
-    """The outlines of a drawing in the frame of our own, and how far rounding may overlap them."""
+def _drawn(spec: Spec, part: str, notes: list[Notice]) -> tuple[tuple[Loop, ...], float] | None:
+    """The outlines of a part's drawing in the frame of our own, mirrored about x and then turned.
 
-    loops: tuple[Loop, ...]
-    slack: float  # mm
-
-    @property
-    def contours(self) -> tuple[Contour, ...]:
-        return tuple(loop.contour for loop in self.loops)
-
-
-def _drawn(spec: Spec, part: str, notes: list[Notice]) -> _Drawn | None:
-    """Return the outlines of a part's drawing, mirrored about x and then turned; None without."""
+    Beside them is how far rounding may overlap them, mm. None without a drawing.
+    """
     outline = vars(spec.outline)
     file = outline[part]
     if file is None:
@@ -180,7 +160,11 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> _Drawn | None:
     notes += [Notice("outline-units", f"{cut(file, 100)}: {text}") for text in drawn.notes]
     pieces = list(drawn.pieces)
     if outline["mirror"] in (part, "both"):
-        pieces = [_mirrored(piece) for piece in pieces]
+        for i, piece in enumerate(pieces):
+            (x0, y0), (x1, y1) = piece.start, piece.end
+            pieces[i] = Line((x0, -y0), (x1, -y1))
+            if isinstance(piece, Arc):
+                pieces[i] = Arc((x0, -y0), (x1, -y1), -piece.bulge)
     turn = math.radians(outline[f"{part}_turn_deg"])
     pieces = [p for p in turned_pieces(pieces, turn) if not isinstance(p, Cubic)]
     try:
@@ -188,24 +172,16 @@ def _drawn(spec: Spec, part: str, notes: list[Notice]) -> _Drawn | None:
     except GenevaError as error:
         raise GenevaError(f"{cut(path, 300)}: {error}") from None
     if not (drawn.is_exact and any(isinstance(piece, Arc) for piece in pieces)):
-        return _Drawn(own, MOST_MM)  # facets
+        return own, MOST_MM  # facets
     gap = 2.0 * greatest_gap(pieces)  # of numbers that were rounded
-    return _Drawn(own, gap if gap > EXACT_MM else 0.0)
-
-
-def _mirrored(piece: Line | Arc) -> Line | Arc:
-    (x0, y0), (x1, y1) = piece.start, piece.end
-    if isinstance(piece, Arc):
-        return Arc((x0, -y0), (x1, -y1), -piece.bulge)
-    return Line((x0, -y0), (x1, -y1))
+    return own, gap if gap > EXACT_MM else 0.0
 
 
 def _with_rollers(
-    drawn: _Drawn | None, mechanism: Mechanism, place: Assembly, own: tuple[Contour, ...]
+    drawn: Sequence[Loop | Contour], mechanism: Mechanism, place: Assembly
 ) -> tuple[tuple[Contour, ...], Roller]:
-    """Return the crank with its rollers: those that its drawing has, or our own."""
-    axis = np.array((place.L, 0.0))
-    radius = mechanism.roller_radius_mm
+    """The crank with its rollers: those that its drawing has, or our own."""
+    radius, axis = mechanism.roller_radius_mm, np.array((place.L, 0.0))
     # of all rollers, in the crank's frame
     pins = [place.pin(i, np.zeros(1))[0] - axis for i in range(len(place.rollers))]
     ahead = np.pi if place.sign > 0.0 else 0.0
@@ -213,21 +189,25 @@ def _with_rollers(
     R = ideal = abs(turned[0])
     if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
         ideal = place.L * math.sin(math.pi / mechanism.spec.wheel.z)
-    crank, found = own, list[Circle]()
-    if drawn:
-        found = [c for loop in drawn.loops if (c := _as_roller(loop)) is not None]
-        rest = [loop.contour for loop in drawn.loops if _as_roller(loop) is None]
-        crank = (*rest, *map(_round, found))
+    crank, found, is_drawn = list[Contour](), list[Circle](), False
+    for one in drawn:
+        is_drawn = isinstance(one, Loop)
+        circle = _roller(one) if isinstance(one, Loop) else None
+        if circle is None:
+            crank.append(one.contour if isinstance(one, Loop) else one)
+        else:
+            found.append(circle)
     if found:
-        return crank, Roller(math.hypot(*found[0].centre), found[0].radius, True, ideal)
-    if drawn and Polyarc(crank).signed(np.array([(turned[0].real, turned[0].imag)]))[0] < 0.0:
-        return crank, Roller(R, radius, True, ideal)
-    rollers = [_round(Circle("ROLLER", (pin.real, pin.imag), radius)) for pin in turned]
-    return (*crank, *rollers), Roller(R, radius, False, ideal)
+        roller = Roller(math.hypot(*found[0].centre), found[0].radius, ideal)
+        return (*crank, *map(_round, found)), roller
+    pin = np.array([(turned[0].real, turned[0].imag)])
+    if not (is_drawn and Polyarc(crank).signed(pin)[0] < 0.0):
+        crank += [_round(Circle("ROLLER", (pin.real, pin.imag), radius)) for pin in turned]
+    return tuple(crank), Roller(R, radius, ideal)
 
 
 def _round(roller: Circle) -> Contour:
-    """Return a roller as two arcs, whose ends are not where it touches straight slots.
+    """A roller as two arcs, whose ends are not where it touches straight slots.
 
     At an entry both walls touch it across the crank's arm, where ends would count as corners.
     """
@@ -235,39 +215,16 @@ def _round(roller: Circle) -> Contour:
     return closed("ROLLER", two_arcs(roller, across + 1.0))
 
 
-def _as_roller(loop: Loop) -> Circle | None:
-    """Return an outline that is a full circle beside the crank's axis as one."""
-    circle = None if loop.is_hole else _as_circle(loop)
-    return circle if circle and math.hypot(*circle.centre) > circle.radius else None
-
-
-def _as_circle(loop: Loop) -> Circle | None:
-    """Return an outline that is a full circle as one."""
-    pieces = loop.contour.segments
-    if not all(isinstance(piece, Arc) for piece in pieces):
+def _roller(loop: Loop) -> Circle | None:
+    """An outline that is a full circle beside the crank's axis, as one."""
+    first, *_ = pieces = loop.contour.segments
+    if loop.is_hole or not isinstance(first, Arc):
         return None
-    first = pieces[0]
-    assert isinstance(first, Arc)
     near = 1e-6 * first.radius
-    same = [
-        isinstance(p, Arc)
-        and math.dist(p.centre, first.centre) < near
-        and abs(p.radius - first.radius) < near
-        for p in pieces
-    ]
-    return Circle("ROLLER", first.centre, first.radius) if all(same) else None
-
-
-def _require_reach(wheel: Polyarc, crank: Polyarc, L: float) -> None:
-    """Raise GenevaError if no part reaches the other."""
-    far = float(levels(crank)[1].max())
-    inner, rim = (float(v) for v in (levels(wheel)[0].min(), levels(wheel)[1].max()))
-    if wheel.signed(np.zeros((1, 2)))[0] < 0.0:  # its material lies about its axis
-        inner = 0.0
-    if L - far > rim or L + far < inner:
-        raise GenevaError(
-            f"no part reaches the other. The crank reaches {far:.6g} mm from its axis, the wheel "
-            f"lies {inner:.6g} to {rim:.6g} mm from its own. The axes are {L:.6g} mm apart: set "
-            "center_distance_mm in [size], and check the drawings' units",
-            ("outline",),
-        )
+    for p in pieces:
+        if not isinstance(p, Arc) or abs(p.radius - first.radius) >= near:
+            return None
+        if math.dist(p.centre, first.centre) >= near:
+            return None
+    circle = Circle("ROLLER", first.centre, first.radius)
+    return circle if math.hypot(*circle.centre) > circle.radius else None

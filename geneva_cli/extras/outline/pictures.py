@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 
 from geneva_cli.design import Design
 from geneva_cli.extras.outline.contact import contacts
+from geneva_cli.extras.outline.impacts import moving
 from geneva_cli.extras.outline.machine import drawn_machine
 from geneva_cli.extras.outline.real_motion import at_crank, inside, motion, steady_turn
-from geneva_cli.extras.outline.turning import Turned, moving, turned
-from geneva_cli.figure import Curve, Figure
+from geneva_cli.extras.outline.turning import turned
+from geneva_cli.figure import Curve
 from geneva_cli.geometry.plates import placed
-from geneva_cli.geometry.shapes import Contour, Layer, Shape
+from geneva_cli.geometry.shapes import Contour, Layer
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg
 from geneva_cli.output.scene import Phase, Push, Scene, Track
-from geneva_cli.parts.turn.lazy_turn import LazyTurn
 from geneva_cli.study.animation.turning_scene import scene
 
 SAMPLES = 721  # of a curve
@@ -29,119 +28,99 @@ DRAWN: Layer = "OUTLINE"
 
 
 def drawn_scene(design: Design) -> Scene:
-    """Return the scene of a design with its drawings in place of the computed outlines.
+    """The scene of a design with its drawings in place of the computed outlines.
 
     Raises GenevaError if the wheel jams.
     """
-    result = turned(design.mechanism)
-    turn, machine, shown = steady_turn(result), result.machine, scene(design)
-    wheel, crank, *_ = shown.bodies
-    time = _Time(design.mechanism, result, turn)
+    result, shown = turned(design.mechanism), scene(design)
+    turn, machine = steady_turn(result), result.machine
+    start, entry = (
+        first_entry_deg(design.mechanism),
+        math.radians(machine.assembly.motions[0].entry),
+    )
+
+    def time(crank: float) -> float:
+        """Input degrees from the start; angles before the first entry come a turn later."""
+        late = 360.0 if crank < entry - 1e-9 else 0.0
+        return max(0.0, machine.assembly.to_input(math.degrees(crank) + late) - start)
+
+    # the wheel's angle over the turn, with slopes between those on both sides: no cubic overshoots
+    after = turn.crank >= entry - 1e-9
+    order = np.concatenate((np.flatnonzero(after), np.flatnonzero(~after)))
+    angle = (turn.wheel + np.where(after, 0.0, turn.gained))[order]
+    at = np.array([time(x) for x in turn.crank[order].tolist()])
+    keep = np.append(np.diff(at) > 1e-6, True)
+    at, angle = at[keep], angle[keep]
+    rate = np.diff(angle) / np.diff(at)
+    pairs = rate[:-1] * rate[1:]
+    mean = 2.0 * pairs / np.where(pairs > 0.0, rate[:-1] + rate[1:], 1.0)
+    slope = np.concatenate((rate[:1], np.where(pairs > 0.0, mean, 0.0), rate[-1:]))
+    track = Track(tuple(at.tolist()), tuple(angle.tolist()), tuple(slope.tolist()), turn.gained)
+    # the contact points of each push, with the direction in which the wheel's point goes
+    pushes, stretches = [], []
+    for push in moving(turn):
+        crank = np.linspace(push.begin + 1e-9, push.end - 1e-6, PLACES)
+        wheel, _ = at_crank(result, turn, crank)
+        found = contacts(machine.free, crank, wheel)
+        known = np.flatnonzero(found.is_known)
+        z = (found.point[:, 0] + 1j * found.point[:, 1]) * np.exp(1j * wheel)
+        way = 1j * z / np.abs(z) * TOUCHES
+        places = tuple(time(x) for x in crank[known].tolist())
+        columns = (z.real, z.imag, way.real, way.imag)
+        pushes.append(Push(places, *(tuple(each[known].tolist()) for each in columns)))
+        stretches.append((time(push.begin), time(push.end)))
+    # the stretches in which the wheel rests or is pushed
+    states, last, whole = [], 0.0, shown.turn_deg
+    for begin, end in sorted(stretches):
+        if begin > end:  # it goes on beyond the end of the turn
+            end = whole
+        if begin > last + 1e-9:
+            states.append(Phase(last, begin, False, "the wheel rests"))
+        states.append(Phase(max(begin, last), end, True, "the crank pushes the wheel"))
+        last = end
+    if last < whole - 1e-9:
+        states.append(Phase(last, whole, False, "the wheel rests"))
+    # the real velocity in place of all ideal curves, with both ends of each push
+    figure = shown.figure
+    panel = next(panel for panel in figure.panels if panel.y.name == "velocity")
+    ends = [time(x) for push in turn.pushes for x in inside(push)]
+    ends = [x for end in ends for x in (end - 1e-4, end, end + 1e-4)]
+    even = np.linspace(*figure.window, SAMPLES)
+    x = np.unique(np.clip(np.append(even, start + np.array(ends)), *figure.window)).tolist()
+    y = np.asarray(motion(design.mechanism, 2, x)["velocity"]).tolist()
+    curve = Curve(panel.curves[0].number, panel.curves[0].name, ((x, y),))
+    own, other, *_ = shown.bodies
     bodies = (
-        wheel._replace(shapes=_layered(machine.wheel, "WHEEL"), angle=time.track()),
-        crank._replace(shapes=_layered(machine.crank, "CRANK")),
+        own._replace(shapes=_layered(machine.wheel, "WHEEL"), angle=track),
+        other._replace(shapes=_layered(machine.crank, "CRANK")),
     )
     return shown._replace(
         caption=f"{shown.caption} Wheel and crank as drawn, moved by what touches.",
         bodies=bodies,
         rollers=(),
-        pushes=tuple(_contacts(result, turn, time)),
-        states=tuple(_states(turn, time, shown.turn_deg)),
-        figure=_figure(shown.figure, design.mechanism, time),
+        pushes=tuple(pushes),
+        states=tuple(states),
+        figure=figure._replace(panels=(panel._replace(curves=(curve,)),), shaded=()),
     )
 
 
-class _Time:
-    """The times of a scene, input degrees from its start, at crank angles of a turn."""
-
-    def __init__(self, mechanism: Mechanism, result: Turned, turn: LazyTurn) -> None:
-        self.to_input, self.turn = result.machine.assembly.to_input, turn
-        self.start = first_entry_deg(mechanism)
-        self.entry = math.radians(result.machine.assembly.motions[0].entry)
-
-    def at(self, crank: float) -> float:
-        """The time at a crank angle, radians; angles before the first entry come a turn later."""
-        late = 360.0 if crank < self.entry - 1e-9 else 0.0
-        return max(0.0, self.to_input(math.degrees(crank) + late) - self.start)
-
-    def track(self) -> Track:
-        """The wheel's angle over the turn."""
-        turn = self.turn
-        after = turn.crank >= self.entry - 1e-9
-        order = np.concatenate((np.flatnonzero(after), np.flatnonzero(~after)))
-        value = (turn.wheel + np.where(after, 0.0, turn.gained))[order]
-        at = np.array([self.at(float(x)) for x in turn.crank[order]])
-        keep = np.append(np.diff(at) > 1e-6, True)
-        at, value = at[keep], value[keep]
-        rate = np.diff(value) / np.diff(at)
-        # slopes between those on both sides, so that no cubic overshoots
-        pairs = rate[:-1] * rate[1:]
-        mean = 2.0 * pairs / np.where(pairs > 0.0, rate[:-1] + rate[1:], 1.0)
-        slope = np.concatenate((rate[:1], np.where(pairs > 0.0, mean, 0.0), rate[-1:]))
-        knots, values, slopes = (tuple(each.tolist()) for each in (at, value, slope))
-        return Track(knots, values, slopes, turn.gained)
-
-
-def _layered(contours: tuple[Contour, ...], layer: Layer) -> tuple[Shape, ...]:
+def _layered(contours: tuple[Contour, ...], layer: Layer) -> tuple[Contour, ...]:
     return tuple(contour._replace(layer=layer) for contour in contours)
 
 
-def _contacts(result: Turned, turn: LazyTurn, time: _Time) -> Iterator[Push]:
-    """Yield the contact points of each push, with the direction in which the wheel's point goes."""
-    for push in moving(turn):
-        crank = np.linspace(push.begin + 1e-9, push.end - 1e-6, PLACES)
-        wheel, _ = at_crank(result, turn, crank)
-        found = contacts(result.machine.free, crank, wheel)
-        known = np.flatnonzero(found.is_known)
-        z = (found.point[:, 0] + 1j * found.point[:, 1]) * np.exp(1j * wheel)
-        way = 1j * z / np.abs(z) * TOUCHES
-        at = [time.at(float(x)) for x in crank[known]]
-        columns = (z.real, z.imag, way.real, way.imag)
-        yield Push(tuple(at), *(tuple(each[known].tolist()) for each in columns))
-
-
-def _states(turn: LazyTurn, time: _Time, whole: float) -> Iterator[Phase]:
-    """Yield the stretches of a turn in which the wheel rests or is pushed."""
-    stretches = sorted((time.at(p.begin), time.at(p.end)) for p in moving(turn))
-    last = 0.0
-    for begin, end in stretches:
-        if begin > end:  # it goes on beyond the end of the turn
-            end = whole
-        if begin > last + 1e-9:
-            yield Phase(last, begin, False, "the wheel rests")
-        yield Phase(max(begin, last), end, True, "the crank pushes the wheel")
-        last = end
-    if last < whole - 1e-9:
-        yield Phase(last, whole, False, "the wheel rests")
-
-
-def _figure(figure: Figure, mechanism: Mechanism, time: _Time) -> Figure:
-    """The real velocity in place of all ideal curves, with both ends of each push."""
-    panel = next(panel for panel in figure.panels if panel.y.name == "velocity")
-    ends = [time.at(x) for push in time.turn.pushes for x in inside(push)]
-    ends = [x for end in ends for x in (end - 1e-4, end, end + 1e-4)]
-    even = np.linspace(*figure.window, SAMPLES)
-    x = np.unique(np.clip(np.append(even, time.start + np.array(ends)), *figure.window))
-    rows = motion(mechanism, 2, x.tolist())
-    y = np.asarray(rows.columns[rows.names.index("velocity")])
-    curve = Curve(panel.curves[0].number, panel.curves[0].name, ((x.tolist(), y.tolist()),))
-    return figure._replace(panels=(panel._replace(curves=(curve,)),), shaded=())
-
-
 def over(mechanism: Mechanism, drawing: Drawing) -> Drawing:
-    """Return a drawing of our own part with that of somebody else over it, on layer OUTLINE.
+    """A drawing of our own part with that of somebody else over it, on layer OUTLINE.
 
     Drawings of other parts than wheel, crank and assembly are returned as they are.
     """
-    machine = drawn_machine(mechanism)
-    outline, place = mechanism.spec.outline, machine.assembly
+    machine, outline = drawn_machine(mechanism), mechanism.spec.outline
     shapes: list[Contour] = []
     has_wheel, has_crank = (layer in drawing.layers for layer in ("WHEEL", "CRANK"))
     if outline.wheel is not None and has_wheel:
         shapes += machine.wheel
     if outline.crank is not None and has_crank:
         turn = float(machine.free.crank_direction(np.zeros(1))[0])
-        at, turn = ((place.L, 0.0), turn) if has_wheel else ((0.0, 0.0), 0.0)
+        at, turn = ((machine.assembly.L, 0.0), turn) if has_wheel else ((0.0, 0.0), 0.0)
         shapes += [placed(shape, at, turn) for shape in machine.crank]
-    added = tuple(shape._replace(layer=DRAWN) for shape in shapes)
+    added = _layered(tuple(shapes), DRAWN)
     return drawing._replace(shapes=(*drawing.shapes, *added), solid=None, look=None)

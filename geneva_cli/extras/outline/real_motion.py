@@ -14,9 +14,9 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.contact import contacts
-from geneva_cli.extras.outline.impact_force import Struck, struck_by
+from geneva_cli.extras.outline.impacts import Struck, hardest_impact, moving, struck_by
 from geneva_cli.extras.outline.machine import crank_jet
-from geneva_cli.extras.outline.turning import LOOSE, Turned, hardest_impact, moving, turned
+from geneva_cli.extras.outline.turning import LOOSE, Turned, turned
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import (
     check_samples,
@@ -33,12 +33,11 @@ from geneva_cli.table import Table, record_table
 
 FINE = 33  # places about a peak, in each round of the search
 ROUNDS = 6
-FIELDS = ("max", "at_deg", "entry", "exit")
 QUANTITIES = ("velocity", "acceleration", "jerk", "power")
 
 
 def steady_turn(result: Turned) -> LazyTurn:
-    """Return the last turn of the crank forwards, after which the wheel rests as before.
+    """The last turn of the crank forwards, after which the wheel rests as before.
 
     Raises GenevaError if the wheel jams or is not turned.
     """
@@ -50,8 +49,7 @@ def steady_turn(result: Turned) -> LazyTurn:
     turns = result.senses[0].turns
     if result.rest.high - result.rest.low < LOOSE:
         return turns[0]
-    steps = (len(turns) - 1) * result.machine.step
-    last = turns[-1]
+    steps, last = (len(turns) - 1) * result.machine.step, turns[-1]
     pushes = tuple(
         p._replace(begin_wheel=p.begin_wheel - steps, end_wheel=p.end_wheel - steps)
         for p in last.pushes
@@ -61,7 +59,7 @@ def steady_turn(result: Turned) -> LazyTurn:
 
 
 def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = None) -> Table:
-    """Return ``samples`` rows, evenly spaced in the input angle, over a period from the entry.
+    """``samples`` rows, evenly spaced in the input angle, over a period from the entry.
 
     With ``at_deg`` they are at those input angles from mid-motion instead. Raises GenevaError for a
     number of samples out of range, angles that are no numbers, and if the wheel does not turn.
@@ -76,7 +74,7 @@ def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = 
     theta, whole = crank_jet(mechanism, input_deg)
     laps = np.floor((theta.c[0] - turn.crank[0]) / math.tau)
     wheel, rates = at_crank(result, turn, theta.c[0] - math.tau * laps)
-    velocity, acceleration, jerk = by_input(wheel, rates, theta)
+    velocity, acceleration, jerk = _by_input(wheel, rates, theta)
     shown = np.degrees(wheel + (whole + laps) * turn.gained)
     columns = [times_s(mechanism, input_deg), input_deg, shown, velocity, acceleration, jerk]
     of_velocity, of_acceleration = rates_at_speed(mechanism).values()
@@ -85,7 +83,7 @@ def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = 
 
 
 def at_crank(result: Turned, turn: LazyTurn, crank: Array) -> tuple[Array, list[Array]]:
-    """Return the wheel's angle and three derivatives by the crank's, at crank angles of a turn.
+    """The wheel's angle and three derivatives by the crank's, at crank angles of a turn.
 
     While it rests the derivatives are 0. At either end of a push they are those inside it.
     """
@@ -108,96 +106,63 @@ def at_crank(result: Turned, turn: LazyTurn, crank: Array) -> tuple[Array, list[
     return wheel, rates
 
 
-def by_input(wheel: Array, rates: Sequence[Array], crank: Jet) -> tuple[Array, ...]:
-    """Return velocity, acceleration and jerk by the input's angle, from those by the crank's."""
+def _by_input(wheel: Array, rates: Sequence[Array], crank: Jet) -> tuple[Array, ...]:
+    """Velocity, acceleration and jerk by the input's angle, from those by the crank's."""
     outer = Jet((wheel, rates[0], rates[1] / 2.0, rates[2] / 6.0))
     return composed(outer, crank).arrays()[1:]
 
 
 def peaks(mechanism: Mechanism) -> Table:
-    """Return the greatest velocity, acceleration, jerk and power, as ``geneva peaks`` prints them.
+    """The greatest velocity, acceleration, jerk and power, as ``geneva peaks`` prints them.
 
     They are those inside the pushes; the hardest impact at a beginning is apart, as ``impact``.
     """
     result = turned(mechanism)
-    turn = steady_turn(result)
-    values: dict[str, object] = {"spec": mechanism.spec.path, "title": mechanism.spec.title or None}
+    turn, place = steady_turn(result), result.machine.assembly
+
+    def quantities(crank: Array) -> dict[str, Array]:
+        """The quantities at crank angles in pushes, by the input's angle."""
+        wheel, rates = at_crank(result, turn, crank)
+        input_deg = np.array([place.to_input(math.degrees(x)) for x in crank.tolist()])
+        velocity, acceleration, jerk = _by_input(wheel, rates, crank_jet(mechanism, input_deg)[0])
+        rows = velocity, acceleration, jerk, velocity * acceleration
+        return dict(zip(QUANTITIES, rows, strict=True))
+
     pushes = moving(turn)
-    ends = np.array((inside(pushes[0])[0], inside(pushes[-1])[1]))
-    best: dict[str, tuple[float, float]] = dict.fromkeys(QUANTITIES, (0.0, math.nan))
+    best = dict.fromkeys(QUANTITIES, (0.0, math.nan))
     for push in pushes:
         rows = turn.crank[(turn.crank >= push.begin) & (turn.crank <= push.end)]
-        grid = np.unique(np.concatenate((rows, (push.begin, push.end))))
-        grid[[0, -1]] = inside(push)
-        known = _quantities(result, turn, mechanism, grid)
+        even = np.unique(np.concatenate((rows, (push.begin, push.end))))
+        even[[0, -1]] = inside(push)
+        known = quantities(even)
         for name in QUANTITIES:
-            found = _peak(result, turn, mechanism, name, (grid, known[name]))
-            if found[0] > best[name][0]:
-                best[name] = found
-    at_ends = _quantities(result, turn, mechanism, ends)
+            grid, values = even, known[name]
+            for k in range(ROUNDS):
+                if k:
+                    values = quantities(grid)[name]
+                top = int(np.argmax(np.abs(values)))
+                size = abs(float(values[top]))
+                if size > best[name][0]:
+                    best[name] = size, float(grid[top])
+                grid = np.linspace(grid[max(top - 1, 0)], grid[min(top + 1, len(grid) - 1)], FINE)
+    at_ends = quantities(np.array((inside(pushes[0])[0], inside(pushes[-1])[1])))
+    values: dict[str, object] = {"spec": mechanism.spec.path, "title": mechanism.spec.title or None}
     for name, (size, at) in best.items():
         values[f"{name}.max"] = size
-        values[f"{name}.at_deg"] = result.machine.assembly.shown_deg(math.degrees(at))
-        first, last = at_ends[name]
-        values[f"{name}.entry"] = abs(float(first))
-        values[f"{name}.exit"] = abs(float(last))
-    begin, end = (_input_deg(result, x) for x in (pushes[0].begin, pushes[-1].end))
-    values["motion_deg"] = end - begin
-    values["dwell_deg"] = mechanism.whole_deg - (end - begin)
+        values[f"{name}.at_deg"] = place.shown_deg(math.degrees(at))
+        if name != "power":
+            entry, exit_ = at_ends[name].tolist()
+            values |= {f"{name}.entry": abs(entry), f"{name}.exit": abs(exit_)}
+    begin, end = (place.to_input(math.degrees(x)) for x in (pushes[0].begin, pushes[-1].end))
+    values |= {"motion_deg": end - begin, "dwell_deg": mechanism.whole_deg - (end - begin)}
     values["stations"] = None
     worst = hardest_impact(result)
-    struck = None if worst is None else struck_by(mechanism, result, worst)
-    for name in Struck._fields:
-        values[f"impact.{name}"] = None if struck is None else getattr(struck, name)
-    fields = {**dict.fromkeys(QUANTITIES, FIELDS), "power": FIELDS[:2]}
-    names = [f"{name}.{field}" for name in QUANTITIES for field in fields[name]]
-    ordered = ("spec", "title", *names, "motion_deg", "dwell_deg", "stations")
-    ordered += tuple(f"impact.{name}" for name in Struck._fields)
-    return record_table({name: values[name] for name in ordered})
+    none = (None,) * len(Struck._fields)
+    struck = none if worst is None else struck_by(mechanism, result, worst)
+    values |= {f"impact.{name}": x for name, x in zip(Struck._fields, struck, strict=True)}
+    return record_table(values)
 
 
 def inside(push: Push) -> tuple[float, float]:
-    """Return crank angles just inside a push, radians, where only its own contact touches."""
+    """Crank angles just inside a push, radians, where only its own contact touches."""
     return push.begin + 1e-9, push.end - 1e-7
-
-
-def _input_deg(result: Turned, crank: float) -> float:
-    """The input angle at a crank angle, degrees, which rises from turn to turn."""
-    return result.machine.assembly.to_input(math.degrees(crank))
-
-
-def _quantities(
-    result: Turned, turn: LazyTurn, mechanism: Mechanism, crank: Array
-) -> dict[str, Array]:
-    """The quantities at crank angles in pushes, by the input's angle."""
-    wheel, rates = at_crank(result, turn, crank)
-    input_deg = np.array([_input_deg(result, float(x)) for x in crank])
-    inner, _ = crank_jet(mechanism, input_deg)
-    velocity, acceleration, jerk = by_input(wheel, rates, inner)
-    power = velocity * acceleration
-    return dict(zip(QUANTITIES, (velocity, acceleration, jerk, power), strict=True))
-
-
-def _peak(
-    result: Turned,
-    turn: LazyTurn,
-    mechanism: Mechanism,
-    name: str,
-    known: tuple[Array, Array],
-) -> tuple[float, float]:
-    """Return the greatest size of a quantity over a push, and its crank angle.
-
-    ``known`` are its values over the push, with their crank angles before them.
-    """
-    grid, values = known
-    best = (0.0, float(grid[0]))
-    for k in range(ROUNDS):
-        if k:
-            values = _quantities(result, turn, mechanism, grid)[name]
-        size = np.abs(values)
-        top = int(np.argmax(size))
-        if size[top] > best[0]:
-            best = float(size[top]), float(grid[top])
-        low, high = grid[max(top - 1, 0)], grid[min(top + 1, len(grid) - 1)]
-        grid = np.linspace(low, high, FINE)
-    return best

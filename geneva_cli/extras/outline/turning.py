@@ -8,31 +8,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.extras.outline.contact import contacts
 from geneva_cli.extras.outline.machine import DrawnMachine, drawn_machine
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.turn.free_ranges import Range
-from geneva_cli.parts.turn.lazy_turn import Jam, LazyTurn, Push, Turner
+from geneva_cli.parts.turn.lazy_turn import STEPS, Jam, LazyTurn, Turner
 
 SETTLED = 1e-9  # radians: the wheel rests where it rested a turn before
-FEW_TRIALS = 2
-TRIALS = 8  # places of rest that are tried over the free range
+FEW_TRIALS, TRIALS = 2, 8  # places of rest that are tried over the free range
 HALVINGS = 10  # of the space between two of them
-LATE = 1e-3  # radians: a push that moves the wheel less is not counted as an impact
 LOOSE = 1e-5  # radians: a smaller range of places of rest is one place
 HELD_MIDDLE = ("detent", "pin")  # they put the wheel back to the middle of its dwell
 SENSES = (1, -1)
-JUST = 1e-12  # radians after a push begins
-
-
-class Impact(NamedTuple):
-    """The velocity of the wheel, of the crank's, just after a push begins, and where it does."""
-
-    velocity: float
-    crank: float  # radians
-    wheel: float
-    way: int
+MOST = 0.02  # of L, and at most half a roller's radius: with more slack it is another wheel
+CLOSE = 1.02  # of the greatest slack with which it jams: closer is not asked
 
 
 class SenseResult(NamedTuple):
@@ -62,50 +50,42 @@ class Turned(NamedTuple):
     senses: tuple[SenseResult, SenseResult]
     rest: Range  # where the wheel may stand in the dwell
     is_held: bool  # the outlines hold the wheel in the dwell
-
-    @property
-    def turns(self) -> bool:
-        """True if it turns in both senses, from the middle of its dwell on."""
-        passes = all(sense.jam is None for sense in self.senses)
-        return self.rest.is_free and passes and self.has_indexed
-
-    @property
-    def has_indexed(self) -> bool:
-        """True if the wheel has gone on by more than half of a step in each sense."""
-        return all(goes_on(self.machine, sense.first, sense.way) for sense in self.senses)
+    has_indexed: bool  # it has gone on by more than half of a step in each sense
+    turns: bool  # in both senses, from the middle of its dwell on
 
 
 @lru_cache(maxsize=4)
 def turned(mechanism: Mechanism) -> Turned:
-    """Return the turn of a machine with drawn outlines. Raises GenevaError as its drawings do."""
+    """The turn of a machine with drawn outlines. Raises GenevaError as its drawings do."""
     machine = drawn_machine(mechanism)
     turner = Turner(machine.free, machine.start)
-    rest = turner.rest(machine.rest)
+    is_free, low, high = turner.rest(machine.rest)
     # an outline wholly inside the wheel meets none of its edges
     depth, _ = machine.deepest([contour.segments[0].start for contour in machine.crank])
-    if depth > 2.0 * machine.free.slack:
-        rest = rest._replace(is_free=False)
+    is_free = is_free and depth <= 2.0 * machine.free.slack
     half = 0.5 * math.tau / mechanism.spec.wheel.z
-    low, high = max(rest.low, machine.rest - half), min(rest.high, machine.rest + half)
-    is_held = rest.is_free and high - low < 2.0 * half * (1.0 - 1e-9)
-    is_put_back = put_back(machine, Range(rest.is_free, low, high))
-    senses = tuple(one_sense(turner, machine, way, is_put_back) for way in SENSES)
-    limited = Range(rest.is_free, low, high)
-    return Turned(machine, turner, (senses[0], senses[1]), limited, is_held)
+    rest = Range(is_free, max(low, machine.rest - half), min(high, machine.rest + half))
+    is_held = is_free and rest.high - rest.low < 2.0 * half * (1.0 - 1e-9)
+    is_put_back = put_back(machine, rest)
+    forwards, backwards = (_one_sense(turner, machine, way, is_put_back) for way in SENSES)
+    both = forwards, backwards
+    has_indexed = all(_goes_on(machine, sense.first, sense.way) for sense in both)
+    turns = is_free and has_indexed and not any(sense.jam for sense in both)
+    return Turned(machine, turner, both, rest, is_held, has_indexed, turns)
 
 
-def goes_on(machine: DrawnMachine, turn: LazyTurn, way: int) -> bool:
-    """Return whether a turn of the crank brings the wheel on by more than half of its step."""
+def _goes_on(machine: DrawnMachine, turn: LazyTurn, way: int) -> bool:
+    """Whether a turn of the crank brings the wheel on by more than half of its step."""
     return turn.jam is None and way * turn.gained > 0.5 * machine.step
 
 
 def put_back(machine: DrawnMachine, rest: Range) -> bool:
-    """Return whether the wheel begins each turn of the crank in the middle of its dwell."""
+    """Whether the wheel begins each turn of the crank in the middle of its dwell."""
     held_by = machine.assembly.mechanism.spec.wheel.held_by
     return held_by in HELD_MIDDLE or rest.high - rest.low < LOOSE
 
 
-def one_sense(
+def _one_sense(
     turner: Turner, machine: DrawnMachine, way: int, is_put_back: bool, exact: bool = True
 ) -> SenseResult:
     """Turn the crank until the wheel has made a turn, jams, or rests as a turn before.
@@ -113,27 +93,26 @@ def one_sense(
     Something may put it back to the middle of its dwell after each turn of the crank. Without
     ``exact`` the angles at which pushes begin and end are those of the grid.
     """
-    z, rest = machine.assembly.mechanism.spec.wheel.z, machine.rest
+    z, a_turn = machine.assembly.mechanism.spec.wheel.z, len(machine.assembly.motions)
     is_alike = machine.free.period < 6.0  # one sector stands for all
-    every = max(1, round(z / machine.slots_a_turn))
     out: list[LazyTurn] = []
-    at, drift = rest, 0.0
-    for k in range(every):
+    at, drift = machine.rest, 0.0
+    for k in range(max(1, round(z / a_turn))):
         turn = turner.turn(at, 1, way, exact)
         out.append(turn)
         if turn.jam is not None or not len(turn.wheel):
-            return SenseResult(way, tuple(out), k * machine.slots_a_turn, drift)
+            return SenseResult(way, tuple(out), k * a_turn, drift)
         drift = float(turn.wheel[-1]) - at - way * machine.step
         at = float(turn.wheel[-1])
         if is_put_back:
-            at = rest + (k + 1) * way * machine.step
+            at = machine.rest + (k + 1) * way * machine.step
         if is_alike and (is_put_back or abs(drift) < SETTLED):
             break
     return SenseResult(way, tuple(out), z, drift)
 
 
 def turning(result: Turned) -> tuple[float, float] | None:
-    """Return the places of rest around the middle from which the wheel turns; None without any.
+    """The places of rest around the middle from which the wheel turns; None without any.
 
     It tries many turns, which costs more than everything else of a drawing.
     """
@@ -143,8 +122,7 @@ def turning(result: Turned) -> tuple[float, float] | None:
         return None
 
     def goes(rest: float) -> bool:
-        turns = ((turner.turn(rest, 1, way, exact=False), way) for way in SENSES)
-        return all(goes_on(machine, *turn) for turn in turns)
+        return all(_goes_on(machine, turner.turn(rest, 1, way, exact=False), way) for way in SENSES)
 
     middle = min(max(machine.rest, low), high)
     # a lock leaves a short range, and a detent puts the wheel back; else it may stand anywhere
@@ -171,33 +149,39 @@ def turning(result: Turned) -> tuple[float, float] | None:
     return ends[0], ends[1]
 
 
-def moving(turn: LazyTurn) -> list[Push]:
-    """Return the pushes of a turn that move the wheel, not those within its play."""
-    return [push for push in turn.pushes if push.moved > LATE]
+def most_slack_mm(machine: DrawnMachine) -> float:
+    """The greatest slack that is tried, mm."""
+    return min(MOST * machine.assembly.L, 0.5 * machine.roller.radius)
 
 
-def impacts(result: Turned) -> list[Impact]:
-    """Return the impacts of both senses: the velocities at which pushes begin."""
-    out: list[Impact] = []
-    for sense in result.senses:
-        for turn in sense.turns:
-            out += [_impact(result.machine, push, sense.way) for push in moving(turn)]
-    return out
+def least_slack_mm(result: Turned) -> float | None:
+    """The least slack with which the wheel turns, mm: that which it has if it turns.
 
+    It is known within 2 %, and turns with what is returned. None if it does not turn with 0.02 L,
+    or half a roller's radius.
 
-def hardest_impact(result: Turned) -> Impact | None:
-    """Return the hardest impact, the one forwards of two that are equal; None without any."""
-    every = impacts(result)
-    return max(every, key=lambda one: (round(abs(one.velocity), 4), one.way), default=None)
+    Source: bisection of the slack's logarithm.
+    """
+    machine = result.machine
 
+    def turns(slack: float) -> bool:
+        """Whether it turns in both senses from the middle of its dwell."""
+        turner = Turner(machine.free.with_slack(slack), machine.start, STEPS // 2)
+        rest = turner.rest(machine.rest)
+        for way in SENSES if rest.is_free else ():
+            sense = _one_sense(turner, machine, way, put_back(machine, rest), exact=False)
+            if sense.jam is not None or not _goes_on(machine, sense.first, way):
+                return False
+        return rest.is_free
 
-def _impact(machine: DrawnMachine, push: Push, way: int) -> Impact:
-    impact = Impact(math.nan, push.begin, push.begin_wheel, way)
-    crank, wheel = after(impact)
-    _, velocity, *_ = contacts(machine.free, crank, wheel).motion(crank)
-    return impact._replace(velocity=float(velocity[0]))
-
-
-def after(impact: Impact) -> tuple[Array, Array]:
-    """Return crank and wheel angles just after an impact, radians, (1,) each."""
-    return np.array([impact.crank + impact.way * JUST]), np.array([impact.wheel])
+    low, high = machine.free.slack, most_slack_mm(machine)
+    if result.turns:
+        return low
+    if high <= low or not turns(high):
+        return None
+    for _ in range(12):
+        if high <= CLOSE * low:
+            break
+        middle = math.sqrt(low * high)
+        low, high = (low, middle) if turns(middle) else (middle, high)
+    return high

@@ -27,12 +27,7 @@ class Arcs(NamedTuple):
 
 
 def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]:
-    """Arcs within ``tolerance`` mm of the curve, and lines where it is straight.
-
-    Adjacent pieces share their tangent, and the first and last have the curve's own.
-
-    Raises GenevaError for a tolerance that double precision cannot show.
-    """
+    """Arcs within ``tolerance`` mm of the curve, without corners; lines where it is straight."""
     path = CurvePath(curve, a, b, tolerance)
     return _joined(fewest(path, _biarcs, 3.0, 2), path.rounding)  # a biarc has 2 arcs
 

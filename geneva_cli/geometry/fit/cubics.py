@@ -28,12 +28,7 @@ class FitTargets(NamedTuple):
 
 
 def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
-    """Cubic Béziers within ``tolerance`` mm of the curve.
-
-    They meet on the curve and have its tangents there.
-
-    Raises GenevaError for a tolerance that double precision cannot show.
-    """
+    """Cubic Béziers within ``tolerance`` mm of the curve, which meet on it with its tangents."""
     corners = fewest(CurvePath(curve, a, b, tolerance), _cubics, 6.0)
     return [Cubic(*row) for row in zip(*map(points_of, corners), strict=True)]
 
@@ -132,8 +127,8 @@ def _near(wanted: FitTargets, handles: Array, v: Array) -> tuple[Array, Array]:
 def _improved(wanted: FitTargets, handles: Array, v: Array, damping: Array | float) -> Array:
     """Handles with smaller squared distances along the normals.
 
-    On a short piece both handles bow it in the same direction, and their difference matters much
-    less. The valley of the error is narrow and bent. So only the difference is damped.
+    On a short piece both handles bow it alike, and their difference matters much less: the valley
+    of the error is narrow and bent. So only the difference is damped.
     """
     u = 1.0 - v
     point, rate, _ = _bezier(wanted, handles, v)

@@ -72,10 +72,7 @@ class CurvePath:
         return bool((np.abs(p1 - p0) > self.tolerance).any())
 
     def inside(self, places: Array, count: int) -> tuple[Array, Array]:
-        """Points and unit tangents at ``count`` + 1 even places in each interval: (n, count + 1).
-
-        They are exact at the path's ends.
-        """
+        """Points and unit tangents at even places in each interval: (n, count + 1)."""
         w = places[:-1, None] + np.diff(places)[:, None] * (np.arange(count + 1) / count)
         w[:, -1] = places[1:]
         points, tangents = self._complex(np.interp(w.ravel(), self.w, self.t))
@@ -97,12 +94,10 @@ def fewest(
 ) -> Pieces:
     """Return the fewest pieces that stay within the path's tolerance, or nearly the fewest.
 
-    They are computed in long numbers at the end. ``fit`` returns the pieces between places on the
-    path, and the error of each in mm. The number of pieces is a multiple of ``unit``. An error is
-    proportional to the length of the piece to the power of ``order``. Its root over that of the
-    tolerance is the piece's weight, and the sum of the weights predicts the number of pieces.
-
-    Raises GenevaError if no number of pieces is enough.
+    ``fit`` returns the pieces between places on the path, and the error of each in mm. Their
+    number is a multiple of ``unit``. An error is proportional to the length of the piece to the
+    power of ``order``. Its root over that of the tolerance is the piece's weight, and the sum of
+    the weights predicts the number of pieces.
     """
     best, count, too_few, enough = None, unit, 0, PIECES_MAX
     places, weights = np.array([0.0, 1.0]), np.ones(1)

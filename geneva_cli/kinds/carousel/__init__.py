@@ -12,7 +12,7 @@ KINDS = (
         quantities=(
             Quantities(
                 "carousel",
-                "turn_deg velocity moving_fraction behind_deg centrifugal_N held_Nm",
+                "turn_deg velocity moving_fraction behind_deg centrifugal_N",
                 after="product",
                 batch="kinds.carousel.quantities:motion",
             ),

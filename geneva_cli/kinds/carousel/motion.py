@@ -28,7 +28,7 @@ class Carousel(Direct, kw_only=True):
     ``n_rpm`` is the carrier's speed. ``rollers`` are the fingers, if there is one wheel.
 
     >>> orbit = Design(External(4), Carousel(wheels=3))
-    >>> orbit.mechanism.absolute_deg(45.0, 45.0)  # at exit: the carrier's angle and its own
+    >>> orbit.timing.motion_deg
     90.0
     """
 

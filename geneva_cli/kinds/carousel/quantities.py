@@ -6,7 +6,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.carried import carried_kg
-from geneva_cli.loads.load_case import centrifugal_N, held_unbalance_Nm
+from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.parts.parts import Parts
 from geneva_cli.verdict.checks.walls import reach_mm
@@ -21,14 +21,12 @@ def motion(of: Designs) -> Columns:
     every = machine.under_load  # its period has the motions of all wheels
     moving = sum(one.motion_deg for one in every.engagements) / every.period_deg
     force = centrifugal_N(machine) if carried_kg(of.spec) else np.inf
-    held = held_unbalance_Nm(machine) if of.spec.unbalanced else np.inf
     return {
         "turn_deg": np.ravel(360.0 + machine.frame * np.degrees(own)),
         "velocity": 1.0 + machine.frame * fastest,
         "moving_fraction": np.ravel(moving),
         "behind_deg": 360.0 / wheels if wheels > 1 else np.inf,
         "centrifugal_N": np.ravel(force),
-        "held_Nm": np.ravel(held),
     }
 
 

@@ -20,10 +20,10 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
         'kind = "{spec.drive.NAME}" carries its wheels round at a constant speed: remove stop_s',
     )
     yield Conflict(
-        spec.motion is not None and spec.unbalanced,
+        spec.unbalanced,
         ("mass", "radius_mm"),
-        'kind = "{spec.drive.NAME}" with a law needs balanced wheels: set count to 2 or more '
-        "evenly spaced bodies, or radius_mm = 0, or remove law",
+        'kind = "{spec.drive.NAME}" needs balanced wheels, as a body off the axis would pull in '
+        "another direction in each motion: set count to 2 or more, or radius_mm = 0",
     )
     if drive.wheels_on_carrier > 1:
         yield Conflict(

@@ -17,10 +17,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
-from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion import registry
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import PinPath, Plan
 from geneva_cli.motion.engagement import Engagement, Path, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.motion.wheels import poses
@@ -54,17 +53,13 @@ class GearSector(PinPath, kw_only=True):
         {"wheel": {"z": 3}, "drive": {"sector_deg": 60.0, "gear_ratio": "shockless"}},
     )
     ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
+    round_gears: ClassVar[tuple[str, ...]] = ("crank gear", "wheel gear")
     sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle in gear, D"]
     gear_ratio: Annotated[
         float | str,
         Words(POSITIVE, ("shockless",)),
         'wheel speed / crank speed in gear; "shockless" for no jump, others are slightly above it',
     ] = "shockless"
-
-    @property
-    def round_gears(self) -> tuple[str, ...]:
-        """Both toothed sectors."""
-        return "crank gear", "wheel gear"
 
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
         """Centre distance L for a crank radius, mm: R = L sin b, with the slot's half angle b."""

@@ -29,11 +29,9 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.gears.gear_pair import gear_seats, gear_shafts
 from geneva_cli.parts.mounted_plate import (
     FrameAndShafts,
-    Screwed,
     corner_radius,
     hole_without_shaft,
     mounted_plate,
-    require_walls,
     shaft_holes,
 )
 from geneva_cli.parts.shafts.bores import bore_of, reach_or_bore
@@ -42,15 +40,11 @@ from geneva_cli.parts.shafts.shaft import (
     Ends,
     Seat,
     Shaft,
-    bearing_up_to,
-    built_shafts,
     shaft_ends,
-    shoulder_length,
 )
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.stressed import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.least_wall import wall_min
 
 
 class RackFrame(NamedTuple):
@@ -72,34 +66,30 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
     arm = -gap - thick.arm
     low = gear_seats(mechanism, None)[0].low if mechanism.spec.gears else arm
     top = low - size.washer_mm
-    if rack_bore(mechanism) or mechanism.spec.gears:
-        top -= shoulder_length(size, 2.0 * R)  # as on a wheel of 6 slots, whose L is 2 R
     stands = 0.0 - gap  # no -0.0
     return RackFrame(top - thick.arm, top, low, arm, stands, thick.wheel, thick.arm)
 
 
 def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
-    """Return the shafts, plain or turned, and the frame, with holes for them and guide's screws.
+    """Return the shafts and the frame, with holes for them and guide's screws.
 
     Raises GenevaError, naming the key, where they do not fit.
     """
     size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
     L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
-    span = heights.plain, heights.top, heights.top
     own = list(_shafts(mechanism, heights))
-    axles, bottom = built_shafts(size, own, [], span)
+    axles = tuple(one.member for one in own)
     bored = list(shaft_holes(size, axles, heights.top))
-    require_walls(bored, wall_min(size, sizes.arm), axles)
     if not rack_bore(mechanism):
         diameter = mechanism.spec.shaft.crank_diameter_mm
         bored.insert(0, hole_without_shaft(diameter, mechanism.crank_shaft.at, L))
     rows = zip(("guide rail", "guide wall"), _screws(sizes), strict=True)
-    screwed = tuple(Screwed(hole, name) for name, row in rows for hole in row)
-    within = [*bored, *(tapped(one.hole) for one in screwed)]
+    screwed = tuple((hole, name) for name, row in rows for hole in row)
+    within = [*bored, *(tapped(hole) for hole, _ in screwed)]
     holes, screwed = [one for one in within if one.radius], screwed if _bolt(sizes) else ()
-    frame = mounted_plate(holes, within, corner_radius(size, L), (bottom, heights.top))
-    to_fix = tuple(name for one in own for name in one.to_fix(size))
-    return FrameAndShafts(frame, tuple(axles), screwed=screwed, to_fix=to_fix)
+    frame = mounted_plate(holes, within, corner_radius(size, L), (heights.plain, heights.top))
+    to_fix = tuple(name for one in own for name in one.to_fix)
+    return FrameAndShafts(frame, axles, screwed=screwed, to_fix=to_fix)
 
 
 def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
@@ -107,8 +97,6 @@ def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
     size, geared = mechanism.spec.size, mechanism.spec.gears is not None
     radius, axis = rack_bore(mechanism), mechanism.crank_shaft.at
     if radius:
-        if size.shafts == "turned":  # a rack's crank has its bore in the arm: errors name that key
-            bearing_up_to(2.0 * radius, "crank's shaft", "arm_bore_mm")
         driven = gear_seats(mechanism, None)[:1] if geared else []
         seats = (*driven, Seat("crank", heights.arm, heights.stands))
         low, high = shaft_ends(size, "crank", heights.plain, heights.stands)
@@ -194,7 +182,7 @@ def rack_stressed(mechanism: Mechanism) -> Stressed:
         contact,
         2.0 * pin_radius(size, mechanism.roller_radius_mm),
         ShaftSize(math.nan, math.nan),
-        shaft_of(spec, "crank", bore, to_frame, thick, 2.0 * R),  # shoulders as on L = 2 R
+        shaft_of(spec, "crank", bore, to_frame, thick),
         bend,
         NO_KEY,
         key_of(size.crank_keyway, bore, thick),

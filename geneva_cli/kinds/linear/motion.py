@@ -9,13 +9,12 @@ length is R too, as no axis gives a centre distance: the crank's axis is at (1, 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.motion.engagement import Displacement, Slot, SlotAxis
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.pivots import Pivot
-from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, Output, RollerPlace
+from geneva_cli.motion.wheels.gearing import Gearing, Output, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose, middle
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.schema import Example
@@ -113,16 +112,6 @@ class Linear(Gearing):
     ) -> tuple[Slot, StraightSlotMotion]:
         """Parallel slot for a roller's path, and the travel that follows."""
         return ParallelSlot(path), ParallelSlotMotion(path, 1.0)
-
-    def exact_rate(
-        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
-    ) -> FollowedRate:
-        """Rate of a rack, as in ``Gearing.exact_rate``: that of the roller across the slots."""
-
-        def rate(sine: Jet, versine: Jet) -> Jet:
-            return sine.derivative()
-
-        return rate
 
 
 class ParallelSlot(Slot):

@@ -83,19 +83,19 @@ class RackParts(EdgedParts):
         count, sizes = self.mechanism.spec.wheel.z, self.sizes
         high = drawn_thicknesses(self.mechanism.spec.size, sizes.arm).wheel
         outline, holes = rack_contour(sizes, count), bar_bolts(sizes, count)
-        return self._edged([Member(Plate("rack", "WHEEL", outline, holes, 0.0, high))])[0]
+        return Member(Plate("rack", "WHEEL", outline, holes, 0.0, high))
 
     @cached_property
     def bar(self) -> Member:
         """The bar under the rack's back."""
-        return self._edged([Member(guide_bar(self.mechanism, self.mechanism.spec.wheel.z))])[0]
+        return Member(guide_bar(self.mechanism, self.mechanism.spec.wheel.z))
 
     @cached_property
     def arm(self) -> Plate | None:
         """The crank's arm; None without a pin for the roller."""
         if not rack_bore(self.mechanism):
             return None
-        return self._plate(rack_arm(self.mechanism))
+        return rack_arm(self.mechanism)
 
     @cached_property
     def crank_without_arm(self) -> Member:
@@ -109,7 +109,7 @@ class RackParts(EdgedParts):
 
     def _crank(self, arm: Plate | None) -> Member:
         below = (Member(arm),) if arm else ()
-        members = *below, *self._edged(rack_crank(self.mechanism))
+        members = *below, *rack_crank(self.mechanism)
         # the roller is on the rack's side
         return Member(Group("crank", members), self.axis, math.pi)
 
@@ -122,7 +122,7 @@ class RackParts(EdgedParts):
     def guide(self) -> tuple[Member, ...]:
         """Rail, wall and cover of the guide."""
         self._require_built()
-        return self._edged(Member(plate) for plate in guide(self.mechanism))
+        return tuple(Member(plate) for plate in guide(self.mechanism))
 
     @cached_property
     def _framed(self) -> FrameAndShafts:

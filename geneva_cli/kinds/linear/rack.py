@@ -21,9 +21,8 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.hull import convex_hull
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, about, closed
+from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, about, closed, convex_hull
 from geneva_cli.geometry.stacks import least_wall
 from geneva_cli.kinds.linear.guide import GuidePlace, guide_place
 from geneva_cli.motion.mechanism import Mechanism

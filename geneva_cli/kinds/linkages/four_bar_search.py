@@ -1,5 +1,16 @@
 """The search of four-bars: proportions, the crank's angle at entry and, in a range, the motion.
 
+A four-bar, the crank's angles at entry and exit, and the wheel's index angle 2b determine the
+roller's place w on the coupler: a complex number, along it and across. With the crank's pin A and
+the coupler's unit vector e, the roller is at P = A + w e, and its velocity is V = A' + w e'.
+Between entry and exit of slots of a wheel of sense s, the tangent has turned by pi - 2b relative to
+the wheel. The chord is half-way between both tangents:
+
+    Im(V2 V1* exp(i s (pi - 2b))) = 0 ,    Im((P2 - P1) V1* exp(i s (pi - 2b)/2)) = 0 .
+
+In the plane of w both are circles. One intersection is where the roller rests at entry, V1 = 0,
+which is no solution; the other one is the solution.
+
 All wheels of a requirement are searched as a batch. The first samples are spread evenly in a unit
 cube, equal in every run. The next ones are ever closer to the best.
 """
@@ -7,24 +18,39 @@ cube, equal in every run. The next ones are ever closer to the best.
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinds.linkages.coupler import CouplerDrive, coupler_drive, driven_wheels
-from geneva_cli.kinds.linkages.coupler_costs import Costs, order
 from geneva_cli.kinds.linkages.four_bar import CouplerPath
-from geneva_cli.kinds.linkages.tangent_pairs import taken
+from geneva_cli.kinds.linkages.link_path import LinkPath
+from geneva_cli.kinds.linkages.path_wheels import top
+from geneva_cli.kinds.linkages.tangent_pairs import complex_of, taken
+from geneva_cli.motion.peak_search import ORDERS
+from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.numerics.arrays import Array, Whole, parameter
+from geneva_cli.numerics.arrays import Array, Complex, Number, Whole, parameter
+from geneva_cli.numerics.jet import Jet, atan2, sin_cos
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synth.optimiser import Places, Zoom, sampled, zoom
 from geneva_cli.study.target import AllowedSpan, Target
+from geneva_cli.verdict.quantities.groups import RATES
 
 SAMPLES = (256, 2048)  # least and most four-bars that are sampled for one wheel
 SAMPLINGS = (14, 60)  # least and most closer samplings for one wheel
 COARSE, FINE = 16, 96  # sampled places of a motion
 OTHERS = 6  # further results if a bound or the goal is not computed here
+# by a quantity in the unit of a time, the power of the speed that it has
+SPEED_POWERS = {f"{at}_rad{end}": n for n, _, end in RATES.values() for at in ("max", "entry")}
+
+
+class WheelGoal(NamedTuple):
+    """A wheel, its allowed motions, and the least roller as a fraction of the centre distance."""
+
+    wheel: Gearing
+    motion: AllowedSpan
+    roller: float
 
 
 class Goal(NamedTuple):
@@ -37,12 +63,16 @@ class Goal(NamedTuple):
     sign: float = 1.0
 
 
-class WheelGoal(NamedTuple):
-    """A wheel, its allowed motions, and the least roller as a fraction of the centre distance."""
+class CouplerDrive(NamedTuple):
+    """A wheel's drive: entry and motion in radians, the wheel's sense, the roller's place; (n, 1).
 
-    wheel: Gearing
-    motion: AllowedSpan
-    roller: float
+    A batch of them and their links are the machines of the search.
+    """
+
+    entry: Array
+    motion: Array
+    sense: Array
+    w: Complex
 
 
 class FourBars(NamedTuple):
@@ -67,12 +97,7 @@ def search_four_bars(goal: Goal) -> list[Places]:
     count = min(max(6000 // slots, SAMPLES[0]), SAMPLES[1])
     samplings = min(max(300 // slots, SAMPLINGS[0]), SAMPLINGS[1])
     parents, children = 4, 12  # the best places of a wheel, and the closer samples near each
-
-    def coarse(of: Whole, at: Array) -> tuple[Array, Array]:
-        return _costs(goal, of, at, COARSE)
-
-    def fine(of: Whole, at: Array) -> tuple[Array, Array]:
-        return _costs(goal, of, at, FINE)
+    coarse, fine = (partial(_costs, goal, places) for places in (COARSE, FINE))
 
     def offsets(number: int) -> Array:
         return np.column_stack((_spread(children, number) - 0.5, np.zeros(children)))
@@ -101,7 +126,7 @@ def _spread(count: int, start: int = 0) -> Array:
     return points
 
 
-def _costs(goal: Goal, of: Whole, at: Array, places: int) -> tuple[Array, Array]:
+def _costs(goal: Goal, places: int, of: Whole, at: Array) -> tuple[Array, Array]:
     """Violations and costs of places; infinite without a machine."""
     found = four_bars_at(goal, of, at, places)
     out = np.full((2, len(of)), np.inf)
@@ -114,40 +139,164 @@ def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBa
 
     Their motion is sampled at ``places``.
     """
-    half, low, high, radius, slots = (row[of][:, None] for row in _rows(goal))
+    rows = [(w.wheel.step.b, *w.motion, w.roller, float(w.wheel.z)) for w in goal.wheels]
+    half, low, high, radius, slots = np.array(rows).T[:, of, None]
     u = at.T[:, :, None]
     g, sense = np.ones(u[0].shape), np.where(u[5] > 0.5, 1.0, -1.0)
     # coupler and rocker are 1/4 to 4 times as long as the ground link
     b, c = (4.0 ** (2.0 * x - 1.0) for x in u[:2])
-    longest = np.minimum(
-        np.minimum(np.minimum(g, b), c), g + b + c - 2.0 * np.maximum(np.maximum(g, b), c)
-    )
+    sides = np.stack((g, b, c))
+    longest = np.minimum(sides.min(axis=0), g + b + c - 2.0 * sides.max(axis=0))
     # the crank is 0.05 to 0.97 times as long as the longest that turns fully
     lengths = (longest * (0.05 + (0.97 - 0.05) * u[2]), g, b, c)
     links = CouplerPath(*map(parameter, lengths), reach_mm=0.0, angle_deg=0.0)
     # the gentlest is often at an end of a range: a sixth of all places is at either
-    fraction = np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
-    degrees = low + (high - low) * fraction
-    drive = coupler_drive(links, math.tau * u[3], np.radians(degrees), half, sense)
+    degrees = low + (high - low) * np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
+    entry, motion = math.tau * u[3], np.radians(degrees)
+    drive = CouplerDrive(
+        entry, motion, sense, coupler_point(links, entry, entry + motion, half, sense)
+    )
     # the further tests run on few places
     able = np.flatnonzero((longest > 0.0) & np.isfinite(drive.w))
     links, drive = links.of(able), taken(drive, able)
     # coarse samples miss the nearest places, which a larger roller makes up for
     roller = radius[able] * (1.15 if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
-    passing = driven_wheels(links, drive, half[able], roller, order(names), places)
-    within = passing.reach <= goal.target.space * passing.distance
-    able = able[passing.which]
-    costs = Costs(goal.target, (360.0 / slots[able])[:, 0], passing.derivatives, degrees[able, 0])
+    order = max([2, *(ORDERS.get(name.partition(".")[0], 0) for name in names)])
+    which, rates, distance, reach = _driven(links, drive, half[able], roller, order, places)
+    able = able[which]
+    costs = Costs(goal.target, (360.0 / slots[able])[:, 0], rates, degrees[able, 0])
     cost = goal.sign * costs.of(goal.least)
-    violation = np.where(within & np.isfinite(cost), costs.broken(goal.bounds), np.inf)
-    kept = links.of(passing.which), taken(drive, passing.which)
-    return FourBars(able, *kept, passing.distance, violation, cost)
+    within = (reach <= goal.target.space * distance) & np.isfinite(cost)
+    violation = np.where(within, costs.broken(goal.bounds), np.inf)
+    return FourBars(able, links.of(which), taken(drive, which), distance, violation, cost)
 
 
-def _rows(goal: Goal) -> list[Array]:
-    """Columns with half the step, the motion's ends, the roller and the slots of each wheel."""
-    rows = [
-        (task.wheel.step.b, *task.motion, task.roller, float(task.wheel.z)) for task in goal.wheels
-    ]
-    return [*np.array(rows).T]
+def _coupler(links: LinkPath, phi: Array, order: int) -> tuple[Complex, Complex]:
+    """The crank's pin and the coupler's unit vector with their derivatives, (order + 1, ...)."""
+    direction = sin_cos(Jet.variable(phi, order))
+    return complex_of(*links.joint(*direction)), complex_of(*links.link(*direction))
+
+
+def coupler_point(links: LinkPath, entry: Array, end: Array, b: Number, sense: Array) -> Complex:
+    """The roller's place w that makes a motion, (n, 1).
+
+    NaN if there is none, or if the chord does not run from entry to exit.
+    """
+    (one, u_one), (two, u_two) = (_coupler(links, phi, 1) for phi in (entry, end))
+    turn = np.exp(1j * sense * (0.5 * math.pi - b))
+    v, u = one[1], u_one[1]
+    circles = []
+    for p, e, k in (two[1], u_two[1], turn * turn), (two[0] - one[0], u_two[0] - u_one[0], turn):
+        # Im((p + w e)(v + w u)* k) = A |w|² + Im(d w) + C
+        d = e * v.conj() * k - (p * u.conj() * k).conj()
+        circles.append(((e * u.conj() * k).imag, d, (p * v.conj() * k).imag))
+    (A, d, C), (A2, d2, C2) = circles
+    # The line through both points: Im(D w) + E = 0
+    D, E = A2 * d - A * d2, A2 * C - A * C2
+    direction, foot = D.conj() / np.abs(D), -1j * E / D
+    at_rest = ((-v / u - foot) * direction.conj()).real
+    total = -(2.0 * A * (foot * direction.conj()).real + (d * direction).imag) / A
+    w = foot + (total - at_rest) * direction
+    chord, speed = two[0] + w * u_two[0] - (one[0] + w * u_one[0]), v + w * u
+    ahead = (chord * (speed / np.abs(speed)).conj() * turn).real > 0.0
+    return np.where(ahead, w, np.nan)
+
+
+def _driven(
+    links: LinkPath, drive: CouplerDrive, b: Array, roller: Array, order: int, places: int
+) -> tuple[Whole, list[Array], Array, Array]:
+    """Numbers of the wheels that are driven, at samples, and let the roller pass on its way back.
+
+    ``b`` is half the step and ``roller`` the roller's radius over the centre distance, (n, 1) each.
+    Also the derivatives of their angles to an order, (m, places + 1) each; the centre distance; and
+    the greatest distance of a joint or the roller from the crank's axis, (m,) each.
+    """
+    entry, motion, sense, w = drive
+    pin, along = _coupler(links, entry + motion * (np.arange(places + 1) / places), order)
+    path = pin + w * along
+    p, q, v = path[0, :, :1], path[0, :, -1:], path[1, :, :1]
+    rho = np.abs(q - p) / (2.0 * np.sin(b))
+    centre = p + rho * (v / np.abs(v))  # the tangents at both ends meet there
+    ray, L = path[0] - centre, np.abs(centre)
+    near, turning = np.abs(ray), (ray.conj() * path[1]).imag
+    drives = (turning[:, 1:-1] * sense > 0.0).all(axis=1) & (near[:, 1:-1] < rho).all(axis=1)
+    half_wall = 1.0 / 400.0  # of the least wall between two slots, over the centre distance
+    drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + half_wall) * L)[:, 0]
+    which = np.flatnonzero(drives)
+    # the way back is tested for these only
+    links, (entry, motion, sense, w) = links.of(which), taken(drive, which)
+    away = np.arange(1, 2 * places) / (2 * places)  # the way back has twice the motion's samples
+    back, back_along = _coupler(links, entry + motion + (math.tau - motion) * away, 0)
+    returns = back[0] + w * back_along[0]
+    # Lengths over the distance of the slots' mouths from the wheel's axis; a slot points along the
+    # real axis. The wheel ends at hypot(1, r), where slots as wide as the roller leave corners.
+    r, half = (roller * L / rho)[which], b[which]
+    place = (returns - centre[which]) / (p - centre)[which]
+    d, angle = np.abs(place), np.abs((np.angle(place) + half) % (2.0 * half) - half)
+    ahead, across = d * np.cos(angle), d * np.sin(angle)
+    corner = np.where(ahead >= 1.0, np.hypot(ahead - 1.0, r - across), r - across)
+    # in front of a slot its mouth's corner is nearest, else the rim
+    gap = np.where(across < r * ahead, corner, d - np.hypot(1.0, r)) - r
+    touch = 1e-6  # a roller that leaves its slot is this near to it
+    passes = np.all((gap >= -touch) & (d > 1.0), axis=1)
+    _, ground, coupler, *_ = links.numbers
+    moving = (
+        *(pin[0, which] + coupler * along[0, which], path[0, which]),
+        *(back[0] + coupler * back_along[0], returns),
+    )
+    reach = np.maximum.reduce([np.ravel(ground), *(np.abs(z).max(axis=1) for z in moving)])
+    kept = which[passes]
+    rays = [ray[kept], *(path[k, kept] / math.factorial(k) for k in range(1, order + 1))]
+    angles = atan2(Jet([z.imag for z in rays]), Jet([z.real for z in rays]))
+    return kept, [np.asarray(d) for d in angles.derivatives()], L[kept, 0], reach[passes]
+
+
+class Costs(NamedTuple):
+    """Samples of n motions: derivatives (n, places), steps and motion angles, degrees, (n,)."""
+
+    target: Target
+    index_deg: Array
+    derivatives: list[Array]
+    motion_deg: Array
+
+    def of(self, name: str) -> Array:
+        """A quantity for which ``is_known`` is true, (n,)."""
+        group, _, quantity = name.partition(".")
+        n_rpm = np.array([self.target.n_rpm(1, float(x)) for x in self.motion_deg])
+        if group == "timing":
+            dwell = 360.0 - self.motion_deg
+            times = timing(self.motion_deg, dwell, self.index_deg, n_rpm)  # type: ignore[arg-type]
+            return np.broadcast_to(times._asdict()[quantity], self.motion_deg.shape)
+        value = self.derivatives[ORDERS[group]]
+        if group == "power":
+            value = value * self.derivatives[1]
+        end = _end(quantity)
+        size = top(np.abs(value)) if end is None else np.abs(value[:, end])
+        if quantity in SPEED_POWERS:
+            size = size * (n_rpm * (math.pi / 30.0)) ** SPEED_POWERS[quantity]
+        return size
+
+    def broken(self, bounds: tuple[Constraint, ...]) -> Array:
+        """The sum of the relative violations of the bounds, (n,)."""
+        total = np.zeros(len(self.motion_deg))
+        for b in bounds:
+            # a peak between samples may be 1e-4 higher; times follow from the motion angle
+            needed = -1e-9 if b.name.startswith("timing.") else 1e-4
+            total = total + np.maximum(needed - b.margin(self.of(b.name)), 0.0)
+        return total
+
+
+def is_known(name: str) -> bool:
+    """Return True if the search can compute a quantity."""
+    group, _, quantity = name.partition(".")
+    if group == "timing":
+        return quantity in Timing._fields[:-1]  # the last is a rack's step
+    whole = quantity in ("max", "entry", "exit") or quantity in SPEED_POWERS
+    at_rest = _end(quantity) is not None and group in ("velocity", "power")
+    return group in ORDERS and whole and not at_rest
+
+
+def _end(quantity: str) -> int | None:
+    """The sample at which a quantity is taken; None for its greatest value."""
+    return {"entry": 0, "exit": -1}.get(quantity.partition("_")[0])

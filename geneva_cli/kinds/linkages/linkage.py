@@ -6,10 +6,9 @@ from abc import abstractmethod
 from functools import reduce
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias, TypeVar, cast
 
-from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinds.linkages.link_path import LinkPath, LinkReactions
-from geneva_cli.motion.drive import Plan
+from geneva_cli.motion.drive import PinPath, Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import Array, array, larger, library, parameter, smaller
@@ -57,7 +56,7 @@ class Linkage(PinPath, kw_only=True):
                 ("size", "center_distance_mm"),
             ),
         )
-        from geneva_cli.kinds.linkages.path_engagement import solve
+        from geneva_cli.kinds.linkages.path_wheels import solve
 
         wanted = None if self.entry_deg is None else radians(self.entry_deg)
         engagement, L = solve(self.roller_path, wheel.step, wanted)

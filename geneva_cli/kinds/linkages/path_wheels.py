@@ -1,186 +1,211 @@
-"""Wheels that roller paths can drive, and the choice among those of one path.
+"""The wheel that a linkage's path can drive, and its engagement, for one design or a batch.
 
 A pair of entry and exit gives the wheel's centre. From entry to exit the roller must turn the wheel
-one way, nearer to its centre than at both ends; on the way back it must be farther away. Samples of
-the path give both quantities with their slopes. A condition holds between two samples if no
-Bernstein coefficient of the cubic through them has the wrong sign. Otherwise the interval is
-sampled more closely.
+one way, nearer to its centre than at both ends; on the way back it must be farther away. This is
+tested at samples: a shorter excursion is left to the gaps of the parts.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.kinds.linkages.link_path import LinkPath
+from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.kinds.linkages.link_path import LinkPath, LinkRate, LinkReactions, PointDisplacement
 from geneva_cli.kinds.linkages.tangent_pairs import (
     SAME_ENTRY,
     Pairs,
-    PathSamples,
+    complex_of,
     pairs,
     points,
+    residual,
     sampled,
     taken,
 )
-from geneva_cli.numerics.arrays import Array, Complex, Mask, Which, Whole, joined
-from geneva_cli.numerics.extremes import Smooth, search
-from geneva_cli.numerics.jet import turning
-from geneva_cli.numerics.tolerances import ROUNDED
+from geneva_cli.motion.engagement import Anchor, Engagement, Vector
+from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
+from geneva_cli.motion.wheels.poses import HalfStep
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import Array, Complex, Mask, Whole, library, parameter
+from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
+EVEN = 96  # samples of a motion, and twice as many of the way back
 
 
 class PathWheels(NamedTuple):
-    """Wheels of designs: (wheels,)."""
+    """Wheels of designs: (wheels,), and columns (wheels, 1) of centre and distance."""
 
     which: Whole
     phi: Array  # crank angles at entry and exit, in two columns
     sense: Array  # 1 if the wheel turns counterclockwise on the path's axes, or -1
     centre: Complex  # mm, on the path's axes
-    square: Array  # squared distance from the centre to entry and exit, mm²
+    distance: Array  # from the centre to entry and exit, mm
+    peak: Array  # greatest velocity
 
-    def course(self, p: Complex, v: Complex, a: Complex) -> tuple[Array, Array, Array, Array]:
-        """Two quantities, each with its slope by the crank's angle, at places (wheels, n).
-
-        The moment of the pin's velocity about the centre must be positive from entry to exit, and
-        the squared distance at entry less the pin's own there alone. Lengths are in mm.
-        """
-        ray, sense = (p - self.centre[:, None]).conj(), self.sense[:, None]
-        along = ray * v
-        short = self.square[:, None] - (ray.real**2 + ray.imag**2)
-        return sense * along.imag, sense * (ray * a).imag, short, -2.0 * along.real
+    def velocity(self, p: Complex, v: Complex) -> tuple[Array, Mask]:
+        """The velocity at places (wheels, n), and where the roller is nearer than at both ends."""
+        ray = p - self.centre
+        near = np.abs(ray)
+        return self.sense[:, None] * (ray.conj() * v).imag / near**2, near < self.distance
 
 
 def solved_wheels(path: LinkPath, b: Array) -> PathWheels:
     """All wheels of designs with half index angles b, (n, 1)."""
     with np.errstate(all="ignore"):
-        samples = list(sampled(path, len(b)))
-        found = pairs(path, samples, b)
-        parts = [taken(found, np.isin(found.which, some.which)) for some in samples]
-        return driven(path, zip(samples, parts, strict=True))
+        samples = sampled(path, len(b))
+        return driven(path, pairs(path, samples, b), samples)
 
 
-def driven(path: LinkPath, parts: Iterable[tuple[PathSamples, Pairs]]) -> PathWheels:
-    """The wheels among pairs whose roller stays in its slot, by blocks of samples."""
-    none = np.empty(0)
-    empty = PathWheels(none.astype(int), np.empty((0, 2)), none, none.astype(complex), none)
-    return joined([empty, *(_block(path, *part) for part in parts)], 0)
+def driven(path: LinkPath, found: Pairs, samples: tuple[Array, Complex]) -> PathWheels:
+    """The wheels of pairs whose roller stays in its slot, at samples of the path and even ones."""
+    which, phi, sense = found
+    wheels = PathWheels(*found, *_centre(points(path.of(which), phi)), sense)
+    motion, since = np.diff(phi), (samples[0][which] - phi[:, :1]) % math.tau
+    end = np.minimum(np.abs(since - motion), math.pi - np.abs(since - math.pi)) < SAME_ENTRY
+    velocity, near = wheels.velocity(*samples[1][:2, which])
+    good = np.where(since < motion, near & (velocity > 0.0), ~near) | end
+    wheels = taken(wheels, good.all(axis=1))
+    (some, phi), even = (path.of(wheels.which), wheels.phi), np.arange(1, 2 * EVEN) / (2 * EVEN)
+    motion = np.diff(phi)
+    velocity, near = wheels.velocity(*points(some, phi[:, :1] + motion * even[1::2], 1))
+    back = points(some, phi[:, 1:] + (math.tau - motion) * even, 0)[0]
+    good = near & (velocity > 0.0)
+    kept = good.all(axis=1) & (np.abs(back - wheels.centre) > wheels.distance).all(axis=1)
+    return taken(wheels._replace(peak=top(velocity)), kept)
 
 
-def _block(path: LinkPath, samples: PathSamples, found: Pairs) -> PathWheels:
-    """Wheels of the pairs of a block of samples."""
-    ends = points(path.of(found.which), found.phi)
-    (p, q), (t, u) = ends.p.T, ends.t.T
+def _centre(ends: Complex) -> tuple[Complex, Array]:
+    """The wheel's centre, and its distance from entry and exit, (n, 1) each."""
+    (p, q), (v, w) = (np.hsplit(each, 2) for each in ends[:2])
+    t, u = v / np.abs(v), w / np.abs(w)
     rho = np.abs(q - p) / np.abs(t + u)
-    wheels = PathWheels(*found, 0.5 * ((p + rho * t) + (q - rho * u)), rho * rho)
-    row, motion = np.searchsorted(samples.which, found.which), np.diff(found.phi)
-    # in order: entry, the samples with the exit among them, and the entry a turn later
-    since = (samples.at.phi[row, :-1] - found.phi[:, :1]) % math.tau
-    since = np.hstack((0.0 * motion, since, motion, 0.0 * motion + math.tau))
-    order = np.argsort(since, axis=1)
-    place = np.take_along_axis(since, order, axis=1)
-    nodes = (
-        np.take_along_axis(
-            np.hstack((own[:, :1], all_[row, :-1], own[:, 1:], own[:, :1])), order, 1
-        )
-        for own, all_ in zip(ends[1:4], samples.at[1:4], strict=True)
-    )
-    course = wheels.course(*nodes)
-    inside, third = place[:, :-1] < motion, np.diff(place) / 3.0
-    end = np.abs(place - motion) < SAME_ENTRY
-    end |= np.abs(place - math.pi) > math.pi - SAME_ENTRY
-    for x in (course[0], course[2]):
-        x[end] = 0.0  # without the rounding
-    moment, short = course[0][:, :-1], course[2][:, :-1]
-    right = np.where(inside, (moment >= 0.0) & (short >= 0.0), short <= 0.0)
-    good = np.all(right, axis=1)
-    moments, shorts = _bernstein(third, *course[:2]), _bernstein(third, *course[2:])
-    rounding = [ROUNDED * np.abs(x).max(axis=1)[:, None] for x in (course[0], course[2])]
-    i, j = np.nonzero(_open(moments, shorts, inside, *rounding) & good[:, None])
-    between = place[i, j, None], place[i, j + 1, None]
-    return taken(wheels, good & ~_leaves(path, wheels, i, between, inside[i, j, None], rounding))
+    return 0.5 * ((p + rho * t) + (q - rho * u)), rho
 
 
-def _bernstein(third: Array, value: Array, slope: Array) -> tuple[Array, Array, Array, Array]:
-    """Bernstein coefficients of cubics between adjacent columns, and a third of their width."""
-    a, d = value[:, :-1], value[:, 1:]
-    return a, a + third * slope[:, :-1], d - third * slope[:, 1:], d
+def top(values: Array) -> Array:
+    """The greatest of each row, from the parabola through it and its neighbours."""
+    rows = np.arange(len(values))
+    at = np.clip(values.argmax(axis=1), 1, values.shape[1] - 2)
+    low, middle, high = (values[rows, at + i] for i in (-1, 0, 1))
+    bend, slope = low - 2.0 * middle + high, 0.5 * (high - low)
+    inside = (bend < 0.0) & (middle >= low) & (middle >= high)
+    vertex = middle - slope * slope / np.where(inside, 2.0 * bend, 1.0)
+    peaks: Array = np.where(inside, vertex, values.max(axis=1))
+    return peaks
 
 
-def _open(
-    moments: Sequence[Array], shorts: Sequence[Array], inside: Mask, low: Array, far: Array
-) -> Mask:
-    """True for intervals in which a Bernstein coefficient has the wrong sign."""
-    open_ = np.where(inside, np.minimum(*shorts[1:3]), -np.maximum(*shorts[1:3])) < -far
-    open_ |= inside & (np.minimum(*moments[1:3]) < -low)
-    return open_
+def chosen(wheels: PathWheels, wanted: Array | None = None) -> Whole:
+    """Numbers of one wheel of each design that has any, in the order of the designs.
 
-
-def _leaves(
-    path: LinkPath,
-    wheels: PathWheels,
-    wheel: Whole,
-    between: tuple[Array, Array],
-    inside: Mask,
-    rounding: Sequence[Array],
-) -> Mask:
-    """True for each wheel whose roller leaves its slot in an open interval, since entry."""
-    fails = np.zeros(len(wheels.which), dtype=bool)
-    for _ in range(4):  # each round cuts an open interval into eight
-        if not len(wheel):
-            break
-        left, right = between
-        place = left + (right - left) * (np.arange(9) / 8)
-        some = taken(wheels, wheel)
-        at = points(path.of(some.which), place + some.phi[:, :1])
-        moment, by_phi, short, slope = some.course(at.p, at.v, at.a)
-        least, most = (x[wheel] for x in rounding)
-        wrong = np.where(inside, (moment < -least) | (short < -most), short > most)
-        fails[wheel[wrong.any(axis=1)]] = True
-        third = np.diff(place) / 3.0
-        moments, shorts = _bernstein(third, moment, by_phi), _bernstein(third, short, slope)
-        i, j = np.nonzero(_open(moments, shorts, inside, least, most) & ~fails[wheel][:, None])
-        between, wheel, inside = (place[i, j, None], place[i, j + 1, None]), wheel[i], inside[i]
-    return fails
-
-
-def chosen(path: LinkPath, wheels: PathWheels, wanted: Array | None = None) -> PathWheels:
-    """One wheel of each design that has any, in the order of the designs.
-
-    Without ``wanted`` the chosen wheel is the gentlest, with the least peak velocity. ``wanted``
-    are entry angles of all designs in radians, (n, 1): then it is the wheel with the nearest entry.
-    Among equal wheels, as on a symmetric path, it is the one with the first entry.
+    Without ``wanted`` it is the gentlest, with the least peak velocity. ``wanted`` are entry angles
+    of all designs in radians, (n, 1): then it is the wheel with the nearest entry. Among equal
+    wheels, as on a symmetric path, it is the one with the first entry.
     """
-    which, entry = wheels.which, wheels.phi[:, 0]
-    if wanted is None:
-        cost = _peaks(path, wheels)
-    else:
+    which, entry, cost = wheels.which, wheels.phi[:, 0], wheels.peak
+    if wanted is not None:
         off = entry - wanted[which, 0]
         cost = np.abs(off - math.tau * np.round(off / math.tau))
     least = np.full(int(which.max(initial=-1)) + 1, np.inf)
     np.minimum.at(least, which, cost)
     tied = np.flatnonzero(cost <= least[which] * (1.0 + SAME_PEAK))
     order = tied[np.lexsort((entry[tied] % math.tau, which[tied]))]
-    first = np.ones(len(order), dtype=bool)
-    first[1:] = np.diff(which[order]) != 0
-    return taken(wheels, order[first])
+    return order[np.append(True, np.diff(which[order]) != 0)[: len(order)]]
 
 
-def _peaks(path: LinkPath, wheels: PathWheels) -> Array:
-    """Peak velocities of the wheels of designs that have several; 0 of the others."""
-    which, peaks = wheels.which, np.zeros(len(wheels.which))
-    open_ = np.flatnonzero(np.bincount(which)[which] > 1)
+def solve(path: LinkPath, step: HalfStep, wanted: float | None) -> tuple[Engagement, float]:
+    """Return the engagement of a path's wheel, and the centre distance in mm.
 
-    def velocity(phi: Array, some: Which, _: int, __: Sequence[int]) -> list[tuple[Array, ...]]:
-        of = open_[some]
-        x, y = path.of(which[of]).at(phi, 3)
-        centre = wheels.centre[of, None]
-        return [turning(x - centre.real, y - centre.imag).arrays()]
+    It is the gentlest wheel, or the one whose entry is nearest to the crank angle ``wanted``
+    (radians). Designs without a wheel are refused.
+    """
+    numbers = (*path.numbers, step.b, 0.0 if wanted is None else wanted)
+    single = not any(np.ndim(x) for x in numbers)
+    shape = np.broadcast_shapes((1, 1), *(np.shape(x) for x in numbers))
+    half = np.broadcast_to(np.asarray(step.b, dtype=float), shape)
+    goal = np.broadcast_to(np.asarray(numbers[-1], dtype=float), shape)
+    found = np.full((3, *shape), np.nan)
+    for start in range(0, len(half), 256):  # designs searched together, in the processor's cache
+        part = np.arange(start, min(start + 256, len(half)))
+        wheels = solved_wheels(path.of(part), half[part])
+        best = chosen(wheels, None if wanted is None else goal[part])
+        found[:, part[wheels.which[best]], 0] = *wheels.phi[best].T, wheels.sense[best]
+    entry, exit_, sense = found
+    none, z = entry != entry, step.q
+    refuse(
+        bool(none.any()) if single else none,
+        lambda: GenevaError(
+            f"no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs "
+            f"two equally long tangents that meet at {360.0 / z:.6g} deg, with the roller nearer "
+            "to that point only between them",
+            ("drive", "kind"),
+        ),
+    )
+    with np.errstate(all="ignore"):
+        return _engagement(path, step, np.hstack((entry, exit_)), sense, single)
 
-    if len(open_):
-        ends = wheels.phi[open_, :1], wheels.phi[open_, 1:]
-        peaks[open_] = search(Smooth(velocity, 1), [ends], sized=True).most[0]
-    return peaks
+
+def _engagement(
+    path: LinkPath, step: HalfStep, ends: Array, sense: Array, single: bool
+) -> tuple[Engagement, float]:
+    """Engagement from crank angles at entry and exit in radians, and the centre distance."""
+
+    def plain(x: Array) -> float:
+        return parameter(x.item() if single else x)
+
+    # A roller that moves much more slowly than its links has few digits in its place at a crank
+    # angle, and in a short motion the angle itself has few. Its displacement from the place in the
+    # middle of the motion has them all.
+    middle = 0.5 * (ends[:, :1] + ends[:, 1:])
+    ends, b = ends - middle, np.broadcast_to(step.b, sense.shape)[:, 0]
+    move = path.about(parameter(middle))
+    for _ in range(2):
+        rest = residual(complex_of(*move(*sine_versine(Jet.variable(ends, 2)))), b, sense[:, 0])
+        ends = ends + np.where(rest.double[:, None], 0.0, rest.step)
+    moved = middle + 0.5 * (ends[:, :1] + ends[:, 1:])
+    middle, ends = moved, ends - (moved - middle)
+    half, late = (plain(0.5 * (ends[:, 1:] + k * ends[:, :1])) for k in (-1.0, 1.0))
+    # from the roller's place in the middle: the roller at both ends, and the centre
+    at = complex_of(*path.about(parameter(middle))(*sine_versine(Jet.variable(ends, 2))))
+    centre, _ = _centre(at)
+    x, y = path.at(middle, 0)
+    axis = -(x.c[0] + 1j * y.c[0] + centre)  # from the wheel's centre to the crank's axis
+    L, s, rays = plain(np.abs(axis)), plain(sense), at[0] - centre
+    half_way = (rays / np.abs(rays)).sum(axis=1, keepdims=True)
+    turn, ahead = (plain(sense * np.angle(line.conj() * -centre)) for line in (half_way, axis))
+    anchors = []
+    for end, wheel, angle, ray in (
+        (-1.0, -step.b, middle + ends[:, :1], rays[:, :1]),
+        (0.0, turn, middle, -centre),
+        (1.0, step.b, middle + ends[:, 1:], rays[:, 1:]),
+    ):
+        move, input_deg = path.about(plain(angle)), 0.0 - late / DEGREE
+        ux, uy = plain(ray.real), plain(ray.imag)
+        if end:  # the ray is the pin's velocity, so that none of it is across the ray
+            input_deg = end * half / DEGREE
+            ux, uy = (end * parameter(v.c[1]) for v in move(*sine_versine(Jet.variable(0.0, 1))))
+        along_ray = _AlongRay(move, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), s)
+        anchors.append(Anchor(input_deg, wheel, plain(np.abs(ray)) / L, along_ray))
+    anchored = AnchoredPath(tuple(anchors), ahead)
+    body = LinkRate(path, plain(middle), s)
+    reactions = LinkReactions(*body, L, plain(axis.real) / L, plain(axis.imag) / L)
+    motion = StraightSlotMotion(anchored, step.b, mirrored=False)
+    return Engagement(0.0, anchored, RadialSlot(anchored), motion, body, reactions, -s), L
+
+
+class _AlongRay(NamedTuple):
+    """The pin's displacement along a ray (x, y) and across it, positive with the wheel."""
+
+    displacement: PointDisplacement
+    x: float
+    y: float
+    scale: float
+    sense: float
+
+    def __call__(self, tau: Number, order: int) -> Vector:
+        x, y = self.displacement(*sine_versine(Jet.variable(tau, order)))
+        along = (x * self.x + y * self.y) * self.scale
+        across = (y * self.x - x * self.y) * (self.sense * self.scale)
+        return along, across

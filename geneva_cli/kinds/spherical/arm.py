@@ -1,10 +1,9 @@
-"""The round holes and hubs of a spherical machine: its crank arm, and a dial's bolts in its wheel.
+"""The crank arm of a spherical machine: a cap outside the wheel that carries the whole crank.
 
-The arm is a cap outside the wheel that carries the whole crank. Every part that turns about an axis
-through the centre keeps its distance from the centre. So a shell outside the wheel's shell never
-meets the wheel. The arm's boundary is the convex hull of its hub, the locking sectors on its inner
-face, and an eye about each pin and bolt. Pins and bolts point at the centre. The hub has flat faces
-and the bore; it sits in a round hole about the crank's axis.
+Every part that turns about an axis through the centre keeps its distance from the centre. So a
+shell outside the wheel's shell never meets the wheel. The arm's boundary is the convex hull of its
+hub, the locking sectors on its inner face, and an eye about each pin and bolt. Pins and bolts point
+at the centre. The hub has flat faces and the bore; it sits in a round hole about the crank's axis.
 """
 
 from __future__ import annotations
@@ -14,12 +13,12 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.round_holes import RoundHole, least_wall
 from geneva_cli.geometry.sphere import POLE, Cap, Region, convex_hull, dot, place
+from geneva_cli.geometry.sphere_arcs import RoundHole, least_wall
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
-from geneva_cli.kinds.spherical.regions import locked, web_angle
+from geneva_cli.kinds.spherical.regions import locked
 from geneva_cli.parts.shafts.bores import Bore, bore_of
-from geneva_cli.parts.shafts.screws import bolt_circle, bolt_radius, refuse_no_screw
+from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw
 from geneva_cli.parts.sizes import hub_and_eye, lock_bolt_directions, pin_hole, wall_of_bolts
 from geneva_cli.spec.least_wall import eye_about, wall_min
 from geneva_cli.spec.tables import Size
@@ -33,7 +32,7 @@ class CapArm(NamedTuple):
     keyway: float  # azimuth about the crank's axis
     hub: float
     pins: tuple[RoundHole, ...]
-    bolts: tuple[RoundHole, ...]
+    bolts: tuple[RoundHole, ...]  # equally many of each locking sector
     cap: float  # angle from the crank's axis to the edge, except at the eyes
     eye: float  # angle
     reach: float  # angle from the crank's axis to the farthest point
@@ -43,11 +42,6 @@ class CapArm(NamedTuple):
     def holes(self) -> tuple[RoundHole, ...]:
         """All round holes: for the hub, the pins and the bolts."""
         return (RoundHole(POLE, self.hub), *self.pins, *self.bolts)
-
-    def bolts_of(self, sector: int, sectors: int) -> tuple[RoundHole, ...]:
-        """Return the bolts of one of ``sectors`` locking sectors."""
-        each = len(self.bolts) // sectors
-        return self.bolts[sector * each : (sector + 1) * each]
 
 
 def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
@@ -120,57 +114,16 @@ def _arm(ball: Ball, sectors: Sequence[Region], size: Size, bolts_each: int) -> 
 def _bolts(ball: Ball, sectors: Sequence[Region], size: Size, count: int) -> tuple[RoundHole, ...]:
     """Return the holes of so many bolts in each locking sector, evenly spaced and of one size."""
     L, own = ball.radius_mm, size.lock_bolt_circle_mm
-    rings = [(math.pi - s.boundary[2].angle, s.boundary[0].angle) for s in sectors]
     rims = [sector.boundary[0] for sector in sectors]
+    inner = [math.pi - sector.boundary[2].angle for sector in sectors]
     widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
-    narrow = min((0.5 * L * (high - low) for low, high in rings), default=0.0)
+    rings = [(low, rim.angle) for low, rim in zip(inner, rims, strict=True)]
     directions = lock_bolt_directions(widths, count)
-    r = bolt_radius(size.lock_bolt_mm, L, narrow)
+    r = bolt_radius(size.lock_bolt_mm, L, min((0.5 * L * (b - a) for a, b in rings), default=0.0))
     if directions:
         refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
-    if not r:
-        return ()
     holes = []
-    for ring, at in zip(rings, directions, strict=False):
-        far = 0.5 * sum(ring) if own is None else math.asin(min(1.0, 0.5 * own / L))
-        holes += [RoundHole(place(far, azimuth), r) for azimuth in at]
+    for (low, high), azimuths in zip(rings, directions, strict=False):
+        far = 0.5 * (low + high) if own is None else math.asin(min(1.0, 0.5 * own / L))
+        holes += [RoundHole(place(far, azimuth), r) for azimuth in azimuths if r]
     return tuple(holes)
-
-
-def dial_holes(size: Size, ball: Ball) -> tuple[RoundHole, ...]:
-    """Return the holes of the dial's bolts, evenly spaced and pointing at the centre.
-
-    The first lies in the middle between two slots. Raises GenevaError where the wheel is open about
-    its axis, or the holes do not fit.
-    """
-    if not size.dial_bolts:
-        return ()
-    if not ball.opening_mm:
-        raise GenevaError(
-            "dial_bolts: the wheel is open about its axis, so the bolts have no material around "
-            "them; set wheel_bore_mm, or remove dial_bolts",
-            ("size", "dial_bolts"),
-        )
-    L, inside, high = ball.radius_mm, ball.span_mm[0], web_angle(ball)
-    low = RoundHole(POLE, ball.opening_mm).angle(inside)
-    bolts = bolt_circle(size, "dial", L, (L * low, L * high), ball.half_step)
-    far, r = bolts.radius / L, bolts.hole
-    if size.dial_bolt_circle_mm is not None:  # a diameter, not an arc as the ring's
-        far = math.asin(min(1.0, far))
-    holes = tuple(RoundHole(place(far, azimuth), r) for azimuth in bolts.turns)
-    all_holes = RoundHole(POLE, ball.opening_mm), *holes
-    if least_wall(Cap(POLE, high).region, all_holes, inside) <= 0.0:
-        circles = [f"{2.0 * L * math.sin(angle):.6g}" for angle in (far, low, high)]
-        raise GenevaError(
-            f"dial_bolts: {2.0 * r:.6g} mm holes on a {circles[0]} mm circle overlap, or cut hub "
-            f"or slots; they must lie between circles of {circles[1]} and {circles[2]} mm",
-            ("size", "dial_bolts"),
-        )
-    return holes
-
-
-def dial_wall(size: Size, ball: Ball) -> float:
-    """Return the least wall between the dial's holes, the hub and the slots' ends, mm."""
-    ends = Cap(POLE, min(ball.bottom - ball.half_width, 0.5 * math.pi)).region
-    holes = RoundHole(POLE, ball.opening_mm), *dial_holes(size, ball)
-    return least_wall(ends, holes, ball.span_mm[0])

@@ -1,4 +1,10 @@
-"""The record of the sizes of a spherical machine, and what follows from them alone."""
+"""The sizes of a spherical wheel and its crank: angles at the sphere's centre, in radians.
+
+All walls lead to the centre, and so does the surface of the roller, a cone. Its radius, the slots
+and the clearances are arcs on the sphere of radius ``center_distance_mm``. Radii of the lock and of
+bores are distances from their axes. Below the wheel on a plane is outside the wheel here: a height
+above the wheel's lower face is a distance inwards from its outer sphere.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +12,21 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.parts.sizes import crank_reach_and_hub, wheel_bore, wheel_reach_and_hub
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.rollers import places
+from geneva_cli.parts.machine_sizes import lock_between, refuse_edges, require_lock_between
+from geneva_cli.parts.sizes import (
+    arm_bore,
+    drawn_thicknesses,
+    hole_radius,
+    pin_radius,
+    refuse_wide_pin,
+    wheel_bore,
+    wheel_reach_and_hub,
+)
+from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import wall_min
-from geneva_cli.spec.tables import Size
+from geneva_cli.spec.tables import Z_DRAWN, Size
 
 
 class PartDoesNotFit(GenevaError):
@@ -31,9 +48,9 @@ class Ball(NamedTuple):
     roller: float  # half angle of its cone
     half_width: float  # of the slots
     bottom: float  # polar angle of the centre of the slot's round end
+    bottom_mm: float  # clearance of the deepest roller from that end
     mouth: float  # polar angle where a roller enters
     rim: float  # polar angle of the wheel's edge
-    inner: float  # polar angle where the slotted ring ends towards its axis
     lock: float  # polar angle of the locking sectors' edge, 0 for none
     lock_mm: float  # distance of that edge from the crank's axis
     recess: float  # polar angle of the recess in the wheel, 0 for none
@@ -44,7 +61,6 @@ class Ball(NamedTuple):
     hub_mm: float  # radius of its hub, 0 for none
     pin_mm: float  # radius of the rollers' pins, 0 for none
     arm_bore_mm: float  # radius of the bore in the arm's hub, 0 without an arm
-    about_crank_mm: float  # radius of the crank's shaft or hub inside the arm, 0 for none
 
     @property
     def half_step(self) -> float:
@@ -62,14 +78,21 @@ class Ball(NamedTuple):
         return self.bottom - self.half_width
 
     @property
+    def slot_end_mm(self) -> float:
+        """The distance of the slots' ends from the axis, on the inner face."""
+        return self.span_mm[0] * math.sin(min(self.slot_end, 0.5 * math.pi))
+
+    @property
+    def inner(self) -> float:
+        """The polar angle where the slotted ring ends, between its slots and the hole."""
+        hole = math.asin(min(1.0, self.opening_mm / self.span_mm[0]))
+        end = self.slot_end
+        return end - self.roller if end - self.roller > hole else 0.5 * (end + hole)
+
+    @property
     def between_slots(self) -> float:
         """The polar angle of the wheel's edge on the meridian between two slots."""
         return self.axes - self.recess if self.recess else self.rim
-
-    @property
-    def wall_mouth(self) -> float:
-        """The polar angle at which a slot's middle leaves the rim."""
-        return math.acos(math.cos(self.rim) / math.cos(self.half_width))
 
     @property
     def corner(self) -> float:
@@ -109,20 +132,90 @@ class Ball(NamedTuple):
         return (self.arm_span_mm[1] if length is None else outside + length) - inside
 
 
-def inner_edge(slot_end: float, roller: float, hole: float) -> float:
-    """Return the polar angle where the slotted ring ends, between its slots and a hole."""
-    return slot_end - roller if slot_end - roller > hole else 0.5 * (slot_end + hole)
+def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
+    """Return the sizes without a load, for a thickness of the wheel, or else its default.
 
-
-def wheel_axle(spec: Spec, L: float, inside: float, slot_end: float) -> tuple[float, float]:
-    """Return the radii of the wheel's bore and its hub, mm, 0 for none.
-
-    ``inside`` is the radius of the wheel's inner sphere, ``slot_end`` the angle from its axis to
-    the ends of its slots. Raises GenevaError, naming the key, where one of them cuts the slots.
+    Raises GenevaError, naming the key, where they leave no wheel or no lock.
     """
-    end = inside * math.sin(min(slot_end, 0.5 * math.pi))
-    bore = wheel_bore(spec, end, wall_min(spec.size, L), L)
-    hub = hub_about(spec.size, L, bore, end)
+    spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
+    size, z, allowed = spec.size, spec.wheel.z, spec.size.allowances
+    if z > Z_DRAWN:
+        raise GenevaError(f"z = {z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z"))
+    for key in ("crank_bore_mm", "crank_hub_mm", "crank_hub_length_mm", "dial_bolts"):
+        if vars(size)[key]:
+            raise GenevaError(
+                f"{key}: a sphere's crank has its bore and hub in the arm (arm_bore_mm, "
+                f"arm_hub_mm), and its wheel no dial; remove {key}",
+                ("size", key),
+            )
+    first, *others = places(spec.wheel, spec.drive, spec.given_distance_mm)
+    arm = math.atan2(first.ratio, first.cone)
+    engagement = mechanism.engagements[0]
+    mouth, deepest = (float(engagement.slot(x, 0)[0].c[0]) for x in (engagement.entry_deg, 0.0))
+    roller = radius_mm / L
+    w = roller + allowed.slot_clearance_mm / L
+    bottom_mm = max(allowed.slot_clearance_mm, radius_mm / 20.0)
+    bottom_mm = value_or(size.slot_bottom_clearance_mm, bottom_mm)
+    bottom = deepest - bottom_mm / L
+    # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
+    rim = math.acos(math.cos(mouth) * math.cos(w))
+    if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
+        raise PartDoesNotFit(
+            "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
+            f"slot_bottom_clearance_mm, or use fewer than {z} slots",
+            ("size", "roller_radius_mm"),
+        )
+    thick = drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
+    inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
+    under = outside + allowed.pin_gap_mm  # the arm's inner face, on which the sectors stand
+    for key, value, most in (
+        ("wheel_thickness_mm", thick.wheel, L),
+        ("lock_thickness_mm", thick.lock, under),
+    ):
+        if value >= most:
+            raise GenevaError(
+                f"{key} = {value:g}: the part would reach inwards to the sphere's centre; it must "
+                f"be below {most:g}",
+                ("size", key),
+            )
+    pin = pin_radius(size, radius_mm)
+    refuse_wide_pin(size, pin, inside * math.sin(roller))
+    refuse_edges(size, min(thick.wheel, thick.lock, thick.arm))
+    lock_mm = _lock_mm(mechanism, arm - w, abs(deepest + arm - rim), roller)
+    lock = math.asin(lock_mm / L)
+    turns = [p.crank_deg for p in (first, *others)]
+    if len(turns) == 1:
+        turns = [360.0 * i / spec.drive.rollers for i in range(spec.drive.rollers)]
+    bored = 0.0
+    if spec.drive.crank and pin:
+        bored = arm_bore(spec, 0.0, L, L * arm - hole_radius(size, pin))
+    ball = Ball(
+        radius_mm=L,
+        z=z,
+        axes=deepest + arm,
+        arm=arm,
+        half_motion=math.radians(first.half_motion_deg),
+        rollers=tuple(math.radians(t) for t in turns),
+        roller=roller,
+        half_width=w,
+        bottom=bottom,
+        bottom_mm=bottom_mm,
+        mouth=mouth,
+        rim=rim,
+        lock=lock,
+        lock_mm=lock_mm,
+        recess=lock + allowed.lock_clearance_mm / L if lock else 0.0,
+        span_mm=(inside, outside),
+        lock_span_mm=(under - thick.lock, under),
+        arm_span_mm=(under, under + thick.arm),
+        bore_mm=0.0,
+        hub_mm=0.0,
+        pin_mm=pin,
+        arm_bore_mm=bored,
+    )
+    end = ball.slot_end_mm
+    bore = wheel_bore(spec, end, wall_min(size, L), L)
+    hub = hub_about(size, L, bore, end)
     for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
         if radius >= end:
             raise GenevaError(
@@ -130,7 +223,39 @@ def wheel_axle(spec: Spec, L: float, inside: float, slot_end: float) -> tuple[fl
                 f"{2.0 * end:.6g}, or the roller smaller",
                 ("size", key),
             )
-    return bore, hub
+    ball = ball._replace(bore_mm=bore, hub_mm=hub)
+    if ball.inner <= 0.0:
+        raise PartDoesNotFit(
+            "the wheel's middle is not open: the slots end within a roller's width of its axis; "
+            "set a wheel_bore_mm or reduce the roller",
+            ("size", "wheel_bore_mm"),
+        )
+    # a horn thinner than a thousandth of half a step counts as none
+    if ball.opened + ball.corner > (1.0 - 1e-3) * ball.half_step:
+        raise PartDoesNotFit(
+            "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
+            ("size", "lock_radius_mm"),
+        )
+    return ball
+
+
+def _lock_mm(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:
+    """Return the radius of the locking sectors' edge about the crank's axis, 0 for none."""
+    size, L = mechanism.spec.size, mechanism.center_distance_mm
+    if not mechanism.spec.has_lock:
+        return 0.0
+    limit -= size.allowances.lock_clearance_mm / L
+    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
+    if limit <= least:
+        raise PartDoesNotFit(
+            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
+            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
+            ("size", "lock_radius_mm"),
+        )
+    if size.lock_radius_mm is None:
+        return L * math.sin(lock_between(least, limit, roller))
+    require_lock_between(size.lock_radius_mm, low, high)
+    return size.lock_radius_mm
 
 
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:
@@ -141,15 +266,6 @@ def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     wall = wall_min(size, L)
     bored, hub = wheel_reach_and_hub(size, bore, wall, end)
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
-
-
-def crank_hub(size: Size, L: float) -> float:
-    """Return the radius of the crank's hub inside the arm, mm; 0 unless the spec has one."""
-    if not size.has_hub("crank"):
-        return 0.0
-    bore = 0.5 * (size.crank_bore_mm or 0.0)
-    _, hub = crank_reach_and_hub(size, bore, wall_min(size, L))
-    return hub if hub > bore else 0.0
 
 
 def refuse_wide(key: str, radius: float, inner: float, outer: float) -> None:

@@ -9,10 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.plates import Plate, plates, steps_of
-from geneva_cli.geometry.round_holes import RoundHole
+from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.sphere import POLE
-from geneva_cli.kinds.spherical.arm import dial_wall
+from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -47,43 +46,13 @@ def wheel_bore(name: str, parts: SphereParts) -> Check | None:
     to_slots = ball.radius_mm * (ball.slot_end - opening)
 
     def least() -> float:
-        return min(to_slots, _in_hub("wheel", parts) or math.inf)
+        if not 0.0 < ball.bore_mm < ball.hub_mm:
+            return to_slots
+        bored = reach_or_bore(parts.mechanism.spec.size, "wheel", ball.bore_mm)
+        refuse_thin_hub("wheel", ball.hub_mm, bored, ball.bore_mm)
+        return min(to_slots, ball.hub_mm - bored)
 
     return at_least(name, least, parts.shells.sizes.wall_min)
-
-
-def crank_bore(name: str, parts: SphereParts) -> Check | None:
-    """The wall around the bore of the crank's hub inside the arm; None without that hub."""
-    return at_least(name, lambda: _in_hub("crank", parts), parts.shells.sizes.wall_min)
-
-
-def _in_hub(part: str, parts: SphereParts) -> float | None:
-    """Return the wall of a hub around its bore and keyway, mm; None without hub or bore."""
-    bore, hub = parts.hub_radii(part)
-    if not 0.0 < bore < hub:
-        return None
-    bored = reach_or_bore(parts.mechanism.spec.size, part, bore)
-    refuse_thin_hub(part, hub, bored, bore)
-    return hub - bored
-
-
-def dial(name: str, parts: SphereParts) -> Check | None:
-    """The least wall around the holes for a dial."""
-    size = parts.mechanism.spec.size
-    if not size.dial_bolts:
-        return None
-    return at_least(name, lambda: dial_wall(size, parts.ball), parts.shells.sizes.wall_min)
-
-
-def crank_shaft(name: str, parts: SphereParts) -> Check | None:
-    """The gap between the crank's shaft or hub, whichever is thicker, and the wheel's rim."""
-    ball = parts.ball
-    if not ball.about_crank_mm:
-        return None
-    shaft = RoundHole(POLE, ball.about_crank_mm).angle(ball.span_mm[0])
-    # a rim beyond the crank's axis sweeps over it, so there is no clearance at all
-    rim_gap = max(ball.axes - ball.rim, 0.0)
-    return compared(name, (rim_gap - shaft) * ball.radius_mm, "at least", 0.0)
 
 
 def arm_wall(name: str, parts: SphereParts) -> Check | None:
@@ -95,10 +64,10 @@ def arm_wall(name: str, parts: SphereParts) -> Check | None:
 def passing_parts(name: str, parts: SphereParts) -> Check | None:
     """The gap between hubs or shafts and parts that turn about the other axis.
 
-    The checks of walls report a missing arm, or a dial's bolts without a place.
+    The check of the arm's wall reports a missing arm.
     """
-    walls = [check(name, parts) for check in (arm_wall, dial)]
-    if any(row and row.value is None for row in walls):
+    row = arm_wall(name, parts)
+    if row and row.value is None:
         return None
     return gap(name, lambda: _shaft_gaps(parts), parts.ball.radius_mm)
 
@@ -134,32 +103,36 @@ class _Sweep(NamedTuple):
     outer: float
     wide: float = 0.0  # radius of a round part, mm
 
-    def angle(self, sphere: Array) -> Array:
-        """Return the greatest angle from the axis on spheres (n,), radians."""
-        if not self.wide:
-            return np.full_like(sphere, self.high)
-        end = np.arccos(np.minimum(1.0, self.inner / sphere))
-        return np.minimum(np.arcsin(np.minimum(1.0, self.wide / sphere)), end)
-
 
 def _shaft_gaps(parts: SphereParts) -> Iterator[float]:
     """Yield the gaps of hubs and shafts to parts about the other axis, mm along a sphere."""
-    ball = parts.ball
-    shafts = [(step, m.frame is not None) for m in parts.shafts for step in steps_of(m.part)]
-    on_wheel, on_crank = (
-        [p for p in plates(one.part) if p.layer != "ROLLER"]
-        + [p for p, of_crank in shafts if of_crank is crank]
-        for crank, one in ((False, parts.wheel), (True, parts.crank))
-    )
-    wheel, crank = ([s for p in some for s in _round(p)] for some in (on_wheel, on_crank))
-    pairs = [*product(wheel, [*crank, *_crank_rings(parts)])]
+    ball, arm, sectors = parts.ball, parts.arm, parts.shells.crank
+    wheel, crank = ([p for p in plates(m.part) if p.layer != "ROLLER"] for m in parts.members[:2])
+    for shaft in parts.shafts:
+        (wheel if shaft.frame is None else crank).extend(plates(shaft.part))
+    on_wheel, on_crank = ([s for p in some for s in _round(p)] for some in (wheel, crank))
+    # what arm, locking sectors and rollers sweep about the crank's axis
+    low, high = ball.arm - ball.roller, ball.arm + ball.roller
+    out = ball.arm_span_mm[1] if arm else ball.span_mm[1]
+    crank_rings = [_Sweep(False, low, high, ball.span_mm[0], out)]
+    if arm:
+        crank_rings.append(_Sweep(False, 0.0, arm.reach, *ball.arm_span_mm))
+    if sectors:
+        low = min(math.pi - sector.boundary[2].angle for sector in sectors)
+        crank_rings.append(_Sweep(False, low, ball.lock, *ball.lock_span_mm))
     inner = 0.0 if ball.opening_mm else ball.inner
     ring = _Sweep(False, inner, ball.rim, *ball.span_mm)
-    pairs += [(one, ring) for one in crank]
-    near = SAME_LENGTH * ball.radius_mm
+    pairs = [*product(on_wheel, [*on_crank, *crank_rings]), *((one, ring) for one in on_crank)]
     for one, other in pairs:
-        if min(one.outer, other.outer) - max(one.inner, other.inner) > near:
-            yield _gap(one, other, ball.axes)
+        low, high = max(one.inner, other.inner), min(one.outer, other.outer)
+        if high - low > SAME_LENGTH * ball.radius_mm:
+            # beyond these spheres both angles only shrink, and an arc grows with its sphere
+            grow = (math.hypot(each.inner, each.wide) for each in (one, other) if each.wide)
+            sphere = np.linspace(low, min(high, max((low, *grow))), 257)
+            sphere = sphere[sphere > 0.0]  # both may be at the centre
+            apart = ball.axes if one.back is other.back else math.pi - ball.axes
+            away = ring_gap(apart, other.low, _angle(other, sphere), _angle(one, sphere))
+            yield float((sphere * away).min())
 
 
 def _round(plate: Plate) -> Iterator[_Sweep]:
@@ -167,32 +140,12 @@ def _round(plate: Plate) -> Iterator[_Sweep]:
     wide = around(plate.outline)
     for back, low, high in ((False, plate.low, plate.high), (True, -plate.high, -plate.low)):
         if high > 0.0:
-            flat = max(low, 0.0)
-            yield _Sweep(back, 0.0, 0.0, flat, math.hypot(high, wide), wide)
+            yield _Sweep(back, 0.0, 0.0, max(low, 0.0), math.hypot(high, wide), wide)
 
 
-def _crank_rings(parts: SphereParts) -> Iterator[_Sweep]:
-    """Yield the regions that arm, locking sectors and rollers sweep about the crank's axis."""
-    ball, arm, sectors = parts.ball, parts.arm, parts.shells.crank
-    out = ball.span_mm[1]
-    if arm:
-        out = ball.arm_span_mm[1]
-        yield _Sweep(False, 0.0, arm.reach, *ball.arm_span_mm)
-    if sectors:
-        low = min(math.pi - sector.boundary[2].angle for sector in sectors)
-        yield _Sweep(False, low, ball.lock, *ball.lock_span_mm)
-    low, high = ball.arm - ball.roller, ball.arm + ball.roller
-    yield _Sweep(False, low, high, ball.span_mm[0], out)
-
-
-def _gap(one: _Sweep, other: _Sweep, axes: float) -> float:
-    """Return the least gap of a round part to a round part or ring about the other axis."""
-    low, high = max(one.inner, other.inner), min(one.outer, other.outer)
-    # beyond these spheres both angles only shrink, and an arc that is a gap grows with its sphere
-    grow = (math.hypot(each.inner, each.wide) for each in (one, other) if each.wide)
-    high = min(high, max((low, *grow)))
-    sphere = np.linspace(low, high, 257)
-    sphere = sphere[sphere > 0.0]  # both may be at the centre
-    apart = axes if one.back is other.back else math.pi - axes
-    gaps = sphere * ring_gap(apart, other.low, other.angle(sphere), one.angle(sphere))
-    return float(gaps.min())
+def _angle(part: _Sweep, sphere: Array) -> Array:
+    """Return the greatest angle of a part from its axis on spheres (n,), radians."""
+    if not part.wide:
+        return np.full_like(sphere, part.high)
+    end = np.arccos(np.minimum(1.0, part.inner / sphere))
+    return np.minimum(np.arcsin(np.minimum(1.0, part.wide / sphere)), end)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.geometry.round_holes import RoundHole
-from geneva_cli.kinds.spherical.arm import dial_holes
+from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kinds.spherical.drawings import crank_cone, wheel_cone
 from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.motion.mechanism import Mechanism
@@ -21,33 +20,28 @@ def dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
 
 
 def _dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
-    ball, size = parts.ball, parts.mechanism.spec.size
-    inner, outer = ball.span_mm
-    yield from _lengths({"shells' inner radius": inner, "shells' outer radius": outer})
-    yield from _angles(
-        {
-            "roller's cone, half angle": ball.roller,
-            "slot, between its walls": 2.0 * ball.half_width,
-            "slot's last round, from the wheel's axis": ball.bottom,
-            "rim, from the wheel's axis": ball.rim,
-            "slotted ring's inner edge, from its axis": ball.inner,
-        }
-    )
+    ball = parts.ball
+    yield from _lengths("shells'", ball.span_mm)
+    yield _angle("roller's cone, half angle", ball.roller)
+    yield _angle("slot, between its walls", 2.0 * ball.half_width)
+    yield _angle("slot's last round, from the wheel's axis", ball.bottom)
+    yield _angle("rim, from the wheel's axis", ball.rim)
+    yield _angle("slotted ring's inner edge, from its axis", ball.inner)
     yield from _axle("wheel", ball.bore_mm, ball.hub_mm)
-    yield from or_missing("dial's bolts", lambda: _bolts("dial's bolt", dial_holes(size, ball)))
     if ball.lock:
-        edges = {"lock": ball.lock, "recess": ball.recess}
-        yield from _angles({f"{name}, from the crank's axis": at for name, at in edges.items()})
+        yield _angle("lock, from the crank's axis", ball.lock)
+        yield _angle("recess, from the crank's axis", ball.recess)
         yield Dimension("locking sectors' inner radius", ball.lock_span_mm[0], "mm")
     for k, region in enumerate(parts.shells.crank, 1):
         rim, _, low, _ = region.boundary
+        yield _angle(f"locking sector {k}: inner edge", math.pi - low.angle)
         start = math.atan2(rim.start[1], rim.start[0]) % math.tau
-        named = {"inner edge": math.pi - low.angle, "begins": start, "width": rim.sweep}
-        yield from _angles({f"locking sector {k}: {name}": at for name, at in named.items()})
+        yield _angle(f"locking sector {k}: begins", start)
+        yield _angle(f"locking sector {k}: width", rim.sweep)
     yield from or_missing("arm's dimensions", lambda: _arm(parts))
     for whose, cone in (("wheel", wheel_cone(ball)), ("crank", crank_cone(ball))):
         flat = f"{whose} laid flat"
-        yield from _angles({f"{flat}: cone touches the sphere at": cone.polar})
+        yield _angle(f"{flat}: cone touches the sphere at", cone.polar)
         yield Dimension(f"{flat}: from there to its apex", abs(cone.apex_mm), "mm")
         yield Dimension(f"{flat}: sector", cone.sector_deg, "deg")
 
@@ -56,13 +50,12 @@ def _arm(parts: SphereParts) -> Iterator[Dimension]:
     arm, ball = parts.arm, parts.ball
     if arm is None:
         return
-    inner, outer = ball.arm_span_mm
-    yield from _lengths({"arm's inner radius": inner, "arm's outer radius": outer})
+    yield from _lengths("arm's", ball.arm_span_mm)
     yield from _axle("arm", arm.bore.radius, arm.hub)
-    yield from _angles({"arm's cap, from the crank's axis": arm.cap})
-    yield from _angles({"arm's eyes, half angle": arm.eye})
-    hole = arm.pins[0].radius
-    yield from _lengths({"pins": 2.0 * ball.pin_mm, "pins' holes in the arm": 2.0 * hole})
+    yield _angle("arm's cap, from the crank's axis", arm.cap)
+    yield _angle("arm's eyes, half angle", arm.eye)
+    yield Dimension("pins", 2.0 * ball.pin_mm, "mm")
+    yield Dimension("pins' holes in the arm", 2.0 * arm.pins[0].radius, "mm")
     yield from _bolts("lock's bolt", arm.bolts)
 
 
@@ -77,16 +70,17 @@ def _bolts(name: str, holes: tuple[RoundHole, ...]) -> Iterator[Dimension]:
     for k, bolt in enumerate(holes, 1):
         x, y, z = bolt.axis
         yield Dimension(f"{name} {k}: hole", 2.0 * bolt.radius, "mm")
-        named = {"from the axis": math.acos(z), "azimuth": math.atan2(y, x)}
-        yield from _angles({f"{name} {k}: {what}": at for what, at in named.items()})
+        yield _angle(f"{name} {k}: from the axis", math.acos(z))
+        yield _angle(f"{name} {k}: azimuth", math.atan2(y, x))
 
 
-def _lengths(named: dict[str, float]) -> Iterator[Dimension]:
-    return (Dimension(name, value, "mm") for name, value in named.items())
+def _lengths(whose: str, span_mm: tuple[float, float]) -> Iterator[Dimension]:
+    for end, radius in zip(("inner", "outer"), span_mm, strict=True):
+        yield Dimension(f"{whose} {end} radius", radius, "mm")
 
 
-def _angles(named: dict[str, float]) -> Iterator[Dimension]:
-    return (Dimension(name, math.degrees(value), "deg") for name, value in named.items())
+def _angle(name: str, value: float) -> Dimension:
+    return Dimension(name, math.degrees(value), "deg")
 
 
 def meridians_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:

@@ -33,14 +33,14 @@ from geneva_cli.geometry.shapes import (
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing
 from geneva_cli.geometry.sphere import Cap, Region, SphereArc, Vector, place
-from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
+from geneva_cli.kinds.spherical.arm import crank_arm
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.parts import SphereParts, arm_solids
 from geneva_cli.kinds.spherical.regions import edge, locked, rollers
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.projection import titled
-from geneva_cli.spec.written import length, unit
+from geneva_cli.spec.written import length
 
 
 class Cone(NamedTuple):
@@ -78,6 +78,10 @@ class Cone(NamedTuple):
         """Return the point of the flat cone, mm, that a point of the sphere is projected to."""
         points, _ = self._flat(*(np.array([v]) for v in (polar, azimuth, 0.0, 0.0)))
         return float(points[0, 0]), float(points[0, 1])
+
+    def within(self, parts: SphereParts) -> Cone:
+        """Return the cone with the accuracy of the parts."""
+        return self._replace(tolerance_mm=parts.tolerance or 0.0, curves=parts.curves)
 
     def turned(self, at: Point, azimuth: float) -> Point:
         """Return a point of the flat cone after the sphere is turned about z."""
@@ -120,18 +124,6 @@ class Cone(NamedTuple):
         bulge = math.tan(0.25 * azimuth * math.cos(self.polar))
         return Arc(start, end, bulge) if abs(bulge) > SAME_ANGLE else Line(start, end)
 
-    def described(self, whose: str) -> str:
-        """Return a description of the cone's shape and position for the workshop."""
-        polar = math.degrees(self.polar)
-        sphere = f"the {length(self.radius_mm)} {unit()} sphere"
-        at = f"touches {sphere} {polar:.6g} deg from the {whose}'s axis"
-        if abs(math.cos(self.polar)) < SAME_ANGLE:
-            return f"cylinder that {at}"
-        return (
-            f"cone that {at}, {length(abs(self.apex_mm))} {unit()} from its apex; sector "
-            f"{self.sector_deg:.6g} deg"
-        )
-
     def _at(self, at: Vector, about: float) -> Point:
         x, y, z = at
         azimuth = about + math.remainder(math.atan2(y, x) - about, math.tau)
@@ -159,7 +151,12 @@ class Cone(NamedTuple):
 
 def wheel_cone(ball: Ball) -> Cone:
     """Return the cone that touches the sphere in the middle of the slots' length."""
-    return Cone(ball.radius_mm, 0.5 * (ball.bottom + ball.wall_mouth))
+    return Cone(ball.radius_mm, 0.5 * (ball.bottom + _wall_mouth(ball)))
+
+
+def _wall_mouth(ball: Ball) -> float:
+    """Return the polar angle at which a slot's middle leaves the rim."""
+    return math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
 
 
 def crank_cone(ball: Ball) -> Cone:
@@ -172,33 +169,38 @@ def arm_cone(ball: Ball) -> Cone:
     return Cone(0.5 * sum(ball.arm_span_mm), ball.arm)
 
 
-def _fine(parts: SphereParts, cone: Cone) -> Cone:
-    """Return a cone with the accuracy of the parts."""
-    return cone._replace(tolerance_mm=parts.tolerance or 0.0, curves=parts.curves)
-
-
 def wheel(parts: SphereParts) -> Drawing:
     """Return the wheel's cone, cut open between two slots; x is along the first slot."""
-    title = titled(parts.mechanism, f"wheel, flat: {wheel_cone(parts.ball).described('wheel')}")
+    title = _titled(parts, "wheel", wheel_cone(parts.ball), "wheel")
     return _drawing(parts, title, wheel_flat(parts), parts.wheel.part)
 
 
 def crank(parts: SphereParts) -> Drawing:
     """Return the crank's cone: locking sectors, and the rollers where they pass through it."""
-    title = titled(parts.mechanism, f"crank, flat: {crank_cone(parts.ball).described('crank')}")
+    title = _titled(parts, "crank", crank_cone(parts.ball), "crank")
     return _drawing(parts, title, crank_flat(parts), parts.crank.part)
 
 
 def assembly(parts: SphereParts) -> Drawing:
     """Return both laid flat, side by side; the solid is the machine at input angle 0."""
-    ball, title = parts.ball, titled(parts.mechanism)
-    left, right = wheel_flat(parts), crank_flat(parts)
+    title, left, right = titled(parts.mechanism), wheel_flat(parts), crank_flat(parts)
     # wheel and crank are 0.1 of the sphere's radius apart
-    shift = 0.1 * ball.radius_mm + max(bounds(shape).x1 for shape in left)
+    shift = 0.1 * parts.ball.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
     moved = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
     whole = Group(title, parts.members)
     return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations())
+
+
+def _titled(parts: SphereParts, name: str, cone: Cone, whose: str) -> str:
+    """Return a title with the cone's shape and position for the workshop."""
+    sphere = f"the {length(cone.radius_mm)} mm sphere"
+    at = f"touches {sphere} {math.degrees(cone.polar):.6g} deg from the {whose}'s axis"
+    text = f"cone that {at}, {length(abs(cone.apex_mm))} mm from its apex; sector "
+    text += f"{cone.sector_deg:.6g} deg"
+    if abs(math.cos(cone.polar)) < SAME_ANGLE:
+        text = f"cylinder that {at}"
+    return titled(parts.mechanism, f"{name}, flat: {text}")
 
 
 def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) -> Drawing:
@@ -214,10 +216,12 @@ def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) 
 
 def wheel_flat(parts: SphereParts) -> list[Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
-    ball, cone = parts.ball, _fine(parts, wheel_cone(parts.ball))
-    b, slot = ball.half_step, slot_flat(ball, cone)
-    path = Line(*(cone.point(polar, 0.0) for polar in (ball.wall_mouth, ball.bottom)))
-    both = Contour("PITCH", (*slot.segments, path), closed=False)
+    ball, cone = parts.ball, wheel_cone(parts.ball).within(parts)
+    b = ball.half_step
+    # the edge about the first slot, half-way to the adjacent slots on either side
+    slot = joined(chain(*(cone.segments(arc, 0.0) for arc in edge(ball))))
+    path = Line(*(cone.point(polar, 0.0) for polar in (_wall_mouth(ball), ball.bottom)))
+    both = Contour("PITCH", (*slot, path), closed=False)
     outer: list[Segment] = []
     pitch: list[Shape] = []
     for k in range(ball.z):
@@ -231,15 +235,9 @@ def wheel_flat(parts: SphereParts) -> list[Shape]:
     return [rim, *pitch]
 
 
-def slot_flat(ball: Ball, cone: Cone) -> Contour:
-    """Return the edge about the first slot, half-way to the adjacent slots on either side."""
-    each = (cone.segments(arc, 0.0) for arc in edge(ball))
-    return Contour("WHEEL", joined(chain(*each)), closed=False)
-
-
 def crank_flat(parts: SphereParts) -> list[Shape]:
     """Return locking sectors, rollers and the rollers' circle on the crank's flat cone."""
-    ball, cone = parts.ball, _fine(parts, crank_cone(parts.ball))
+    ball, cone = parts.ball, crank_cone(parts.ball).within(parts)
     locking = zip(parts.shells.crank, locked(ball), strict=True)
     shapes: list[Shape] = [cone.region("CRANK", one, 0.5 * (a + b)) for one, (a, b) in locking]
     rolling = zip(rollers(ball), ball.rollers, strict=True)
@@ -250,59 +248,40 @@ def crank_flat(parts: SphereParts) -> list[Shape]:
 
 
 def arm(parts: SphereParts) -> Drawing:
-    """Return the arm laid flat; its solid is the cap with its hub.
+    """Return the arm laid flat, cut open between its holes; its solid is the cap with its hub.
 
-    Raises GenevaError without an arm.
+    About the crank's axis the opening is as wide as the hub. Raises GenevaError without an arm.
     """
     ball = parts.ball
     # the error says why there is no arm
-    cap_arm = parts.arm or crank_arm(ball, parts.shells.crank, parts.mechanism.spec.size)
-    shapes = arm_flat(parts, cap_arm)
-    low, high = ball.arm_span_mm
-    plate = Plate("arm", "ARM", shapes[0], tuple(shapes[1:]), 0.0, high - low)
-    solid = Group("arm", tuple(map(Member, arm_solids(ball, cap_arm))))
-    title = titled(parts.mechanism, f"arm, flat: {arm_cone(ball).described('crank')}")
-    return Drawing(title, tuple(shapes), solid=plate, shells=solid)
-
-
-def arm_flat(parts: SphereParts, arm: CapArm) -> list[Contour]:
-    """Return the arm's boundary, cut open between its holes, and the holes.
-
-    About the crank's axis the opening is as wide as the hub.
-    """
-    cone = _fine(parts, arm_cone(parts.ball))
+    arm = parts.arm or crank_arm(ball, parts.shells.crank, parts.mechanism.spec.size)
+    cone = arm_cone(ball).within(parts)
     hub, *others = arm.holes
     azimuths = [math.atan2(hole.axis[1], hole.axis[0]) for hole in others]
-    cut = _widest_gap(azimuths) - math.tau  # azimuths rise from here by a whole turn, past 0
-    head, *between, tail = _opened(arm.boundary, cut)
-    edge: list[Segment] = []
+    # in the middle of the widest gap; azimuths rise from here by a whole turn, past 0
+    around = sorted(a % math.tau for a in azimuths)
+    gaps = zip(around, [*around[1:], around[0] + math.tau], strict=True)
+    start, end = max(gaps, key=lambda pair: pair[1] - pair[0])
+    cut = 0.5 * (start + end) % math.tau - math.tau
+    # the boundary, counterclockwise from where it crosses that azimuth
+    arcs = arm.boundary.boundary
+    number, polar = next((i, p) for i, arc in enumerate(arcs) for p in arc.crossings(cut))
+    at = place(polar, cut)
+    head, tail = arcs[number]._replace(start=at), arcs[number]._replace(end=at)
     # each arc's azimuths are unwrapped around a value near them
-    for arc, about in ((head, 0.5), *((arc, 1.0) for arc in between), (tail, 1.5)):
-        edge += cone.segments(arc, cut + about * math.pi)
-    angle = hub.angle(cone.radius_mm)
-    far, near = (cone.point(angle, cut + turn) for turn in (math.tau, 0.0))
+    edge = cone.segments(head, cut + 0.5 * math.pi)
+    for arc in (*arcs[number + 1 :], *arcs[:number]):
+        edge += cone.segments(arc, cut + math.pi)
+    edge += cone.segments(tail, cut + 1.5 * math.pi)
+    far, near = (cone.point(hub.angle(cone.radius_mm), cut + turn) for turn in (math.tau, 0.0))
     back = cone.level(far, near, -math.tau)
-    outline = [*edge, Line(edge[-1].end, far), back, Line(near, edge[0].start)]
+    outline = closed("ARM", [*edge, Line(edge[-1].end, far), back, Line(near, edge[0].start)])
     holes = []
     for hole, azimuth in zip(others, azimuths, strict=True):
         region = Cap(hole.axis, hole.angle(cone.radius_mm)).region
-        about = cut + (azimuth - cut) % math.tau
-        holes.append(cone.region("BORE", region, about))
-    return [closed("ARM", outline), *holes]
-
-
-def _widest_gap(azimuths: list[float]) -> float:
-    """Return the azimuth in the middle of the widest gap, from 0 up to a whole turn."""
-    around = sorted(a % math.tau for a in azimuths)
-    after = [*around[1:], around[0] + math.tau]
-    start, end = max(zip(around, after, strict=True), key=lambda pair: pair[1] - pair[0])
-    return 0.5 * (start + end) % math.tau
-
-
-def _opened(region: Region, azimuth: float) -> list[SphereArc]:
-    """Return a boundary round the pole, counterclockwise, cut where it crosses an azimuth."""
-    arcs = region.boundary
-    number, polar = next((i, p) for i, arc in enumerate(arcs) for p in arc.crossings(azimuth))
-    at = place(polar, azimuth)
-    head, tail = arcs[number]._replace(start=at), arcs[number]._replace(end=at)
-    return [head, *arcs[number + 1 :], *arcs[:number], tail]
+        holes.append(cone.region("BORE", region, cut + (azimuth - cut) % math.tau))
+    low, high = ball.arm_span_mm
+    plate = Plate("arm", "ARM", outline, tuple(holes), 0.0, high - low)
+    solid = Group("arm", tuple(map(Member, arm_solids(ball, arm))))
+    title = _titled(parts, "arm", arm_cone(ball), "crank")
+    return Drawing(title, (outline, *holes), solid=plate, shells=solid)

@@ -49,9 +49,6 @@ class BallGaps:
         axes = {max(a.axis, opposite(a.axis)) for region in sectors for a in region.boundary}
         self._facing = np.array(sorted(axes))
 
-    def begin(self) -> None:
-        """Do nothing: a sphere has so few edges that no work is counted."""
-
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
         turn = np.radians(input_deg)

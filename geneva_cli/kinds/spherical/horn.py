@@ -49,11 +49,6 @@ class SphereHorn(NamedTuple):
     half_step: float  # from the slot's middle to the next horn, about the wheel's axis
 
     @property
-    def mouth(self) -> Array:
-        """The polar angle of the roller at this horn's mouth, (m, 1)."""
-        return self.polar(self.at.mouth_deg)
-
-    @property
     def recess_mm(self) -> Number:
         """The recess's radius."""
         return self.radius_mm * np.sin(self.recess)
@@ -61,7 +56,7 @@ class SphereHorn(NamedTuple):
     @property
     def stoutness(self) -> Array:
         """Thickness at the mouth over the recess's radius, (m,)."""
-        return np.ravel(self.thickness(self.mouth) / self.recess_mm)
+        return np.ravel(self.thickness(self.polar(self.at.mouth_deg)) / self.recess_mm)
 
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
@@ -87,7 +82,8 @@ class SphereHorn(NamedTuple):
             normal = 6.0 * in_shell / (b * h * h) + 6.0 * off_shell / (h * b * b) + pull / (b * h)
             shear = torsion_MPa(twist, b + 0.0 * h, h)
             stress = np.sqrt(np.maximum(normal, 0.0) ** 2 + 3.0 * shear**2)
-            inwards = self.radius_mm * np.cos(self.half_width) * (self.mouth - t)
+            mouth = self.polar(self.at.mouth_deg)
+            inwards = self.radius_mm * np.cos(self.half_width) * (mouth - t)
             stress = np.where((t[:, None] < t0) & np.isfinite(stress), stress, 0.0)
         return UnitStress(stress, inwards, thick)
 

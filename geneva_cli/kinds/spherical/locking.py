@@ -108,7 +108,10 @@ class CutShells(CutParts):
         """
         ball = self.shells.ball
         size, L = spec.size, ball.radius_mm
-        least = _arc_increase_mm(ball.lock, sizes["lock_radius_mm"] + sizes["recess_radius_mm"], L)
+
+        def arc_mm(angle: float, by: float) -> float:
+            """Return the arc by which an angle grows if its radius L sin(angle) grows ``by``."""
+            return L * (math.asin(min(1.0, max(-1.0, math.sin(angle) + by / L))) - angle)
 
         def corner(sign: float) -> Spec:
             roller = L * ball.roller - sign * 0.5 * sizes["roller_diameter_mm"]
@@ -122,28 +125,21 @@ class CutShells(CutParts):
                 lock_radius_mm=disc,
             )
             if ball.lock:
-                grown = _arc_increase_mm(ball.recess, sign * sizes["recess_radius_mm"], L)
+                grown = arc_mm(ball.recess, sign * sizes["recess_radius_mm"])
                 clear = L * (ball.recess - math.asin(disc / L)) + grown
                 changed = changed.replace(lock_clearance_mm=max(clear, 0.0))
             return spec.replace(size=changed)
 
+        least = arc_mm(ball.lock, sizes["lock_radius_mm"] + sizes["recess_radius_mm"])
         return least if ball.lock else None, corner
 
 
 def sphere_locks(shells: Shells) -> list[SphereLock]:
     """Return a recess with each locking sector of a spherical crank; empty without one."""
     ball = shells.ball
-    halves = {
-        round(edge.sweep / SAME): 0.5 * edge.sweep
-        for region in shells.crank
-        for edge in region.boundary[:1]  # it begins with the locking edge
-    }
+    edges = [region.boundary[0] for region in shells.crank]  # it begins with the locking edge
+    halves = {round(edge.sweep / SAME): 0.5 * edge.sweep for edge in edges}
     return [
         SphereLock(ball.radius_mm, ball.axes, ball.lock, ball.recess, ball.rim, half)
         for half in halves.values()
     ]
-
-
-def _arc_increase_mm(angle: float, by: float, L: float) -> float:
-    """Return the arc, mm, by which an angle grows if its radius L sin(angle) grows ``by``."""
-    return L * (math.asin(min(1.0, max(-1.0, math.sin(angle) + by / L))) - angle)

@@ -12,17 +12,26 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.mass import MM, MassProperties, added, mass_properties
-from geneva_cli.geometry.plates import Group, Member, Plate, Shell, inwards
-from geneva_cli.geometry.round_holes import RoundHole
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour
+from geneva_cli.geometry.plates import (
+    MM,
+    Group,
+    MassProperties,
+    Member,
+    Plate,
+    Shell,
+    added,
+    inwards,
+    mass_properties,
+)
+from geneva_cli.geometry.shapes import ORIGIN, Circle
 from geneva_cli.geometry.sphere import POLE, Cap, Region, Rotation, axis_frame, place
+from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.spherical.arm import CapArm, crank_arm, dial_holes
-from geneva_cli.kinds.spherical.ball import Ball, crank_hub, refuse_wide
+from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
+from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
 from geneva_cli.kinds.spherical.gap_bounds import SpherePairs
 from geneva_cli.kinds.spherical.gaps import BallGaps
-from geneva_cli.kinds.spherical.regions import at_mid_motion, web_angle, web_region, wheel_regions
+from geneva_cli.kinds.spherical.regions import at_mid_motion, wheel_regions
 from geneva_cli.kinds.spherical.sizes import ball, fitted
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
@@ -30,8 +39,7 @@ from geneva_cli.parts.assembly import Assembly, assembled
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.shafts.held_hubs import held_hub
-from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends, shoulder_length, turned_shaft
+from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends
 from geneva_cli.parts.sizes import refuse_thin_hub
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.materials import wheel_material
@@ -91,15 +99,22 @@ class SphereParts(Parts):
         """The sizes, as angles on the sphere and radii."""
         return self._shape.ball
 
+    @property
+    def outside_mm(self) -> float | None:
+        """Radius of the wheel's outer face, from which heights count inwards."""
+        return self.ball.span_mm[1]
+
+    @property
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return self.shells.sizes.horn if self.shells.crank else None
+
     def pairs(self, target: float) -> SpherePairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
         return SpherePairs(self.shells.gaps, self.shells.crank, target)
 
     def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, mm, at input angles (n,).
-
-        It is an array (n, 3). The wheel is turned on by ``lead`` radians.
-        """
+        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 3)."""
         return self.ball.radius_mm * self.shells.gaps.in_wheel(motion, at, lead)
 
     def past_mouth(self, motion: int, at: Array) -> Array:
@@ -111,8 +126,7 @@ class SphereParts(Parts):
     def wheel(self) -> Member:
         """The wheel's shell with its hub. Raises GenevaError for one that cannot be made."""
         size, ball = self.mechanism.spec.size, self.ball
-        hub = wheel_hub(size, ball)
-        shell = wheel_shell(size, ball)
+        hub, shell = wheel_hub(size, ball), wheel_shell(ball)
         return Member(Group("wheel", (Member(shell), *([Member(hub)] if hub else []))))
 
     @cached_property
@@ -124,12 +138,13 @@ class SphereParts(Parts):
 
     @cached_property
     def crank(self) -> Member:
-        """The crank: locking sectors, arm, rollers on their pins, hub."""
+        """The crank: locking sectors, arm, rollers on their pins."""
         ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
-        members = []
-        for k, region in enumerate(self.shells.crank):
-            screwed = arm.bolts_of(k, len(self.shells.crank)) if arm else ()
-            sector = Shell("locking sector", "CRANK", (region,), *ball.lock_span_mm, screwed)
+        sectors, members = self.shells.crank, []
+        each = len(arm.bolts) // len(sectors) if arm and sectors else 0
+        for k, region in enumerate(sectors):
+            bolts = arm.bolts[k * each : (k + 1) * each] if arm else ()
+            sector = Shell("locking sector", "CRANK", (region,), *ball.lock_span_mm, bolts)
             members.append(Member(sector))
         members += map(Member, arm_solids(ball, arm) if arm else ())
         bored = ball.pin_mm + 0.5 * size.allowances.shaft_fit_mm
@@ -140,42 +155,21 @@ class SphereParts(Parts):
         for azimuth in ball.rollers:
             frame = axis_frame(place(ball.arm, azimuth))
             members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
-        hub = held_hub(size, "crank", self._inner_hub, arm.keyway if arm else 0.0)
-        members += [Member(hub)] if hub else []
         return Member(Group("crank", tuple(members)), frame=at_mid_motion(ball))
-
-    @property
-    def _inner_hub(self) -> Plate | None:
-        """The crank's hub on the arm's inner face; None unless the spec has one."""
-        size, ball, arm = self.mechanism.spec.size, self.ball, self.arm
-        radius = crank_hub(size, ball.radius_mm)
-        if not (radius and arm):
-            return None
-        long, high = size.crank_hub_length_mm, ball.arm_span_mm[0]
-        low = ball.span_mm[0] if long is None else high - long
-        bored: tuple[Circle | Contour, ...] = ()
-        if size.crank_bore_mm:
-            form = bore_of(size, "crank", 0.5 * size.crank_bore_mm)
-            refuse_thin_hub("crank", radius, form.reach, form.radius)
-            bored = (form.shape("BORE", arm.keyway),)
-        return Plate("crank's hub", "HUB", Circle("HUB", ORIGIN, radius), bored, low, high)
 
     @cached_property
     def shafts(self) -> tuple[Member, ...]:
         """The shafts of wheel and crank: as wide as the bores, and as long as on a plane.
 
-        There is no frame. Shafts end the arm's thickness beyond the parts that they carry, turned
-        ones at the circlip of a bearing there.
+        There is no frame. Shafts end the arm's thickness beyond the parts that they carry.
         """
         ball, size = self.ball, self.mechanism.spec.size
         outside, (under, over) = ball.span_mm[1], ball.arm_span_mm
-        face = outside - ball.shafts_end_mm(size)
-        lowest = face - (over - under)
+        lowest = outside - ball.shafts_end_mm(size) - (over - under)
         members = []
         for one, frame in self._axles(lowest):
-            turned = size.shafts == "turned" and one.low <= lowest
-            bearing = face - shoulder_length(size, ball.radius_mm)
-            part = (turned_shaft(size, one, bearing) if turned else one.plain()).part
+            part = one.member.part
+            assert isinstance(part, Plate)
             members.append(Member(inwards(part, outside), frame=frame))
         return tuple(members)
 
@@ -188,40 +182,22 @@ class SphereParts(Parts):
             bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
             seat = Seat("wheel", high - ball.hub_length_mm(size) if hub else 0.0, high)
             low, high = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
-            one = Shaft("wheel's shaft", "wheel", bore, (seat,), low, high, ORIGIN, ball.half_step)
-            yield one._replace(ends_here=False), None
+            yield (
+                Shaft("wheel's shaft", "wheel", bore, (seat,), low, high, ORIGIN, ball.half_step),
+                None,
+            )
         if arm:
-            through, inner = bool(size.crank_bore_mm), self._inner_hub
-            end = (inner.low if inner else ball.lock_span_mm[0]) if through else under
-            seat = Seat("crank", outside - over, outside - end)
-            low, high = shaft_ends(size, "crank", lowest, outside - end)
+            seat = Seat("crank", outside - over, outside - under)
+            low, high = shaft_ends(size, "crank", lowest, outside - under)
             one = Shaft("crank's shaft", "crank", arm.bore, (seat,), low, high, ORIGIN, arm.keyway)
-            yield one._replace(ends_here=not through), at_mid_motion(ball)
+            yield one, at_mid_motion(ball)
 
     @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        size, ball = self.mechanism.spec.size, self.ball
-        wheel = "wheel's hub" if ball.hub_mm > ball.bore_mm else "wheel"
+        wheel = "wheel's hub" if self.ball.hub_mm > self.ball.bore_mm else "wheel"
         names = {"wheel": wheel, "crank": "arm's hub"}
-        return tuple(names[name] for shaft, _ in self._axles(0.0) for name in shaft.to_fix(size))
-
-    @property
-    def outside_mm(self) -> float | None:
-        """Radius of the wheel's outer face, from which heights count inwards."""
-        return self.ball.span_mm[1]
-
-    @property
-    def horn_mm(self) -> float | None:
-        """Thickness of the horns between slots and recesses; None without a lock."""
-        return self.shells.sizes.horn if self.shells.crank else None
-
-    def hub_radii(self, part: str) -> tuple[float, float]:
-        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
-        size, ball = self.mechanism.spec.size, self.ball
-        if part == "wheel":
-            return ball.bore_mm, ball.hub_mm
-        return 0.5 * (size.crank_bore_mm or 0.0), crank_hub(size, ball.radius_mm)
+        return tuple(names[name] for shaft, _ in self._axles(0.0) for name in shaft.to_fix)
 
     @property
     def members(self) -> tuple[Member, ...]:
@@ -235,18 +211,10 @@ class SphereParts(Parts):
         yield "shafts", lambda: [one.part for one in self.shafts]
 
 
-def wheel_shell(size: Size, ball: Ball) -> Shell:
-    """Return the wheel's shell, down to the round hole about its axis, if there is one.
-
-    Raises GenevaError where a dial's bolts do not fit.
-    """
-    screwed = dial_holes(size, ball)
-    if not screwed and not ball.opening_mm:
-        return Shell("wheel", "WHEEL", tuple(wheel_regions(ball, ball.inner)), *ball.span_mm)
-    inner = web_angle(ball)
-    regions = *wheel_regions(ball, inner), web_region(ball, inner)
-    holes = RoundHole(POLE, ball.opening_mm), *screwed
-    return Shell("wheel", "WHEEL", regions, *ball.span_mm, holes)
+def wheel_shell(ball: Ball) -> Shell:
+    """Return the wheel's shell, down to the round hole about its axis, if there is one."""
+    holes = (RoundHole(POLE, ball.opening_mm),) if ball.opening_mm else ()
+    return Shell("wheel", "WHEEL", tuple(wheel_regions(ball)), *ball.span_mm, holes)
 
 
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:
@@ -262,16 +230,15 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
             f"wheel_bore_mm and wheel_hub_mm, or remove {name}",
             ("size", name),
         )
-    hub = None
-    if wide:
-        inside, outside = ball.span_mm
-        refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
-        form = bore_of(size, "wheel", ball.bore_mm)
-        refuse_thin_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
-        bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
-        span = inside, inside + ball.hub_length_mm(size)
-        hub = Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, *span)
-    return held_hub(size, "wheel", hub, ball.half_step)
+    if not wide:
+        return None
+    inside, outside = ball.span_mm
+    refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
+    form = bore_of(size, "wheel", ball.bore_mm)
+    refuse_thin_hub("wheel", ball.hub_mm, form.reach, ball.bore_mm)
+    bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
+    span = inside, inside + ball.hub_length_mm(size)
+    return Plate("wheel's hub", "HUB", Circle("HUB", ORIGIN, ball.hub_mm), bored, *span)
 
 
 def shell_body(mechanism: Mechanism) -> MassProperties:
@@ -281,7 +248,7 @@ def shell_body(mechanism: Mechanism) -> MassProperties:
     """
     size, sizes = mechanism.spec.size, ball(mechanism)
     density = wheel_material(mechanism.spec).density_kgm3
-    shell, hub = wheel_shell(size, sizes), wheel_hub(size, sizes)
+    shell, hub = wheel_shell(sizes), wheel_hub(size, sizes)
     mass = density * shell.volume * MM**3
     rim = MassProperties(mass, (0.0, 0.0), density * shell.inertia(POLE) * MM**5)
     return added(rim, mass_properties(hub, density)) if hub else rim
@@ -290,22 +257,18 @@ def shell_body(mechanism: Mechanism) -> MassProperties:
 def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
     """Return the arm's cap and its hub, which has flat faces and the bore."""
     cap = Shell("arm", "ARM", (arm.boundary,), *ball.arm_span_mm, arm.holes)
-    bored = arm.bore.shape("BORE", arm.keyway)
-    return cap, Plate(
-        "arm's hub", "ARM", Circle("ARM", ORIGIN, arm.hub), (bored,), *ball.arm_span_mm
-    )
+    hub, bored = Circle("ARM", ORIGIN, arm.hub), arm.bore.shape("BORE", arm.keyway)
+    return cap, Plate("arm's hub", "ARM", hub, (bored,), *ball.arm_span_mm)
 
 
 def screw_sizes(mechanism: Mechanism) -> dict[str, float]:
-    """Return the screws of locking sectors and dial by keys of ``[size]``: numbers, and holes, mm.
+    """Return the screws of locking sectors by keys of ``[size]``: their number, and holes, mm.
 
     Raises GenevaError where the sizes leave no arm, or no place for them.
     """
     parts = SphereParts(mechanism)
     arm, sectors = parts.arm, len(parts.shells.crank)
-    dial = dial_holes(mechanism.spec.size, parts.ball)
-    out = {"dial_bolt_mm": 2.0 * dial[0].radius} if dial else {}
-    if arm and sectors:
-        out["lock_bolts"] = len(arm.bolts) // sectors
-        out |= {"lock_bolt_mm": 2.0 * arm.bolts[0].radius} if arm.bolts else {}
-    return out
+    if not (arm and sectors):
+        return {}
+    holes = {"lock_bolt_mm": 2.0 * arm.bolts[0].radius} if arm.bolts else {}
+    return {"lock_bolts": len(arm.bolts) // sectors, **holes}

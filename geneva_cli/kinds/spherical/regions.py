@@ -32,12 +32,14 @@ from geneva_cli.parts.outlines.crank_outline import widest
 QUARTER = 0.5 * math.pi
 
 
-def wheel_regions(ball: Ball, inner: float) -> list[Region]:
-    """Return the wheel's slotted ring from a polar angle outwards, one region for each slot.
+def wheel_regions(ball: Ball) -> list[Region]:
+    """Return the wheel: its slotted ring, a region for each slot, and the cap that closes it.
 
-    Adjacent regions share the meridian between their slots.
+    Adjacent regions share the meridian between their slots. A ring without a hole for shaft or hub
+    stays open.
     """
     b, z = ball.half_step, ball.z
+    inner = min(ball.inner, 1.0) if ball.opening_mm else ball.inner  # radian: far from the edge
     azimuths = [(2 * k - 1) * b for k in range(z)]  # between slots; the last is before the first
     outer, ends = ([place(p, a) for a in azimuths] for p in (ball.between_slots, inner))
     regions = []
@@ -54,19 +56,10 @@ def wheel_regions(ball: Ball, inner: float) -> list[Region]:
         edges[0] = edges[0]._replace(start=outer[k])
         edges[-1] = edges[-1]._replace(end=outer[after])
         regions.append(Region((*edges, *sides), middle))
+    if ball.opening_mm:
+        pairs = zip(ends, [*ends[1:], ends[0]], strict=True)
+        regions.append(Region(tuple(SphereArc(POLE, inner, *pair) for pair in pairs), POLE))
     return regions
-
-
-def web_angle(ball: Ball) -> float:
-    """Return the polar angle of the cap about the wheel's axis that closes its slotted ring."""
-    return min(ball.inner, 1.0)  # radian: a cap far from the edge
-
-
-def web_region(ball: Ball, inner: float) -> Region:
-    """Return the cap about the wheel's axis that closes its slotted ring."""
-    at = [place(inner, (2 * k - 1) * ball.half_step) for k in range(ball.z)]
-    pairs = zip(at, [*at[1:], at[0]], strict=True)
-    return Region(tuple(SphereArc(POLE, inner, *ends) for ends in pairs), POLE)
 
 
 def edge(ball: Ball, at: float = 0.0) -> list[SphereArc]:
@@ -114,18 +107,9 @@ def sectors(ball: Ball) -> list[Region]:
     where nothing is left of one.
     """
     spare = min(0.25 * (ball.recess - ball.lock) + 0.1 * ball.roller, 0.1 * ball.lock)
-    # shaft and hub fill a cone about the axis, up to their end
-    about = math.asin(min(1.0, ball.about_crank_mm / ball.lock_span_mm[0]))
     # A sector's inner edge is a fifth of its outer one, or farther out where the wheel needs that.
-    least = max(0.2 * ball.lock, about)
+    least = 0.2 * ball.lock
     spans, most = locked(ball), (1.0 - 0.05) * ball.lock  # a thinner ring would hold nothing
-    if spans and about > most:
-        wide = 2.0 * ball.lock_span_mm[0] * math.sin(most)
-        raise PartDoesNotFit(
-            "the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm and "
-            f"crank_hub_mm must be below {wide:.4g}, or lock_radius_mm greater, or 0 for none",
-            ("size", "crank_bore_mm"),
-        )
     polar, azimuth = swept(ball) if spans else (np.zeros((1, 1)), np.zeros((1, 1)))
     near = polar < ball.lock * (1.0 - SAME_ANGLE)
 

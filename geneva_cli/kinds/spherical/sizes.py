@@ -1,50 +1,58 @@
-"""The sizes of a spherical wheel and its crank: angles at the sphere's centre, in radians.
+"""Default sizes of a spherical machine: thickness, pin, bores, hubs and arm under its load.
 
-All walls lead to the centre, and so does the surface of the roller, a cone. Its radius, the slots
-and the clearances are arcs on the sphere of radius ``center_distance_mm``. Radii of the lock and of
-bores are distances from their axes. Below the wheel on a plane is outside the wheel here: a height
-above the wheel's lower face is a distance inwards from its outer sphere.
+They follow one another as on a plane (``load_sizes``).
 """
 
 from __future__ import annotations
 
 import math
 from contextlib import suppress
-from functools import lru_cache
-from typing import TYPE_CHECKING
+from functools import lru_cache, partial
+from itertools import takewhile
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import Region
-from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, crank_hub, inner_edge, wheel_axle
+from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, hub_about, usual_ball
+from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
+from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
+from geneva_cli.loads.strength.horn_search import single_stress
+from geneva_cli.loads.strength.lock import dwell_torque_Nm
+from geneva_cli.loads.strength.part_loads import single_loads
+from geneva_cli.loads.strength.shaft_stress import (
+    LoadedShaft,
+    ShaftForces,
+    crank_forces,
+    shafts_under_load,
+    wheel_forces,
+)
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.rollers import places
-from geneva_cli.numerics.preferred import to_digits
+from geneva_cli.numerics.preferred import bores_from, rounded_from, to_digits
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.parts.machine_sizes import (
-    keys_by_load,
-    lock_between,
-    refuse_edges,
-    require_lock_between,
+from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.parts.machine_sizes import keys_by_load
+from geneva_cli.parts.shafts.bores import reach_or_bore
+from geneva_cli.parts.sized_by_load import (
+    arm_that_holds,
+    first_that,
+    key_holds,
+    pin_that_holds,
+    shaft_holds,
 )
 from geneva_cli.parts.sizes import (
     NO_SIZES,
     KeySizes,
-    arm_bore,
-    drawn_thicknesses,
+    arm_hub,
     hole_radius,
     hub_and_eye,
-    pin_radius,
-    refuse_stepped_shaft,
-    refuse_wide_pin,
+    largest_hub,
+    within_hub,
 )
-from geneva_cli.spec.default_sizes import Thicknesses, value_or
-from geneva_cli.spec.least_wall import wall_min
-from geneva_cli.spec.tables import Z_DRAWN, Size
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.stressed import Stressed
+from geneva_cli.parts.stressed import Stressed, key_of, shaft_of
+from geneva_cli.spec.default_sizes import half_or, value_or
+from geneva_cli.spec.least_wall import eye_about, wall_min
+from geneva_cli.spec.materials import wheel_material
 
 
 def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:
@@ -74,23 +82,6 @@ def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region
         raise GenevaError(text, error.key) from None
 
 
-def ball(mechanism: Mechanism) -> Ball:
-    """Return the sizes of a spherical machine.
-
-    Those that the spec leaves out are as large as its load needs. Raises GenevaError, naming the
-    key, where they leave no wheel or no lock.
-    """
-    usual = _ball(mechanism, mechanism.spec.size.wheel_thickness_mm)
-    if not mechanism.spec.is_loaded:
-        return usual
-    from geneva_cli.kinds.spherical.loaded_ball import horn_thickness_mm, sphere_load_sizes
-
-    thick = horn_thickness_mm(mechanism, usual)
-    if thick is not None:
-        usual = _ball(mechanism, thick)
-    return sphere_load_sizes(mechanism, usual)
-
-
 @lru_cache(maxsize=16)
 def sized_ball(mechanism: Mechanism) -> Ball | None:
     """Return the cached sizes of a spherical machine; None where it has no parts."""
@@ -102,23 +93,23 @@ def sized_ball(mechanism: Mechanism) -> Ball | None:
 
 def stressed(mechanism: Mechanism) -> Stressed | None:
     """Return the sizes of stressed parts; None if the sizes leave no shells."""
-    from geneva_cli.kinds.spherical.loaded_ball import sphere_stressed
-
     sizes = sized_ball(mechanism)
     return sphere_stressed(mechanism.spec, sizes) if sizes else None
 
 
+def horn_sizes(mechanism: Mechanism) -> tuple[float, float, float] | None:
+    """Return the angles of half a slot, the recess and the shafts; None without parts."""
+    sizes = sized_ball(mechanism)
+    return (sizes.half_width, sizes.recess, sizes.axes) if sizes else None
+
+
 def key_sizes(mechanism: Mechanism) -> KeySizes:
     """Return the sizes of a spherical machine by the keys of the spec; none without parts."""
-    sizes = sized_ball(mechanism)
+    sizes, size = sized_ball(mechanism), mechanism.spec.size
     if sizes is None:
         return NO_SIZES
-    size = mechanism.spec.size
-    spans = {"wheel": sizes.span_mm, "lock": sizes.lock_span_mm, "arm": sizes.arm_span_mm}
-    # the digits beyond the twelfth are rounding of the faces' radii
-    thick = {f"{part}_thickness_mm": _less(*span) for part, span in spans.items()}
     known = {
-        "slot_bottom_clearance_mm": _bottom_mm(size, mechanism.roller_radius_mm),
+        "slot_bottom_clearance_mm": sizes.bottom_mm,
         "lock_radius_mm": sizes.lock_mm,
         "wheel_bore_mm": 2.0 * sizes.bore_mm,
         "pin_mm": 2.0 * sizes.pin_mm,
@@ -130,139 +121,150 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
             wall = wall_min(size, sizes.radius_mm)
             hub, eye = hub_and_eye(size, wall, pin, sizes.arm_bore_mm, passing)
             known |= {"arm_hub_mm": 2.0 * hub, "arm_eye_mm": 2.0 * eye}
-    return KeySizes(known | thick, keys_by_load(mechanism, bool(sizes.recess)))
+    spans = {"wheel": sizes.span_mm, "lock": sizes.lock_span_mm, "arm": sizes.arm_span_mm}
+    for part, (inside, outside) in spans.items():
+        # the digits beyond the twelfth are rounding of the faces' radii
+        known[f"{part}_thickness_mm"] = float(f"{outside - inside:.12g}")
+    return KeySizes(known, keys_by_load(mechanism, bool(sizes.recess)))
 
 
-def _less(inside: float, outside: float) -> float:
-    return float(f"{outside - inside:.12g}")
+def ball(mechanism: Mechanism) -> Ball:
+    """Return the sizes of a spherical machine.
+
+    Those that the spec leaves out are as large as its load needs; a load without a bound leaves the
+    usual ones. Raises GenevaError, naming the key, where they leave no wheel or no lock.
+    """
+    spec, size = mechanism.spec, mechanism.spec.size
+    usual = usual_ball(mechanism, size.wheel_thickness_mm)
+    if not spec.is_loaded or not all(map(math.isfinite, single_loads(mechanism))):
+        return usual
+    if usual.recess and size.wheel_thickness_mm is None and size.face_width_mm is None:
+        usual = usual_ball(mechanism, _horn_thickness_mm(mechanism, usual))
+    loads, L, (inside, outside) = single_loads(mechanism), usual.radius_mm, usual.span_mm
+    # the arm's eye about the pin passes the largest hub, and covers less than half of the sphere
+    hub = max(usual.opening_mm, largest_hub(usual.slot_end_mm))
+    eye = min(usual.passing_mm(hub), 0.99 * L * (0.5 * math.pi - usual.arm))
+    roller, clear = inside * math.sin(usual.roller), eye - wall_min(size, L)
+    pin = pin_that_holds(mechanism, usual.pin_mm, outside - inside, roller, clear, loads)
+    sizes, under = usual._replace(pin_mm=pin), usual.arm_span_mm[0]
+
+    def trial(keyed: bool, arm: float | None) -> Ball:
+        one = sizes._replace(arm_span_mm=(under, under + arm)) if arm else sizes
+        return _crank_bored(mechanism, _wheel_bored(mechanism, one), keyed)
+
+    if not sizes.arm_bore_mm or size.arm_thickness_mm is not None:
+        return trial(True, None)
+    return arm_that_holds(spec, outside - inside, trial, partial(sphere_stressed, spec), loads)
 
 
-def horn_sizes(mechanism: Mechanism) -> tuple[float, float, float] | None:
-    """Return the angles of half a slot, the recess and the shafts; None without parts."""
-    sizes = sized_ball(mechanism)
-    return (sizes.half_width, sizes.recess, sizes.axes) if sizes else None
+def _horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float:
+    """Return the wheel's thickness at which its horns hold, at most twice the usual one."""
+    allowed = wheel_material(mechanism.spec).allowed_MPa
+    angles = usual.half_width, usual.recess, usual.axes
+    least = usual.span_mm[1] - usual.span_mm[0]
+
+    def holds(thick: float) -> bool:
+        horn = single_stress(sphere_horns, mechanism, angles, thick).single
+        return keeps(horn.stress_MPa if horn else 0.0, "at most", allowed)
+
+    # a thicker wheel bends its pins more than its horns
+    return first_that(rounded_from(least, 2.0 * least), holds)
 
 
-def _ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
-    """Return the sizes for a thickness of the wheel, or else its default."""
-    spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
-    size, z, allowed = spec.size, spec.wheel.z, spec.size.allowances
-    if z > Z_DRAWN:
-        raise GenevaError(f"z = {z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z"))
-    first, *others = places(spec.wheel, spec.drive, spec.given_distance_mm)
-    arm = math.atan2(first.ratio, first.cone)
-    engagement = mechanism.engagements[0]
-    mouth, deepest = (float(engagement.slot(x, 0)[0].c[0]) for x in (engagement.entry_deg, 0.0))
-    axes = deepest + arm
-    roller = radius_mm / L
-    w = roller + allowed.slot_clearance_mm / L
-    bottom = deepest - _bottom_mm(size, radius_mm) / L
-    # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
-    rim = math.acos(math.cos(mouth) * math.cos(w))
-    if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
-        raise PartDoesNotFit(
-            "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
-            f"slot_bottom_clearance_mm, or use fewer than {z} slots",
-            ("size", "roller_radius_mm"),
-        )
-    thick = drawn_thicknesses(size.replace(wheel_thickness_mm=thickness_mm), L)
-    pin = pin_radius(size, radius_mm)
-    _refuse_thick(thick, size, L, roller, pin)
-    refuse_edges(size, min(thick.wheel, thick.lock, thick.arm))
-    inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
-    under = outside + allowed.pin_gap_mm  # the arm's inner face, on which the sectors stand
-    bore, hub = wheel_axle(spec, L, inside, bottom - w)
-    lock_mm = _lock_mm(mechanism, arm - w, abs(axes - rim), roller)
-    lock = math.asin(lock_mm / L)
-    turns = [p.crank_deg for p in (first, *others)]
-    if len(turns) == 1:
-        turns = [360.0 * i / spec.drive.rollers for i in range(spec.drive.rollers)]
-    ball = Ball(
-        radius_mm=L,
-        z=z,
-        axes=axes,
-        arm=arm,
-        half_motion=math.radians(first.half_motion_deg),
-        rollers=tuple(math.radians(t) for t in turns),
-        roller=roller,
-        half_width=w,
-        bottom=bottom,
-        mouth=mouth,
-        rim=rim,
-        inner=inner_edge(bottom - w, roller, math.asin(max(bore, hub) / inside)),
-        lock=lock,
-        lock_mm=lock_mm,
-        recess=lock + allowed.lock_clearance_mm / L if lock else 0.0,
-        span_mm=(inside, outside),
-        lock_span_mm=(under - thick.lock, under),
-        arm_span_mm=(under, under + thick.arm),
-        bore_mm=bore,
-        hub_mm=hub,
-        pin_mm=pin,
-        arm_bore_mm=_arm_bore(spec, pin, L, arm),
-        about_crank_mm=max(0.5 * (size.crank_bore_mm or 0.0), crank_hub(size, L)),
+def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
+    """Return the sizes with a bore of the wheel whose shaft and key hold."""
+    spec, L, size, end = mechanism.spec, ball.radius_mm, mechanism.spec.size, ball.slot_end_mm
+    fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
+    if fixed or not ball.bore_mm:
+        return ball
+    held = spec.shaft.torsion_factor * dwell_torque_Nm(mechanism).item()
+
+    def holds(trial: Ball) -> bool:
+        parts = sphere_stressed(spec, trial)
+        moment = _moment_Nm(mechanism, wheel_forces(mechanism), parts.wheel_shaft.overhang)
+        shaft = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
+        return shaft and key_holds(spec, parts.wheel_key, single_loads(mechanism).wheel_Nm)
+
+    # a hub with flat faces stays in its shell, a hundredth short of the outer sphere
+    widest = min(end - wall_min(size, L), 0.99 * _flat(*ball.span_mm))
+    most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
+    each = (
+        ball._replace(bore_mm=0.5 * d, hub_mm=hub_about(size, L, 0.5 * d, end))
+        for d in bores_from(2.0 * ball.bore_mm, 2.0 * most)
     )
-    if ball.inner <= 0.0:
-        raise PartDoesNotFit(
-            "the wheel's middle is not open: the slots end within a roller's width of its axis; "
-            "set a wheel_bore_mm or reduce the roller",
-            ("size", "wheel_bore_mm"),
-        )
-    # a horn thinner than a thousandth of half a step counts as none
-    if ball.opened + ball.corner > (1.0 - 1e-3) * ball.half_step:
-        raise PartDoesNotFit(
-            "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
-            ("size", "lock_radius_mm"),
-        )
-    return ball
+    return first_that(takewhile(lambda one: one.hub_mm <= widest, each), holds, ball)
 
 
-def _bottom_mm(size: Size, roller_mm: float) -> float:
-    """Return the clearance of the deepest roller from the end of its slot."""
-    usual = max(size.allowances.slot_clearance_mm, roller_mm / 20.0)
-    return value_or(size.slot_bottom_clearance_mm, usual)
+def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
+    """Return the sizes with a bore of the arm whose shaft holds, and if ``keyed`` its key."""
+    spec, size = mechanism.spec, mechanism.spec.size
+    own = (size.arm_bore_mm, spec.shaft.crank_diameter_mm)
+    if not ball.arm_bore_mm or any(key is not None for key in own):
+        return ball
+    under, over = ball.arm_span_mm
+    wall = wall_min(size, ball.radius_mm)
+
+    def fits(trial: Ball) -> bool:
+        if trial.arm_bore_mm <= ball.arm_bore_mm:
+            return True
+        # the standard has no keys for the largest shafts
+        key = sphere_stressed(spec, trial).crank_key
+        if size.crank_keyway is not None and math.isnan(float(key.shaft)):
+            return False
+        # the arm's hub fits: about its bore, in the arm, and past pins and wheel
+        bored = reach_or_bore(size, "crank", trial.arm_bore_mm)
+        hub = arm_hub(size, bored, trial.arm_bore_mm, wall)
+        hole = math.asin(min(1.0, hole_radius(size, trial.pin_mm) / under))
+        to_pins = under * math.sin(max(0.0, trial.arm - hole - wall / under))
+        passing = trial.arm + trial.passing_mm(trial.opening_mm) / trial.radius_mm
+        within = bored + wall <= hub <= min(to_pins, 0.99 * _flat(under, over))
+        return within and trial.cap(hub, bored, wall) <= passing
+
+    def holds(trial: Ball) -> bool:
+        parts = sphere_stressed(spec, trial)
+        moment = _moment_Nm(mechanism, crank_forces(spec), parts.crank_shaft.overhang)
+        shaft = shaft_holds(spec, "crank", parts.crank_shaft.diameter, moment)
+        key = not keyed or key_holds(spec, parts.crank_key, single_loads(mechanism).crank_Nm)
+        return shaft and key
+
+    each = (ball._replace(arm_bore_mm=0.5 * d) for d in bores_from(2.0 * ball.arm_bore_mm, over))
+    return first_that(takewhile(fits, each), holds)
 
 
-def _arm_bore(spec: Spec, pin: float, L: float, arm: float) -> float:
-    """Return the radius of the bore in the arm's hub; 0 without a crank, or without pins."""
-    if not (spec.drive.crank and pin):
-        return 0.0
-    disc, space = 0.5 * (spec.size.crank_bore_mm or 0.0), L * arm - hole_radius(spec.size, pin)
-    refuse_stepped_shaft(spec.size, disc, L)
-    return arm_bore(spec, disc, L, space)
+def _flat(inner: float, outer: float) -> float:
+    """Return the radius of the widest flat face in a shell."""
+    return math.sqrt((outer - inner) * (outer + inner))
 
 
-def _lock_mm(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:
-    """Return the radius of the locking sectors' edge about the crank's axis, 0 for none."""
-    size, L = mechanism.spec.size, mechanism.center_distance_mm
-    if not mechanism.spec.has_lock:
-        return 0.0
-    limit -= size.allowances.lock_clearance_mm / L
-    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
-    if limit <= least:
-        raise PartDoesNotFit(
-            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
-            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
-            ("size", "lock_radius_mm"),
-        )
-    if size.lock_radius_mm is None:
-        return L * math.sin(lock_between(least, limit, roller))
-    require_lock_between(size.lock_radius_mm, low, high)
-    return size.lock_radius_mm
+@lru_cache(maxsize=64)
+def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
+    """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
+    (one,) = shafts_under_load(mechanism, [LoadedShaft(forces, overhang_mm)])
+    return one["moment_Nm"].item() if one else 0.0
 
 
-def _refuse_thick(thick: Thicknesses, size: Size, L: float, roller: float, pin_mm: float) -> None:
-    if thick.wheel >= L:
-        raise GenevaError(
-            f"wheel_thickness_mm = {thick.wheel:g}: half of it lies inside the sphere of radius "
-            f"{L:g} mm; it must be below {L:g}",
-            ("size", "wheel_thickness_mm"),
-        )
-    most = L + 0.5 * thick.wheel + size.allowances.pin_gap_mm
-    if thick.lock >= most:
-        raise GenevaError(
-            f"lock_thickness_mm = {thick.lock:g}: the locking sectors reach inwards from the arm, "
-            f"which is {most:g} mm from the sphere's centre; it must be below {most:g}",
-            ("size", "lock_thickness_mm"),
-        )
-    refuse_wide_pin(size, pin_mm, (L - 0.5 * thick.wheel) * math.sin(roller))
+def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
+    """Return the dimensions of a spherical machine's parts.
+
+    A flat arm stands for the bent one.
+    """
+    size, L, (under, over) = spec.size, ball.radius_mm, ball.arm_span_mm
+    thick, arm, bore = over - under, NO_ARM, ball.arm_bore_mm
+    end = ball.shafts_end_mm(size) - L, thick
+    if bore:
+        middle, wall, hole = 0.5 * (under + over), wall_min(size, L), hole_radius(size, ball.pin_mm)
+        bored = reach_or_bore(size, "crank", bore)
+        cap = ball.cap(arm_hub(size, bored, bore, wall), bored, wall)
+        eye = half_or(size.arm_eye_mm, eye_about(hole, wall, ball.passing_mm(ball.opening_mm)))
+        off = middle - L * math.cos(ball.arm)
+        radii = L * ball.arm, middle * cap, middle * eye / L, bored, hole
+        arm = ArmDimensions(*radii, thick, off)
+    return Stressed(
+        value_or(size.face_width_mm, ball.span_mm[1] - ball.span_mm[0]),
+        2.0 * ball.pin_mm,
+        shaft_of(spec, "wheel", ball.bore_mm, *end),
+        shaft_of(spec, "crank", bore, *end),
+        arm,
+        key_of(size.wheel_keyway, ball.bore_mm, ball.hub_length_mm(size)),
+        key_of(size.crank_keyway, bore, thick),
+    )

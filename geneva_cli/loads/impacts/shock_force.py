@@ -22,14 +22,66 @@ import numpy as np
 from geneva_cli.loads.carried import MM, inertia_kgm2
 from geneva_cli.loads.forces import contact_modulus_GPa
 from geneva_cli.loads.strength.pin import Pin, PinSize, stiffness_N_mm
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import Array, N, Number, Whole, size
+from geneva_cli.numerics.arrays import Array, N, Number, Whole, only_of, parameter, size
 from geneva_cli.numerics.roots import find_roots
 from geneva_cli.spec.materials import roller_material, wheel_material
 from geneva_cli.spec.workshops import Stock
 
 POWER, WIDTH = 0.9, 0.8
+
+
+class Impact(NamedTuple):
+    """A jump of the wheel's velocity over the input's, with its force and moment.
+
+    Both are None without an inertia; ``force_N`` is None without a drawn pin too, and
+    ``contact_stress_MPa`` if the roller meets a corner, or without a ``face_width_mm``.
+    """
+
+    at_deg: float
+    jump: float
+    force_N: float | None
+    moment_Nms: float | None
+    contact_stress_MPa: float | None = None
+
+
+class Impacts(NamedTuple):
+    """Impacts of m designs, (m,) each; NaN if there is none, or if it is not known."""
+
+    at_deg: Array
+    jump: Array
+    force_N: Array
+    moment_Nms: Array
+    contact_stress_MPa: Array
+
+    @property
+    def only(self) -> Impact | None:
+        """Impact of a single design, or None."""
+        at_deg, jump, *force = only_of(self)
+        return None if at_deg is None or jump is None else Impact(at_deg, jump, *force)
+
+
+def shown(mechanism: Mechanism, engagement: Engagement, at_deg: Array, *others: Array) -> Array:
+    """Displayed input angles, jumps, and what else there is of impacts: (2 or more, m)."""
+    places = mechanism.shown_deg(parameter(engagement.mid_deg + at_deg[:, None]))
+    return np.stack(np.broadcast_arrays(np.ravel(places), *others))
+
+
+def harder(one: Array, other: Array) -> Array:
+    """The harder of two impacts in each design; the first if they are equal."""
+    more = abs(other[1]) > np.nan_to_num(abs(one[1]), nan=-1.0)
+    return np.where(more, other, one)
+
+
+def with_force(mechanism: Mechanism, impacts: Array, pin: PinSize | None) -> Impacts:
+    """Impacts with their forces and moments, from angles and jumps (2, m)."""
+    at_deg, jump = impacts[0], impacts[1, :, None]
+    moment = np.ravel(impulse_Nms(mechanism, jump))
+    force = np.nan if pin is None else forces_N(mechanism, jump, pin)
+    moment = np.where(moment == 0.0, np.nan, moment)
+    return Impacts(*np.broadcast_arrays(at_deg, impacts[1], force, moment, np.nan))
 
 
 def impulse_Nms(mechanism: Mechanism, jump: N) -> N:
@@ -42,32 +94,18 @@ def impulse_Nms(mechanism: Mechanism, jump: N) -> N:
     return size(jump) * (inertia_kgm2(mechanism.spec) * w)
 
 
-class _Struck(NamedTuple):
-    """Energy of impacts, N mm, Palmgren's c, and 1/k of pin or teeth, mm/N: (m,) each."""
-
-    work: Array
-    press: Array
-    bend: Array
-
-    def energy(self, force: Array, live: Whole) -> tuple[Array, Array]:
-        """The energy that a force stores, N mm, and its slope, mm."""
-        pressed = POWER * self.press[live] * force**POWER
-        bent = self.bend[live] * force
-        return pressed * force / (1.0 + POWER) + 0.5 * bent * force, pressed + bent
-
-
 def forces_N(mechanism: Mechanism, jump: Array, pin: PinSize) -> Array:
     """Greatest forces of elastic impacts, for jumps (m, 1) of m designs: (m,).
 
     NaN without an inertia.
     """
-    struck = _struck(mechanism, jump, pin)
+    work, press, bend = _struck(mechanism, jump, pin)
 
     def over(force: Array, live: Whole) -> tuple[Array, Array]:
-        stored, slope = struck.energy(force, live)
-        return stored - struck.work[live], slope
+        stored, slope = _energy(force, press[live], bend[live])
+        return stored - work[live], slope
 
-    force = find_roots(over, 0.0 * struck.work, np.sqrt(2.0 * struck.work / struck.bend))
+    force = find_roots(over, 0.0 * work, np.sqrt(2.0 * work / bend))
     heavy = np.broadcast_to(np.ravel(inertia_kgm2(mechanism.spec)), len(force)) > 0.0
     return np.where(heavy, force, np.nan)
 
@@ -80,32 +118,35 @@ def least_pin_mm(
     ``pin`` has the stresses at its diameter. The force that a diameter d allows grows as d³, or
     as d² in shear, and the energy that it stores with it: one diameter stores that of the impact.
     """
-    struck = _struck(mechanism, jump, PinSize(pin.diameter_mm, contact_mm))
+    work, press, bend = _struck(mechanism, jump, PinSize(pin.diameter_mm, contact_mm))
     rows = pin.bending, math.sqrt(3.0) * pin.shear, allowed_MPa, pin.diameter_mm
-    bending, shear, allowed, usual = (
-        np.broadcast_to(np.ravel(row), len(struck.work)) for row in rows
-    )
+    bending, shear, allowed, usual = (np.broadcast_to(np.ravel(row), len(work)) for row in rows)
 
     def over(d: Array, live: Whole) -> tuple[Array, Array]:
         ratio = d / usual[live]
         bent, sheared = bending[live] / ratio**3, shear[live] / ratio**2
         force = allowed[live] / np.maximum(bent, sheared)
-        thicker = struck._replace(bend=struck.bend.copy())
-        thicker.bend[live] /= ratio**4
-        stored, slope = thicker.energy(force, live)
+        give = bend[live] / ratio**4
+        stored, slope = _energy(force, press[live], give)
         grows = slope * force * np.where(bent > sheared, 3.0, 2.0)
-        weaker = 2.0 * thicker.bend[live] * force * force  # of a thicker pin, which bends less
-        return stored - struck.work[live], (grows - weaker) / d
+        weaker = 2.0 * give * force * force  # of a thicker pin, which bends less
+        return stored - work[live], (grows - weaker) / d
 
-    some = np.where(struck.work > 0.0, 1.0, np.nan) * usual
+    some = np.where(work > 0.0, 1.0, np.nan) * usual
     return find_roots(over, 1e-4 * some, 1e4 * some)
 
 
-def _struck(mechanism: Mechanism, jump: Array, pin: PinSize) -> _Struck:
-    spec = mechanism.spec
-    inertia, width = inertia_kgm2(spec), pin.contact_mm
+def _energy(force: Array, press: Array, bend: Array) -> tuple[Array, Array]:
+    """The energy that a force stores, N mm, and its slope, mm."""
+    pressed, bent = POWER * press * force**POWER, bend * force
+    return pressed * force / (1.0 + POWER) + 0.5 * bent * force, pressed + bent
+
+
+def _struck(mechanism: Mechanism, jump: Array, pin: PinSize) -> tuple[Array, Array, Array]:
+    """Energy of impacts, N mm, Palmgren's c, and 1/k of pin or teeth, mm/N: (m,) each."""
+    spec, width = mechanism.spec, pin.contact_mm
     dw = jump * omega(spec.drive.n_rpm)
-    energy = 0.5 * inertia * dw * dw / MM  # N mm
+    energy = 0.5 * inertia_kgm2(spec) * dw * dw / MM
     steel = Stock()  # on steel: half of its plane strain modulus
     usual = 0.5 * steel.youngs_modulus_GPa / (1.0 - steel.poisson_ratio**2)
     soft = usual / contact_modulus_GPa(wheel_material(spec), roller_material(spec))
@@ -113,4 +154,5 @@ def _struck(mechanism: Mechanism, jump: Array, pin: PinSize) -> _Struck:
     press = 3.84e-5 * soft**POWER / width**WIDTH
     modulus_GPa = roller_material(spec).youngs_modulus_GPa
     bend = 1.0 / stiffness_N_mm(spec.size, width, pin.diameter_mm, modulus_GPa)
-    return _Struck(*(row[:, 0] for row in np.broadcast_arrays(energy, press, bend)))
+    work, press, bend = (row[:, 0] for row in np.broadcast_arrays(energy, press, bend))
+    return work, press, bend

@@ -68,17 +68,9 @@ class HornBending(NamedTuple):
 
 
 def held_torque_Nm(mechanism: Mechanism) -> float:
-    """Torque that the lock holds during the dwell.
-
-    On a carrier the moment of bodies off the wheel's axis adds to it.
-    """
+    """Torque that the lock holds during the dwell."""
     load = mechanism.spec.load
-    held = load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
-    if not mechanism.unbalanced:
-        return held
-    from geneva_cli.loads.load_case import held_unbalance_Nm
-
-    return held + parameter(held_unbalance_Nm(mechanism))
+    return load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
 
 
 def dwell_torque_Nm(mechanism: Mechanism) -> Array:
@@ -86,9 +78,8 @@ def dwell_torque_Nm(mechanism: Mechanism) -> Array:
 
     A load that only resists motion, as ``torque_Nm`` does, needs none at rest.
     """
-    known = mechanism.spec.load.dwell_torque_Nm is not None or mechanism.unbalanced
-    torque = held_torque_Nm(mechanism) if known else 0.0
-    return np.broadcast_to(np.ravel(torque), mechanism.designs)
+    torque = mechanism.spec.load.dwell_torque_Nm
+    return np.broadcast_to(np.ravel(0.0 if torque is None else torque), mechanism.designs)
 
 
 def held_force_N(torque_Nm: Array, by: Lock) -> Array:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import lru_cache, reduce
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kept import Known
 from geneva_cli.loads.cycle_quantities import FORCE
-from geneva_cli.loads.impacts.impacts import reversal_impacts
+from geneva_cli.loads.impacts.reversal import reversal_impacts
 from geneva_cli.loads.instant import LoadQuantity
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
@@ -21,9 +19,8 @@ from geneva_cli.loads.strength.shaft_stress import (
     on_carrier,
     wheel_forces,
 )
-from geneva_cli.motion.both_ways import every_way
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import larger, parameter
+from geneva_cli.numerics.arrays import parameter
 
 
 class PartLoads(NamedTuple):
@@ -42,31 +39,10 @@ class PartLoads(NamedTuple):
         return PartLoads(*(float(np.ravel(row)[i]) for row in self))
 
 
-@lru_cache(maxsize=16)
-def own_loads(mechanism: Mechanism) -> PartLoads:
-    """The greatest loads of a machine in its own direction as numbers, cached for its checks."""
-    return part_loads(mechanism).of(0)
-
-
 @Known
 def single_loads(mechanism: Mechanism) -> PartLoads:
     """The loads for which a machine is sized as numbers, cached for its sizes and their checks."""
-    return sizing_loads(mechanism, own_loads(mechanism)).of(0)
-
-
-def sizing_loads(mechanism: Mechanism, forwards: PartLoads | None = None) -> PartLoads:
-    """The greatest loads of m designs in every direction in which they turn.
-
-    ``forwards`` are those of this machine's own direction, if computed already.
-    """
-    _, *others = every_way(mechanism)
-    each = [forwards or part_loads(mechanism), *map(part_loads, others)]
-    return PartLoads(*(reduce(larger, rows) for rows in zip(*each, strict=True)))
-
-
-def greatest(of: Callable[[Mechanism], float], mechanism: Mechanism) -> float:
-    """The greatest value of one design in every direction in which it turns."""
-    return max(map(of, every_way(mechanism)))
+    return part_loads(mechanism).of(0)
 
 
 def part_loads(mechanism: Mechanism) -> PartLoads:

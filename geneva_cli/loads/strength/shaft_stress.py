@@ -42,7 +42,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import N, library
+from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.jet import Array, Jet, Number, sqrt
 
 
@@ -82,20 +82,15 @@ def on_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
 class OnCarrier(NamedTuple):
     """The loads of the shaft of a wheel on a carrier, which also bears its bodies' inertia.
 
-    The bodies press away from the carrier's axis with m L w². One that stands e from the wheel's
-    axis adds m e times the square and the rate of its own rotation. Their forces are added to the
-    roller's as if all had one direction and one plane: an upper bound.
+    The bodies press away from the carrier's axis with m L w². That is added to the roller's force
+    as if both had one direction and one plane: an upper bound.
     """
 
     orbiting_N: float  # m L w²
 
     def force_N(self, i: Instant[Jet]) -> Jet:
         """The force on the shaft."""
-        case = i.case
-        off_axis_N = library(case.along_Nm).hypot(case.along_Nm, case.across_Nm) / case.L  # m e w²
-        turning, faster = i.at.velocity * case.frame + 1.0, i.at.acceleration
-        spun = sqrt(turning * turning * turning * turning + faster * faster)
-        return i.wheel_bearing_N + spun * off_axis_N + self.orbiting_N
+        return i.wheel_bearing_N + self.orbiting_N
 
     def __call__(self, i: Instant[Jet], overhang: Number, /) -> tuple[Jet, Jet]:
         """Squared bending moment of the wheel's shaft, and torque."""

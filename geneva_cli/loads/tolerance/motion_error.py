@@ -17,8 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.impacts.impacts import arm_mm
-from geneva_cli.loads.impacts.shock import first_contacts
+from geneva_cli.loads.impacts.entry import arm_mm, first_contacts
 from geneva_cli.loads.tolerance.built_jump import built_jumps
 from geneva_cli.loads.tolerance.dimensions import (
     Deviations,

@@ -9,8 +9,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.impacts.impacts import arm_mm
-from geneva_cli.loads.impacts.shock import RestingAxis
+from geneva_cli.loads.impacts.entry import RestingAxis, arm_mm
 from geneva_cli.loads.tolerance.built_jump import BuiltJump, built_jumps
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
 from geneva_cli.loads.tolerance.locking import CutLock

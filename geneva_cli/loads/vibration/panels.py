@@ -17,16 +17,14 @@ import numpy as np
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import WheelMotion
 from geneva_cli.motion.laws.law import Law
+from geneva_cli.motion.peak_search import breaks
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, Number, Whole, matrix_product, read_only
-from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
-    # Places u (p, k) of the motions (p,), and the highest order -> derivatives 1, 2, ...: (n, p,
-    # k).
-    Derivatives = Callable[[Array, Whole, int], Array]
-    # The wheel's angles, and the numbers of their designs -> another value of each.
-    AngleFunction = Callable[[Jet, Whole], Jet]
+    # Places u (p, k) of the motions (p,), and the highest order -> Taylor coefficients of s by a
+    # variable, and du over that variable.
+    Taylor = Callable[[Array, Whole, int], tuple[Sequence[Number], Number]]
 
 NODES = 32  # of Gauss's rule on a panel
 TERMS = 20  # of Legendre's series that are kept
@@ -34,21 +32,11 @@ HIGHEST, LOWEST = 5, 2  # order of the derivatives that are used at most, and at
 MOST = 20_000  # panels of a motion: with more, a higher derivative does not pay
 
 X = np.polynomial.legendre.leggauss(NODES)[0]
-
-
-def _series() -> Array:
-    """Matrix from values at the nodes to coefficients of Legendre's series, to the last digits.
-
-    It is the inverse of the polynomials' values at the rounded nodes. One step of Newton's method
-    in longer numbers improves it, if the processor has them.
-    """
-    values = np.polynomial.legendre.legvander(X.astype(np.longdouble), NODES - 1)
-    inverse = np.linalg.inv(values.astype(float)).astype(np.longdouble)
-    better: Array = (inverse + inverse @ (np.eye(NODES) - values @ inverse)).astype(float)
-    return better
-
-
-SERIES = _series()
+# Values at the nodes -> coefficients of Legendre's series, to the last digits: the inverse of the
+# polynomials' values at the rounded nodes, and a step of Newton's method in longer numbers.
+_values = np.polynomial.legendre.legvander(X.astype(np.longdouble), NODES - 1)
+_inverse = np.linalg.inv(_values.astype(float)).astype(np.longdouble)
+SERIES: Array = (_inverse + _inverse @ (np.eye(NODES) - _values @ _inverse)).astype(float)
 
 
 class Panels(NamedTuple):
@@ -71,17 +59,12 @@ class Panels(NamedTuple):
         """Half the width of each panel."""
         return 0.5 * (self.right - self.left)
 
-    @property
-    def ends(self) -> Whole:
-        """First panel of each motion, and the end of the last: (m + 1,)."""
-        return np.searchsorted(self.motion, np.arange(len(self.smooth) + 1))
-
     def paired(self, motion: Whole) -> tuple[Whole, Whole, Whole]:
         """Pairs of an oscillator and a panel of its ``motion`` (n,), in order.
 
         The result has the numbers of both, and the first pair of each oscillator.
         """
-        ends = self.ends
+        ends = np.searchsorted(self.motion, np.arange(len(self.smooth) + 1))
         count = (ends[1:] - ends[:-1])[motion]
         first = np.cumsum(count) - count
         of = np.repeat(np.arange(len(motion)), count)
@@ -89,43 +72,27 @@ class Panels(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def shape(motion: WheelMotion) -> Panels:
-    """Return the panels of one motion."""
-    return read_only(motion_shapes(motion, 1))
-
-
-@lru_cache(maxsize=64)
 def law_shape(law: Law) -> Panels:
-    """Return the panels of a motion law."""
-
-    def derivatives(u: Array, _: Whole, order: int) -> Array:
-        return _by_order(law(u, order).c, 1.0, u)
-
-    return read_only(panels_of(derivatives, np.array([sorted({0.0, *law.knots, 0.5, 1.0})])))
+    """The panels of a motion law."""
+    cuts = np.array([sorted({0.0, *law.knots, 0.5, 1.0})])
+    return read_only(_panels(lambda u, _, order: (law(u, order).c, 1.0), cuts))
 
 
-def motion_shapes(motion: WheelMotion, m: int, function: AngleFunction | None = None) -> Panels:
-    """Return the panels of the motions of m designs, or of a ``function`` of their angles."""
+def motion_shapes(motion: WheelMotion, m: int = 1) -> Panels:
+    """The panels of the motions of m designs."""
     of_designs = selection(motion)
 
-    def derivatives(u: Array, which: Whole, order: int) -> Array:
+    def taylor(u: Array, which: Whole, order: int) -> tuple[Sequence[Number], Number]:
         some: WheelMotion = of_designs(which)
         whole, step = some.exit_deg - some.entry_deg, 2.0 * some.half_step
         angle = some(some.entry_deg + u * whole, order)
-        c = (function(angle, which) if function else angle).c
-        return _by_order([v / step for v in c], whole * DEGREE, u)
+        return [v / step for v in angle.c], whole * DEGREE
 
-    every = np.hstack(motion.breaks(m))
-    return panels_of(derivatives, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
-
-
-def _by_order(c: Sequence[Number], rate: float, u: Array) -> Array:
-    """Return derivatives 1, 2, ... from Taylor coefficients by ``rate`` times the variable."""
-    rows = [v * (math.factorial(k) * rate**k) for k, v in enumerate(c) if k]
-    return np.array([np.broadcast_to(v, u.shape) for v in rows])
+    every = np.hstack(breaks(motion, m))
+    return _panels(taylor, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
 
 
-def panels_of(derivatives: Derivatives, breaks: Array) -> Panels:
+def _panels(taylor: Taylor, breaks: Array) -> Panels:
     """Panels of m motions, whose derivatives may jump at the ``breaks`` (m, k) of each.
 
     They hold up to the highest derivative that neither jumps nor needs too many panels.
@@ -133,7 +100,7 @@ def panels_of(derivatives: Derivatives, breaks: Array) -> Panels:
     m, parts, rest = len(breaks), [], np.arange(len(breaks))
     top = np.full(m, HIGHEST)
     for order in range(HIGHEST, LOWEST - 1, -1):
-        motion, edges, values, rest = _refined(derivatives, breaks, rest, order)
+        motion, edges, values, rest = _refined(taylor, breaks, rest, order)
         parts.append((motion, edges, np.pad(values, ((0, HIGHEST - order), (0, 0), (0, 0)))))
         top[rest] = order - 1
         if not len(rest):
@@ -156,14 +123,13 @@ def panels_of(derivatives: Derivatives, breaks: Array) -> Panels:
         np.add.at(variation[k], motion, rises[k])
     # A jump of 1e-12 of a derivative's greatest value is rounding. Only a crank as built starts and
     # stops the wheel with a jump of velocity.
-    number = np.arange(HIGHEST)[:, None]
-    goes_on = (number < top - 1) & (jumps <= 1e-12 * greatest)
+    goes_on = (np.arange(HIGHEST)[:, None] < top - 1) & (jumps <= 1e-12 * greatest)
     smooth = np.cumprod(goes_on, axis=0).sum(axis=0)
     return Panels(motion, left, right, series[..., :TERMS], smooth, greatest, variation)
 
 
 def _refined(
-    derivatives: Derivatives, breaks: Array, which: Whole, order: int
+    taylor: Taylor, breaks: Array, which: Whole, order: int
 ) -> tuple[Whole, Array, Array, Whole]:
     """Panels of some motions for derivatives up to an order; and the motions that need too many.
 
@@ -180,7 +146,11 @@ def _refined(
     while len(open_):
         np.add.at(count, motion, 1)
         left, width = open_[:, :1], open_[:, 1:] - open_[:, :1]
-        rates = derivatives(left + width * (0.5 * (1.0 + X)), motion, order)
+        u = left + width * (0.5 * (1.0 + X))
+        c, rate = taylor(u, motion, order)
+        rates = np.empty((order, *u.shape))
+        for k in range(1, order + 1):
+            rates[k - 1] = c[k] * (math.factorial(k) * rate**k)
         for row, values in zip(greatest, np.abs(rates).max(axis=2), strict=True):
             np.maximum.at(row, motion, values)
         # the last six terms show whether the series has ended

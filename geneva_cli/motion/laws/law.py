@@ -7,11 +7,12 @@ the remaining time w = 1 - u. So both ends are exact, and a symmetric law is wri
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.kept import cached_property
-from geneva_cli.numerics.arrays import Truth, all_true, choose
+from geneva_cli.numerics.arrays import Array, Truth, Which, all_true, choose
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import is_array
@@ -19,6 +20,9 @@ from geneva_cli.spec.schema import SpecTable, fields
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.spline import Doubt
+
+
+QUANTITIES = ("velocity", "acceleration", "jerk", "power")
 
 
 class Law(SpecTable):
@@ -34,103 +38,55 @@ class Law(SpecTable):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Values of u inside 0..1 at which a derivative up to the fourth jumps, in order.
-
-        >>> ModifiedSine().breaks
-        (0.125, 0.875)
-        """
+        """Values of u inside 0..1 at which a derivative up to the fourth jumps, in order."""
         return ()
 
     @property
     def symmetric(self) -> Truth:
-        """True if the second half mirrors the first; an array for a batch.
-
-        >>> Cycloidal().symmetric, SineGroup(0.1).symmetric
-        (True, False)
-        """
+        """True if the second half mirrors the first; an array for a batch."""
         return True
 
     @property
     def knots(self) -> tuple[float, ...]:
-        """Values of u inside 0..1 at which any derivative jumps; between them the law is analytic.
-
-        >>> ModifiedSine().knots
-        (0.125, 0.875)
-        """
+        """Values of u inside 0..1 at which any derivative jumps; the law is analytic between."""
         return self.breaks
 
     def may_vary(self, table: str, key: str) -> bool:
-        """True if a number of a table may be an array along a design axis with this law.
-
-        >>> Cycloidal().may_vary("motion", "alpha0_deg")
-        True
-        """
+        """True if a number of a table may be an array along a design axis with this law."""
         return True
 
     @property
     def tuned_to(self) -> float | None:
-        """Period ratio at which the law leaves a load at rest; None for a law that is not tuned.
-
-        >>> Cycloidal().tuned_to is None
-        True
-        """
+        """Period ratio at which the law leaves a load at rest; None for a law that is not tuned."""
         return None
 
     def doubt(self) -> Doubt | None:
-        """Decimals of a law of points, and the effect of their rounding on d³s/du³; else None.
-
-        >>> Cycloidal().doubt() is None
-        True
-        """
+        """Decimals of a law of points, and the effect of their rounding on d³s/du³; else None."""
         return None
 
     @abstractmethod
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s on 0 <= u <= 1/2, with its derivatives by u.
-
-        >>> Polynomial345().first(0.5, 3).derivatives()  # s, ds/du and so on
-        (0.5, 1.875, 0.0, -30.0)
-        """
+        """Fraction s on 0 <= u <= 1/2, with its derivatives by u."""
 
     def second(self, w: Number, order: int) -> Jet:
-        """Remainder 1 - s on 0 <= w = 1 - u <= 1/2, with its derivatives by w.
-
-        >>> law = SineGroup(0.1)
-        >>> round(law.first(0.5, 0).c[0] + law.second(0.5, 0).c[0], 12)
-        1.0
-        """
+        """Remainder 1 - s on 0 <= w = 1 - u <= 1/2, with its derivatives by w."""
         return self.first(w, order)
 
     @property
     def backwards(self) -> Law:
-        """The law run backwards, 1 - s by 1 - u; a symmetric law is its own.
-
-        >>> law = SineGroup(0.1)
-        >>> round(law.backwards(0.25, 0).c[0] + law(0.75, 0).c[0], 12)
-        1.0
-        """
+        """The law run backwards, 1 - s by 1 - u; a symmetric law is its own."""
         return self if all_true(self.symmetric) else Backwards(self)
 
     @cached_property
     def varies(self) -> bool:
-        """True if its numbers are arrays of a batch.
-
-        >>> Cycloidal().varies
-        False
-        """
+        """True if its numbers are arrays of a batch."""
         return any(is_array(getattr(self, field.attribute)) for field in fields(type(self)))
 
     @cached_property
     def half_way(self) -> float:
-        """Fraction of the motion time after which the wheel is half-way.
-
-        It is 1/2 for a symmetric law by definition, since rounding may move the computed value.
-
-        >>> Cycloidal().half_way
-        0.5
-        """
+        """Fraction of the motion time after which the wheel is half-way."""
         even = self.symmetric
-        if all_true(even):
+        if all_true(even):  # by definition, as rounding may move the computed value
             return 0.5
         first, last = choose(even, 0.5, 0.0), choose(even, 0.5, 1.0)
         return boundary(lambda u: self(u, 0).c[0] <= 0.5, first, last)
@@ -154,46 +110,34 @@ class Backwards(Law):
         # a law's class declares these
         own = {"NAME": f"{self.of.NAME}, backwards", "TURNS_BACK": self.of.TURNS_BACK}
         vars(self).update(own, ANALYTIC=self.of.ANALYTIC)
+        vars(self).update(varies=self.of.varies)
 
     @property
     def backwards(self) -> Law:
-        """The law itself."""
         return self.of
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Breaks of the law, from its end."""
         return tuple(1.0 - u for u in reversed(self.of.breaks))
 
     @property
     def knots(self) -> tuple[float, ...]:
-        """Knots of the law, from its end."""
         return tuple(1.0 - u for u in reversed(self.of.knots))
 
     @property
     def symmetric(self) -> Truth:
-        """True if the law is symmetric; an array for a batch."""
         return self.of.symmetric
 
-    @property
-    def varies(self) -> bool:
-        """True if its numbers are arrays of a batch."""
-        return self.of.varies
-
     def may_vary(self, table: str, key: str) -> bool:
-        """True if a number of a table may be an array along a design axis with this law."""
         return self.of.may_vary(table, key)
 
     def doubt(self) -> Doubt | None:
-        """Decimals of a law of points, and the effect of their rounding on d³s/du³; else None."""
         return self.of.doubt()
 
     def first(self, u: Number, order: int) -> Jet:
-        """Remainder of the law from its end."""
         return self.of.second(u, order)
 
     def second(self, w: Number, order: int) -> Jet:
-        """Fraction of the law from its start."""
         return self.of.first(w, order)
 
 
@@ -205,10 +149,34 @@ def remaining(rest: Jet, end: float = 1.0) -> Jet:
 def from_velocity(
     u: Number, order: int, position: Callable[[Number], Number], velocity: Callable[[Jet], Jet]
 ) -> Jet:
-    """Jet of s(u) from a closed form of s and from the jet of ds/du.
-
-    The velocity is written as a product wherever it vanishes, so that nothing cancels there.
-    """
+    """Jet of s(u) from a closed form of s and from the jet of ds/du."""
     if order == 0:
         return Jet((position(u),))
     return integral(velocity(Jet.variable(u, order - 1)), position(u))
+
+
+@lru_cache(maxsize=256)
+def greatest(law: Law) -> dict[str, tuple[float, float]]:
+    """Greatest size of each derivative of s(u) and of ds/du d²s/du² (power), and its first u.
+
+    It is for a law whose keys are numbers.
+    """
+    import numpy as np
+
+    from geneva_cli.numerics.extremes import Smooth, search
+
+    def derivatives(
+        u: Array, _: Which, __: int, requested: Sequence[int]
+    ) -> list[tuple[Array, Array, Array]]:
+        d = law(u, 5).arrays()
+        power = d[1] * d[2], d[2] ** 2 + d[1] * d[3], 3.0 * d[2] * d[3] + d[1] * d[4]
+        curves = (d[1:4], d[2:5], d[3:6], power)
+        return [curves[i] for i in requested]  # type: ignore[misc]
+
+    # a break belongs to the piece before it
+    ends = [np.array([[u]]) for u in sorted({0.0, 0.5, 1.0, *law.breaks})]
+    starts = [ends[0], *(np.nextafter(end, 1.0) for end in ends[1:-1])]
+    f = Smooth(derivatives, len(QUANTITIES))
+    most, u, _ = search(f, list(zip(starts, ends[1:], strict=True)), sized=True)
+    places = zip(most[:, 0].tolist(), u[:, 0].tolist(), strict=True)
+    return dict(zip(QUANTITIES, places, strict=True))

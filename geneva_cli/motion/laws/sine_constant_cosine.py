@@ -17,10 +17,7 @@ from geneva_cli.numerics.jet import Jet, Number, piecewise, sin
 
 
 def peak(b: float, d: float, pi: float = math.pi) -> float:
-    """Greatest acceleration without a middle at constant velocity; c is 1 - b - d.
-
-    Ca = 4 pi² / ((pi² - 8)(b² - d²) - 2 pi (pi - 2) b + pi²), Norton's closed form.
-    """
+    """Greatest acceleration without a middle at constant velocity; c is 1 - b - d."""
     bends = (pi * pi - 8.0) * (b - d) * (b + d)
     return 4.0 * pi * pi / (bends - 2.0 * pi * (pi - 2.0) * b + pi * pi)
 

@@ -1,7 +1,8 @@
-"""The common set of motion laws of VDI 2143, MCV50, and the sine group of Krasniqi."""
+"""The motion laws in closed form: those of VDI 2143, MCV50, scca, and Krasniqi's sine group."""
 
 from typing import Annotated, ClassVar
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.motion.laws.law import Law, from_velocity
 from geneva_cli.motion.laws.sine_constant_cosine import breaks, first_half
 from geneva_cli.numerics.arrays import Truth, library
@@ -22,7 +23,6 @@ class Harmonic(Law):
     ABOUT: ClassVar[str] = "simple sine line; its acceleration jumps at both ends"
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s = sin²(pi u / 2)."""
         m = library(u)
         return from_velocity(
             u, order, lambda u: m.sin(m.pi / 2.0 * u) ** 2, lambda u: sin(u * m.pi) * (m.pi / 2.0)
@@ -42,7 +42,6 @@ class Cycloidal(Law):
     ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s = u - sin(2 pi u) / (2 pi)."""
         m = library(u)
 
         def velocity(u: Jet) -> Jet:
@@ -60,12 +59,67 @@ class _ScaledLaw(Law):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Values of u at which the pieces meet."""
         return breaks(*self.FRACTIONS)
 
     def first(self, u: Number, order: int) -> Jet:
-        """First half of s, in which the wheel gains speed."""
         return first_half(u, order, *self.FRACTIONS)
+
+
+class SineConstantCosine(Law):
+    """Sine, constant and cosine acceleration in fractions b, c and d of the time.
+
+    Special cases (b, c, d):
+
+    - (0, 0, 1): harmonic
+    - (1/2, 0, 1/2): cycloidal
+    - (1/4, 0, 3/4): modified sine
+    - (1/4, 1/2, 1/4): modified trapezoid
+    - (0, 1, 0): constant acceleration
+
+    >>> SineConstantCosine(b=0.25, c=0.5, d=0.25)(0.125, 2).derivatives()[2]  # 8 pi / (2 + pi)
+    4.88812...
+    """
+
+    NAME: ClassVar[str] = "scca"
+    ABOUT: ClassVar[str] = "your own: fractions b of sine, c of constant, d of cosine acceleration"
+    b: Annotated[float, Range(0.0, 1.0), "scca: time fraction of the sine (rising acceleration)"]
+    c: Annotated[float, Range(0.0, 1.0), "scca: time fraction of constant acceleration"]
+    d: Annotated[float, Range(0.0, 1.0), "scca: time fraction of the cosine; b + c + d = 1"]
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        whole = self.b + self.c + self.d
+        # thirds are written with six digits
+        if abs(whole - 1.0) > 2e-6:
+            raise GenevaError(
+                f"b + c + d = {whole:.9g} must be 1, the whole time: for example b = 0.25, "
+                "c = 0.5, d = 0.25 for a modified trapezoid",
+                (self.TABLE, "d"),
+            )
+        least = 1e-3  # in a shorter rise the jerk is as large as a jump
+        for key, fraction in self.as_dict().items():
+            if 0.0 < fraction < least:
+                raise GenevaError(
+                    f"{key} = {fraction:g} must be 0, for none, or at least {least:g}",
+                    (self.TABLE, key),
+                )
+
+    def may_vary(self, table: str, key: str) -> bool:
+        return table != "motion" or key not in self.as_dict()
+
+    @property
+    def _fractions(self) -> tuple[float, float]:
+        """Fractions b and d of exactly the whole; without c, b is exactly 1 - d."""
+        whole = self.b + self.c + self.d
+        d = self.d / whole
+        return (self.b / whole if self.c else 1.0 - d), d
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return breaks(*self._fractions, 0.0)
+
+    def first(self, u: Number, order: int) -> Jet:
+        return first_half(u, order, *self._fractions)
 
 
 class ModifiedTrapezoid(_ScaledLaw):
@@ -126,8 +180,6 @@ class Polynomial345(Law):
     ABOUT: ClassVar[str] = "polynomial of degree 5; no jump in acceleration"
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s = 10 u³ - 15 u⁴ + 6 u⁵."""
-
         def velocity(u: Jet) -> Jet:
             w = u * (1.0 - u)
             return w * w * 30.0
@@ -148,8 +200,6 @@ class Polynomial4567(Law):
     ABOUT: ClassVar[str] = "polynomial of degree 7; no jump in jerk"
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s = 35 u⁴ - 84 u⁵ + 70 u⁶ - 20 u⁷."""
-
         def position(u: Number) -> Number:
             return u**4 * (35.0 - u * (84.0 - u * (70.0 - 20.0 * u)))
 
@@ -177,15 +227,12 @@ class SineGroup(Law):
 
     @property
     def symmetric(self) -> Truth:
-        """True without a tilt."""
         return self.lambda_ == 0.0
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s in closed form, from its velocity."""
         return _tilted(u, order, self.lambda_)
 
     def second(self, w: Number, order: int) -> Jet:
-        """Remainder 1 - s: the formula of ``first`` with the opposite tilt."""
         return _tilted(w, order, -self.lambda_)
 
 

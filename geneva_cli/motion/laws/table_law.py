@@ -55,24 +55,19 @@ class TableLaw(Law):
 
     @property
     def symmetric(self) -> bool:
-        """Always False: points need not be symmetric."""
         return False
 
     @property
     def knots(self) -> tuple[float, ...]:
-        """Values of u at the points, where the fifth derivative of a spline jumps."""
         return tuple(u for u, _ in self.points.pairs[1:-1])
 
     def first(self, u: Number, order: int) -> Jet:
-        """Fraction s from the spline."""
         return Jet(self._halves[0](u, order))
 
     def second(self, w: Number, order: int) -> Jet:
-        """Remainder 1 - s from the spline's other end."""
         return Jet(self._halves[1](w, order))
 
     def doubt(self) -> Doubt:
-        """Decimals of the points, and the effect of their rounding on the third derivative."""
         return _doubt(self.points.pairs)
 
 

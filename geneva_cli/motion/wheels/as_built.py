@@ -84,11 +84,23 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     Lengths are over the centre distance. Raises GenevaError where the roller cannot pass the line
     of centres in its slot.
     """
-    radial = isinstance(e, float) and e == 0.0
-    refuse(l + abs(e) >= 1.0, _too_long)
-    first, last, reaches = ends = _radial(sign, step, l)
+    refuse(
+        l + abs(e) >= 1.0,
+        lambda: GenevaError(
+            "crank_radius_mm and the slots' offset together must be below center_distance_mm: the "
+            "roller would pass beyond the wheel's axis",
+            ("size", "crank_radius_mm"),
+        ),
+    )
+    # the slot at rest before and after a motion, and if the roller's centre reaches its axis
+    sin_b, radial = step.sin_cos[0], isinstance(e, float) and e == 0.0
+    reaches: Truth = l >= sin_b
+    across = choose(reaches, sin_b + 0.0 * l, l)
+    angle = choose(reaches, step.b + 0.0 * l, library(across).asin(across))
+    ends = RestingSlot(sign, l, -angle, -across), RestingSlot(sign, l, angle, across), reaches
     if not radial:
-        first, last, reaches = choose_record(e == 0.0, ends, _offset(sign, step, l, e))
+        ends = choose_record(e == 0.0, ends, _offset(sign, step, l, e))
+    first, last, reaches = ends
     # the outer crossing comes first, if it is inside the rim
     first, last = (
         end._replace(outer=reaches & end._replace(outer=True).is_inside(e, rim))
@@ -97,7 +109,16 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     inside = reaches & first.is_inside(e, rim) & last.is_inside(e, rim)
     half, tilt = 0.5 * (last.angle - first.angle), 0.5 * (last.angle + first.angle)
     half = choose(reaches, step.b, half)
-    entry, exit_ = _pose(first, -half), _pose(last, half)
+    entry, exit_ = (
+        PinPose(
+            end.crank_deg,
+            wheel,
+            end.along,
+            (sign * end.across, -sign * end.beyond),
+            (-end.beyond, -end.across),
+        )
+        for end, wheel in ((first, -half), (last, half))
+    )
     mid, skew, m = middle(sign, l, 1.0 - sign * l), None, library(l, e, rim)
     if not radial:
         deepest = m.sqrt((1.0 - l - e) * (1.0 - l + e))
@@ -109,14 +130,9 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     along = m.sqrt(larger(rim * rim - e * e, 0.0 * one))
     leaves = m.acos(smaller(larger(cosine, -one), one)) + m.atan2(e, along)
     leaves = choose(passes, leaves, math.nan)
-    return RollerPlace(
-        step,
-        0.5 * (exit_.crank_deg - entry.crank_deg),
-        (entry, mid, exit_),
-        l,
-        skew,
-        built=AsBuilt(inside, leaves - tilt - step.b, first.angle, first.outer),
-    )
+    built = AsBuilt(inside, leaves - tilt - step.b, first.angle, first.outer)
+    moving = 0.5 * (exit_.crank_deg - entry.crank_deg)
+    return RollerPlace(step, moving, (entry, mid, exit_), l, skew, built=built)
 
 
 def as_derived(place: RollerPlace) -> RollerPlace:
@@ -126,31 +142,10 @@ def as_derived(place: RollerPlace) -> RollerPlace:
     return place._replace(closed=None, built=built)
 
 
-def _too_long() -> GenevaError:
-    return GenevaError(
-        "crank_radius_mm and the slots' offset together must be below center_distance_mm: the "
-        "roller would pass beyond the wheel's axis",
-        ("size", "crank_radius_mm"),
-    )
-
-
-def _radial(sign: float, step: HalfStep, l: float) -> tuple[RestingSlot, RestingSlot, Truth]:
-    """The slot at rest before and after a motion, and if the roller's centre reaches its axis."""
-    sin_b = step.sin_cos[0]
-    reaches: Truth = l >= sin_b
-    across = choose(reaches, sin_b + 0.0 * l, l)
-    angle = choose(reaches, step.b + 0.0 * l, library(across).asin(across))
-    return (
-        RestingSlot(sign, l, -angle, -across),
-        RestingSlot(sign, l, angle, across),
-        reaches,
-    )
-
-
 def _offset(
     sign: float, step: HalfStep, l: float, e: float
 ) -> tuple[RestingSlot, RestingSlot, Truth]:
-    """The same for slots of offset e, tangent to the crank's circle at one end."""
+    """The slot at rest as in ``place``, of offset e: tangent to the crank's circle at one end."""
     m, size = library(l, e, step.b), abs(e)
     far, least = m.asin(l + size), m.asin(l - size)
     reaches: Truth = 2.0 * step.b - far <= least
@@ -160,10 +155,3 @@ def _offset(
     first = -choose(tangent_exit, near, far), -choose(tangent_exit, across, l)
     last = choose(tangent_exit, far, near), choose(tangent_exit, l, across)
     return RestingSlot(sign, l, *first), RestingSlot(sign, l, *last), reaches
-
-
-def _pose(slot: RestingSlot, wheel: float) -> PinPose:
-    """Pose of the pin at the crossing, where the wheel's angle is ``wheel``, radians."""
-    x, y = slot.beyond, slot.across
-    slope = slot.sign * y, -slot.sign * x
-    return PinPose(slot.crank_deg, wheel, slot.along, slope, (-x, -y))

@@ -5,12 +5,11 @@ b = pi p/q is half the index angle (p/q = 1/z for equal steps), l = R/L = sin b 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import cast
 
 from geneva_cli.errors import GenevaError, cut, refuse
-from geneva_cli.numerics.angles import DEGREE, one_minus_sin_pi, sin_cos_pi
-from geneva_cli.numerics.arrays import Array, choose, larger, library, smaller
+from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
+from geneva_cli.numerics.arrays import choose, larger, library, smaller
 
 
 def half_motion_deg(sign: float, p: int, q: int) -> float:
@@ -25,10 +24,7 @@ def gap(sign: float, p: int, q: int) -> float:
 
 
 def rollers_max(motion_deg: float) -> int:
-    """Greatest number of evenly spaced rollers that leave some dwell: m * motion < 360 degrees.
-
-    A whole number; floats for an array.
-    """
+    """Greatest number of evenly spaced rollers that leave some dwell: m * motion < 360 degrees."""
     return cast(int, library(motion_deg).ceil(360.0 / motion_deg)) - 1
 
 
@@ -37,14 +33,11 @@ def refuse_jam(rollers: int, motion_deg: float, inside: bool) -> None:
     most = rollers_max(motion_deg)
 
     def error() -> GenevaError:
-        why = (
-            "an internal wheel's crank carries one roller only"
-            if inside and motion_deg > 180.0
-            else f"{rollers} motions of {motion_deg:.6g} degrees leave no dwell in a turn of 360"
-        )
-        return GenevaError(
-            f"rollers = {cut(rollers)} jam: {why}; at most {most}", ("drive", "rollers")
-        )
+        why = f"{rollers} motions of {motion_deg:.6g} degrees leave no dwell in a turn of 360"
+        if inside and motion_deg > 180.0:
+            why = "an internal wheel's crank carries one roller only"
+        text = f"rollers = {cut(rollers)} jam: {why}; at most {most}"
+        return GenevaError(text, ("drive", "rollers"))
 
     refuse(rollers > most, error)
 
@@ -113,40 +106,3 @@ def jerk_peak(l: float, gap: float, half_deg: float) -> tuple[float, float]:
     n = gap * gap - s * (1.0 + 4.0 * k + k * k - 2.0 * k * s)
     at_deg = choose(turn > k, m.degrees(2.0 * m.asin(m.sqrt(0.5 * s))), half_deg)
     return l * gap * (1.0 + k) * abs(n) / d**3, at_deg
-
-
-def derivatives(
-    sign: float, l: float, rest: float, input_deg: Array, orders: Sequence[int]
-) -> list[Array]:
-    """Wheel angle (order 0) and its derivatives (1 to 3) at input angles in degrees, (k,) each.
-
-    ``sign`` is +1 for an external wheel, -1 for an internal one; l = sin b, and ``rest`` = 1 - l.
-    With t = tan(a/2), T = t², (p, q) = (1-l, 1+l) outside and (1+l, 1-l) inside,
-
-        P    = p² + q² T
-        psi  = atan(2 l t / (p + q T))
-        psi1 = l (p - q T) / P
-        psi2 = - 2 l (1-l²) t (1+T) / P²
-        psi3 = l (1-l²) (1+T) (q² T² +- 12 l T - p²) / P³
-
-    Nothing cancels as l nears 1: each is accurate to a few units in the last place of its peak.
-    """
-    import numpy as np
-
-    p, q = (rest, 1.0 + l) if sign > 0.0 else (1.0 + l, rest)
-    scale = l * rest * (1.0 + l)
-    tan = np.tan(0.5 * DEGREE * input_deg)
-    square = tan * tan
-    inverse = 1.0 / (p * p + q * q * square)
-    out = []
-    for order in orders:
-        if order == 0:
-            out.append(np.arctan(2.0 * l * tan / (p + q * square)))
-        elif order == 1:
-            out.append((l * p - l * q * square) * inverse)
-        elif order == 2:
-            out.append((1.0 + square) * tan * inverse * inverse * (-2.0 * scale))
-        else:
-            rising = (q * q * square + sign * 12.0 * l) * square - p * p
-            out.append(rising * (1.0 + square) * inverse * inverse * inverse * scale)
-    return out

@@ -1,15 +1,15 @@
-"""External wheels: radial slots, offset slots, unequal steps."""
+"""External wheels, with radial slots, offset slots or unequal steps; and internal wheels."""
 
 import math
-from collections.abc import Callable
 from typing import Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
 from geneva_cli.motion.path_and_slot import AnchoredPath
 from geneva_cli.motion.pivots import Dimension, Layout
-from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep
+from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.spec.rules import LENGTH, Range
 from geneva_cli.spec.schema import Example
@@ -40,33 +40,26 @@ class External(Gearing):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.steps_deg:
-            refuse(
-                self.offset_mm != 0.0,
-                lambda: GenevaError(
-                    "offset_mm and steps_deg cannot be combined: remove one of them",
-                    ("wheel", "offset_mm"),
-                ),
-            )
-            self._refuse_steps(self.steps_deg)
+        steps, z, key = self.steps_deg, self.z, ("wheel", "steps_deg")
+        if not steps:
+            return
+        text = "offset_mm and steps_deg cannot be combined: remove one of them"
+        refuse(self.offset_mm != 0.0, lambda: GenevaError(text, ("wheel", "offset_mm")))
+        n = len(steps)
 
-    def _refuse_steps(self, steps: tuple[float, ...]) -> None:
-        """Raise GenevaError if the pattern does not close over the wheel."""
-        z, key = self.z, ("wheel", "steps_deg")
-        refuse(
-            z % len(steps) != 0,
-            lambda: GenevaError(
-                f"z = {z} is not a multiple of the {len(steps)} steps in the pattern: "
-                f"use {_multiples(z, len(steps))}",
-                key,
-            ),
-        )
-        turn = math.fsum(steps) * z / len(steps)
+        def no_multiple() -> GenevaError:
+            near = " or ".join(str(m) for m in (z // n * n, (z // n + 1) * n) if m >= 3)
+            return GenevaError(
+                f"z = {z} is not a multiple of the {n} steps in the pattern: use {near}", key
+            )
+
+        refuse(z % n != 0, no_multiple)
+        turn = math.fsum(steps) * z / n
         refuse(
             abs(turn - 360.0) > 1e-9,
             lambda: GenevaError(
-                f"{z // len(steps)} times the pattern is {turn:.12g} deg, not 360: "
-                f"its steps must add up to {360.0 * len(steps) / z:.12g}",
+                f"{z // n} times the pattern is {turn:.12g} deg, not 360: "
+                f"its steps must add up to {360.0 * n / z:.12g}",
                 key,
             ),
         )
@@ -75,56 +68,47 @@ class External(Gearing):
 
     @property
     def steps(self) -> tuple[float, ...]:
-        """Repeating pattern of unequal steps in degrees; empty if all are equal."""
         return self.steps_deg or ()
 
     @property
     def stopped(self) -> bool:
-        """True if a convex face in place of a recess stops the crank at both ends."""
         return self.stop
 
     @property
     def skewed(self) -> bool:
-        """True if slots are not radial or not all alike."""
         return True if self.steps_deg else self.offset_mm != 0.0
 
     @property
     def backwards(self) -> Self:
-        """The wheel with the opposite offset, and its steps in reverse order after the first."""
         steps = (self.steps[0], *self.steps[:0:-1]) if self.steps else None
         return self.replace(offset_mm=0.0 - self.offset_mm, steps_deg=steps)
 
     @property
     def layout(self) -> Layout:
-        """Distance by which the slots' axes miss the wheel's axis."""
         return (Dimension("slots' axes offset from the wheel's", self.offset_mm, "mm"),)
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """Place of a roller; GenevaError if an offset slot cannot be entered without shock."""
         e = self.offset_mm / center_distance_mm
         if isinstance(e, float) and not e:
             return super().place(step, center_distance_mm)
 
-        from geneva_cli.motion.wheels.offset_slot import margin, skew
+        from geneva_cli.motion.wheels.offset_slot import skew
 
-        def error() -> GenevaError:
-            # b + |d| < 90 degrees means |e| < 1 - l; at the limit e = cos b sin d, d = 90 deg - b
-            limit = step.sin_cos[1] ** 2 * center_distance_mm
-            return GenevaError(
-                f"offset_mm = {self.offset_mm:g}: the roller cannot enter this slot without "
-                f"shock: its size must be below {limit:.6g}",
+        # cos² b - |e| is positive if there is such a slot. b + |d| < 90 degrees means |e| < 1 - l;
+        # at the limit e = cos b sin d, d = 90 deg - b. The double angle is exact for 3, 4, 6 slots.
+        spare = 0.5 + 0.5 * sin_cos_pi(2 * step.p, step.q)[1] - abs(e)
+        refuse(
+            spare <= 0.0,
+            lambda: GenevaError(
+                f"offset_mm = {self.offset_mm:g}: the roller cannot enter this slot without shock: "
+                f"its size must be below {step.sin_cos[1] ** 2 * center_distance_mm:.6g}",
                 ("wheel", "offset_mm"),
-            )
-
-        spare = margin(step, e)
-        refuse(spare <= 0.0, error)
-        slot = skew(step, e, spare)
-        return RollerPlace(
-            step, self.half_motion_deg(step), slot.poses, slot.poses[2].slope[0], slot
+            ),
         )
+        slot, half = skew(step, e, spare), self.half_motion_deg(step)
+        return RollerPlace(step, half, slot.poses, slot.poses[2].slope[0], slot)
 
     def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace | None:
-        """Place of a roller on a crank of another R/L; None for unequal steps and with a stop."""
         if self.steps or self.stop:
             return None
         from geneva_cli.motion.wheels.as_built import place
@@ -132,7 +116,6 @@ class External(Gearing):
         return place(self.SIGN, self.step, ratio, self.offset_mm / L, rim)
 
     def distance_mm(self, crank_radius_mm: float) -> float:
-        """Centre distance L for a crank radius R, mm: R = L sin b cos d, e = L cos b sin d."""
         if self.steps:
             raise GenevaError(
                 "each of steps_deg has a crank radius of its own: set center_distance_mm instead "
@@ -146,7 +129,6 @@ class External(Gearing):
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
     ) -> tuple[Slot, WheelMotion]:
-        """Radial or offset slot for a roller's path, and the motion that follows."""
         if place.skew is None:
             return super().follow(path, place, turn)
         from geneva_cli.motion.wheels.offset_slot import OffsetSlot, OffsetSlotMotion
@@ -154,18 +136,23 @@ class External(Gearing):
         slot = OffsetSlot(path, place.skew)
         return slot, OffsetSlotMotion(path, place.step.b, place.skew)
 
-    def exact_rate(
-        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
-    ) -> FollowedRate:
-        """Rate of a wheel with radial or offset slots, as in ``Gearing.exact_rate``."""
-        if not self.offset_mm:
-            return super().exact_rate(step, L, exact)
-        from geneva_cli.motion.wheels.offset_slot import exact_rate
 
-        return exact_rate(exact(self.offset_mm) / exact(L), *step)
+class Internal(Gearing):
+    """The crank turns inside the wheel: more motion than dwell, and no peak inside the motion.
 
+    ``z`` is the number of slots, 3 or more.
 
-def _multiples(z: int, n: int) -> str:
-    """Nearest multiples of n below and above z, if they are possible numbers of slots."""
-    near = [m for m in (z // n * n, (z // n + 1) * n) if m >= 3]
-    return " or ".join(str(m) for m in near)
+    >>> Design(Internal(6)).timing.motion_deg
+    240.0
+    """
+
+    NAME: ClassVar[str] = "internal"
+    EXAMPLE: ClassVar[Example] = Example(
+        "an internal wheel: more motion than dwell", {"wheel": {"z": 6}}
+    )
+    SIGN: ClassVar[float] = -1.0
+
+    def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace:
+        from geneva_cli.motion.wheels.as_built import place
+
+        return place(self.SIGN, self.step, ratio, 0.0, rim)

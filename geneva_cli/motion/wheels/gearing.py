@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Layout, Pivot
 from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, radial
 from geneva_cli.numerics.arrays import choose, larger
-from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.motion.engagement import AsBuilt, Displacement, Slot, WheelMotion
     from geneva_cli.motion.plane_motion import PlaneMotion
-
-
-# The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
-FollowedRate: TypeAlias = Callable[[Jet, Jet], Jet]
 
 
 class Output(NamedTuple):
@@ -127,53 +121,30 @@ class Gearing(SpecTable):
 
     @property
     def skewed(self) -> bool:
-        """True if slots are not radial or not all alike, which some drives and laws cannot use.
-
-        An array of truth values for a batch.
-        """
+        """True if slots are not radial or not all alike, which some drives and laws cannot use."""
         return False
 
     @property
     def backwards(self) -> Self:
-        """The wheel that turns the other way, as seen from its other side.
-
-        >>> External(6, offset_mm=12.0).backwards.offset_mm
-        -12.0
-        """
+        """The wheel that turns the other way, as seen from its other side."""
         return self
 
     @property
     def layout(self) -> Layout:
-        """Dimensions of this kind of wheel, in addition to its number of slots.
-
-        >>> External(6, offset_mm=12.0).layout
-        (Dimension(name="slots' axes offset from the wheel's", value=12.0, unit='mm'),)
-        """
+        """Dimensions of this kind of wheel, in addition to its number of slots."""
         return ()
 
     @property
     def title(self) -> str:
-        """The title of a design without one of its own.
-
-        >>> External(6).title
-        'Geneva wheel of 6 slots'
-        """
+        """The title of a design without one of its own."""
         return f"Geneva wheel of {self.z} slots"
 
     def axes(self, L: float) -> tuple[Pivot, ...]:
-        """Axes of wheel and crank in the plane of the parts, for a centre distance in mm.
-
-        >>> [axis.name for axis in External(6).axes(100.0)], Linear(6).axes(50.0)
-        (['wheel axis', 'crank axis'], (Pivot(name='crank axis', x_mm=50.0, y_mm=0.0),))
-        """
+        """Axes of wheel and crank in the plane of the parts, for a centre distance in mm."""
         return Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0)
 
     def words(self, slots: str) -> str:
-        """The wheel in words; ``slots`` is the kind of its slots.
-
-        >>> External(6).words("straight radial")
-        'external wheel of 6 straight radial slots'
-        """
+        """The wheel in words; ``slots`` is the kind of its slots."""
         return f"{self.NAME} wheel of {self.z} {slots} slots"
 
     @property
@@ -191,29 +162,17 @@ class Gearing(SpecTable):
         return self.steps[i] if self.steps else 360.0 / self.z
 
     def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle in degrees from entry to the line of centres, for an entry without shock.
-
-        It is 90° - b outside, 90° + b inside.
-        """
+        """Crank angle in degrees from entry to the line of centres, for an entry without shock."""
         return classic.half_motion_deg(self.SIGN, *step)
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """Place of a roller in a straight slot, which is radial in a flat wheel.
-
-        Raises GenevaError if it is impossible.
-        """
+        """Place of a roller in a straight slot, which is radial in a flat wheel."""
         three, l = radial(self.SIGN, step), step.sin_cos[0]
         closed = self.SIGN, l, classic.gap(1.0, *step)
         return RollerPlace(step, three[2].crank_deg, three, l, closed=closed)
 
     def distance_mm(self, crank_radius_mm: float) -> float:
-        """Centre distance L for a crank radius R, mm, with straight slots.
-
-        Raises GenevaError for a wheel whose rollers have different crank radii.
-
-        >>> round(Spherical(6).distance_mm(30.0), 9)
-        60.0
-        """
+        """Centre distance L for a crank radius R, mm, with straight slots."""
         return crank_radius_mm / self.place(self.step, 1.0).ratio
 
     def as_built(self, ratio: float, rim: float, L: float) -> RollerPlace | None:
@@ -243,21 +202,6 @@ class Gearing(SpecTable):
         from geneva_cli.motion.plane_motion import PlaneMotion
 
         return PlaneMotion()
-
-    def exact_rate(
-        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
-    ) -> FollowedRate:
-        """Rate of a wheel with straight slots, in numbers of any kind, for certificates.
-
-        ``step`` has sine and cosine of half the index angle. ``L`` is the centre distance, mm.
-        ``exact`` converts a number of the spec. Differences lose digits of doubles.
-        """
-        l = step[0]
-
-        def rate(sine: Jet, versine: Jet) -> Jet:
-            return turning(versine * (self.SIGN * l) + self.rest(l), sine * l)
-
-        return rate
 
     def matched_ratio(self, v: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.

@@ -11,7 +11,6 @@ computed once.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 
 from geneva_cli.motion.engagement import Anchor, Slot, SlotAxis
@@ -30,12 +29,10 @@ class OffsetSlot(Slot):
         self.path, self.skew, self.offset = path, skew, skew.e
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """Pin (x, y) in the wheel, on the slot's straight axis."""
         depth = self._depth(input_deg, order)
         return turned(depth, depth * 0.0 - self.offset, self.skew.tilt)
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """Lever of the slot's normal about the wheel's axis, and the pin's speed along it."""
         depth = self._depth(input_deg, order + 1)
         return SlotAxis(depth.lower, depth.derivative())
 
@@ -51,22 +48,17 @@ class OffsetSlotMotion(StraightSlotMotion):
         super().__init__(path, half_step)
         self.skew = skew
 
-    def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """Wheel angle from the slot's direction at the nearest anchor; at rest at both ends."""
-        return self._angle_or_rate(input_deg, order, angle=True)
+    def __call__(self, input_deg: Number, order: int = 3, angle: bool = True) -> Jet:
+        entry, _, exit_ = self.path.anchors
+        pieces = [
+            partial(self._from_end, entry, order=order, angle=angle),
+            partial(self._inside, order=order, angle=angle),
+            partial(self._from_end, exit_, order=order, angle=angle),
+        ]
+        return piecewise(input_deg, self.path.cuts, pieces)
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
-        """Rate at which the slot's direction turns, computed without an arc tangent."""
-        return self._angle_or_rate(input_deg, order + 1, angle=False)
-
-    def _angle_or_rate(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
-        """Wheel angle, or its rate, which is one order lower."""
-        entry, _, exit_ = self.path.anchors
-        first, last = (
-            partial(self._from_end, end, order=order, angle=angle) for end in (entry, exit_)
-        )
-        inside = partial(self._inside, order=order, angle=angle)
-        return piecewise(input_deg, self.path.cuts, [first, inside, last])
+        return self(input_deg, order + 1, angle=False)
 
     def _from_end(self, anchor: Anchor, x: Number, order: int, angle: bool) -> Jet:
         """Wheel angle or rate near entry or exit.
@@ -108,28 +100,10 @@ class OffsetSlotMotion(StraightSlotMotion):
 def _depth(e: float, deepest: float, toward: Jet) -> tuple[Jet, Jet]:
     """Coordinate s of the pin along its slot's axis, and rho² = s² + e².
 
-    From mid-motion the pin moves by u = l (1 - cos a) along the line of centres. So s² = deepest² +
-    2 u is a sum of positive terms.
+    The pin moves by u = l (1 - cos a) along the line of centres: s² = deepest² + 2 u.
     """
     square = toward * 2.0 + deepest**2
     return sqrt(square), square + e**2
-
-
-def exact_rate(e: float, sin_b: float, cos_b: float) -> Callable[[Jet, Jet], Jet]:
-    """Rate of a wheel with slots of offset e, in numbers in which differences lose no digits.
-
-    It is a function of sin d and 1 - cos d of the crank's rotation d since mid-motion.
-    """
-    sin_d = e / cos_b
-    cos_d = library(sin_d).sqrt((1.0 - sin_d) * (1.0 + sin_d))
-    l, deepest = sin_b * cos_d, cos_d - sin_b
-
-    def rate(sine: Jet, versine: Jet) -> Jet:
-        toward = versine * l
-        square = toward * 2.0 + deepest * deepest
-        return _turning(toward + (1.0 - l), sine * l, sqrt(square) * e, square + e * e)
-
-    return rate
 
 
 def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
@@ -139,15 +113,8 @@ def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
     return (moment(x, y) - lever.derivative()) / rho2.lower
 
 
-def margin(step: HalfStep, e: float) -> float:
-    """cos² b - |e|: positive if a slot of offset e exists for half an index angle b."""
-    # cos² b by the double angle, which is exact for 3, 4 and 6 slots
-    limit: float = 0.5 + 0.5 * sin_cos_pi(2 * step.p, step.q)[1]
-    return limit - abs(e)
-
-
 def skew(step: HalfStep, e: float, spare: float) -> Skew:
-    """The slot of offset e for half an index angle b; ``spare`` is its ``margin``, above 0."""
+    """The slot of offset e for half an index angle b; ``spare`` is cos² b - |e|, above 0."""
     m = library(e, step.p, step.q)
     sin_b, cos_b = step.sin_cos
     less = 2.0 * sin_cos_pi(step.p, 2 * step.q)[0] ** 2  # 1 - cos b

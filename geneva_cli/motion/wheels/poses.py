@@ -87,10 +87,7 @@ class Skew(NamedTuple):
 
 
 def middle(sign: float, l: float, gap: float) -> PinPose:
-    """Pose of the pin on the line of centres, ``gap`` from the wheel's axis.
-
-    It holds for any crank radius l.
-    """
+    """Pose of the pin on the line of centres, ``gap`` from the wheel's axis."""
     return PinPose(0.0, 0.0, gap, (0.0, l), (sign * l, 0.0))
 
 

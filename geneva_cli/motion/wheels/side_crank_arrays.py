@@ -71,9 +71,6 @@ def acceleration_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
     """Peak |acceleration| (invariant) and the input angle of its first occurrence, degrees: (n,).
 
     To a relative error of 4e-15 for |A| <= 0.999; NaN where a search did not converge.
-
-    >>> acceleration_peaks(wheels(1.0, 0.5, 0.5, 0.6))
-    (array([0.52252982]), array([-38.20547183]))
     """
     best = acceleration_at_end(w)
     which = np.flatnonzero((w.sign > 0.0) | (w.A < 0.0))

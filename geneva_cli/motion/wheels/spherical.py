@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.engagement import Displacement, Height, Slot
 from geneva_cli.motion.path_and_slot import AnchoredPath, MeridianSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot
-from geneva_cli.motion.wheels.gearing import FollowedRate, Gearing, RollerPlace
+from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose
-from geneva_cli.numerics.angles import radians, sin_cos_deg
+from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
-from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.rules import Range
 from geneva_cli.spec.schema import Example
 
@@ -54,24 +52,19 @@ class Spherical(Gearing):
 
     @property
     def own_sizes(self) -> dict[str, float]:
-        """Angle between the shafts, for the report."""
         return {"axes_deg": self.axes_deg}
 
     def axes(self, L: float) -> tuple[Pivot, ...]:
-        """None: both axes meet at the sphere's centre."""
         return ()
 
     @property
     def layout(self) -> Layout:
-        """Angle between the shafts, as a dimension."""
         return (Dimension("angle of the shafts", self.axes_deg, "deg"),)
 
     def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle in degrees from entry to mid-motion."""
         return sphere(step, self.axes_deg).half_motion_deg
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """Place of a roller in a meridian slot; its arm is over the sphere's radius."""
         ball = sphere(step, self.axes_deg)
         top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
         fall = ball.sin_S * ball.sin_th
@@ -89,26 +82,9 @@ class Spherical(Gearing):
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
     ) -> tuple[Slot, StraightSlotMotion]:
-        """Meridian slot with the pin's coordinate along the wheel's axis, and the motion."""
         assert place.height is not None  # it is a place on a sphere
         slot = MeridianSlot(path, Height(*place.height, turn))
         return slot, StraightSlotMotion(path, place.step.b)
-
-    def exact_rate(
-        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
-    ) -> FollowedRate:
-        """Rate of a spherical wheel, as in ``Gearing.exact_rate``."""
-        angle = radians(exact(self.axes_deg))
-        m = library(angle)
-        sin_S, cos_S = m.sin(angle), m.cos(angle)
-        sin_th = sin_S * step[0]
-        cos_th = m.hypot(cos_S, sin_S * step[1])
-        least = sin_S * cos_th - cos_S * sin_th
-
-        def rate(sine: Jet, versine: Jet) -> Jet:
-            return turning(versine * (sin_th * cos_S) + least, sine * sin_th)
-
-        return rate
 
 
 class Sphere(NamedTuple):
@@ -144,10 +120,7 @@ def sphere(step: HalfStep, axes_deg: float) -> Sphere:
 
 
 def poses(step: HalfStep, ball: Sphere) -> tuple[PinPose, PinPose, PinPose]:
-    """Entry, middle and exit of a spherical wheel's pin, projected along the wheel's axis.
-
-    Lengths are in units of the sphere's radius.
-    """
+    """Entry, middle and exit of a spherical wheel's pin, projected along the wheel's axis."""
     sin_b, cos_b = step.sin_cos
     half = ball.half_motion_deg
     # derivatives of the pin's position by the crank angle a

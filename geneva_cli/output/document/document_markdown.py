@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli import output
 from geneva_cli.output.document.blocks import (
     Block,
     Curves,
@@ -46,7 +45,7 @@ def _block(block: Block) -> Iterator[str]:
         yield from _grid(block)
     elif isinstance(block, Picture):
         look = block.drawing.look
-        spans = [span_text(span, output.choice.units) for span in look.spans] if look else []
+        spans = [span_text(span) for span in look.spans] if look else []
         yield from _list(tuple(spans))
         yield "The drawing: `geneva profile SPEC --part assembly -o FILE.svg`\n\n"
     else:

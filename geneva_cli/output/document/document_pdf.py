@@ -6,6 +6,10 @@ from collections.abc import Iterator, Sequence
 
 from geneva_cli.answer import FAILS, PASSES, WARNS
 from geneva_cli.errors import clean
+from geneva_cli.geometry.measure import mapped
+from geneva_cli.geometry.pieces import prepared
+from geneva_cli.geometry.shapes import Point, Shape
+from geneva_cli.geometry.sheet import Annotations, Drawing, extent
 from geneva_cli.output.document.blocks import (
     BAD,
     NO_BREAK,
@@ -23,10 +27,10 @@ from geneva_cli.output.document.blocks import (
     texts,
     value_text,
 )
+from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.letters import western
-from geneva_cli.output.pdf import pdf_file
-from geneva_cli.output.pdf.pdf_drawing import drawing
-from geneva_cli.output.pdf.pdf_pages import (
+from geneva_cli.output.notes import LETTERS, notes
+from geneva_cli.output.pdf import (
     AMBER,
     BAND,
     BODY,
@@ -42,27 +46,35 @@ from geneva_cli.output.pdf.pdf_pages import (
     Item,
     box,
     lines,
+    outline,
     pages,
+    pdf_text,
     rule,
+    tint,
+    triangle,
     wide,
     words,
 )
 from geneva_cli.output.plot import plot_pdf
+from geneva_cli.output.svg import opacity, rings
 
 TITLE, HEAD, VERDICT = 6.4, 4.4, 4.2
 MARK = 4.0  # before a text of a list
+PAD = 1.3  # left and right of a cell's text
+SPACE = 0.55  # above and below it
+STEP = LEADING * SMALL
 
 
 def chunks(document: Document) -> Iterator[str]:
-    """The file's text; the same document gives the same bytes."""
+    """Yield the file's text; the same document gives the same bytes."""
     title = clean(document.title)
-    yield from pdf_file.pdf_text(title, pages(_items(document), western(title)))
+    yield from pdf_text(title, pages(_items(document), western(title)))
 
 
 def _items(document: Document) -> Iterator[Item]:
     for text in lines(clean(document.title), TITLE, WIDE, bold=True):
         yield _line(text, TITLE, bold=True)
-    yield _gap(2.0, keeps=True)
+    yield _gap(2.0)._replace(keeps=True)
     ink = {PASSES: GREEN, WARNS: AMBER, FAILS: RED}[document.state]
     for text in lines(document.verdict, VERDICT, WIDE - 2.0 * MARK, bold=True):
         yield _barred(text, VERDICT, ink, bold=True)
@@ -76,21 +88,26 @@ def _items(document: Document) -> Iterator[Item]:
 
 def _block(block: Block) -> Iterator[Item]:
     if isinstance(block, Heading):
-        yield _heading(block.text)
+        high = 4.0 + HEAD + 4.5
+        yield Item(high, lambda top: _heading(block.text, top - 4.0 - HEAD), keeps=True)
     elif isinstance(block, Prose):
         rows = _wrapped(block.text, WIDE)
         for i, text in enumerate(rows):  # no single line of it on a page
             yield _line(text, BODY)._replace(keeps=i in (0, len(rows) - 2))
         yield _gap(2.5)
     elif isinstance(block, TextList):
-        yield from _list(block.texts)
+        for text in block.texts:
+            for i, line in enumerate(_wrapped(text, WIDE - MARK)):
+                yield _line(line, BODY, indent=MARK, mark="" if i else "•")
+            yield _gap(0.8)
+        yield _gap(2.0)
     elif isinstance(block, Facts):
-        yield from facts(block)
+        yield from _facts(block)
     elif isinstance(block, Grid):
-        yield from grid(block)
+        yield from _grid(block)
     elif isinstance(block, Picture):
-        yield from caption(block.drawing.title)
-        yield drawing(block.drawing)
+        yield from _caption(block.drawing.title)
+        yield _drawing(block.drawing)
     else:
         assert isinstance(block, Curves)
         yield from plot_pdf.items(block.figure)
@@ -100,16 +117,8 @@ def _wrapped(text: str, width_mm: float) -> list[str]:
     return lines(clean(text), BODY, width_mm)
 
 
-def _list(texts: tuple[str, ...]) -> Iterator[Item]:
-    for text in texts:
-        for i, line in enumerate(_wrapped(text, WIDE - MARK)):
-            yield _line(line, BODY, indent=MARK, mark="" if i else "•")
-        yield _gap(0.8)
-    yield _gap(2.0)
-
-
-def _gap(high: float, keeps: bool = False) -> Item:
-    return Item(high, lambda top: "", keeps)
+def _gap(high: float) -> Item:
+    return Item(high, lambda top: "")
 
 
 def _line(text: str, size: float, bold: bool = False, indent: float = 0.0, mark: str = "") -> Item:
@@ -121,12 +130,8 @@ def _line(text: str, size: float, bold: bool = False, indent: float = 0.0, mark:
     return Item(LEADING * size, draw)
 
 
-def _heading(text: str) -> Item:
-    def draw(top: float) -> str:
-        y = top - 4.0 - HEAD
-        return words(text, (LEFT, y), HEAD, bold=True) + rule(LEFT, y - 1.7, WIDE, 0.3, LINE)
-
-    return Item(4.0 + HEAD + 4.5, draw, keeps=True)
+def _heading(text: str, y: float) -> str:
+    return words(text, (LEFT, y), HEAD, bold=True) + rule(LEFT, y - 1.7, WIDE, 0.3, LINE)
 
 
 def _barred(text: str, size: float, ink: str, bold: bool = False, mark: str = "") -> Item:
@@ -142,55 +147,45 @@ def _barred(text: str, size: float, ink: str, bold: bool = False, mark: str = ""
     return Item(high, draw)
 
 
-PAD = 1.3  # left and right of a cell's text
-SPACE = 0.55  # above and below it
-STEP = LEADING * SMALL
-
-
-def grid(table: Grid) -> Iterator[Item]:
-    """A table with a head, which is repeated on each page."""
+def _grid(table: Grid) -> Iterator[Item]:
+    """Yield a table with a head, which is repeated on each page."""
     right = [all(map(is_number, column)) for column in zip(*table.rows, strict=True)]
     rows = texts(table)
     spaces = [NO_BREAK if is_short(column) else " " for column in zip(*rows, strict=True)]
     rows = [[text.replace(" ", s) for text, s in zip(row, spaces, strict=True)] for row in rows]
     widths = _widths(table.heads, rows)
     head = _row(table.heads, right, widths, bold=True)
-    yield from caption(table.caption)
+    yield from _caption(table.caption)
     has_head = any(table.heads)
     if has_head:
         yield head._replace(keeps=True)
     for row in rows:
         yield _row(row, right, widths)._replace(head=head if has_head else None)
-    yield _space()
+    yield _gap(4.0)
 
 
-def facts(table: Facts) -> Iterator[Item]:
-    """Names and values, in two columns read downwards."""
+def _facts(table: Facts) -> Iterator[Item]:
+    """Yield names and values, in two columns read downwards."""
     named = [(fact.name, value_text(fact.value, fact.unit)) for fact in table.facts]
     half = (len(named) + 1) // 2
-    yield from caption(table.caption)
+    yield from _caption(table.caption)
     gap = 6.0  # between facts side by side
     long = 0.5 * (WIDE - gap)
     for i in range(half):
         pair = [(LEFT, named[i])]
         pair += [(LEFT + long + gap, named[half + i])] if half + i < len(named) else []
-        item = _pair(pair, long)
-        yield item._replace(keeps=i == 0 and half > 1)
-    yield _space()
+        yield _pair(pair, long)._replace(keeps=i == 0 and half > 1)
+    yield _gap(4.0)
 
 
-def caption(text: str) -> Iterator[Item]:
-    """The line above a table or a picture; nothing without a text."""
+def _caption(text: str) -> Iterator[Item]:
+    """Yield the line above a table or a picture; nothing without a text."""
     if text:
         yield Item(
             STEP + 1.4,
             lambda top: words(text, (LEFT, top - SMALL), SMALL, bold=True, ink=SOFT),
             keeps=True,
         )
-
-
-def _space() -> Item:
-    return Item(4.0, lambda top: "")
 
 
 def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
@@ -232,7 +227,9 @@ def _row(
     return Item(high, draw)
 
 
-def _cell(texts: list[str], x: float, top: float, width: float, right: bool, bold: bool) -> str:
+def _cell(
+    texts: list[str], x: float, top: float, width: float, right: bool, bold: bool = False
+) -> str:
     out = ""
     ink, bold = (RED, True) if texts == [BAD] else (INK, bold)
     for i, text in enumerate(texts):
@@ -253,9 +250,45 @@ def _pair(pair: list[tuple[float, tuple[str, str]]], long: float) -> Item:
     def draw(top: float) -> str:
         out = ""
         for x, name, value in cells:
-            out += _cell(name, x, top, long, False, False)
-            out += _cell(value, x, top, long, True, False)
+            out += _cell(name, x, top, long, False) + _cell(value, x, top, long, True)
             out += rule(x, top - high, long, ink=LINE)
         return out
 
     return Item(high, draw)
+
+
+def _drawing(drawn: Drawing) -> Item:
+    """Return a drawing at the largest scale, centred: tinted plates, inked lines, and notes."""
+    margin, tall_max = 3.0, 92.0  # mm: round the shapes, and their greatest height
+    shown = prepared(drawn)
+    look, around_shapes = shown.look or Annotations(), extent(shown)
+    # notes add little to a drawing's width, and its arrows of rotation may add much
+    around = notes(Annotations(turns=look.turns), around_shapes, "", 0.0).box
+    across, tall = around.x1 - around.x0, around.y1 - around.y0
+    scale = min((WIDE - 2.0 * margin) / across, tall_max / tall)
+    noted = notes(look, around_shapes, "", SMALL / LETTERS / scale)
+    left = LEFT + 0.5 * (WIDE - scale * across)
+
+    def draw(top: float) -> str:
+        def at(p: Point) -> Point:
+            return left + scale * (p[0] - around.x0), top - margin + scale * (p[1] - around.y1)
+
+        def traced(shape: Shape) -> str:
+            return outline(mapped(shape, at, lambda radius: radius * scale))
+
+        out, every = "", rings(shown.solid) if shown.solid else []
+        inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))
+        for layer, contours in every:
+            out += f"{tint(inked[layer].rgb, opacity(layer))} rg\n"
+            out += "".join(map(traced, contours)) + "f*\n"
+        for layer, ink in inks(shown.layers).items():
+            is_thin = layer in CENTRE_LINES
+            out += f"{tint(ink.rgb)} RG {0.16 if is_thin else 0.3} w"
+            out += f" [{'4 0.8 0.8 0.8' if is_thin else ''}] 0 d\n"
+            out += "".join(f"{traced(shape)}S\n" for shape in shown.shapes if shape.layer == layer)
+        out += f"{SOFT} RG {SOFT} rg 0.16 w [] 0 d\n"
+        out += "".join(f"{traced(one)}S\n" for one in (*noted.lines, *noted.scale_bar))
+        out += "".join(triangle([at(corner) for corner in head]) for head in noted.heads)
+        return out + "".join(words(text, at(place), SMALL) for place, text in noted.texts)
+
+    return Item(scale * (noted.box.y1 - noted.box.y0) + 2.0 * margin, draw)

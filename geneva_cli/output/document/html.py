@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterable, Iterator
 from html import escape
 
-from geneva_cli import output
 from geneva_cli.errors import clean
+from geneva_cli.output import svg
 from geneva_cli.output.document.blocks import (
     BAD,
     SHORT,
@@ -27,7 +27,6 @@ from geneva_cli.output.document.blocks import (
     value_text,
 )
 from geneva_cli.output.plot import plot_svg
-from geneva_cli.output.svg import drawing_svg as svg
 from geneva_cli.output.terminal.summary import SIGNS
 
 NUMBER = ' class="n"'
@@ -105,7 +104,7 @@ def _block(block: Block, number: int) -> Iterator[str]:
     elif isinstance(block, Grid):
         yield from _grid(block)
     elif isinstance(block, Picture):
-        drawn = inline(svg.chunks(block.drawing, output.choice.units), f"drawing-{number}")
+        drawn = inline(svg.chunks(block.drawing), f"drawing-{number}")
         yield f'<figure class="drawing" tabindex="0">\n{drawn}</figure>\n'
     else:
         assert isinstance(block, Curves)

@@ -1,4 +1,4 @@
-"""The layout of a figure: panels stacked over one x axis, for the pens of SVG, PDF and PNG.
+"""The layout of a figure: panels stacked over one x axis, for the pens of SVG and PDF.
 
 Lengths are in px of a page 820 px wide, y downwards.
 """
@@ -6,9 +6,8 @@ Lengths are in px of a page 820 px wide, y downwards.
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Literal, NamedTuple, TypeAlias
+from typing import Literal, NamedTuple, Protocol, TypeAlias
 
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Axis, Curve, Figure, Mark, Panel
@@ -27,6 +26,7 @@ ABOVE, BELOW = 26.0, 44.0  # a panel's name; the last one's ticks and the axis' 
 TITLE, TEXT, SMALL = 15.0, 11.0, 10.0  # heights of letters
 LINE_HEIGHT = 14.0
 SAMPLE = 30.0  # length of a curve's sample in the legend
+SHOWN_DIGITS = 6  # a peak's value has these; an axis has more if labels are equal
 
 
 class Frame(NamedTuple):
@@ -48,67 +48,65 @@ class Frame(NamedTuple):
         low, top = self.span
         return self.top + (top - value) / (top - low) * self.high
 
-    @property
-    def bottom(self) -> float:
-        """The panel's lower edge."""
-        return self.top + self.high
 
+class _Pen(Protocol):
+    """A surface to draw on; ``number`` is a curve's, and determines its look.
 
-class Pen(ABC):
-    """A surface to draw on; ``number`` is a curve's, and determines its look."""
+    A panel begins and ends; ``rest`` shades a stretch at rest, ``dot`` marks a peak. Paths of
+    points are single places; a text stands on its base line.
+    """
 
-    def begin(self, name: str, frame: Frame) -> None:
-        """Begin a panel; nothing in a format without groups."""
-        return
-
-    def end(self) -> None:
-        """End a panel."""
-        return
-
-    @abstractmethod
-    def rest(self, x: float, y: float, wide: float, high: float) -> None:
-        """Shade a stretch at rest."""
-
-    @abstractmethod
-    def draw(self, kind: Kind, paths: Iterable[Path], number: int = 0) -> None:
-        """Draw paths of a kind; those of points are single places."""
-
-    @abstractmethod
-    def dot(self, number: int, place: Point) -> None:
-        """Draw the dot at a peak."""
-
-    @abstractmethod
-    def text(self, place: Point, text: str, size: float = TEXT, look: Look = "start") -> None:
-        """Write a text on its base line."""
+    def begin(self, name: str, frame: Frame) -> None: ...
+    def end(self) -> None: ...
+    def rest(self, x: float, y: float, wide: float, high: float) -> None: ...
+    def draw(self, kind: Kind, paths: Iterable[Path], number: int = 0) -> None: ...
+    def dot(self, number: int, place: Point) -> None: ...
+    def text(self, place: Point, text: str, size: float = TEXT, look: Look = "start") -> None: ...
 
 
 class FigureBlock(NamedTuple):
     """An unbreakable part of a figure: its height, and ``draw(pen, top)``."""
 
     high: float
-    draw: Callable[[Pen, float], None]
+    draw: Callable[[_Pen, float], None]
 
 
 def blocks(figure: Figure) -> Iterator[FigureBlock]:
     """Yield the title with the legend, then each panel; the last panel has the axis."""
     known = figure.curves()
-    several = len(known) > 1
-    legend = _legend(known.values()) if several else []
-    high = legend[-1][2] if legend else TITLE + 14.0
-    yield FigureBlock(high, lambda pen, top: _head(figure, legend, pen))
+    legend, high = [], TITLE + 14.0
+    if len(known) > 1:
+        x, y = RIGHT, TITLE + 14.0 + LINE_HEIGHT
+        for curve in known.values():
+            name = cut(clean(curve.name), 48)
+            needs = SAMPLE + 6.0 + TEXT * width(name) + 18.0
+            if x > RIGHT and x + needs > PAGE - RIGHT:
+                x, y = RIGHT, y + LINE_HEIGHT + 2.0
+            legend.append((curve, x, y, name))
+            x += needs
+        high = y
+
+    def head(pen: _Pen, top: float) -> None:
+        most = int((PAGE - 2.0 * RIGHT) / (LETTER * TITLE))
+        pen.text((RIGHT, TITLE + 8.0), cut(clean(figure.title).strip(), most), TITLE, "bold")
+        for curve, x, y, name in legend:
+            _sample(curve, x, y, SAMPLE, pen)
+            pen.text((x + SAMPLE + 6.0, y), name)
+
+    yield FigureBlock(high, head)
     # a panel's height, by the number of panels
     high = {1: 300.0, 2: 220.0, 3: 160.0}.get(len(figure.panels), 112.0)
     marked = any(curve.marks for panel in figure.panels for curve in panel.curves)
     wide = PAGE - LEFT - (MARKS if marked else RIGHT)
     for panel in figure.panels:
-        yield _block(figure, panel, wide, high, several)
+        yield _block(figure, panel, wide, high, bool(legend))
 
 
 def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool) -> FigureBlock:
     """A panel of one curve or ``several``; the first names a dwell, the last has the axis."""
     is_first, is_last = panel is figure.panels[0], panel is figure.panels[-1]
 
-    def draw(pen: Pen, top: float) -> None:
+    def draw(pen: _Pen, top: float) -> None:
         frame = Frame(top + ABOVE, wide, high, figure.window, padded(panel))
         across = ticks(*figure.window, int(wide / 70.0), figure.x.unit)
         pen.begin(panel.y.name, frame)
@@ -116,12 +114,18 @@ def _block(figure: Figure, panel: Panel, wide: float, high: float, several: bool
         _marks(figure, panel, frame, several, pen)
         pen.end()
         if is_last:
+            bottom = frame.top + high
             for value, label in zip(across, labels(across), strict=True):
-                pen.text((frame.x(value), frame.bottom + 15.0), label, look="middle")
-            place = LEFT + 0.5 * wide, frame.bottom + 34.0
-            pen.text(place, named(figure.x), look="middle")
+                pen.text((frame.x(value), bottom + 15.0), label, look="middle")
+            pen.text((LEFT + 0.5 * wide, bottom + 34.0), named(figure.x), look="middle")
         if is_first:
-            _dwell(figure, frame, pen)
+            # above the first dwell that is wide enough and clear of the panel's name
+            needs, taken = TEXT * width("dwell"), LEFT + TEXT * width(named(panel.y))
+            for a, b in figure.shaded:
+                middle = 0.5 * (frame.x(a) + frame.x(b))
+                if frame.x(b) - frame.x(a) > needs and middle - needs > taken:
+                    pen.text((middle, frame.top - 7.0), "dwell", look="middle")
+                    return
 
     return FigureBlock(ABOVE + high + (BELOW if is_last else 0.0), draw)
 
@@ -133,28 +137,7 @@ def padded(panel: Panel) -> tuple[float, float]:
     return low - space, high + space
 
 
-def _head(figure: Figure, legend: list[tuple[Curve, float, float, str]], pen: Pen) -> None:
-    most = int((PAGE - 2.0 * RIGHT) / (LETTER * TITLE))
-    title = cut(clean(figure.title).strip(), most)
-    pen.text((RIGHT, TITLE + 8.0), title, TITLE, "bold")
-    for curve, x, y, name in legend:
-        _sample(curve, x, y, SAMPLE, pen)
-        pen.text((x + SAMPLE + 6.0, y), name)
-
-
-def _legend(curves: Iterable[Curve]) -> list[tuple[Curve, float, float, str]]:
-    out, x, y = [], RIGHT, TITLE + 14.0 + LINE_HEIGHT
-    for curve in curves:
-        name = cut(clean(curve.name), 48)
-        needs = SAMPLE + 6.0 + TEXT * width(name) + 18.0
-        if x > RIGHT and x + needs > PAGE - RIGHT:
-            x, y = RIGHT, y + LINE_HEIGHT + 2.0
-        out.append((curve, x, y, name))
-        x += needs
-    return out
-
-
-def _sample(curve: Curve, x: float, y: float, long: float, pen: Pen) -> None:
+def _sample(curve: Curve, x: float, y: float, long: float, pen: _Pen) -> None:
     middle = y - 0.35 * TEXT
     if curve.style != POINTS:
         pen.draw("sample", [[(x, middle), (x + long, middle)]], curve.number)
@@ -162,15 +145,16 @@ def _sample(curve: Curve, x: float, y: float, long: float, pen: Pen) -> None:
         pen.draw("points", [[(x + 0.5 * long, middle)]], curve.number)
 
 
-def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: Pen) -> None:
+def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: _Pen) -> None:
+    """Draw the grid, the axes with numbers and name, and the curves."""
     up = ticks(*frame.span, int(frame.high / 24.0), panel.y.unit)
-    right = LEFT + frame.wide
+    right, bottom = LEFT + frame.wide, frame.top + frame.high
     for a, b in figure.shaded:
         pen.rest(frame.x(a), frame.top, frame.x(b) - frame.x(a), frame.high)
     level = [[(LEFT, frame.y(v)), (right, frame.y(v))] for v in up]
-    upright = [[(frame.x(v), frame.top), (frame.x(v), frame.bottom)] for v in across]
+    upright = [[(frame.x(v), frame.top), (frame.x(v), bottom)] for v in across]
     pen.draw("grid", level + upright)
-    axes = [[(LEFT, frame.top), (LEFT, frame.bottom), (right, frame.bottom)]]
+    axes = [[(LEFT, frame.top), (LEFT, bottom), (right, bottom)]]
     if frame.span[0] < 0.0 < frame.span[1]:
         axes.append([(LEFT, frame.y(0.0)), (right, frame.y(0.0))])
     pen.draw("axis", axes)
@@ -178,24 +162,19 @@ def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen:
         pen.text((LEFT - 6.0, frame.y(value) + 0.35 * SMALL), label, SMALL, "end")
     pen.text((LEFT, frame.top - 7.0), named(panel.y), look="bold")
     for curve in panel.curves:
-        _curve(curve, frame, pen)
+        pieces = [[(frame.x(x), frame.y(y)) for x, y in zip(*p, strict=True)] for p in curve.pieces]
+        if curve.style != POINTS:
+            pen.draw("curve", pieces, curve.number)
+        if curve.style != LINE:
+            pen.draw("points", [[place] for piece in pieces for place in piece], curve.number)
+            continue
+        jumps = [((frame.x(x), frame.y(a)), (frame.x(x), frame.y(b))) for x, a, b in curve.jumps()]
+        visible = [jump for jump in jumps if abs(jump[1][1] - jump[0][1]) > 0.05]  # px
+        if visible:
+            pen.draw("jump", visible, curve.number)
 
 
-def _curve(curve: Curve, frame: Frame, pen: Pen) -> None:
-    pieces = [
-        [(frame.x(x), frame.y(y)) for x, y in zip(*piece, strict=True)] for piece in curve.pieces
-    ]
-    if curve.style != POINTS:
-        pen.draw("curve", pieces, curve.number)
-    jumps = [((frame.x(x), frame.y(a)), (frame.x(x), frame.y(b))) for x, a, b in curve.jumps()]
-    visible = [jump for jump in jumps if abs(jump[1][1] - jump[0][1]) > 0.05]  # px
-    if visible and curve.style == LINE:
-        pen.draw("jump", visible, curve.number)
-    if curve.style != LINE:
-        pen.draw("points", [[place] for piece in pieces for place in piece], curve.number)
-
-
-def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) -> None:
+def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: _Pen) -> None:
     """Draw a dot at each peak; write its value and place to the right of the panel."""
     x, y = LEFT + frame.wide + 12.0, frame.top + 0.8 * TEXT
     for curve in panel.curves:
@@ -207,20 +186,6 @@ def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) 
             words = mark_text(mark, "°" if figure.x.unit else "")
             pen.text((x + (SAMPLE if several else 0.0), y), words)
             y += LINE_HEIGHT
-
-
-def _dwell(figure: Figure, frame: Frame, pen: Pen) -> None:
-    """Write "dwell" above the first dwell that is wide enough and clear of the panel's name."""
-    needs = TEXT * width("dwell")
-    taken = LEFT + TEXT * width(named(figure.panels[0].y))
-    for a, b in figure.shaded:
-        middle = 0.5 * (frame.x(a) + frame.x(b))
-        if frame.x(b) - frame.x(a) > needs and middle - needs > taken:
-            pen.text((middle, frame.top - 7.0), "dwell", look="middle")
-            return
-
-
-SHOWN_DIGITS = 6  # a peak's value has these; an axis has more if labels are equal
 
 
 def ticks(low: float, high: float, most: int, unit: str = "") -> list[float]:

@@ -9,18 +9,30 @@ from typing import ClassVar
 from geneva_cli.figure import Figure
 from geneva_cli.output.inks import LIGHT, colour, dashes
 from geneva_cli.output.letters import western
-from geneva_cli.output.pdf import pdf_file
-from geneva_cli.output.pdf.pdf_file import POINT, number, tint
-from geneva_cli.output.pdf.pdf_pages import INK, LEFT, WIDE, Item, box, wide, words
+from geneva_cli.output.pdf import (
+    BEGIN,
+    INK,
+    LEFT,
+    WIDE,
+    Item,
+    Page,
+    box,
+    number,
+    pdf_text,
+    point,
+    tint,
+    wide,
+    words,
+)
 from geneva_cli.output.plot.plot_layout import (
     INCH,
     PAGE,
     TEXT,
     FigureBlock,
+    Frame,
     Kind,
     Look,
     Path,
-    Pen,
     Point,
     blocks,
 )
@@ -31,12 +43,11 @@ def chunks(figure: Figure) -> Iterator[str]:
     parts = list(blocks(figure))
     mm = 25.4 / INCH  # one px on a figure's own page
     tall = mm * sum(block.high for block in parts)
-    content, top = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n", tall
+    content, top = BEGIN, tall
     for block in parts:
         content += _drawn(block, 0.0, mm, top)
         top -= mm * block.high
-    page = pdf_file.Page(mm * PAGE, tall, content, fonts=2)
-    yield from pdf_file.pdf_text(western(figure.title), [page])
+    yield from pdf_text(western(figure.title), [Page(mm * PAGE, tall, content, fonts=2)])
 
 
 def items(figure: Figure) -> Iterator[Item]:
@@ -54,21 +65,20 @@ def _drawn(block: FigureBlock, left: float, scale: float, top: float) -> str:
     return "".join(pen.out)
 
 
-class _PdfPen(Pen):
+class _PdfPen:
     """Operators of a page, in mm; y upwards."""
 
-    WIDTHS: ClassVar = {
-        "grid": 0.5,
-        "axis": 0.9,
-        "curve": 1.6,
-        "sample": 1.6,
-        "jump": 0.8,
-        "points": 4.0,
-    }
+    WIDTHS: ClassVar = {"grid": 0.5, "axis": 0.9, "curve": 1.6, "sample": 1.6, "jump": 0.8}
 
     def __init__(self, left: float, scale: float, top: float) -> None:
         self.left, self.scale, self.top = left, scale, top
         self.out: list[str] = []
+
+    def begin(self, name: str, frame: Frame) -> None:
+        pass  # a page has no groups
+
+    def end(self) -> None:
+        pass
 
     def rest(self, x: float, y: float, wide: float, high: float) -> None:
         (left, bottom), k = self._place((x, y + high)), self.scale
@@ -78,7 +88,8 @@ class _PdfPen(Pen):
         ink = {"grid": LIGHT.grid, "axis": LIGHT.axis}.get(kind) or colour(number, LIGHT)
         if kind == "points":
             paths = dict.fromkeys(map(tuple, paths))
-        self._stroke(ink, self.WIDTHS[kind], paths, number if kind in ("curve", "sample") else 0)
+        dashed = number if kind in ("curve", "sample") else 0
+        self._stroke(ink, self.WIDTHS.get(kind, 4.0), paths, dashed)
 
     def dot(self, number: int, place: Point) -> None:
         self._stroke(colour(number, LIGHT), 5.6, [[place]])
@@ -93,7 +104,7 @@ class _PdfPen(Pen):
         dash = " ".join(number(self.scale * x) for x in dashes(dashed))
         self.out.append(f"{tint(ink)} RG {number(self.scale * width)} w [{dash}] 0 d\n")
         for path in paths:
-            first, *rest = dict.fromkeys(pdf_file.point(self._place(place)) for place in path)
+            first, *rest = dict.fromkeys(point(self._place(place)) for place in path)
             self.out.append(f"{first} m\n" + "".join(f"{p} l\n" for p in rest or [first]) + "S\n")
 
     def _place(self, place: Point) -> Point:

@@ -1,6 +1,6 @@
-"""A figure as SVG, without another program.
+"""A figure as SVG, and as PNG by resvg, which is an extra. Equal figures give equal bytes.
 
-Texts remain texts; colours follow the reader's light or dark mode. Equal figures give equal bytes.
+In SVG texts remain texts, and colours follow the reader's light or dark mode.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from html import escape
 
-from geneva_cli.errors import clean
+from geneva_cli.errors import GenevaError, clean
 from geneva_cli.figure import Figure
 from geneva_cli.output.inks import DARK, LIGHT, Paper, colour, dashes
 from geneva_cli.output.plot.plot_layout import (
@@ -19,12 +19,13 @@ from geneva_cli.output.plot.plot_layout import (
     Kind,
     Look,
     Path,
-    Pen,
     Point,
     blocks,
     named,
 )
 from geneva_cli.table import in_decimals
+
+WIDE = 1500  # pixels of a png: ten inches at 150 dots an inch
 
 
 def chunks(figure: Figure) -> Iterator[str]:
@@ -35,18 +36,45 @@ def chunks(figure: Figure) -> Iterator[str]:
         tall += block.high
     names = ", ".join(named(panel.y) for panel in figure.panels)
     content = f"{names} by {named(figure.x).lower()}"
+    patterns = [(n, " ".join(map(_n, dashes(n)))) for n in known]
+    dashed = "".join(f".c{n} {{ stroke-dasharray: {d} }}\n" for n, d in patterns if d)
     yield (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(PAGE)}" height="{_n(tall)}"'
         f' viewBox="0 0 {_n(PAGE)} {_n(tall)}" role="img" font-family="sans-serif"'
         f' font-size="{_n(TEXT)}">\n'
         f"<title>{escape(clean(figure.title).strip(), quote=False)}</title>\n"
         f"<desc>{escape(content, quote=False)}</desc>\n"
-        f"<style>\n{_style(LIGHT, known)}{_dashes(known)}"
+        f"<style>\n{_style(LIGHT, known)}"
+        "path { fill: none } .curve { stroke-width: 1.6; stroke-linejoin: round }\n"
+        f"{dashed}.jump {{ stroke-width: 0.8; stroke-dasharray: none }}\n"
+        ".points { stroke-width: 4; stroke-linecap: round; stroke-dasharray: none }\n"
         f"@media (prefers-color-scheme: dark) {{\n{_style(DARK, known)}}}\n</style>\n"
         f'<rect class="page" width="{_n(PAGE)}" height="{_n(tall)}"/>\n'
     )
     yield from pen.out
     yield "</svg>\n"
+
+
+def png_bytes(figure: Figure) -> bytes:
+    """Return a picture's bytes, equal on every machine.
+
+    Raises GenevaError if resvg or the font is not installed.
+    """
+    try:
+        from font_source_sans_pro import font_files_ttf as fonts
+        from resvg_py import svg_to_bytes
+    except ImportError:
+        raise GenevaError(
+            "png needs resvg-py and a font, which are not installed: pip install "
+            "'geneva-cli[plot]', or write an .svg or a .pdf"
+        ) from None
+    return svg_to_bytes(
+        "".join(chunks(figure)),
+        zoom=WIDE / PAGE,
+        skip_system_fonts=True,  # a picture does not depend on the machine
+        font_files=[fonts["SourceSansPro"], fonts["SourceSansProBold"]],
+        sans_serif_family="Source Sans Pro",
+    )
 
 
 def _style(paper: Paper, known: Iterable[int]) -> str:
@@ -61,17 +89,7 @@ def _style(paper: Paper, known: Iterable[int]) -> str:
     )
 
 
-def _dashes(known: Iterable[int]) -> str:
-    patterns = [(n, " ".join(map(_n, dashes(n)))) for n in known]
-    own = "".join(f".c{n} {{ stroke-dasharray: {d} }}\n" for n, d in patterns if d)
-    return (
-        "path { fill: none } .curve { stroke-width: 1.6; stroke-linejoin: round }\n"
-        f"{own}.jump {{ stroke-width: 0.8; stroke-dasharray: none }}\n"
-        ".points { stroke-width: 4; stroke-linecap: round; stroke-dasharray: none }\n"
-    )
-
-
-class _SvgPen(Pen):
+class _SvgPen:
     """Elements of an SVG."""
 
     def __init__(self) -> None:
@@ -101,7 +119,12 @@ class _SvgPen(Pen):
         elif kind == "points":
             words = [f"M{at}h0" for at in dict.fromkeys(_at(place) for (place,) in paths)]
         else:
-            words = list(_joined(paths))
+            words, last = [], ""  # a path that begins at the end of the one before continues it
+            for path in paths:
+                places = list(map(_at, path))
+                words += [] if places[0] == last else ["M" + places[0]]
+                words += [" " + place for place in places[1:]]
+                last = places[-1]
         look = {"grid": "grid", "axis": "axis", "sample": f"curve c{number}"}
         name = look.get(kind, f"{kind} c{number}")
         self.out.append(f'<path class="{name}" d="{"".join(words)}"/>\n')
@@ -116,17 +139,6 @@ class _SvgPen(Pen):
         more += ' font-weight="bold"' if look == "bold" else ""
         x, y = map(_n, place)
         self.out.append(f'<text x="{x}" y="{y}"{more}>{escape(text, quote=False)}</text>\n')
-
-
-def _joined(paths: Iterable[Path]) -> Iterator[str]:
-    """Yield the words of paths; one that begins at the end of the one before continues it."""
-    last = ""
-    for path in paths:
-        places = list(map(_at, path))
-        if places[0] != last:
-            yield "M" + places[0]
-        yield from (" " + place for place in places[1:])
-        last = places[-1]
 
 
 def _at(place: Point) -> str:

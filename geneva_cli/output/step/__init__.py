@@ -10,13 +10,13 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid, solids
+from geneva_cli.geometry.plates import Group, Member, Part, Shell, Solid, solids
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.inks import Ink, inks
 from geneva_cli.output.solid_part import solid_part
 from geneva_cli.output.step.entities import Entities, listed, real, words
 from geneva_cli.output.step.shell import shell_solid
-from geneva_cli.output.step.solid import solid, stack_solid
+from geneva_cli.output.step.solid import solid
 
 
 class Product(NamedTuple):
@@ -58,10 +58,7 @@ class Products:
         return self.known[part]
 
     def _solid(self, one: Solid) -> Product:
-        if isinstance(one, Shell):
-            body = shell_solid(self.file, one)
-        else:
-            body = solid(self.file, one) if isinstance(one, Plate) else stack_solid(self.file, one)
+        body = shell_solid(self.file, one) if isinstance(one, Shell) else solid(self.file, one)
         self.styled.append(self._styled(body, self.inks[one.layer]))
         return self._defined(
             one.name,
@@ -140,14 +137,13 @@ def _space(file: Entities) -> str:
     )
 
 
-def chunks(drawing: Drawing, units: str) -> Iterator[str]:
+def chunks(drawing: Drawing) -> Iterator[str]:
     """The file's text.
 
-    Raises GenevaError for a drawing without solids, for a unit other than mm, and for a coordinate
-    that is not finite.
+    Raises GenevaError for a drawing without solids, and for a coordinate that is not finite.
     """
     file = Entities()
-    Products(file, solid_part(drawing, units, "STEP"))
+    Products(file, solid_part(drawing, "STEP"))
     yield (
         "ISO-10303-21;\nHEADER;\n"
         f"FILE_DESCRIPTION(({words(clean(drawing.title))}),'2;1');\n"

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from typing import NamedTuple, TypeAlias
+from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.geometry.shapes import Arc, Line, Point
 from geneva_cli.output.splines import Piece
@@ -125,9 +125,6 @@ def closed_solid(file: Entities, faces: list[str]) -> str:
     return file.add(f"MANIFOLD_SOLID_BREP('',{shell})")
 
 
-Place: TypeAlias = tuple[float, float, float]
-
-
 def level(file: Entities, z: float) -> str:
     """The plane across the axis at a height."""
     return file.add(f"PLANE('',{file.placement((0.0, 0.0), z)})")
@@ -140,35 +137,17 @@ def curve(file: Entities, piece: Piece, z: float) -> str:
         return f"LINE('',{file.point(piece.start, z)},{vector})"
     if isinstance(piece, Arc):
         return circle_at(file, piece.centre, piece.radius, z)
-    return _cubics(file, [(*p, z) for p in piece.poles], piece.knots)
+    points = listed([file.point(pole, z) for pole in piece.poles])
+    count, knots = knots_of(piece.knots)
+    return (
+        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{points},.UNSPECIFIED.,.F.,.F.,{count},{knots},"
+        ".UNSPECIFIED.)"
+    )
 
 
 def is_along(piece: Piece) -> bool:
     """Return True if a piece runs as its curve does: all but arcs that turn clockwise."""
     return not isinstance(piece, Arc) or piece.bulge > 0.0
-
-
-def smooth_curve(file: Entities, places: Sequence[Place], slopes: Sequence[Place]) -> str:
-    """The text of a curve of cubics with these ends, and slopes per cubic; closed at one place."""
-    poles: list[Place] = []
-    for (x, y, z), (u, v, w) in zip(places, slopes, strict=True):
-        before = x - u / 3.0, y - v / 3.0, z - w / 3.0
-        after = x + u / 3.0, y + v / 3.0, z + w / 3.0
-        poles += [before, after]
-    poles = [places[0], *poles[1:-1], places[-1]]
-    return _cubics(file, poles, range(len(places)), closed=places[0] == places[-1])
-
-
-def _cubics(
-    file: Entities, poles: Iterable[Place], ends: Sequence[float], closed: bool = False
-) -> str:
-    points = listed([file.point((x, y), z) for x, y, z in poles])
-    count, knots = knots_of(ends)
-    flag = ".T." if closed else ".F."
-    return (
-        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{points},.UNSPECIFIED.,{flag},.F.,{count},{knots},"
-        ".UNSPECIFIED.)"
-    )
 
 
 def knots_of(ends: Sequence[float]) -> tuple[str, str]:

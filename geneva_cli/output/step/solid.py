@@ -9,9 +9,8 @@ from __future__ import annotations
 from itertools import pairwise
 
 from geneva_cli.geometry.moments import with_material_left
-from geneva_cli.geometry.plates import Plate, Stack
+from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Line, Point
-from geneva_cli.geometry.stacks import Level, Side, levels, outline_of, sides
 from geneva_cli.output.solid_part import plate_contours
 from geneva_cli.output.splines import Piece, pieces
 from geneva_cli.output.step.entities import (
@@ -31,7 +30,6 @@ from geneva_cli.output.step.entities import (
     real,
     unit_of,
 )
-from geneva_cli.output.step.step_edges import bored_walls, edge_faces
 
 
 def solid(file: Entities, plate: Plate) -> str:
@@ -42,32 +40,21 @@ def solid(file: Entities, plate: Plate) -> str:
     faces, lower, upper = [], [], []
     outside = True
     shapes = plate_contours(plate)
-    bored, openings = bored_walls(file, plate, shapes)
-    taken = plate.edge.size
-    walled = plate._replace(low=plate.low + taken, high=plate.high - taken)
     for shape in shapes:
         if isinstance(shape, Circle):
-            walls = [_round(file, walled, shape, outside)]
+            walls = [_round(file, plate, shape, outside)]
         else:
             contour = with_material_left(shape, outside)
             own = pieces(contour.segments)
-            ends = [_place(file, walled, piece.start) for piece in own]
+            ends = [_place(file, plate, piece.start) for piece in own]
             walls = [
-                _wall(file, walled, piece, pair, openings.get(piece, []))
+                _wall(file, plate, piece, pair)
                 for piece, pair in zip(own, pairwise([*ends, ends[0]]), strict=True)
             ]
-            if taken:
-                edges, lows, highs = edge_faces(file, plate, contour, ends, walls)
-                faces += edges
-                walls = [
-                    WallFace(wall.face, low, high, True)
-                    for wall, low, high in zip(walls, lows, highs, strict=True)
-                ]
         faces += [wall.face for wall in walls]
         lower.append(loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
         upper.append(loop(file, [(wall.high, wall.along) for wall in walls]))
         outside = False
-    faces += bored
     faces.append(face(file, lower, level(file, plate.low), False))
     faces.append(face(file, upper, level(file, plate.high), True))
     return closed_solid(file, faces)
@@ -84,7 +71,6 @@ def _wall(
     plate: Plate,
     piece: Piece,
     ends: tuple[SolidCorner, SolidCorner],
-    holes: list[str],
 ) -> WallFace:
     start, end = ends
     curves = [curve(file, piece, z) for z in (plate.low, plate.high)]
@@ -93,7 +79,7 @@ def _wall(
     high = edge(file, start.high, end.high, curves[1], along)
     sides = loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
     # a cylinder's own normal points away from its axis, that of the others to the right
-    wall = face(file, [sides, *holes], surface(file, piece, plate), along)
+    wall = face(file, [sides], surface(file, piece, plate), along)
     return WallFace(wall, low, high, True)
 
 
@@ -130,64 +116,3 @@ def surface(file: Entities, piece: Piece, plate: Plate) -> str:
 
 def _cylinder(file: Entities, centre: Point, radius: float, z: float) -> str:
     return file.shared(f"CYLINDRICAL_SURFACE('',{file.placement(centre, z)},{real(radius)})")
-
-
-def stack_solid(file: Entities, stack: Stack) -> str:
-    """The number of the part's MANIFOLD_SOLID_BREP.
-
-    Raises GenevaError for a coordinate that is not finite, or a step without thickness.
-    """
-    return closed_solid(file, _StackWriter(file, stack).faces())
-
-
-class _StackWriter:
-    """Writes one turned part; its vertices and edges are shared by its faces."""
-
-    def __init__(self, file: Entities, stack: Stack) -> None:
-        self.file, self.stack = file, stack
-        self._vertices: dict[tuple[Point, float], str] = {}
-        self._edges: dict[tuple[Side | Point, float], str] = {}
-
-    def faces(self) -> list[str]:
-        faces = []
-        for plate in self.stack.plates:
-            plate_contours(plate)  # refuses what is no solid
-            faces += [self._wall(plate, side) for side in sides(outline_of(plate))]
-        return [*faces, *(self._across(one) for one in levels(self.stack))]
-
-    def _across(self, at: Level) -> str:
-        loops = [
-            loop(self.file, [(self._along(run.side, at.z), run.forward) for run in runs])
-            for runs in at.loops
-        ]
-        return face(self.file, loops, level(self.file, at.z), at.up)
-
-    def _wall(self, plate: Plate, side: Side) -> str:
-        bounds = [
-            (self._along(side, plate.low), True),
-            (self._rise(side.end, plate), True),
-            (self._along(side, plate.high), False),
-            (self._rise(side.start, plate), False),
-        ]
-        # a cylinder's own normal points away from its axis, a plane's to the right
-        around = loop(self.file, bounds)
-        return face(self.file, [around], surface(self.file, side, plate), is_along(side))
-
-    def _along(self, side: Side, z: float) -> str:
-        if (side, z) not in self._edges:
-            ends = self._vertex(side.start, z), self._vertex(side.end, z)
-            line = curve(self.file, side, z)
-            self._edges[side, z] = edge(self.file, *ends, line, is_along(side))
-        return self._edges[side, z]
-
-    def _rise(self, at: Point, plate: Plate) -> str:
-        if (at, plate.low) not in self._edges:
-            ends = self._vertex(at, plate.low), self._vertex(at, plate.high)
-            line = f"LINE('',{self.file.point(at, plate.low)},{self.file.rise})"
-            self._edges[at, plate.low] = edge(self.file, *ends, line, True)
-        return self._edges[at, plate.low]
-
-    def _vertex(self, at: Point, z: float) -> str:
-        if (at, z) not in self._vertices:
-            self._vertices[at, z] = self.file.add(f"VERTEX_POINT('',{self.file.point(at, z)})")
-        return self._vertices[at, z]

@@ -29,6 +29,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.gears.gear_mesh import ToothedGear
 from geneva_cli.parts.links.link_sizes import LinkSizes
+from geneva_cli.parts.shafts.bores import Bore
 from geneva_cli.parts.shafts.hub_and_shafts import ShaftBore
 from geneva_cli.parts.shafts.screws import BoltCircle, bolt_circle
 
@@ -104,7 +105,7 @@ def link_gear(
     # the key that sets its bore
     shaft = {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
     if teeth.fixed:
-        on = ShaftBore(on.bore.running)
+        on = ShaftBore(Bore(on.bore.around, on.bore.loose))
     bore = on.bore.reach
     holes: list[Shape] = []
     outline: Circle | Contour = Circle("PITCH", ORIGIN, radius)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.plates import Member, Plate, Stack, between
+from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Circle, Contour, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
@@ -101,14 +101,14 @@ def links_to_fix(bars: Links, mechanism: Mechanism) -> Iterator[str]:
 def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[Member]:
     """Yield the shafts without the lengths that lie in links of one piece with them."""
     for member in shafts:
-        assert isinstance(member.part, Plate | Stack)
+        assert isinstance(member.part, Plate)
         spans = [(member.part.low, member.part.high)]
         for plate in bars.one_piece(member.at, L):
             below = [(low, min(high, plate.low)) for low, high in spans]
             above = [(max(low, plate.high), high) for low, high in spans]
             spans = [(low, high) for low, high in below + above if high - low > SAME_LENGTH * L]
         for low, high in spans:
-            yield member._replace(part=between(member.part, low, high))
+            yield member._replace(part=member.part._replace(low=low, high=high))
 
 
 class Meeting(NamedTuple):
@@ -221,7 +221,8 @@ def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iter
         away = np.abs(places(link)[0])
         on_shaft = bool(away.max() < SAME_LENGTH * parts.assembly.L)
         # a shaft fills the gear's bore, a hub does not
-        wide = gear.bore.bore.cut.around
+        own = gear.bore.bore
+        wide = own._replace(radius=own.radius + own.loose).around
         for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
             if on_shaft and one.radius <= wide:
                 continue

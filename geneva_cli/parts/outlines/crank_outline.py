@@ -172,9 +172,8 @@ def crank_contours(
 ) -> list[Contour]:
     """Return the locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
 
-    ``swept(i)`` are points where the wheel enters the disc in the i-th motion. Sectors that are
-    left of it keep ``spare`` mm more distance from the wheel. Raises GenevaError where nothing is
-    left.
+    ``swept(i)`` are points where the wheel enters the disc in the i-th motion; sectors keep
+    ``spare`` mm more distance from them.
     """
     if not is_whole(assembly, sizes):
         return _rings(assembly, sizes, swept, spare)
@@ -199,9 +198,8 @@ def crank_contours(
 def takes_arcs(assembly: Assembly, sizes: Sizes) -> bool:
     """Return True if arcs may relieve the disc, if they clear the wheel.
 
-    Some of the disc is left at the crank's axis and between any two motions. An arc leaves the
-    spec's bore of the crank a wall, and its hub, or a sector would be no deeper; default bores and
-    hubs are within an arc.
+    They leave some of the disc at the crank's axis and between two motions, and a wall to the
+    spec's bore and hub, unless a sector is no deeper.
     """
     size = assembly.full.spec.size
     dwells = all(after - one.end > SAME_ANGLE for one, after in followed(reliefs(assembly)))
@@ -257,10 +255,7 @@ def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
 
 
 def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
-    """Return the gap between the roller that starts the wheel and that which stops it, mm.
-
-    It is negative where they overlap, and None if each roller does both.
-    """
+    """Return the gap of the rollers that start and stop the wheel, mm; None if they are one."""
     if len(assembly.rollers) == len(assembly.motions):
         return None
     pairs = combinations(roller_centres(assembly), 2)
@@ -296,7 +291,6 @@ def widest(whole: float, clears: Callable[[float], bool]) -> float | None:
     """Return half the width of the widest locking sector that clears the wheel, up to ``whole``.
 
     Steps are a fiftieth of ``whole``. None if none of at least a fifth of it clears the wheel.
-    Narrower sectors clear the wheel where a wider one does.
     """
     if clears(whole):  # as most do
         return whole
@@ -321,9 +315,8 @@ def _inner(
 ) -> tuple[float, float]:
     """Return the inner arc of a locking sector: its distance at the edges and in the middle.
 
-    ``points`` of the wheel are radii, and directions from the sector's middle. Through each point
-    there is one circle that meets both edges where this arc does. The circle that is farthest out
-    in the middle clears all points.
+    ``points`` of the wheel are radii, and directions from the sector's middle. Of the circles
+    through a point and both edges' ends, that which is farthest out in the middle clears all.
     """
     inside = np.abs(points[1]) < half
     radius, off = (each[inside] for each in points)

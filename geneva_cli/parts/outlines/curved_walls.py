@@ -76,10 +76,8 @@ def curved_walls(
 ) -> Contour:
     """Return a curved slot's walls, counterclockwise from one corner of its mouth to the other.
 
-    They are within ``tolerance`` mm of the true walls, and never inside them. For that the slot of
-    a roller larger by half the tolerance is fitted. So no fit leaves material in the roller's path.
-    ``curves`` is "arcs" or "cubics", the form of walls that are no arcs. Raises GenevaError where
-    the walls do not close.
+    They are within ``tolerance`` mm of the true walls, and never inside them: the slot of a roller
+    larger by half the tolerance is fitted. Raises GenevaError where the walls do not close.
     """
     half = 0.5 * tolerance
     runs: list[list[Segment]] = []
@@ -97,10 +95,7 @@ def curved_walls(
 
 
 def chain(assembly: Assembly, sizes: Sizes, around: list[Wall]) -> list[WallPiece]:
-    """Return the pieces of walls that bound a slot, from the mouth's lower corner to its upper.
-
-    They are pieces of the walls ``around`` all positions of its roller.
-    """
+    """Return the pieces of walls that bound a slot, from its mouth's lower corner to its upper."""
     rim = _Rim(assembly, sizes)
     crossings = [c for wall in around for c in rim.crossings(wall)]
     if not crossings:

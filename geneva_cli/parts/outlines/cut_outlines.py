@@ -25,10 +25,7 @@ SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relie
 
 
 def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
-    """Return the outlines of an assembly with known sizes.
-
-    They are cached without what a load changes: a lock is cut before the parts are sized for it.
-    """
+    """Return the outlines of an assembly with known sizes, cached without what a load changes."""
     return _drawn(assembly, sizes.outline)._replace(sizes=sizes)
 
 
@@ -47,8 +44,7 @@ def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
 def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
     """Return the lock: the narrowest arc of the crank, and the corner that leaves the most play.
 
-    Beyond the crank's axis, as an internal wheel reaches, the wheel leaves less than a sector
-    between two reliefs.
+    Beyond the crank's axis the wheel leaves less than a sector between two reliefs.
     """
     lock = lock_of(assembly, sizes)
     if is_whole(assembly, sizes):
@@ -74,9 +70,8 @@ def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: floa
 def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:
     """Return the crank with the spec's relief, or else the first kind that clears the wheel.
 
-    An arc leaves the most of the disc and is one cut. If it collides, as with many slots, or leaves
-    too little around the crank's bore or hub, the whole sector is cut down to where the wheel never
-    comes.
+    An arc leaves the most of the disc and is one cut. If it collides or leaves too little, the
+    whole sector is cut down to where the wheel never comes.
     """
     assembly = bare.assembly
     if not sizes.lock:

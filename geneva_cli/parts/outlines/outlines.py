@@ -19,7 +19,7 @@ class Outlines(NamedTuple):
 
     ``slots`` has the walls of each kind of slot. ``close`` is the overlap, mm, that counts as
     rounding or as the walls' tolerance. ``gaps`` has all recesses of a wheel, also that which a
-    stop leaves convex: the wheel never turns it towards the crank.
+    stop leaves convex.
     """
 
     assembly: Assembly

@@ -94,10 +94,7 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
 def _circle(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, end: float
 ) -> tuple[tuple[float, float], Array]:
-    """Return the roller's path before entry (-1) or after exit (1): its centre and its points.
-
-    The points lead outwards from the slot until the roller has left the wheel.
-    """
+    """Return the roller's path before entry (-1) or after exit (1): centre, and points outwards."""
     centre = rest(assembly, engagement, end)
     x, y = _pitch(assembly.L, engagement, np.array([engagement.end_deg(end)]))[0]
     radius, start = math.dist((x, y), centre), math.atan2(y - centre[1], x - centre[0])
@@ -171,11 +168,7 @@ def _pitch(L: float, engagement: Engagement, t: Array) -> Array:
 
 
 def _free(points: Array, path: Array, least: float) -> Mask:
-    """Return a mask of the points that no position of the roller covers.
-
-    A block of neighbouring points is compared only with the part of the path near its bounding
-    circle.
-    """
+    """Return a mask of the points that no position of the roller covers."""
     out = np.ones(len(points), dtype=bool)
     start, steps = path[:-1], np.diff(path, axis=0)
     square = np.maximum((steps * steps).sum(axis=1), 1e-300)

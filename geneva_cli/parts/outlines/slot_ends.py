@@ -16,8 +16,8 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.inset import away, between, corner
 from geneva_cli.geometry.measure import fraction_at, segment_length
+from geneva_cli.geometry.offsets import away, between, corner
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 
 
@@ -32,7 +32,6 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Tip | None:
     """Return the flat of a horn beside a wall that runs outwards; None for a horn thick enough.
 
     ``centre`` and ``recess`` are centre and radius of the recess, and ``width`` is the flat's.
-    Raises GenevaError where too little of the wall would be left.
     """
     (x, y), long = wall.start, math.dist(wall.start, wall.end)
     u, v = (wall.end[0] - x) / long, (wall.end[1] - y) / long
@@ -56,11 +55,7 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Tip | None:
 
 
 def rounded(before: Line | Arc, after: Line | Arc, radius: float, sign: float) -> list[Segment]:
-    """Return two adjacent pieces with an arc of a radius between them.
-
-    ``sign`` is 1 where the material is to the left of them, -1 to the right. Raises GenevaError
-    where one of them is too short.
-    """
+    """Return two pieces with an arc between them; ``sign`` is 1 with the material on the left."""
     centre = corner(before, after, sign * radius)
     ends = []
     for piece in (before, after):

@@ -9,17 +9,13 @@ from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.shafts.held_hubs import held_hub
 from geneva_cli.parts.shafts.screws import BoltCircle, bolt_circle
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.spec.tables import Size
 
 
 def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
-    """Return the outside of an internal wheel, the bore in its shape, and the dial's bolts.
-
-    Raises GenevaError for a shape or keyway that the bore cannot have.
-    """
+    """Return the outside of an internal wheel, the bore in its shape, and the dial's bolts."""
     circles: list[Shape] = [Circle("WHEEL", (0.0, 0.0), sizes.outer)] if sizes.outer else []
     size = assembly.mechanism.spec.size
     if sizes.wheel_bore or has_shape(size, "wheel"):
@@ -34,10 +30,7 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
 
 
 def dial_circle(assembly: Assembly, sizes: Sizes) -> BoltCircle:
-    """Return the bolts of the dial.
-
-    By default their circle is in the middle between the bore and the slots and recesses.
-    """
+    """Return the bolts of the dial, by default midway between bore and slots or recesses."""
     size = assembly.mechanism.spec.size
     ring = sizes.wheel_reach, sizes.slot_end
     if sizes.outer:
@@ -46,16 +39,13 @@ def dial_circle(assembly: Assembly, sizes: Sizes) -> BoltCircle:
 
 
 def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
-    """Return the hub below the wheel; None unless the spec has its diameter or its length.
-
-    Raises GenevaError for a set screw that it does not hold.
-    """
-    size, hub = assembly.mechanism.spec.size, None
-    if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
-        bores = about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
-        outline, low = Circle("HUB", ORIGIN, sizes.wheel_hub), -wheel_hub_length(size, sizes)
-        hub = Plate("wheel's hub", "HUB", outline, bores, low, 0.0)
-    return held_hub(size, "wheel", hub, assembly.rests[0])
+    """Return the hub below the wheel; None unless the spec has its diameter or its length."""
+    size = assembly.mechanism.spec.size
+    if not (size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore):
+        return None
+    bores = about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
+    outline, low = Circle("HUB", ORIGIN, sizes.wheel_hub), -wheel_hub_length(size, sizes)
+    return Plate("wheel's hub", "HUB", outline, bores, low, 0.0)
 
 
 def wheel_hub_length(size: Size, sizes: Sizes) -> float:

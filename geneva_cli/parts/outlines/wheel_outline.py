@@ -69,8 +69,7 @@ def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> 
     """Return a straight slot's walls, counterclockwise from one corner of its mouth to the other.
 
     A pair of slots has the arc between them too. The wall that faces the crank's axis at entry ends
-    where the roller enters, the other where it leaves. These ends lie at different radii if the
-    slots are offset or unequal. Raises GenevaError where the wheel ends short of the slot's end.
+    where the roller enters, the other where it leaves: at different radii if slots are offset.
     """
     apart, engagement = engagement.apart, engagement.through
     L, w, out = assembly.L, sizes.half_width, assembly.sign
@@ -129,12 +128,8 @@ def wheel_contour(
     """Return the wheel's contour, counterclockwise; an internal wheel's is its opening.
 
     With ``convex`` the recess opposite the first slot is a convex face at the rim, which stops the
-    crank at both ends. At input angle 0 the crank is as far from one stop as from the other, or
-    half a turn nearer to one.
-
-    ``slots`` has the walls of each kind of slot, from one corner of the mouth round the bottom to
-    the other. They are in the wheel's frame, with that slot ahead. Raises GenevaError where a
-    recess leaves no horn next to a slot.
+    crank at both ends. ``slots`` has the walls of each kind of slot, in the wheel's frame, with
+    that slot ahead.
     """
     around = assembly.slots
     walls = [[*turned(slots[engagement], direction).segments] for engagement, direction in around]
@@ -167,7 +162,7 @@ def _round_mouths(
 ) -> None:
     """Round the corners at both ends of a rim, and of the walls of the slots beside it.
 
-    A mouth that is extended along the roller's circle runs on smoothly: its corner is at the rim.
+    A mouth that is extended along the roller's circle has its corner at the rim.
     """
     c, sign = sizes.mouth_radius, assembly.sign
     if _is_extension(rim[0]):
@@ -195,9 +190,8 @@ def _rim(
 ) -> list[Segment]:
     """Return the rim from one slot's corner, through the recess, to the next slot's corner.
 
-    Mouths of offset slots and of unequal steps end at different radii. One that the recess does not
-    reach is extended to the recess, along the roller's circle about the crank's axis. Horns thinner
-    than ``horn_tip_mm`` are cut back to flats: the walls ``before`` and ``after`` then end there.
+    A mouth that the recess does not reach is extended along the roller's circle about the crank's
+    axis. Horns thinner than ``horn_tip_mm`` are cut back to flats, at which the walls then end.
     """
     axis = assembly.L * math.cos(at), assembly.L * math.sin(at)
     flats: list[Tip | None] = [None, None]

@@ -43,19 +43,9 @@ class Bore(NamedTuple):
     standard: str = ""  # of the key
 
     @property
-    def is_round(self) -> bool:
-        """True if a diameter is a dimension of the bore."""
-        return self.form != "hex"
-
-    @property
     def is_plain(self) -> bool:
         """True if the bore is a circle, which has no direction."""
         return self.form == "round" and self.key is None
-
-    @property
-    def cut(self) -> Bore:
-        """The bore as it is cut: as wide as it is, without a fit."""
-        return self._replace(radius=self.radius + self.loose, loose=0.0)
 
     @property
     def reach(self) -> float:
@@ -76,31 +66,11 @@ class Bore(NamedTuple):
         cut = self.radius + self.loose
         if self.key:
             over = length(cut + self.reach)
-            wide = length(self.key.width, fine=True)
+            wide = length(self.key.width)
             return f"keyway {wide} JS9, {over} over bore ({self.standard})"
         if self.form == "hex":
             return f"hexagon {length(2.0 * cut)} across flats"
         return f"flat, {length(2.0 * cut - self.flat)} to the far side" if self.flat else ""
-
-    @property
-    def shaft_note(self) -> str:
-        """What a drawing of the shaft says besides the diameter."""
-        if self.key:
-            wide = length(self.key.width, fine=True)
-            return f"keyway {wide} P9, {length(self.key.in_shaft)} deep ({self.standard})"
-        return self._replace(loose=0.0).note
-
-    @property
-    def end_diameter(self) -> float | None:
-        """Diameter of a round end of the shaft beyond the bore; None where there is none."""
-        if self.form == "D":
-            return None
-        return (1.9 if self.form == "hex" else 2.0) * self.radius
-
-    @property
-    def running(self) -> Bore:
-        """The bore of a part in which the shaft turns."""
-        return Bore(self.around, self.loose)
 
     def shape(self, layer: Layer, direction: float) -> Shape:
         """Return the bore about the origin, with its feature in a direction, radians.
@@ -137,8 +107,8 @@ def bore_of(size: Size, part: str, radius: float) -> Bore:
     """Return the bore of a part, "wheel" or "crank", for a shaft with a radius in mm.
 
     A flat is by default a tenth of the diameter deep; motors have 0.5 mm on shafts of 5 mm. Raises
-    GenevaError, naming the key, for a keyway that its standard does not have, for one in a bore
-    that is not round, for a flat that leaves no bore, and for a shape without a bore.
+    GenevaError, naming the key, where the standard has no such keyway, and for a shape that a bore
+    cannot have.
 
     >>> bore_of(Size(crank_keyway="DIN 6885-1"), "crank", 10.0).reach
     12.8
@@ -174,9 +144,7 @@ def bore_of(size: Size, part: str, radius: float) -> Bore:
 
 
 def round_bore(size: Size, radius: float) -> Bore:
-    """Return the round bore for a shaft, or for a pin on which a part turns, with a radius in mm.
-
-    Without a shaft, of radius 0, there is no bore.
+    """Return the round bore for a shaft or pin; none where its radius is 0.
 
     >>> round_bore(Size(process="print"), 6.0)[:3]
     (6.0, 0.2, 'round')
@@ -184,26 +152,10 @@ def round_bore(size: Size, radius: float) -> Bore:
     return Bore(radius, size.allowances.around_shaft_mm if radius else 0.0)
 
 
-def bore_in(size: Size, part: str, shape: Shape) -> Bore:
-    """Return the bore of a part from its shape."""
-    # without the rounding errors of the sum, which would choose another key
-    return bore_of(size, part, round(radius_of(shape) - size.allowances.around_shaft_mm, 9))
-
-
 def has_shape(size: Size, part: str) -> bool:
     """Return True if the bore of a part is not merely round."""
     values = vars(size)
     return values[f"{part}_keyway"] is not None or values[f"{part}_bore"] != "round"
-
-
-def rounded(section: Shape) -> Shape:
-    """Return the circle of a shaft's section, with the section's own arcs among its pieces."""
-    if isinstance(section, Circle):
-        return section
-    arcs = [piece for piece in section.segments if isinstance(piece, Arc)]
-    rest = math.tau - sum(arc.sweep for arc in arcs)
-    closing = Arc(arcs[-1].end, arcs[0].start, math.tan(0.25 * rest))
-    return section._replace(segments=(*arcs, closing))
 
 
 def reach_or_bore(size: Size, part: str, bore: float) -> float:
@@ -250,7 +202,7 @@ def section_note(section: Shape) -> str:
     far, bottom = min((math.hypot(*at(line, 0.5)), line) for line in lines)
     if len(lines) == 1:
         return Bore(radius, 0.0, "D", radius - far).note
-    wide = length(math.dist(bottom.start, bottom.end), fine=True)
+    wide = length(math.dist(bottom.start, bottom.end))
     return f"keyway {wide} P9, {length(radius - far)} deep"
 
 

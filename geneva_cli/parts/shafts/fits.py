@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.spec.workshops import workshop
-from geneva_cli.spec.written import deviation, signed
+from geneva_cli.spec.written import signed
 
 
 class SizeRange(NamedTuple):
@@ -123,7 +123,7 @@ class Fits(NamedTuple):
         """Return a size with its fit, with the deviation of a cut, or alone if none is kept."""
         shop = workshop(self.process)
         if self.thickness_mm is not None and shop.cut_mm:
-            return f"{shown} ±{deviation(shop.cut_mm(self.thickness_mm, nominal_mm))}"
+            return f"{shown} ±{shop.cut_mm(self.thickness_mm, nominal_mm):g}"
         return toleranced(nominal_mm, shown, fit) if shop.fits else shown
 
     @property

@@ -23,36 +23,35 @@ from geneva_cli.parts.outlines.crank_outline import crank_circles, is_whole, key
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import about_axis, wheel_hub
 from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape, round_bore
-from geneva_cli.parts.shafts.held_hubs import held_hub
 from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends
 
 
 def crank_hub(parts: Outlines) -> Plate | None:
     """Return the crank's hub above the locking disc or the arm; None if omitted or not higher.
 
-    Raises GenevaError, naming the key, if there is neither disc nor arm to carry it, and for a set
-    screw that it does not hold.
+    Raises GenevaError, naming the key, if there is neither disc nor arm to carry it.
     """
-    size, sizes, hub = parts.assembly.mechanism.spec.size, parts.sizes, None
-    if size.has_hub("crank") and sizes.crank_hub > sizes.crank_bore:
-        low = 0.0 - size.allowances.pin_gap_mm  # no -0.0
-        high = sizes.wheel_thickness
-        if size.crank_hub_length_mm is not None:
-            high = low + size.crank_hub_length_mm
-        if parts.crank and is_whole(parts.assembly, sizes):
-            low += sizes.lock_thickness
-        elif not parts.has_arm:
-            key = "crank_hub_length_mm" if size.crank_hub_mm is None else "crank_hub_mm"
-            raise GenevaError(
-                f"{key}: a hub needs the locking disc or the crank arm to stand on, and there is "
-                "neither; remove it",
-                ("size", key),
-            )
-        if high > low:
-            bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
-            outline = Circle("HUB", ORIGIN, sizes.crank_hub)
-            hub = Plate("crank's hub", "HUB", outline, bores, low, high)
-    return held_hub(size, "crank", hub, keyway_direction(parts.assembly))
+    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
+    if not (size.has_hub("crank") and sizes.crank_hub > sizes.crank_bore):
+        return None
+    low = 0.0 - size.allowances.pin_gap_mm  # no -0.0
+    high = sizes.wheel_thickness
+    if size.crank_hub_length_mm is not None:
+        high = low + size.crank_hub_length_mm
+    if parts.crank and is_whole(parts.assembly, sizes):
+        low += sizes.lock_thickness
+    elif not parts.has_arm:
+        key = "crank_hub_length_mm" if size.crank_hub_mm is None else "crank_hub_mm"
+        raise GenevaError(
+            f"{key}: a hub needs the locking disc or the crank arm to stand on, and there is "
+            "neither; remove it",
+            ("size", key),
+        )
+    if high <= low:
+        return None
+    bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
+    outline = Circle("HUB", ORIGIN, sizes.crank_hub)
+    return Plate("crank's hub", "HUB", outline, bores, low, high)
 
 
 def shafts(
@@ -61,19 +60,18 @@ def shafts(
     """Yield the shafts of wheel and crank.
 
     ``lowest`` is the frame's lower face, and ``carried`` returns what sits on a shaft below wheel
-    or crank. The crank's shaft ends at ``stop`` if links block it (``turn.planes``).
+    or crank. The crank's shaft ends at ``stop`` if links block it.
     """
     assembly, sizes, still = parts.assembly, parts.sizes, np.zeros(1)
     size = assembly.mechanism.spec.size
     if sizes.wheel_bore:
-        bore, at = bore_of(size, "wheel", sizes.wheel_bore), (0.0, 0.0)
+        bore, at = bore_of(size, "wheel", sizes.wheel_bore), ORIGIN
         low, high = wheel_shaft_ends(parts, lowest)
         turn = 0.0 if bore.is_plain else float(assembly.wheel(still)[0])
         hub = wheel_hub(assembly, sizes)
         seat = Seat("wheel", hub.low if hub else 0.0, sizes.wheel_thickness)
         seats, direction = (*carried(at), seat), assembly.rests[0]
-        one = Shaft("wheel's shaft", "wheel", bore, seats, low, high, at, direction, turn)
-        yield one._replace(ends_here=False)
+        yield Shaft("wheel's shaft", "wheel", bore, seats, low, high, at, direction, turn)
     radius = crank_shaft_radius(parts)
     if radius:
         bore, at = bore_of(size, "crank", radius), (assembly.L, 0.0)
@@ -86,8 +84,7 @@ def shafts(
         low, high = shaft_ends(size, "crank", lowest if stop is None else stop, top)
         turn = 0.0 if bore.is_plain else float(assembly.crank(still)[0])
         seats, direction = (*carried(at), seat), keyway_direction(assembly)
-        one = Shaft("crank's shaft", "crank", bore, seats, low, high, at, direction, turn)
-        yield one._replace(ends_here=sizes.crank_bore == 0.0)
+        yield Shaft("crank's shaft", "crank", bore, seats, low, high, at, direction, turn)
 
 
 def wheel_shaft_radius(parts: Outlines) -> float:

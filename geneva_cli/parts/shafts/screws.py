@@ -28,11 +28,6 @@ class Screw(NamedTuple):
         """Diameter of the hole before its thread is cut: thread minus pitch (ISO 2306)."""
         return self.thread - self.pitch
 
-    @property
-    def stressed_mm2(self) -> float:
-        """Area of the thread's stressed section (ISO 898-1), between pitch and core diameter."""
-        return 0.25 * math.pi * (self.thread - 0.9382 * self.pitch) ** 2
-
 
 # Sizes by ISO 262, coarse pitches by ISO 261, clearance holes by ISO 273 (medium), cylindrical
 # heads by ISO 4762.
@@ -45,21 +40,6 @@ SCREWS = [Screw(*row) for row in (
     (48, 5.0, 52.0, 72.0), (56, 5.5, 62.0, 84.0), (64, 6.0, 70.0, 96.0),
 )]
 # fmt: on
-
-
-def screw(key: str, thread: float) -> Screw:
-    """Return the screw with a thread's diameter, mm; raises GenevaError, naming the key.
-
-    >>> screw("wheel_screw_mm", 4.0).core
-    3.3
-    """
-    for row in SCREWS:
-        if row.thread == thread:
-            return row
-    nearest = min(SCREWS, key=lambda row: abs(row.thread - thread)).thread
-    raise GenevaError(
-        f"{key} = {thread:g}: there is no such metric screw; use {nearest:g}", ("size", key)
-    )
 
 
 class BoltCircle(NamedTuple):

@@ -38,8 +38,7 @@ MOUNTS = 4
 def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], tuple[Array, Array]]:
     """Return the groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
 
-    They are functions of the input angle, degrees, over a whole turn, in the frame of the groove's
-    table.
+    They are functions of the input angle, degrees, over a whole turn.
     """
 
     def curve(t: Array) -> tuple[Array, Array]:
@@ -54,21 +53,14 @@ def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], t
 
 
 class GrooveExtremes(NamedTuple):
-    """Extremes of the grooves of m designs over sampled positions, (m,) each.
-
-    ``nearest`` is the roller's least distance from the crank's axis, over L, ``pressure_deg`` the
-    greatest pressure angle.
-    """
+    """Least distance of rollers from the crank's axis, over L, and pressure angle, (m,)."""
 
     nearest: Array
     pressure_deg: Array
 
 
 def sampled_extremes(groove: Groove, input_deg: Array) -> GrooveExtremes:
-    """Return the extremes of a batch of grooves, or of one, over sampled positions.
-
-    The motion is sampled at ``input_deg`` (m, k), the dwell at 360 positions.
-    """
+    """Return the extremes of m grooves at ``input_deg`` (m, k) and 360 places of the dwell."""
     dwell = 360.0 - (groove.motion.exit_deg - groove.motion.entry_deg)
     rest = groove.motion.exit_deg + dwell * (np.arange(360) / 360)
     moving = groove.distances(input_deg, 1)[1].derivatives()
@@ -79,10 +71,7 @@ def sampled_extremes(groove: Groove, input_deg: Array) -> GrooveExtremes:
 
 
 def greatest_pressure(groove: Groove) -> tuple[float, float]:
-    """Return the groove's greatest pressure angle, degrees, and its input angle.
-
-    Its tangent is |R'/R|, for both signs of R'. It is greatest where R R'' = R'².
-    """
+    """Return the groove's greatest pressure angle, atan|R'/R|, degrees, and its input angle."""
     entry, exit_, step = groove.motion.entry_deg, groove.motion.exit_deg, 360.0 / GRID
     grid = entry + 360.0 * np.arange(GRID) / GRID
     R, slope, _ = distances(groove, grid)
@@ -112,8 +101,7 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
     """Return the groove over the motion: for a chord tolerance, or at ``samples`` even angles.
 
     The crank's axis is the origin, and x points away from the wheel's axis. Left and right are the
-    flanks in the roller's direction of travel. The pressure angle is between the groove's normal
-    and the crank's arm, atan(R'/R).
+    flanks in the roller's direction of travel. The pressure angle is atan(R'/R).
     """
     engagement = mechanism.engagements[0]
     groove = engagement.groove
@@ -169,10 +157,9 @@ def groove_lines(
 
 
 def groove_base(parts: Outlines, bars: Links) -> Plate:
-    """Return the base below the groove, with its holes.
+    """Return the base below the groove, with its holes, on the links ``bars`` of the machine.
 
-    ``bars`` are the links of the machine. Raises GenevaError, naming the key, where the wheel's hub
-    leaves no space for the rim around the groove.
+    Raises GenevaError where the wheel's hub leaves no space for the rim around the groove.
     """
     guide, sizes, full = (
         parts.assembly.rollers[0].engagement.groove,

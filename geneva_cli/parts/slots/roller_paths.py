@@ -54,7 +54,8 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
         nearest = min if assembly.sign > 0.0 else max
         if engagement.built is not None:
             return math.hypot(*_mouth(assembly, engagement, 1.0), r)
-        reaches = (scalar(reach) for reach in (engagement.entry_reach, engagement.exit_reach))
+        ends = engagement.entry_deg, engagement.exit_deg
+        reaches = (scalar(engagement.reach(at_deg)) for at_deg in ends)
         return math.hypot(assembly.L * nearest(reaches), r)
     return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
 
@@ -117,11 +118,7 @@ class HornSizes(NamedTuple):
 
 
 def horn_corners(assembly: Assembly, own: HornSizes) -> dict[Engagement, tuple[float, float]]:
-    """Return the distances from the wheel's axis of each slot's horns at their recesses, mm.
-
-    They are those of the horns before and after a motion, which are mouths' corners unless the
-    horns are cut back.
-    """
+    """Return the distances from the axis of each slot's horns, mm, before and after a motion."""
     mouths = mouth_corners(assembly, own.roller, own.recess, own.rim)
     if not (own.tip and own.recess):
         return mouths
@@ -156,10 +153,7 @@ def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float,
 
 @lru_cache(maxsize=16)  # the sizes under a load try many bores of one machine
 def roller_centres(assembly: Assembly) -> tuple[Point, ...]:
-    """Return the centres of the rollers on the crank, each at its mid-motion.
-
-    Of several equal cranks, each has one roller: they are those on the first crank.
-    """
+    """Return the centres of the rollers on the first crank, each at its mid-motion."""
     centres = []
     on_first = slice(1) if len(assembly.full.crank_places) > 1 else slice(None)
     for number, (_, behind) in enumerate(assembly.rollers[on_first]):
@@ -172,10 +166,7 @@ def roller_centres(assembly: Assembly) -> tuple[Point, ...]:
 
 
 def roller_reaches(assembly: Assembly) -> list[float]:
-    """Return the distances of the rollers' centres from the crank's axis, at mid-motion.
-
-    Rollers of one engagement have the same distance, which is returned once.
-    """
+    """Return the distances of the rollers from the crank's axis, at mid-motion, each once."""
     leaders = {engagement: i for i, (engagement, _) in enumerate(assembly.rollers)}
     at = [(i, np.array([assembly.rollers[i][1]])) for i in leaders.values()]
     return [math.hypot(*(assembly.pin(i, mid) - (assembly.L, 0.0))[0]) for i, mid in at]

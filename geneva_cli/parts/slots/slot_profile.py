@@ -21,8 +21,7 @@ class SlotProfile(NamedTuple):
     """The slot at ascending input angles, in millimetres, in the wheel's frame.
 
     ``left`` and ``right`` are the flanks in the pin's direction of travel at entry. ``radius`` is
-    the pitch curve's radius of curvature: positive where its centre lies to the left, infinite on a
-    straight line.
+    the pitch curve's, above 0 if its centre lies to the left, infinite on a straight line.
     """
 
     input_deg: Array
@@ -67,8 +66,7 @@ def _lines(
 ) -> tuple[Pitch, Array, tuple[Array, Array, Array]]:
     """Return the pitch curve, the sense of travel on it, and its points with those of both flanks.
 
-    The sense is -1 where the pin leaves on the path on which it came: the flanks keep the sides
-    that they had at entry.
+    The sense is -1 where the pin returns on its path: the flanks keep their sides.
     """
     engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
     input_deg = _snapped(engagement, input_deg)
@@ -99,9 +97,8 @@ def pitch_at(engagement: Engagement, input_deg: Array) -> Pitch:
 def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Array:
     """Return input angles to sample the slot at, so that no chord misses a curve by more.
 
-    Cusps are among them: mid-motion, where the pitch curve can have one, and the points where an
-    undercut flank turns back. Without ``fewest`` the first sufficient number is used, some percent
-    more. Raises GenevaError where that takes more rows than are written.
+    Cusps of the pitch curve and of undercut flanks are among them. Without ``fewest`` the first
+    sufficient number is used.
     """
     engagement = mechanism.engagements[0].through
     cusps = _flank_cusps(mechanism)

@@ -18,7 +18,7 @@ from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.plane_motion import turned_points
-from geneva_cli.numerics.arrays import Array, Mask, Undecided, Whole
+from geneva_cli.numerics.arrays import Array, Undecided, Whole
 from geneva_cli.numerics.intervals import Interval, size_of
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.parts.turn.gaps import Gaps
@@ -30,11 +30,7 @@ UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval close
 
 
 class FlatPairs:
-    """Pairs of flat parts, and the distances of parts from their axes, mm.
-
-    ``rim`` is the level that the wheel reaches: the circle about its axis, or that which an
-    internal wheel leaves, or the edge of a rack. Gaps are bounded up to ``target``.
-    """
+    """Pairs of flat parts, with gaps up to ``target`` mm; the wheel reaches the level ``rim``."""
 
     def __init__(self, gaps: Gaps, crank: Sequence[Contour], target: float, rim: float) -> None:
         self.gaps, self.crank, self.target, self.rim = gaps, crank, target, rim
@@ -45,8 +41,8 @@ class FlatPairs:
     def lock(self, window: Window, on: Intervals) -> Bounds:
         """Return the gap of locking disc and wheel: bounds up to ``apart``.
 
-        The wheel leaves a circle free about the middle of each recess. In the dwell and beside it,
-        the part of the crank that is within the wheel's rim lies in that circle.
+        In the dwell and beside it, the part of the crank that is within the wheel's rim lies in the
+        circle that the wheel leaves free about the middle of each recess.
         """
         gap = self.gaps.locking(on.at_middle)
         far = self.rim if self.gaps.assembly.sign > 0.0 else self.L + self.disc + self.apart
@@ -64,7 +60,8 @@ class FlatPairs:
         """
         centre, path = self._centre(roller, on.at_middle), self._path(roller)
         beyond = self.gaps.assembly.sign * (self.moves.level(centre) - self.rim)
-        gap = np.maximum(self._gap(roller, on), beyond - self.gaps.sizes.roller)
+        gap = self.gaps.rollers(on.at_middle)[:, roller]
+        gap = np.maximum(gap, beyond - self.gaps.sizes.roller)
         least = gap - self._travel(roller, on, centre)
 
         def near_chord(which: Whole) -> Array:
@@ -76,16 +73,17 @@ class FlatPairs:
         return Bounds(gap, raised(least, window.rests & (least < self.target), near_chord))
 
     def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds:
-        """Return the gap of a roller in its slot between two input angles.
-
-        Its centre is on the axis of a straight slot, or near a chord of the pitch curve.
-        """
+        """Return the gap of a roller in its slot, on its axis or near chords of its curve."""
         engagement, _ = self.gaps.assembly.rollers[roller]
-        centre, gap = self._centre(roller, on.at_middle), self._gap(roller, on)
+        centre = self._centre(roller, on.at_middle)
+        gap = self.gaps.rollers(on.at_middle)[:, roller]
         if engagement.slot.curved:
             moving, middle = self.gaps.assembly.motions[roller]
             if ("slot", moving) not in self._travels:
-                self._travels["slot", moving] = slot_travel(moving, self.L)
+                # the roller's travel in its slot, in the wheel's frame
+                edges = _edges(moving, moving.entry_deg, moving.exit_deg)
+                rates = _rates(moving.slot, np.array(edges[:-1]), np.array(edges[1:]))
+                self._travels["slot", moving] = Travel(edges, rates, self.L)
             start, end = (self._centre(roller, pose) for pose in (on.at_start, on.at_end))
             aside = self._travels["slot", moving].aside(on.start - middle, on.end - middle)
             return Bounds(gap, self._along((start, end, aside), centre, gap))
@@ -107,11 +105,24 @@ class FlatPairs:
         return float(farthest(self.pieces, 0.0, 0.0).max())
 
     def _path(self, roller: int) -> Travel:
-        """Return the travel of a roller in the fixed frame, which several rollers share."""
+        """Return the travel of a roller through a whole turn in the fixed frame."""
         engagement, _ = self.gaps.assembly.rollers[roller]
-        if ("path", engagement) not in self._travels:
+        if ("path", engagement) not in self._travels:  # which several rollers share
             turn_deg = self.gaps.assembly.turn_deg
-            self._travels["path", engagement] = path_travel(engagement, self.L, turn_deg)
+            edges = _edges(engagement, -0.5 * turn_deg, 0.5 * turn_deg)
+            start, end = np.array(edges[:-1]), np.array(edges[1:])
+            moving, dwell = np.full(len(start), True), None
+            if engagement.groove is not None:
+                from geneva_cli.motion.groove_path import dwell_rates
+
+                dwell = dwell_rates(engagement.groove)
+                if dwell:
+                    moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
+            rates = np.empty((2, len(start)))
+            rates[:, moving] = _rates(engagement.path, start[moving], end[moving])
+            if dwell:
+                rates[:, ~moving] = np.array(dwell)[:, None]
+            self._travels["path", engagement] = Travel(edges, rates, self.L, turn_deg)
         return self._travels["path", engagement]
 
     def _own(self, roller: int, on: Intervals) -> tuple[Array, Array]:
@@ -128,15 +139,10 @@ class FlatPairs:
         moved = self.moves.lever(self.moves.level(centre)) * on.wheel
         return self._path(roller).most(*self._own(roller, on)) + moved
 
-    def _gap(self, roller: int, on: Intervals) -> Array:
-        """Return a roller's gap to the wheel in the middle of intervals."""
-        return self.gaps.rollers(on.at_middle)[:, roller]
-
     def _along(self, segments: tuple[Array, Array, Array], centre: Array, gap: Array) -> Array:
-        """Return the gap of a roller whose centre moves along segments.
+        """Return the gap of a roller, ``gap`` at ``centre``, that moves along segments.
 
-        ``segments`` has their ends in the wheel's frame, and how far off the centre may be, mm. In
-        the middle of an interval it is at ``centre`` and has the gap ``gap``.
+        ``segments`` has their ends in the wheel's frame, and how far off the centre may be, mm.
         """
         start, end, aside = segments
         radius = self.gaps.sizes.roller
@@ -152,35 +158,30 @@ class FlatPairs:
 
     def _in_recess(self, window: Window, on: Intervals) -> Array:
         """Return how far the crank stays within the circle of the nearer recess, mm."""
-        moves, L, (wheel, crank, _) = self.moves, self.L, on.at_middle
+        moves, L, pieces, (wheel, crank, _) = self.moves, self.L, self.pieces, on.at_middle
         # the middles of the recesses at both ends of the window, in the wheel's frame
         turn = self.gaps.assembly.wheel(np.array((window.start, window.end)))
         recesses = moves.into(np.array(((L, 0.0), (L, 0.0))), turn)
         nearer = (on.middle - window.start >= window.end - on.middle).astype(int)
         middle = moves.into(recesses[nearer], -wheel)
         offset = turned_points(middle - (L, 0.0), -crank)
-        row, piece = np.nonzero(self._within_rim(crank, on))
-        far = np.zeros(len(wheel))
-        np.maximum.at(far, row, farthest(self.pieces.subset(piece), *offset[row].T))
-        moved = moves.lever(L) * on.wheel + np.hypot(*offset.T) * on.crank
-        return self.gaps.wheel.signed(recesses)[nearer] - far - moved
-
-    def _within_rim(self, crank: Array, on: Intervals) -> Mask:
-        """Return a mask (n, k) of the pieces of the crank that may come within the wheel's rim."""
-        pieces = self.pieces
+        # the pieces of the crank that may come within the wheel's rim
         c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
-        x, y = self.L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
+        x, y = L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
+        beyond = self.gaps.assembly.sign * (moves.level(np.stack((x, y), axis=-1)) - self.rim)
         moved = self.disc * on.crank[:, None] + self.apart
-        beyond = self.gaps.assembly.sign * (self.moves.level(np.stack((x, y), axis=-1)) - self.rim)
-        return beyond - pieces.size <= moved
+        row, piece = np.nonzero(beyond - pieces.size <= moved)
+        far = np.zeros(len(wheel))
+        np.maximum.at(far, row, farthest(pieces.subset(piece), *offset[row].T))
+        away = moves.lever(L) * on.wheel + np.hypot(*offset.T) * on.crank
+        return self.gaps.wheel.signed(recesses)[nearer] - far - away
 
 
 class Travel:
     """Bounds of the speed and the second derivative of a curve between two input angles.
 
-    The angles are those of one engagement, from its mid-motion; lengths are mm. ``rates`` (2, n)
-    has the bounds on the n cells between ``edges``, infinite if unknown, in units of ``length``. A
-    curve that runs all round repeats after ``turn_deg``.
+    ``rates`` (2, n) has them on the n cells between ``edges``, degrees from mid-motion, in units of
+    ``length`` mm; infinite if unknown. A curve that runs all round repeats after ``turn_deg``.
     """
 
     def __init__(
@@ -211,30 +212,6 @@ class Travel:
         return np.where(touch, values, 0.0).max(axis=1)
 
 
-def path_travel(engagement: Engagement, length: float, turn_deg: float) -> Travel:
-    """Return the travel of a roller's path through a whole turn in the fixed frame."""
-    edges = _edges(engagement, -0.5 * turn_deg, 0.5 * turn_deg)
-    start, end = np.array(edges[:-1]), np.array(edges[1:])
-    moving, dwell = np.full(len(start), True), None
-    if engagement.groove is not None:
-        from geneva_cli.motion.groove_path import dwell_rates
-
-        dwell = dwell_rates(engagement.groove)
-        if dwell:
-            moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
-    rates = np.empty((2, len(start)))
-    rates[:, moving] = _rates(engagement.path, start[moving], end[moving])
-    if dwell:
-        rates[:, ~moving] = np.array(dwell)[:, None]
-    return Travel(edges, rates, length, turn_deg)
-
-
-def slot_travel(engagement: Engagement, length: float) -> Travel:
-    """Return the travel of a roller in its slot, in the wheel's frame."""
-    edges = _edges(engagement, engagement.entry_deg, engagement.exit_deg)
-    return Travel(edges, _rates(engagement.slot, np.array(edges[:-1]), np.array(edges[1:])), length)
-
-
 def _edges(engagement: Engagement, start: float, end: float) -> list[float]:
     """Return the ends of cells; no formula changes within a cell of the motion."""
     # on cells longer than a degree of the input the bounds are much wider
@@ -243,10 +220,9 @@ def _edges(engagement: Engagement, start: float, end: float) -> list[float]:
 
 
 def _rates(curve: Curve, start: Array, end: Array) -> Array:
-    """Return the greatest sizes of a curve's two derivatives on n cells (2, n).
+    """Return the greatest sizes of a curve's derivatives on n cells (2, n); infinite if unknown.
 
-    They are infinite where none is known. Cells with different formulas are evaluated apart. Where
-    another formula takes over within a cell, it is halved down to that place.
+    Where another formula takes over within a cell, it is halved down to that place.
     """
     rates, tries = np.zeros((2, len(start))), np.zeros(len(start), dtype=int)
     left = [(np.arange(len(start)), start, end)]  # parts of cells: each one's cell, and its ends

@@ -36,11 +36,10 @@ class Range(NamedTuple):
 
 
 class FreeRanges:
-    """Free ranges of a wheel at any angles of its crank.
+    """Free ranges of a wheel at any angles of its crank; both outlines in their own frames, in mm.
 
-    Both outlines are in their own frames, in mm. ``sense`` is 1 for an external wheel, -1 for an
-    internal one. Parts that overlap by at most ``slack`` mm count as touching. ``pitch`` is the
-    step of the wheel, radians: if the outline repeats after it, one sector is enough.
+    ``sense`` is 1 for an external wheel, -1 for an internal one. Parts that overlap by at most
+    ``slack`` mm count as touching. The outline may repeat after ``pitch`` radians.
     """
 
     def __init__(
@@ -71,7 +70,7 @@ class FreeRanges:
         return out
 
     def near(self, low: float, high: float, wheel: float, most: float) -> FreeRanges:
-        """Return the ranges of the pieces that may touch between two crank angles, radians.
+        """Return the ranges of pieces that may touch between two crank angles, radians.
 
         The wheel is within ``most`` radians of an angle. Farther ends of a range are missing.
         """
@@ -149,10 +148,7 @@ class Ranges:
         self.low, self.high = start.tolist(), end.tolist()
 
     def around(self, i: int, angle: float) -> Range:
-        """Return the range about an angle of the wheel, radians, in the i-th pose.
-
-        Without any part near, it is free for half a period to either side.
-        """
+        """Return the range about an angle of the wheel, radians, in the i-th pose."""
         shift = self.period * math.floor(angle / self.period)
         first, last = self.ends[i], self.ends[i + 1]
         k = bisect_left(self.low, angle - shift, first, last)
@@ -198,10 +194,7 @@ def levels(outline: Polyarc) -> tuple[Array, Array]:
 
 
 def one_sector(outline: Polyarc, pitch: float, near: float) -> Whole | None:
-    """Return the pieces of one of the sectors that repeat after ``pitch``; None if none does.
-
-    Pieces that differ by at most ``near`` mm are the same.
-    """
+    """Return the pieces of a sector that repeats within ``near`` mm; None if none does."""
     count = round(math.tau / pitch)
     if len(outline) % count or not len(outline):
         return None

@@ -31,7 +31,6 @@ POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs
 DIP = 1e-9  # mm: gaps that differ by less count as equal
 FINER = 9  # positions in each refinement of a smallest gap
 SAME = 1e-7  # of a play: its relative accuracy
-BESIDE = np.geomspace(0.01, 6.0, 14)  # degrees of the input on either side of a position
 
 Earlier: TypeAlias = Callable[[float], float]
 
@@ -98,35 +97,29 @@ class FullTurn(NamedTuple):
         return self.dwell.deg < self.free_deg * (1.0 - SAME)
 
 
-def full_turn(parts: TurnedParts, refined: bool = True) -> FullTurn:
-    """Return the results of turning the parts through a whole turn of the crank.
-
-    Without ``refined`` those of a first grid of positions: gaps are not smaller there, and plays
-    not larger. Raises WorkLimit where that takes more work than ``gaps.WORK``.
-    """
-    parts.gaps.begin()
+def full_turn(parts: TurnedParts) -> FullTurn:
+    """Return the results of a whole turn of the crank; raises WorkLimit beyond ``POSITIONS``."""
     # One turn of the input is shown from half a turn before mid-motion, so that the second half of
     # the last dwell comes first. A period of several turns is shown from the first entry.
-    *_, last = windows(parts)
-    turn, several = parts.assembly.turn_deg, parts.assembly.full.spec.turns > 1
+    assembly, every = parts.assembly, [*windows(parts)]
+    several, last = assembly.full.spec.turns > 1, every[-1]
     middle = 0.5 * (last.start + last.end) if last.rests and not several else last.end
 
     def earlier(input_deg: float) -> float:
-        return input_deg - turn if input_deg > middle else input_deg
+        return input_deg - assembly.turn_deg if input_deg > middle else input_deg
 
     def shown(place: Place) -> Place:
-        return place._replace(at_deg=parts.assembly.shown_deg(place.at_deg))
+        return place._replace(at_deg=assembly.shown_deg(place.at_deg))
 
-    gaps = _smallest_gaps(parts, earlier, refined)
+    gaps = _smallest_gaps(parts, earlier)
     fits = min(gap.mm for gap in gaps if gap) >= -parts.close
-    middles = np.array([0.5 * (w.start + w.end) for w in windows(parts) if w.rests])
-    dwell = Most(0.0, 0.0)
+    middles, dwell = np.array([0.5 * (w.start + w.end) for w in every if w.rests]), Most(0.0, 0.0)
     if len(middles):
         free = np.degrees(np.maximum(*free_angles(parts, middles, fits)))
         dwell = _most(free, middles, earlier)
-    play = play_of(parts, fits, refined)
+    play = play_of(parts, fits)
     # of each kind of motion, the first contact that is farthest off its slot's middle
-    kinds = {engagement: i for i, (engagement, _) in reversed([*enumerate(parts.assembly.motions)])}
+    kinds = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.motions)])}
     contacts = [_contact(parts, i) for i in sorted(kinds.values())]
 
     def most_of(values: Array, where: Mask) -> Most:
@@ -161,28 +154,41 @@ def _most(values: Array, at: Array, earlier: Earlier) -> Most:
     return Most(size, min(at[(first + last) // 2].tolist(), key=earlier))
 
 
-def _smallest_gaps(
-    parts: TurnedParts, earlier: Earlier, refined: bool
-) -> tuple[Gap, Gap | None, Gap]:
+def _smallest_gaps(parts: TurnedParts, earlier: Earlier) -> tuple[Gap, Gap | None, Gap]:
     """Return the smallest gaps of driving rollers, of idle ones if there are any, of the lock."""
-    gaps, assembly, at = parts.gaps, parts.assembly, _positions(parts)
+    gaps, assembly, sizes = parts.gaps, parts.assembly, parts.sizes
+    # positions so dense that parts move a quarter of the thinnest feature between two
+    grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.span_deg, 721)
+    crank, wheel = np.unwrap(assembly.crank(grid)), assembly.wheel(grid)
+    travel = sizes.arm * np.abs(np.diff(crank)) + parts.rim_lever * np.abs(np.diff(wheel))
+    total = np.concatenate(([0.0], np.cumsum(travel)))
+    count = math.ceil(total[-1] / (min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * 0.25))
+    if count > POSITIONS:
+        raise WorkLimit(
+            f"the full turn is not proved: it takes {count:,} positions, more than {POSITIONS:,}; "
+            "a larger roller or horn takes fewer"
+        )
+    even = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
+    # A rim that is too large collides for less than a degree about entry and exit.
+    ends = np.array([b + e for s, b in assembly.motions for e in (s.entry_deg, s.exit_deg)])
+    offsets = np.geomspace(0.01, 15.0, 24)  # degrees of the input, on either side
+    near = (ends[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
+    near = assembly.start_deg + (near - assembly.start_deg) % assembly.span_deg
+    at = rising(np.concatenate((even, near)))
 
-    def drives(x: Array) -> Mask:
-        """Return a mask (n, m) of the rollers that move the wheel at input angles."""
+    def rollers(x: Array, idle: bool) -> Array:
+        """Return the gaps of the rollers that move the wheel at input angles, or of the others."""
         columns = []
         for engagement, behind in assembly.rollers:
             away = assembly.from_mid(x, behind)
             since, until = away - engagement.entry_deg, engagement.exit_deg - away
             columns.append(np.minimum(since, until) >= -SAME_INPUT_DEG)
-        return np.column_stack(columns)
-
-    def rollers(x: Array, idle: bool) -> Array:
-        driving = drives(x)
+        driving = np.column_stack(columns)
         meanwhile = driving.any(axis=1, keepdims=True) & ~driving
         return np.where(meanwhile == idle, gaps.rollers(gaps.pose(x)), np.inf).min(axis=1)
 
     def least(gap: Callable[[Array], Array], names: str) -> Gap:
-        return _least(gap, at, parts.close, earlier, refined)._replace(parts=names)
+        return _least(gap, at, parts.close, earlier)._replace(parts=names)
 
     idle = None
     if len(assembly.rollers) > 1:
@@ -194,41 +200,14 @@ def _smallest_gaps(
     )
 
 
-def _positions(parts: TurnedParts) -> Array:
-    """Return input angles of one turn, so dense that parts move less than the thinnest feature."""
-    assembly, sizes = parts.assembly, parts.sizes
-    grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.span_deg, 721)
-    crank = np.unwrap(assembly.crank(grid))
-    wheel = np.abs(np.diff(assembly.wheel(grid)))
-    travel = sizes.arm * np.abs(np.diff(crank)) + parts.rim_lever * wheel
-    # between two positions parts move a quarter of the thinnest feature
-    feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * 0.25
-    total = np.concatenate(([0.0], np.cumsum(travel)))
-    count = math.ceil(total[-1] / feature)
-    if count > POSITIONS:
-        raise WorkLimit(
-            f"the full turn is not proved: it takes {count:,} positions, more than {POSITIONS:,}; "
-            "a larger roller or horn takes fewer"
-        )
-    grid_deg = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
-    # A rim that is too large collides for less than a degree about entry and exit.
-    ends = np.array([b + e for s, b in assembly.motions for e in (s.entry_deg, s.exit_deg)])
-    offsets = np.geomspace(0.01, 15.0, 24)  # degrees of the input, on either side
-    near = (ends[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
-    near = assembly.start_deg + (near - assembly.start_deg) % assembly.span_deg
-    return rising(np.concatenate((grid_deg, near)))
-
-
-def _least(
-    gap: Callable[[Array], Array], at: Array, close: float, earlier: Earlier, refined: bool
-) -> Gap:
+def _least(gap: Callable[[Array], Array], at: Array, close: float, earlier: Earlier) -> Gap:
     """Return the smallest gap at the positions ``at``, refined around each local minimum."""
     values = gap(at)
     here, before, after = values[1:-1], values[:-2], values[2:]
     dips = (here < before - DIP) & (here <= after) | (here <= before) & (here < after - DIP)
     top = 1 + np.flatnonzero(dips)
     # A smaller gap can only lie between positions whose gaps are already near to the smallest.
-    top = top[np.argsort(values[top])][: 12 if refined else 0]
+    top = top[np.argsort(values[top])][:12]
     low, high, row = at[top - 1], at[top + 1], np.arange(len(top))
     size, places = float(values.min()), []
     for _ in range(6 if len(top) else 0):
@@ -249,12 +228,12 @@ def _least(
 def _contact(parts: TurnedParts, motion: int) -> FirstContact:
     """Return the first contact of a motion's roller, at entry or, in reverse, at exit.
 
-    It is at the end where the roller comes nearer to the rim's inside. At the other end no rim
-    reaches it that lets it pass at both.
+    It is at the end where the roller comes nearer to the rim's inside.
     """
     assembly, gaps = parts.assembly, parts.gaps
     engagement, mid = assembly.motions[motion]
-    ahead = scalar(engagement.exit_reach) - scalar(engagement.entry_reach)
+    ends = engagement.exit_deg, engagement.entry_deg
+    ahead = scalar(engagement.reach(ends[0])) - scalar(engagement.reach(ends[1]))
     # the mouth of an offset slot has a corner for each end, and the rim is at the farther one
     farther = -1.0 if engagement.slot.offset else assembly.sign
     start = mid + engagement.end_deg(1.0 if farther * ahead < -SAME_LENGTH else -1.0)
@@ -280,46 +259,11 @@ def _contact(parts: TurnedParts, motion: int) -> FirstContact:
     roller = parts.in_wheel(motion, place, rest - assembly.wheel(place))
     # 720 chords are within 1e-6 of the centre distance, half of what counts as touching
     whole = mid + np.linspace(engagement.entry_deg, engagement.exit_deg, 721)
-    off = _distance(roller[0], parts.in_wheel(motion, whole))
-    off -= parts.sizes.half_width - parts.sizes.roller
-    return FirstContact(off if off > parts.contact else 0.0, x)
-
-
-def _distance(point: Array, line: Array) -> float:
-    """Return the distance of a point from a line through points (n, k)."""
-    start, step = line[:-1], np.diff(line, axis=0)
+    line = parts.in_wheel(motion, whole)
+    begins, step = line[:-1], np.diff(line, axis=0)
     # a roller that stops takes steps of no length
     square = np.maximum((step * step).sum(axis=1), 1e-300)
-    along = np.clip(((point - start) * step).sum(axis=1) / square, 0.0, 1.0)
-    return float(np.linalg.norm(start + along[:, None] * step - point, axis=1).min())
-
-
-def gap_about(parts: TurnedParts, shown_deg: float) -> float:
-    """Return the smallest gap of any two parts, mm, at positions around one input angle.
-
-    A few positions take the place of a whole turn, in a search for a size that clears the parts.
-    """
-    pose = parts.gaps.pose(_about(parts, shown_deg))
-    gap = float(parts.gaps.rollers(pose).min())
-    return min(gap, float(parts.gaps.locking(pose).min())) if parts.locked else gap
-
-
-def play_about(parts: TurnedParts, shown_deg: float) -> float:
-    """Return the largest play, degrees, around an input angle while no roller is in its slot."""
-    at = _about(parts, shown_deg)
-    free = np.ones(len(at), dtype=bool)
-    for start, end, motion, rests in windows(parts):
-        here = np.flatnonzero((at >= start - SAME_INPUT_DEG) & (at <= end + SAME_INPUT_DEG))
-        if len(here) and not rests:
-            free[here] &= parts.past_mouth(motion, at[here]) <= -SAME_INPUT_DEG * parts.assembly.L
-    if not free.any():
-        return 0.0
-    return math.degrees(float(np.maximum(*free_angles(parts, at[free])).max()))
-
-
-def _about(parts: TurnedParts, shown_deg: float) -> Array:
-    """Return input angles around one, within the turn that starts at the first entry."""
-    start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
-    place = parts.assembly.place_deg(shown_deg)
-    offsets: Array = place + np.concatenate((-BESIDE, [0.0], BESIDE)) - start
-    return start + offsets % turn
+    along = np.clip(((roller[0] - begins) * step).sum(axis=1) / square, 0.0, 1.0)
+    off = float(np.linalg.norm(begins + along[:, None] * step - roller[0], axis=1).min())
+    off -= parts.sizes.half_width - parts.sizes.roller
+    return FirstContact(off if off > parts.contact else 0.0, x)

@@ -24,13 +24,12 @@ from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.turn.pairs import Lengths, Pose, Stop, WorkLimit
+from geneva_cli.parts.turn.pairs import Lengths, Pose, Stop
 from geneva_cli.parts.turn.stops import Stops, TurningStops
 
 Owned: TypeAlias = tuple[Whole, Array, Array]  # points x, y, and the pose that each belongs to
 
 NEAR = 0.02  # of the centre distance: wider gaps are returned as this
-WORK = 1e8  # greatest number of distances between points and pieces in a full turn: about 5 s
 
 
 class PlaneLengths(Lengths, Protocol):
@@ -50,7 +49,6 @@ class Gaps:
         self.assembly, self.sizes, self.plane_motion = assembly, sizes, assembly.plane_motion
         self.wheel = Polyarc([wheel if assembly.sign > 0.0 else backwards(wheel)])
         self.near = NEAR * assembly.L
-        self.left = math.inf
         self._sector()
         self.crank = Polyarc(crank) if crank else None
 
@@ -60,18 +58,6 @@ class Gaps:
         vars(out).pop("_stops", None)
         out.crank = Polyarc(crank) if crank else None
         return out
-
-    def begin(self) -> None:
-        """Count work from here on; raise WorkLimit when it exceeds WORK."""
-        self.left = WORK
-
-    def _work(self, count: int) -> None:
-        self.left -= count
-        if self.left < 0.0:
-            raise WorkLimit(
-                f"the full turn is not proved: it takes more than {WORK:.0e} distances between "
-                "parts of so many pieces; a larger roller or horn takes less"
-            )
 
     def _sector(self) -> None:
         """Reduce a wheel whose slots are all equal to one slot and its neighbours."""
@@ -94,7 +80,6 @@ class Gaps:
         if self.pitch:
             slot = np.round(self.plane_motion.place(points) / self.pitch)
             points = self.plane_motion.into(points, self.pitch * slot)
-        self._work(len(points) * len(self.around))
         return self.around.signed(points)
 
     def pose(self, input_deg: Array) -> Pose:
@@ -104,10 +89,7 @@ class Gaps:
         return Pose(self.assembly.wheel(input_deg), crank, np.stack(pins, axis=1))
 
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """Return the gap of each roller, mm (n, m), with the wheel turned on by ``lead`` radians.
-
-        Gaps wider than ``near``, by default NEAR * L, are returned as ``near``.
-        """
+        """Return the gap of each roller, mm (n, m), the wheel turned on by ``lead`` radians."""
         near = self.near if near is None else near
         r, sign = self.sizes.roller, self.assembly.sign
         columns = []
@@ -123,7 +105,6 @@ class Gaps:
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and on; see ``Stops.first``."""
-        self._work(2 * len(pose.wheel) * len(self.wheel) * (1 + len(self.crank or ())))
         return self._stops.first(pose, most, close)
 
     @cached_property
@@ -142,15 +123,12 @@ class Gaps:
             return out
         turn = pose.wheel + lead
         # Points of the wheel against the crank ...
-        axis = self._axis(turn)
-        self._work(len(axis) * len(self.wheel))
-        reach, moves = self.sizes.lock + near, self.plane_motion
+        axis, reach, moves = self._axis(turn), self.sizes.lock + near, self.plane_motion
         half = moves.half_span(reach + float(self.wheel.size.max()), self.assembly.L)
         nearby = _places_within(self._places, moves.PERIOD, -turn, half)
         angle = pose.crank - moves.angle(turn)
         owner, points = _candidates(self.wheel, nearby, self.crank, (axis, angle), reach)
         seen = turned_points(points - axis[owner], -angle[owner])
-        self._work(len(seen) * len(self.crank))
         np.minimum.at(out, owner, self.crank.signed(seen))
         # ... and corners of the crank against the wheel.
         x, y = self.crank.x0, self.crank.y0
@@ -163,11 +141,10 @@ class Gaps:
         return out
 
     def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
-        """Return the wheel's points that enter the locking disc during one motion, as x and y, mm.
+        """Return the wheel's points, x and y on the crank, that enter its disc in a motion.
 
-        They are in the crank's frame. The wheel is placed at steps of ``step_deg`` degrees of the
-        input. If the second half of a crank's only motion mirrors the first, only the first is
-        returned.
+        The wheel is placed at steps of ``step_deg`` of the input: up to the middle of a mirrored
+        motion of one roller.
         """
         engagement, behind = self.assembly.motions[number]
         count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
@@ -184,11 +161,8 @@ class Gaps:
         half = moves.half_span(reach, L)
         step = max(1, (1 << 19) // len(points))  # 2^19 points at a time fit into the cache
         blocks = []
-        for i in range(0, len(at), step):
-            turn, pose = (
-                self.assembly.wheel(at[i : i + step]),
-                self.assembly.crank(at[i : i + step]),
-            )
+        for some in (at[i : i + step] for i in range(0, len(at), step)):
+            turn, pose = self.assembly.wheel(some), self.assembly.crank(some)
             owner, which = _places_within(places, moves.PERIOD, -turn, half)
             x, y = (points[which] - self._axis(turn)[owner]).T
             inside = np.flatnonzero(x * x + y * y < reach * reach)
@@ -248,9 +222,9 @@ def _candidates(
 ) -> tuple[Whole, Array]:
     """Return points of ``own`` that may touch ``other``, within ``reach`` of its origin.
 
-    ``placed`` has the n points of that origin, (n, 2), and the n angles of ``other``. ``near``
-    selects pieces of ``own``, each after the index of the position that it belongs to. Returns the
-    index of the position of each point, and the points in the frame of ``own``.
+    ``placed`` has the n points of that origin and the n angles of ``other``; ``near`` selects
+    pieces of ``own``, each after the index of its position. Returns that index of each point, and
+    the points in the frame of ``own``.
     """
     (owner, piece), (origin, angle) = near, placed
     dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
@@ -263,10 +237,17 @@ def _candidates(
     centres = origin[owner, 0] + (c * x - s * y), origin[owner, 1] + (s * x + c * y)
     x, y = other.dy[lines], -other.dx[lines]
     normals = c * x - s * y, s * x + c * y
+    # the feet of perpendiculars from centres on lines
+    flat = np.flatnonzero(~own.arc[piece])
+    i = piece[flat]
+    ax, ay = centres[0][:, flat] - own.x0[i], centres[1][:, flat] - own.y0[i]
+    fraction = (ax * own.dx[i] + ay * own.dy[i]) / own.square[i]
+    which, pair = np.nonzero((fraction > 0.0) & (fraction < 1.0))
+    t, i = fraction[which, pair], i[pair]
     columns = [
         (owner, own.x0[piece], own.y0[piece]),
         *_on_arcs(own, owner, piece, centres, normals),
-        _on_lines(own, owner, piece, centres),
+        (owner[flat[pair]], own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]),
     ]
     owner, x, y = (np.concatenate(each) for each in zip(*columns, strict=True))
     inside = (x - origin[owner, 0]) ** 2 + (y - origin[owner, 1]) ** 2 < reach * reach
@@ -283,8 +264,7 @@ def _on_arcs(
     """Yield points of arcs in the directions of centres and normals, (k, pieces) each.
 
     Coordinates are from each arc's centre, along its chord and outwards, over its radius. They are
-    computed from the chord's middle: the centre of an arc fitted to a nearly straight wall is too
-    far away.
+    computed from the chord's middle: the centre of a nearly straight arc is too far away.
     """
     bent = np.flatnonzero(own.arc[piece])
     i = piece[bent]
@@ -306,14 +286,3 @@ def _on_arcs(
         x = own.ox[k] + out * own.mx[k] - along * own.my[k]
         y = own.oy[k] + out * own.my[k] + along * own.mx[k]
         yield owner[bent[pair]], x, y
-
-
-def _on_lines(own: Polyarc, owner: Whole, piece: Whole, centres: tuple[Array, Array]) -> Owned:
-    """Return the feet of perpendiculars from centres, (k, pieces), on lines."""
-    flat = np.flatnonzero(~own.arc[piece])
-    i = piece[flat]
-    ax, ay = centres[0][:, flat] - own.x0[i], centres[1][:, flat] - own.y0[i]
-    fraction = (ax * own.dx[i] + ay * own.dy[i]) / own.square[i]
-    which, pair = np.nonzero((fraction > 0.0) & (fraction < 1.0))
-    t, i = fraction[which, pair], i[pair]
-    return owner[flat[pair]], own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]

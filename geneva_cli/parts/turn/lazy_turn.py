@@ -51,10 +51,7 @@ class Jam(NamedTuple):
 
 
 class LazyTurn(NamedTuple):
-    """The wheel at ascending or descending crank angles (n,), radians, and its free range there.
-
-    The range is NaN between the positions of the grid, where only pieces nearby are looked at.
-    """
+    """The wheel at crank angles (n,), radians, and its free range there; NaN between the grid's."""
 
     crank: Array
     wheel: Array
@@ -87,10 +84,7 @@ class _Stuck(Exception):
 
 
 class Turner:
-    """Turns a wheel by its crank, from one position and one sense to the next.
-
-    The free ranges of a whole turn of the crank are computed once, at ``steps`` positions.
-    """
+    """Turns a wheel by its crank, whose free ranges are computed once, at ``steps`` positions."""
 
     def __init__(self, free: FreeRanges, start: float, steps: int = STEPS) -> None:
         self.free, self.start = free, start
@@ -105,8 +99,7 @@ class Turner:
     def turn(self, wheel: float, turns: int = 1, way: int = 1, exact: bool = True) -> LazyTurn:
         """Return the motion over so many turns of the crank, forwards or (``way`` = -1) backwards.
 
-        Without ``exact`` the angles at which pushes begin and end are those of the grid, and the
-        positions at which the wheel rests are left out.
+        Without ``exact`` pushes begin and end on the grid, and positions at rest are left out.
         """
         path = _Path(self.free, way, exact)
         last = turns * self.steps
@@ -227,10 +220,7 @@ class _Path:
     def _add(
         self, crank: float, wheel: float, around: Callable[[float], Range], is_near: bool = False
     ) -> None:
-        """Add a position that touches, with the free range on the other side.
-
-        The ranges of pieces that are near do not know it.
-        """
+        """Add a position that touches, with the free range on the other side, if that is known."""
         if is_near or not self.exact:
             self.rows.append((crank, wheel, math.nan, math.nan))
             return

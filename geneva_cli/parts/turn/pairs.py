@@ -24,7 +24,7 @@ class WorkLimit(GenevaError):
 
 
 class Window(NamedTuple):
-    """A motion, or the dwell after it: the input angles at its ends, and the motion's number."""
+    """A motion, or the dwell after it: input angles at its ends, and the motion's number."""
 
     start: float
     end: float
@@ -52,10 +52,7 @@ class Stop(NamedTuple):
 
 
 class Intervals(NamedTuple):
-    """Intervals of the input angle, and how far crank and wheel are at most from their middles.
-
-    The angles are greatest at the ends, because neither crank nor wheel turns back.
-    """
+    """Intervals of the input angle, and how far crank and wheel are at most from their middles."""
 
     start: Array  # degrees of the input, (n,)
     end: Array
@@ -84,10 +81,7 @@ class Bounds(NamedTuple):
 
 
 def raised(least: Array, doubtful: Mask, closer: Callable[[Whole], Array]) -> Array:
-    """Return bounds (n,), where ``doubtful`` the better of them and of those of ``closer``.
-
-    ``closer`` gets the indices of the doubtful intervals.
-    """
+    """Return bounds (n,), where ``doubtful`` the better of them and ``closer`` of their indices."""
     which, out = np.flatnonzero(doubtful), least.copy()
     if len(which):
         out[which] = np.maximum(least[which], closer(which))
@@ -121,16 +115,12 @@ class Lengths(Protocol):
 class Clearances(Protocol):
     """The clearances between wheel, crank and rollers, mm, negative where they overlap.
 
-    All are computed in n poses, with the wheel turned on by ``lead`` radians. Clearances wider than
-    ``near`` mm are returned as ``near``.
+    They are in n poses, with the wheel turned on by ``lead`` radians, and at most ``near`` mm.
     """
 
     @property
     def near(self) -> float:
         """The widest clearance that is distinguished from wider ones, mm."""
-
-    def begin(self) -> None:
-        """Count work from here on; raise WorkLimit when it exceeds the limit."""
 
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
@@ -145,10 +135,9 @@ class Clearances(Protocol):
         """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
-        """Return the stops of the wheel, turned back and turned on from n poses.
+        """Return the stops of the wheel, turned back and on until parts overlap by ``close`` mm.
 
-        The parts overlap nowhere by ``close`` mm at first. The wheel turns until some do, or by
-        ``most`` radians.
+        Where none does, it turns by ``most`` radians.
         """
 
 
@@ -184,16 +173,14 @@ class Shape(Protocol):
     def crank(self) -> Sized:
         """The locking surfaces of the crank; empty if there are none."""
 
-    def _replace(self, *, assembly: Assembly) -> Self:
-        """Return these parts with another assembly."""
+    def _replace(self, *, assembly: Assembly) -> Self: ...
 
 
 class TurnedParts(ABC):
     """Wheel, crank and rollers of one machine, which a full turn checks.
 
-    Curved outlines are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance
-    they are as accurate as the checks need them. Without ``advice`` an error does not name the
-    roller that fits, which takes long to find.
+    Curves are "arcs" or "cubics" within ``tolerance`` mm; by default they are as accurate as the
+    checks need them. Without ``advice`` an error does not name the roller that fits.
     """
 
     def __init__(
@@ -253,9 +240,9 @@ class TurnedParts(ABC):
         return other
 
     def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame at input angles (n,), mm.
+        """Return the centre of a motion's roller in the frame of the wheel, mm, (n, 2) or (n, 3).
 
-        It is an array (n, 2), or on a sphere (n, 3). The wheel is turned on by ``lead`` radians.
+        The wheel is turned on by ``lead`` radians.
         """
         return self.assembly.in_wheel(motion, at, lead)
 

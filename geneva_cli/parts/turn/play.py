@@ -26,10 +26,9 @@ EXACT = 1e-10  # radians: smaller angles are rounding
 class Play(NamedTuple):
     """The wheel's play back and on, degrees, at ascending input angles.
 
-    ``resting`` is True where the wheel rests, ``guided`` where a roller's centre is past the
-    mouth's corners of its slot. ``speed`` is the roller's in the wheel's frame, mm per degree.
-    ``back_push`` and ``on_push`` are pressure angles, degrees, where a roller stops the wheel; 0
-    where the lock does.
+    The wheel rests where ``resting``, and a roller's centre is past its mouth's corners where
+    ``guided``. ``speed`` is the roller's in the wheel's frame, mm per degree. The pushes are
+    pressure angles, degrees, where a roller stops the wheel; 0 where the lock does.
     """
 
     input_deg: Array
@@ -58,35 +57,35 @@ def windows(parts: TurnedParts) -> Iterator[Window]:
     for i, (engagement, behind) in enumerate(motions):
         after, later = motions[(i + 1) % len(motions)]
         turns = assembly.span_deg if i + 1 == len(motions) else 0.0
-        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
-        following = later + turns + after.entry_deg
-        yield Window(entry, exit_, i, False)
+        exit_, following = behind + engagement.exit_deg, later + turns + after.entry_deg
+        yield Window(behind + engagement.entry_deg, exit_, i, False)
         if following - exit_ > SAME_INPUT_DEG:
             yield Window(exit_, following, i, True)
 
 
-def play_of(parts: TurnedParts, fits: bool, refined: bool = True) -> Play:
-    """Return the play at a grid of positions, refined where it is greatest or closes fastest.
-
-    ``fits`` says that no parts overlap in the positions of the ideal motion.
-    """
-    play = _play_at(parts, _places(parts), fits)
+def play_of(parts: TurnedParts, fits: bool) -> Play:
+    """Return the play at a grid of positions, refined where it is greatest or closes fastest."""
+    # 24 positions on either side of entry and exit, where lock and roller change over
+    close, grid = np.concatenate(([0.0], np.geomspace(0.01, 1.0, 24))), []
+    for a, b, _, rests in windows(parts):
+        near = close * min(15.0, 0.5 * (b - a))
+        # in the rest of a motion an odd number, so that mid-motion is one
+        grid += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
+    play = _play_at(parts, rising(np.concatenate(grid)), fits)
     # 9 rounds: 5**-9 of some degrees is a millionth
-    for _ in range(9 if refined else 0):
+    for _ in range(9):
         angle = push_deg(parts, play)
         # where the play closes fastest, with the neighbours
         top = np.argsort(-angle, kind="stable")[: MOST if angle.max() > 0.0 else 0]
-        near = (_peaks(parts, play), _changes(parts, play), top - 1, top, top + 1)
-        i = rising(np.concatenate(near))
+        i = rising(np.concatenate((*_peaks(parts, play), top - 1, top, top + 1)))
         i = i[(i >= 0) & (i < len(play.input_deg) - 1)]
         low, wide = play.input_deg[i], np.diff(play.input_deg)[i]
         cut = wide > 1e-6  # narrower intervals are not divided
         more = (low[cut, None] + wide[cut, None] * (np.arange(1, AROUND) / AROUND)).ravel()
         if not len(more):
             break
-        both = [
-            np.concatenate(each) for each in zip(play, _play_at(parts, more, fits), strict=True)
-        ]
+        columns = zip(play, _play_at(parts, more, fits), strict=True)
+        both = [np.concatenate(each) for each in columns]
         order = np.argsort(both[0], kind="stable")
         play = Play(*(each[order] for each in both))
     return play
@@ -95,10 +94,9 @@ def play_of(parts: TurnedParts, fits: bool, refined: bool = True) -> Play:
 def push_deg(parts: TurnedParts, play: Play) -> Array:
     """Return the pressure angle, degrees, at which the wheel is pushed into line; 0 if it is not.
 
-    It belongs to the intervals between positions. Where the play shrinks as the crank turns,
-    something pushes the wheel. If a roller at the mouth of its slot does, this is the angle between
-    their common normal and the direction in which the wheel's corner moves. A play that ends
-    abruptly means that a corner blocks: 90 degrees.
+    It belongs to the intervals between positions. Where the play shrinks as the crank turns, a
+    roller at the mouth of its slot pushes the wheel's corner along their common normal. A play that
+    ends abruptly means that a corner blocks: 90 degrees.
     """
     step = np.diff(play.input_deg)
     moved = 0.5 * (play.speed[1:] + play.speed[:-1]) * step
@@ -111,19 +109,6 @@ def push_deg(parts: TurnedParts, play: Play) -> Array:
         known = np.radians(edge[:-1]) > _touching(parts)
         pushes = np.maximum(pushes, np.where(free & known & (closing > 0.0), angle, 0.0))
     return pushes
-
-
-def _places(parts: TurnedParts) -> Array:
-    """Return input angles of a turn, dense where lock and roller change over."""
-    # 24 positions on either side of entry and exit
-    close = np.concatenate(([0.0], np.geomspace(0.01, 1.0, 24)))
-    places = []
-    for a, b, _, rests in windows(parts):
-        # lock and roller change over within 15 degrees of entry and exit
-        near = close * min(15.0, 0.5 * (b - a))
-        # in the rest of a motion an odd number, so that mid-motion is one
-        places += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
-    return rising(np.concatenate(places))
 
 
 def _play_at(parts: TurnedParts, at: Array, fits: bool) -> Play:
@@ -145,19 +130,26 @@ def _play_at(parts: TurnedParts, at: Array, fits: bool) -> Play:
             resting |= here
         else:
             guided[here] |= parts.past_mouth(motion, at[here]) > -SAME_INPUT_DEG * assembly.L
-    leads = np.degrees(back.lead), np.degrees(on.lead)
-    known = _touching(parts)
+    leads, known = (np.degrees(back.lead), np.degrees(on.lead)), _touching(parts)
     pushes = (np.where(s.lead > known, np.degrees(s.pressure), 0.0) for s in (back, on))
     return Play(at, *leads, resting, guided & ~resting, speed, *pushes)
 
 
-def _peaks(parts: TurnedParts, play: Play) -> Whole:
-    """Return the intervals next to the greatest plays, in slots and elsewhere."""
-    either, held, most = math.degrees(_touching(parts)), _held_deg(parts), search_deg(parts)
+def _peaks(parts: TurnedParts, play: Play) -> tuple[Whole, Whole, Whole]:
+    """Return the intervals in which the play may be greatest, in slots and elsewhere.
+
+    Besides those about the greatest plays they are those in which the roller changes from one wall
+    of its slot to the other: the smaller play may have a narrow peak there. Where both change
+    steadily, it is at most the smaller of their greater ends.
+    """
+    # walls hold up to a pressure angle of 84 degrees, whose cosine is 1/10: a smaller play between
+    # the walls of a slot may be that of their tolerance alone
+    held = math.degrees(10.0 * parts.close / parts.rim_lever)
+    either = math.degrees(_touching(parts))
     edges = np.array((play.back, play.back, play.on, play.on, play.both, play.both))
     where = np.array((play.guided, ~play.guided) * 3)
     least = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
-    value = np.where(where & (edges < most) & (edges > least), edges, -1.0)
+    value = np.where(where & (edges < search_deg(parts)) & (edges > least), edges, -1.0)
     padded = np.pad(value, ((0, 0), (1, 1)), constant_values=-1.0)
     # around a local maximum below 0.8 of the greatest no greater play is expected
     great = np.maximum(0.8 * value.max(axis=1, keepdims=True), 0.0)
@@ -165,32 +157,14 @@ def _peaks(parts: TurnedParts, play: Play) -> Whole:
     order = np.lexsort((-value[row, top], row))  # in each row the greatest first
     row, top = row[order], top[order]
     top = top[np.arange(len(row)) - np.searchsorted(row, row) < MOST]
-    return np.concatenate((top - 1, top))
-
-
-def _changes(parts: TurnedParts, play: Play) -> Whole:
-    """Return the intervals in which the roller changes from one wall of its slot to the other.
-
-    One play grows there as the other vanishes, and the smaller one may have a narrow peak between
-    two positions. Where both change steadily, it is at most the smaller of their greater ends.
-    """
     most = np.minimum(*(np.maximum(edge[:-1], edge[1:]) for edge in (play.back, play.on)))
-    known = max(_held_deg(parts), play.both[play.guided].max(initial=0.0))
-    top = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > known))
-    return top[np.argsort(-most[top], kind="stable")][:MOST]
-
-
-def _held_deg(parts: TurnedParts) -> float:
-    """Return the largest play between the walls of a slot that their tolerance alone may give."""
-    # walls hold up to a pressure angle of 84 degrees, whose cosine is 1/10
-    return math.degrees(10.0 * parts.close / parts.rim_lever)
+    known = max(held, play.both[play.guided].max(initial=0.0))
+    change = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > known))
+    return top - 1, top, change[np.argsort(-most[change], kind="stable")][:MOST]
 
 
 def search_deg(parts: TurnedParts) -> float:
-    """Return the largest play that is searched for: half a step, in degrees.
-
-    Beyond it the wheel's position is lost.
-    """
+    """Return the largest play that is searched for, half a step: beyond it the place is lost."""
     return math.degrees(min(engagement.half_step for engagement, _ in parts.assembly.motions))
 
 
@@ -203,8 +177,7 @@ def free_angles(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Arra
 def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Stop, Stop]:
     """Return the stops of the wheel, turned back and turned on at input angles (n,).
 
-    ``fits`` says that no parts overlap there; otherwise that is tested. Where gears drive the wheel
-    they hold it both ways: their teeth are assumed to mesh without play.
+    ``fits`` says that no parts overlap there. Gears hold the wheel both ways, without backlash.
     """
     gaps, close = parts.gaps, parts.close
     pose, held = gaps.pose(at), parts.assembly.geared(at)

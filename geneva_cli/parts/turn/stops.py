@@ -33,9 +33,8 @@ class Branches(NamedTuple):
     """Pieces with one place at each level, an array (k,) of each quantity.
 
     ``size`` and ``excess`` describe the curve, as the motion needs it. ``ahead`` is the place of
-    its centre, or of a line's foot. The branch is on the side ``sign`` of it, and away from it by
-    ``at_low`` and ``at_high`` at its ends. A piece at one level has places up to ``half`` from
-    ``ahead``.
+    its centre, or of a line's foot. The branch is on the side ``sign`` of it, ``at_low`` and
+    ``at_high`` away at its ends. A piece at one level has places up to ``half`` from ``ahead``.
     """
 
     row: Whole  # the pose
@@ -56,10 +55,7 @@ class Branches(NamedTuple):
 
 
 class Meetings(NamedTuple):
-    """Intervals of the wheel's angle, radians, at which two branches meet, one of each array.
-
-    The levels are those at which they touch at the ends of the interval.
-    """
+    """Intervals of the wheel's angle, radians, where branches meet, and levels at both ends."""
 
     row: Whole  # the pose
     start: Array
@@ -78,8 +74,7 @@ class Stops(ABC):
     def first(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and turned on from n poses.
 
-        The parts overlap by at most ``close`` at first, and the wheel turns until some overlap by
-        more. Where nothing stops it, it turns by ``most`` radians, which is less than the pitch.
+        It turns until some parts overlap by more than ``close``, or by ``most`` radians.
         """
         count = pose.pins.shape[1]
         wheel, inset = self.wheel(0.0), self.wheel(close)
@@ -124,9 +119,8 @@ class Stops(ABC):
     ) -> Iterator[Meetings]:
         """Yield the intervals of the wheel's angle at which other branches meet the wheel's.
 
-        The others, of n poses, are in the fixed frame, and those of the wheel in its own. The angle
-        of an interval may be whole pitches away. With a ``window``, an angle of the wheel and a
-        distance from it, radians, only intervals that may reach into it are needed.
+        The others are in the fixed frame, in n poses, and the wheel's in its own. An interval
+        may be whole pitches away, and must reach into a ``window``: angle and half width, radians.
         """
         step = max(1, BLOCK // max(1, len(wheel.low)))
         for block in range(0, len(others.low), step):
@@ -168,10 +162,7 @@ class Stops(ABC):
 
     @abstractmethod
     def locking(self, crank: Array, inset: float) -> Iterator[tuple[Branches, Branches]]:
-        """Yield branches of the crank at n angles: sides, ``inset`` within it, and its corners.
-
-        The corners stand for themselves: against them the wheel is inset.
-        """
+        """Yield the branches of the crank at n angles: sides, ``inset`` inside, and corners."""
 
     @abstractmethod
     def place(self, branch: Branches, level: Array) -> Array:
@@ -227,11 +218,10 @@ def merged(parts: Iterable[Branches]) -> Branches:
 
 
 class TurningStops(Stops):
-    """Stops of one machine's wheel, which turns about the origin.
+    """Stops of a wheel about the origin, of its ``outline`` or of a sector that repeats.
 
-    ``outline`` is the wheel's, or one sector of it that repeats after ``pitch`` radians. The crank
-    is in its own frame, with its axis at (L, 0). Of a branch, ``size`` is the curvature, and
-    ``excess`` how much farther from the origin the centre is than the radius; of a line the
+    The crank is in its own frame, with its axis at (L, 0). Of a branch, ``size`` is the curvature,
+    and ``excess`` how much farther from the origin the centre is than the radius; of a line the
     distance of its foot.
     """
 
@@ -273,10 +263,7 @@ class TurningStops(Stops):
         return Branches(row, level, level, zero, zero, zero, level, ahead, zero, zero)
 
     def branches(self, outline: Polyarc, origin: Array, angle: Array, inset: float) -> Branches:
-        """Return the branches of an outline at n places (n, 2), turned by n angles.
-
-        They are ``inset`` mm inside it. At convex corners they end where adjacent pieces meet.
-        """
+        """Return the branches ``inset`` mm inside an outline at n places, turned by n angles."""
         axis = turned_points(-origin, -angle)
         side = outline.distances(axis[:, :1], axis[:, 1:]).side - inset
         towards = np.arctan2(outline.my, outline.mx) + angle[:, None]

@@ -18,13 +18,11 @@ from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, TurnedPar
 from geneva_cli.parts.turn.play import windows
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
+Parts = TypeVar("Parts", bound=TurnedParts)
 
 
 class Open(NamedTuple):
-    """An interval of input angles, degrees, on which the gap was not proved.
-
-    ``gap_mm`` is the gap in its middle, ``least_mm`` the proved lower bound on it.
-    """
+    """An interval, degrees, on which the gap is not proved: in its middle, and least."""
 
     start_deg: float
     end_deg: float
@@ -58,16 +56,25 @@ def tolerance_mm(parts: TurnedParts) -> float:
 def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
     """Return the certificate that no gap in a full turn is smaller than the smallest by ``to_mm``.
 
-    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. Raises
-    WorkLimit.
+    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0.
     """
     parts = one_motion(parts)
-    parts.gaps.begin()
     # the greatest rounding of a distance; doubles carry 2e-16
     spare = 1e-11 * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
-    least, count = math.inf, 0
-    for between, pair, ends in _pairs(parts, target):
+    pairs, least, count = parts.pairs(target), math.inf, 0
+    todo: list[tuple[str, Callable[[Intervals], Bounds], tuple[float, float]]] = []
+    for window in windows(parts):
+        if parts.locked:
+            ends = window.start, window.end
+            todo.append(("locking disc and wheel", partial(pairs.lock, window), ends))
+        for span, driver in spans(parts, window):
+            for roller in range(len(parts.assembly.rollers)):
+                if roller == driver:
+                    todo.append(("roller and slot", partial(pairs.driving, roller, span), span))
+                else:
+                    todo.append(("roller and wheel", partial(pairs.free, roller, window), span))
+    for between, pair, ends in todo:
         bound = _halved(parts.gaps, pair, ends, target)
         least, count = min(least, bound.least_mm - spare), count + bound.intervals
         if bound.open:
@@ -77,30 +84,12 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
     return Certificate(least, count)
 
 
-def _pairs(
-    parts: TurnedParts, target: float
-) -> Iterator[tuple[str, Callable[[Intervals], Bounds], tuple[float, float]]]:
-    """Yield each pair of parts in each motion and dwell: names, bounds, and its input angles."""
-    pairs = parts.pairs(target)
-    for window in windows(parts):
-        if parts.locked:
-            ends = window.start, window.end
-            yield "locking disc and wheel", partial(pairs.lock, window), ends
-        for span, driver in spans(parts, window):
-            for roller in range(len(parts.assembly.rollers)):
-                if roller == driver:
-                    yield "roller and slot", partial(pairs.driving, roller, span), span
-                else:
-                    yield "roller and wheel", partial(pairs.free, roller, window), span
-
-
 def _halved(
     gaps: Clearances, pair: Callable[[Intervals], Bounds], ends: tuple[float, float], target: float
 ) -> Certificate:
-    """Return a lower bound of a pair's gap between two input angles, at least ``target`` mm.
+    """Return a lower bound of a pair's gap, by halving intervals until it is ``target`` mm on each.
 
-    Intervals are halved until the bound on each is at least ``target``. Without success the most
-    doubtful interval is returned as open.
+    Without success the most doubtful interval is returned as open.
     """
     cuts = np.linspace(*ends, 33)
     start, end = cuts[:-1], cuts[1:]
@@ -125,8 +114,7 @@ def _halved(
 def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
     """Return intervals of the input angle, with the turn of crank and wheel on them, and poses.
 
-    Where the wheel turns back, the ends do not bound its turn. A whole turn does: no point moves
-    farther than twice its radius.
+    Where the wheel turns back, its turn is a whole one: no point moves farther than that.
     """
     pose = gaps.pose(np.concatenate((start, 0.5 * (start + end), end)))
     crank = np.unwrap(pose.crank.reshape(3, -1), axis=0)
@@ -141,8 +129,8 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
 def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
     """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
 
-    Where gears drive between two rollers, each of them is in its slot up to its deepest position,
-    or from there.
+    Between two rollers of a motion gears drive the wheel, from the deepest position to that of the
+    other.
     """
     start, end, motion, rests = window
     assembly = parts.assembly
@@ -158,15 +146,8 @@ def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, flo
     yield (meets, end), last
 
 
-Parts = TypeVar("Parts", bound=TurnedParts)
-
-
 def one_motion(parts: Parts) -> Parts:
-    """Return the parts, checked over one motion and its dwell if all rollers move alike.
-
-    Otherwise the parts are returned unchanged. This is for pass or fail: input angles refer to the
-    first motion, and values may differ from those of the whole turn by rounding.
-    """
+    """Return the parts, checked over one motion and its dwell if all rollers move alike."""
     assembly = parts.assembly
     motions, m = assembly.motions, assembly.mechanism.spec.drive.rollers
     one = len(assembly.mechanism.engagements) == 1

@@ -36,15 +36,10 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
     if not design.cycle.is_loaded:
         yield SummaryLine("loads", f"not known: {no_load(design.cycle)}")
         return
-    lines = [motor_line(design), *cycle_lines(design)]
-    yield from lines
+    yield motor_line(design)
+    yield from cycle_lines(design)
     if design.spec.drive.stop_s:
         yield _brake_line(design)
-    if design.spec.drive.both_ways and not design.is_backwards:
-        own, other = {line.text for line in lines}, design.backwards
-        for there in (motor_line(other), *cycle_lines(other)):
-            if there.text not in own:
-                yield there._replace(label=f"{there.label}, backwards")
     yield from flywheel_line(design)
     yield from chosen_lines(design.chosen_by_load, design.spec.path)
 

@@ -21,7 +21,6 @@ from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.headline import (
     bare,
     below_summary,
-    both_ways_lines,
     chosen_lines,
     failure_lines,
     headline,
@@ -42,8 +41,7 @@ def of_report(design: Design, is_full: bool) -> Answer:
     state, text = headline(design.checks, design.warnings)
     checks, warnings = design.checks, design.warnings
     first = (*failure_lines(checks), *input_lines(design.with_units))
-    both = both_ways_lines(checks) if design.spec.drive.both_ways else ()
-    lines = (*first, *key_figures(design), *both, *warning_lines(checks, warnings))
+    lines = (*first, *key_figures(design), *warning_lines(checks, warnings))
     lines = (*lines, *unused_lines(design.unused_acceptances))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
     shown = ("title", "passes", "checks_failed", "not_proved", "chosen")
@@ -64,8 +62,6 @@ def machine_lines(design: Design) -> Iterator[SummaryLine]:
     yield from (line for line in lines if line.label == "motor")
     if design.cycle.is_loaded:
         yield from flywheel_line(design)
-    if design.spec.drive.both_ways:
-        yield from both_ways_lines(design.checks)
 
 
 def key_figures(design: Design) -> Iterator[SummaryLine]:
@@ -143,9 +139,6 @@ def _swing_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     if values["residual_share"] < 1e-6:  # of a step of 90°, a third of an arc second
         swing = "an index leaves the load practically at rest"
     yield SummaryLine("residual", f"{swing}, {residual} of the step")
-    if values["residual_share_worst"] is not None:
-        worst = measured(values["residual_share_worst"])
-        yield SummaryLine("worst", f"{worst} of the step, with a stiffness off by up to 20 %")
     text = f"accelerated {measured(values['dynamic_factor'])} times as hard as the wheel"
     if values["windup_deg"] is not None:
         text += f"; the shaft winds up by {measured(values['windup_deg'], 'deg')}"

@@ -13,8 +13,10 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.spec.load_named import load_extra
 from geneva_cli.verdict.checks.all_checks import (
+    BEFORE_TURN,
     LIMITS,
     MOTION,
+    OF_TURN,
     PLAYS,
     PROOFS,
     TURNING,
@@ -28,6 +30,7 @@ from geneva_cli.verdict.checks.check import refused
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
+    from geneva_cli.verdict.quantities.batch_designs import Values
 
 
 def checks(
@@ -40,12 +43,6 @@ def checks(
     motion = list(applicable(MOTION, mechanism))
     shown = list(_parts(mechanism, machine, turned)) if parts else []
     return [*motion, *shown, *applicable(LIMITS, mechanism)]
-
-
-def passes(mechanism: Mechanism, machine: Parts | None = None) -> bool:
-    """Return True if no check of one design fails: the quick ones first, up to one that fails."""
-    quick = chain(applicable(MOTION, mechanism), applicable(LIMITS, mechanism))
-    return all_pass(quick) and all_pass(_parts(mechanism, machine, turned=True))
 
 
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
@@ -73,6 +70,32 @@ def single_check(mechanism: Mechanism, name: str, parts: Parts | None = None) ->
     from geneva_cli.parts.parts import parts_of
 
     return check_named(among, name, (parts or parts_of(mechanism)).built)
+
+
+def values_before_turn(parts: Parts) -> Values:
+    """The value of each check but those of the turn."""
+    rows = checks(parts.mechanism, parts, turned=False)
+    return {c.name: c.value for c in rows if c.name in BEFORE_TURN}
+
+
+def check_values(parts: Parts) -> Values:
+    """The value of each check of the turn, and whether all checks pass."""
+    rows = checks(parts.mechanism, parts)
+    failed = [c.name for c in rows if c.passes is False]
+    values: Values = {c.name: c.value for c in rows if c.name in OF_TURN}
+    return values | {"passes": not failed, "failed": " ".join(failed) or None}
+
+
+def passed(parts: Parts) -> Values:
+    """Whether no check fails: the quick ones first, up to one that fails."""
+    mechanism = parts.mechanism
+    quick = chain(applicable(MOTION, mechanism), applicable(LIMITS, mechanism))
+    return {"passes": all_pass(quick) and all_pass(_parts(mechanism, parts, turned=True))}
+
+
+def proved(parts: Parts) -> Values:
+    """The gap that is proved."""
+    return {c.name: c.value for c in proofs(parts)}
 
 
 def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterator[Check]:

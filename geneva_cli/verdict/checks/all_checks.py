@@ -84,7 +84,6 @@ STATIC: Checks = {
         wheel_bore="wheel_bore_wall_mm",
         outside="outer_wall_mm",
     ),
-    **_of("clearances", held_torque="wheel_clamp_Nm crank_clamp_Nm"),
     **_of("walls", dial="dial_wall_mm", crank_bore="crank_bore_wall_mm"),
     **_of(
         "clearances",

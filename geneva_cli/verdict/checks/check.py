@@ -21,9 +21,7 @@ class Check(NamedTuple):
     missing advice on a failing check; of a check that passes it says what is proved. ``at_deg`` is
     the input angle of the value, None if it is not a value at one angle. ``nearest`` is one change
     of the spec with which all checks pass, or one for each failing check: "a = 1 and b = 2".
-    ``anew`` are the sizes that the load chooses anew with that change. ``direction`` is that of the
-    worse value, "forwards" or "backwards", of a machine that turns both ways; empty if both are
-    equal.
+    ``anew`` are the sizes that the load chooses anew with that change.
     """
 
     name: str
@@ -34,7 +32,6 @@ class Check(NamedTuple):
     why: str = ""
     at_deg: float | None = None
     nearest: str = ""
-    direction: str = ""
     anew: str = ""
     # makes ``why`` of a failing check, which an adviser's trials do not need
     reason: Callable[[], str] | None = None
@@ -52,9 +49,8 @@ class Check(NamedTuple):
 
     @property
     def where(self) -> str:
-        """Input angle and direction of the value in words, each with a space before it."""
-        at = "" if self.at_deg is None else f" at input angle {self.at_deg:.6g}°"
-        return at + (f" {self.direction}" if self.direction else "")
+        """Input angle of the value in words, with a space before it."""
+        return "" if self.at_deg is None else f" at input angle {self.at_deg:.6g}°"
 
     @property
     def spare(self) -> float:

@@ -1,4 +1,4 @@
-"""Gaps at shafts, hubs, arm and links; torques of clamps; what the process can cut."""
+"""Gaps at shafts, hubs, arm and links; what the process can cut."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.shafts.bores import has_shape
-from geneva_cli.parts.shafts.held_hubs import clamp_of
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap, refused
 
@@ -57,7 +56,7 @@ def passing_parts(name: str, parts: FlatParts) -> Check | None:
         for part in ("wheel", "crank")
         for key in ("hub", "hub_length", "shaft_low", "shaft_high")
     ]
-    own = size["shafts"] == "turned" or any(size[key] is not None for key in keys)
+    own = any(size[key] is not None for key in keys)
     if not (parts.mechanism.first_wheel or own):
         return None
     from geneva_cli.verdict.shaft_gap import shaft_gaps  # which few machines need
@@ -72,19 +71,6 @@ def passing_gears(name: str, parts: FlatParts) -> Check | None:
     from geneva_cli.verdict.shaft_gap import gear_gaps
 
     return gap(name, lambda: gear_gaps(parts), parts.outlines.assembly.L)
-
-
-def held_torque(name: str, parts: FlatParts) -> Check | None:
-    """The torque that a clamp holds; None without a load, or a clamp that the hub has space for."""
-    spec = parts.mechanism.spec
-    part = name.partition("_")[0]
-    clamp = clamp_of(spec.size, part, *parts.hub_radii(part))
-    if clamp is None or not clamp.fits or not spec.is_loaded:
-        return None
-    from geneva_cli.loads.strength.part_loads import single_loads  # without a load none is needed
-
-    torque = getattr(single_loads(parts.mechanism), f"{part}_Nm")
-    return compared(name, clamp.torque_Nm, "at least", spec.shaft.torsion_factor * torque)
 
 
 def arm_wall(name: str, parts: FlatParts) -> Check | None:

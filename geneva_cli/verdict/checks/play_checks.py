@@ -12,7 +12,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.bounds import UNKNOWN
 from geneva_cli.parts.turn.full_turn import FullTurn, Most
-from geneva_cli.parts.turn.pairs import WorkLimit
 from geneva_cli.parts.turn.turn_certificate import Certificate, certificate, tolerance_mm
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
@@ -189,10 +188,7 @@ def least_gap(name: str, parts: Parts, to_mm: float | None) -> Check | None:
         return None
     to_mm = to_mm or tolerance_mm(parts)
     unproved = Check(name, None, "at least", -to_mm, None)
-    try:
-        found = certificate(parts, gap, to_mm)
-    except WorkLimit as error:
-        return unproved._replace(why=str(error))
+    found = certificate(parts, gap, to_mm)
     if found.open:
         start, end, known, _ = found.open
         unproved = unproved._replace(why=_open(found))

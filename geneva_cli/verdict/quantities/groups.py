@@ -220,7 +220,7 @@ _REPORT = (
     _alone(
         "vibration",
         "none period_ratio damping_ratio natural_Hz residual_share residual_deg "
-        "residual_share_worst steady_share dynamic_factor windup_deg",
+        "steady_share dynamic_factor windup_deg",
         "vibration",
     )._replace(batch="verdict.quantities.load_quantities:vibration", one_by_one=("none",)),
     _batch(
@@ -311,7 +311,6 @@ _REPORT = (
         "part_strength:wear",
     ),
     _alone("strength", "", "needs"),
-    _alone("", "", "differences", module="both_directions"),
 )
 
 
@@ -333,7 +332,7 @@ REPORT = (*_with_kinds(),)
 _CHECKS = {
     "values_before_turn": BEFORE_TURN,
     "check_values": (*OF_TURN, "passes", "failed"),
-    "passes": ("passes",),  # alone, until the first check that fails
+    "passed": ("passes",),  # alone, until the first check that fails
     "proved": PROOFS,
 }
 # Further quantities, for studies.
@@ -352,7 +351,7 @@ STUDY = (
         "load_quantities:sizing",
     ),
     *(
-        _alone("checks", " ".join(names), function, True, "both_directions")
+        _alone("checks", " ".join(names), function, True, "checks")
         for function, names in _CHECKS.items()
     ),
 )

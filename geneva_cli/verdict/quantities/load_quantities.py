@@ -7,8 +7,9 @@ import numpy as np
 from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.highest_speed import greatest_pressure, kinetic_power_W
-from geneva_cli.loads.impacts.change_of_sides import lasting_drag_Nm
-from geneva_cli.loads.impacts.impacts import Impacts, entry_impacts, reversal_impacts
+from geneva_cli.loads.impacts.entry import entry_impacts
+from geneva_cli.loads.impacts.reversal import lasting_drag_Nm, reversal_impacts
+from geneva_cli.loads.impacts.shock_force import Impacts
 from geneva_cli.loads.load_peaks import LoadSummary, load_summaries, reported_peaks
 from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.motion.many import worst_peaks
@@ -103,16 +104,14 @@ def slot(of: Designs) -> Columns:
 
 def vibration(of: Designs) -> Columns:
     """The vibration of a load on its elastic shaft."""
-    from geneva_cli.loads.vibration.vibration import Vibrations, design_vibrations
+    from geneva_cli.loads.vibration.vibration import NAMES, design_vibrations
 
     shaken = design_vibrations(of.machine, of.requested("vibration"))
     if shaken is None:
-        return dict.fromkeys(Vibrations._fields)
+        return dict.fromkeys(NAMES)
     # without damping there is no steady state; without a period ratio the design says why
-    steady = np.where(
-        np.isnan(shaken.steady_share), shaken.period_ratio + np.inf, shaken.steady_share
-    )
-    return shaken._replace(steady_share=steady)._asdict()
+    steady, ratio = shaken["steady_share"], shaken["period_ratio"]
+    return {**shaken, "steady_share": np.where(np.isnan(steady), ratio + np.inf, steady)}
 
 
 def entry(of: Designs) -> Columns:

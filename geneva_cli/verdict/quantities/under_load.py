@@ -13,20 +13,14 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.cycle_quantities import FORCE, PV
-from geneva_cli.loads.impacts.impacts import Impacts, reversal_impacts
-from geneva_cli.loads.impacts.shock_force import forces_N
+from geneva_cli.loads.impacts.reversal import reversal_impacts
+from geneva_cli.loads.impacts.shock_force import Impacts, forces_N
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
-from geneva_cli.loads.strength.part_loads import (
-    PartLoads,
-    own_loads,
-    part_loads,
-    single_loads,
-    sizing_loads,
-)
+from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
 from geneva_cli.loads.strength.pin import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import designs_in, taken
@@ -176,13 +170,8 @@ class UnderLoad:
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
             bent = horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
-        loads = map(self.sizing_loads.of, range(len(machines)))
+        loads = map(self.part_loads.of, range(len(machines)))
         return list(map(_loaded, self._unloaded, machines, loads, bent))
-
-    @cached_property
-    def sizing_loads(self) -> PartLoads:
-        """The loads for which the parts are sized: the greatest of all directions."""
-        return sizing_loads(self.machine, self.part_loads)
 
     @cached_property
     def lock(self) -> LockUnderTorque | None:
@@ -247,7 +236,7 @@ class UnderLoad:
     @cached_property
     def part_loads(self) -> PartLoads:
         """The greatest loads on arm, keys and shafts."""
-        return (own_loads if self.designs.single else part_loads)(self.machine)
+        return single_loads(self.machine) if self.designs.single else part_loads(self.machine)
 
     @cached_property
     def held(self) -> tuple[Array, Array] | None:
@@ -331,7 +320,7 @@ def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
     @cache
     def sizing() -> PartLoads | None:
         try:
-            return under_load(designs).sizing_loads
+            return under_load(designs).part_loads
         except GenevaError:  # which one of the designs raises it again
             return None
 

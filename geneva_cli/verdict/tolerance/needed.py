@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.impacts.impacts import arm_mm
+from geneva_cli.loads.impacts.entry import arm_mm
 from geneva_cli.loads.tolerance.dimensions import corners
 from geneva_cli.loads.tolerance.locking import CutLock, Lock
 from geneva_cli.motion.engagement import Engagement

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice, cut
-from geneva_cli.loads.impacts.impacts import mouth_jumps_worst
+from geneva_cli.loads.impacts.entry import mouth_jumps_worst
 from geneva_cli.loads.tolerance.dimensions import Deviations, corners, tolerances, without_effect
 from geneva_cli.loads.tolerance.locking import CutLock
 from geneva_cli.loads.tolerance.motion_error import (
@@ -27,7 +27,6 @@ from geneva_cli.loads.tolerance.random_machines import (
 )
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
-from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.rules import POSITIVE, require_mm
 from geneva_cli.table import Table, record_table, rows_table
@@ -113,8 +112,7 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
         worst_jump = entry_jumps_worst(mechanism, use)
         assert worst_jump is not None  # there are slots to enter
         mean, deviation = float(drawn.jump.mean()), float(drawn.jump.std())
-        flat = sized(mechanism)
-        mouth = mouth_jumps_worst(mechanism, flat[1].recess if flat else 0.0).item()
+        mouth = mouth_jumps_worst(mechanism).item()
         entry = EntryJumps(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
     else:
         warnings.append(

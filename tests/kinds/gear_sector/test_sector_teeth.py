@@ -10,7 +10,6 @@ from geneva_cli import Design, Epicyclic, External, GearSector
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.headline import both_ways_lines
 
 
 @pytest.mark.sampled(12)
@@ -53,19 +52,15 @@ def test_sectors_drive_the_whole_arc_and_are_free_beyond(z, sector, module, back
 
 @pytest.mark.long
 @pytest.mark.usefixtures("no_advice")
-def test_sectors_whose_last_tooth_is_lower_do_not_serve_both_ways():
+def test_sectors_whose_last_tooth_is_lower_turn_one_way():
     """Backwards the lower tooth would be the first, and the last one would jam."""
-    sector = GearSector(sector_deg=60.0, both_ways=True)
-    design = Design(External(3), sector, size=Size(gear_module_mm=2.0))
-    (row,) = [check for check in design.checks if check.name == "link_gap_mm"]
-    assert row.passes is False
-    assert "crank gear is lower, so that it drives one way only" in row.why
-    (line,) = both_ways_lines(design.checks)
-    assert line.text == "no: every check is the same in both directions"
-    assert Design(External(3), sector).passes
+    sector, teeth = GearSector(sector_deg=60.0), Size(gear_module_mm=2.0)
+    with pytest.raises(GenevaError, match="it drives one way only"):
+        _ = Design(External(3), sector, size=teeth).backwards
+    assert Design(External(3), sector).backwards.passes
     # planets turn either way
-    planet = Epicyclic(planet_ratio="shockless", both_ways=True)
-    assert Design(External(4), planet, size=Size(gear_module_mm=2.0)).passes
+    planet = Epicyclic(planet_ratio="shockless")
+    assert Design(External(4), planet, size=teeth).backwards.passes
 
 
 @pytest.mark.parametrize(

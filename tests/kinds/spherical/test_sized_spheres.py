@@ -12,8 +12,7 @@ from sampling import some
 from strength_checks import require_same_in_a_batch, rows
 
 from geneva_cli import Spherical
-from geneva_cli.kinds.spherical.loaded_ball import sphere_stressed
-from geneva_cli.kinds.spherical.sizes import ball
+from geneva_cli.kinds.spherical.sizes import ball, sphere_stressed
 from geneva_cli.loads.strength.arm_strength import arm_stress_MPa
 from geneva_cli.loads.strength.part_loads import single_loads
 from geneva_cli.motion.machine_spec import Spec

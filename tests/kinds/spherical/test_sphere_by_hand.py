@@ -1,29 +1,14 @@
-"""Parts of a spherical machine, by hand: crank, cones, bores, shafts and slots laid flat."""
+"""Parts of a spherical machine, by hand: crank, bores and shafts."""
 
 import math
-import re
 
-import numpy as np
 import pytest
-import repo
 from test_parts_by_hand import L
-from test_sheet import TOLERANCE
-from test_turned_shafts import steps
 from words import Spec, Wheel
 
-from geneva_cli import Design, Size, Spherical, load
+from geneva_cli import Design, Size
 from geneva_cli.geometry.plates import solids
-from geneva_cli.geometry.sphere import place
-from geneva_cli.kinds.spherical.drawings import wheel_cone
-from geneva_cli.kinds.spherical.sheet import flat_slot
 from geneva_cli.parts.parts import parts_of
-
-
-def printed(block):
-    """The points of a table, as they are read from its texts."""
-    downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
-    texts = [label.text for label in downwards if re.fullmatch(r"-?\d+\.\d{3}", label.text)]
-    return [(float(x), float(y)) for x, y in zip(texts[::2], texts[1::2], strict=True)]
 
 
 def test_the_crank_of_a_sphere():
@@ -62,57 +47,3 @@ def test_the_crank_of_a_sphere():
     # a cap about a hub leaves a wall as thick as the hub's, or the least one
     for bore, edge in ((50.0, 70.0), (59.0, 62.0)):
         assert parts.ball.cap(60.0, bore, 2.0) == pytest.approx(math.asin(edge / 105.5))
-
-
-def test_points_of_a_slot_laid_flat_are_on_the_sphere():
-    """Rolled up again, each is on a recess, the rim, a wall or the round end, seen from its centre.
-
-    Within the rounding to three decimals and a tenth of the table's tolerance.
-    """
-
-    ball = load(str(repo.DESIGNS / "spherical-z6.toml")).parts.shells.ball
-    cone, R, b = wheel_cone(ball), ball.radius_mm, math.pi / ball.z
-    points = printed(flat_slot(ball, TOLERANCE))
-    assert points[-1][1] == 0.0 > max(y for _, y in points[:-1])
-    crank = place(ball.axes, -b)
-    seen = set()
-    for x, y in points:
-        polar = cone.polar + math.atan((math.hypot(x, y) - cone.apex_mm) / R)
-        azimuth = math.atan2(y, x) / math.cos(cone.polar)
-        at = np.array(place(polar, azimuth))
-        off = {
-            "recess": math.acos(at @ crank) - ball.recess,
-            "rim": polar - ball.rim,
-            "wall": math.asin(-at[1]) - ball.half_width,
-            "end": math.acos(at @ place(ball.bottom, 0.0)) - ball.half_width,
-        }
-        nearest = min(off, key=lambda name: abs(off[name]))
-        seen.add(nearest)
-        assert R * abs(off[nearest]) < 1e-3 + 0.1 * TOLERANCE
-    assert seen >= {"recess", "wall", "end"}
-    turns = [math.atan2(y, x) / math.cos(cone.polar) for x, y in points]
-    assert min(turns) == pytest.approx(-b, abs=1e-3 / R)  # begins amid two slots
-
-
-def test_steps_on_a_sphere():
-    """Seen from its axis each shaft is one of a plane: the sphere's outside is the height 0."""
-
-    size = Size(80.0, 5.0, shafts="turned", wheel_bore_mm=16.0, wheel_hub_mm=24.0, arm_bore_mm=10.0)
-    parts = parts_of(Design(Spherical(6), size=size).mechanism)
-    wheel, crank = (m.part for m in parts.shafts)
-    (inside, _), (under, over) = parts.ball.span_mm, parts.ball.arm_span_mm
-    n, m = 1.5 * (15.0 - 14.3), 1.1
-    bearing = over + 80.0 / 50.0  # the hub ends at the arm's outside
-    wanted = [
-        ("end", 16.0, inside - 2.3, inside - 1.1),
-        ("circlip groove, DIN 471", 15.2, inside - 1.1, inside),
-        ("seat of wheel", 16.0, inside, over),
-        ("shoulder", 20.0, over, bearing),
-        ("seat of bearing 6002", 15.0, bearing, bearing + 9.0),
-        ("circlip groove, DIN 471", 14.3, bearing + 9.0, bearing + 9.0 + m),
-        ("end", 15.0, bearing + 9.0 + m, bearing + 9.0 + m + n),
-    ]
-    for step, (name, wide, low, high) in zip(steps(wheel), wanted, strict=True):
-        assert step == (name, wide, pytest.approx(low), pytest.approx(high))
-    # the wheel turns inside the arm: no circlip there
-    assert steps(crank)[0] == ("seat of crank", 10.0, pytest.approx(under), pytest.approx(over))

@@ -1,52 +1,15 @@
 """What is no machine: the closed form on arrays as l nears 1, and a slot's chords."""
 
 import math
-from functools import partial
 
 import machine_witness
-import numpy as np
-from witness import SIGN, mp, taylor, to_radians
+from witness import mp, to_radians
 
 from exact.cases import PLANE
-from exact.compared import NAMES
 from exact.machines import read
-from exact.table import LIMIT, strictly, ulps, unit
+from exact.table import LIMIT, strictly
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.wheels import classic
 from geneva_cli.parts.slots.slot_profile import nodes, slot
-
-
-def closed(g, l, a):
-    """The wheel's angle by the crank's."""
-    return mp.arg(1 - g * l * mp.expj(-g * a))
-
-
-def arrays(table, sample):
-    """The closed form as l nears 1, where 1 - 2 l cos a + l² is all rounding."""
-    for k in range(1, 16):
-        for gearing, g in SIGN.items():
-            l = 1.0 - 10.0**-k
-            rest = 1.0 - l  # exact (Sterbenz)
-            scale = math.degrees(rest)
-            x = [scale * t for t in (0.1, 0.3, 0.5, 1 / math.sqrt(3), 0.7, 1.0, 1.7, 3, 10, 100)]
-            x = sorted(v for v in [*x, 1e-3, 0.1, 1.0, 10.0, 80.0] if v < 90.0)
-            if g < 0:
-                x = sorted({*x, *[180.0 - v for v in x]})
-            x = np.array([*[-v for v in x[::-1]], 0.0, *x])
-            at = partial(closed, g, mp.mpf(l))
-            exact = [taylor(at, to_radians(v), 5) for v in x]
-            got = strictly(partial(classic.derivatives, float(g), l, rest), x, (0, 1, 2, 3))
-            place = [f"l=1-1e-{k} at {v:.17g}" for v in x]
-            for n, name in enumerate(NAMES):
-                values = [e[n] for e in exact]
-                u = unit(max(abs(v) for v in values))
-                slope = np.array([abs(float(e[n + 1])) for e in exact])
-                bend = np.array([abs(float(e[n + 2])) for e in exact])
-                step = np.radians([math.ulp(v) for v in x])
-                # at the line of centres the slope is 0, and the bend is what moves it
-                c = np.maximum(slope, bend * step / 2.0) * step / u
-                row = (f"classic arrays, {gearing}, l to 1", name)
-                table.add(row, ulps(got[n], values, u), c, place)
 
 
 def chords(table, sample, rng, name):

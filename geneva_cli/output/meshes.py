@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
@@ -12,12 +11,10 @@ import manifold3d as m3
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.inset import inset, lines_and_arcs
 from geneva_cli.geometry.measure import STRAIGHT, points
 from geneva_cli.geometry.moments import oriented
-from geneva_cli.geometry.plates import Group, Member, Part, Plate, Shell, Solid
-from geneva_cli.geometry.round_holes import CrossHole
-from geneva_cli.geometry.shapes import Arc, Contour, Cubic, Layer, Segment
+from geneva_cli.geometry.plates import Group, Part, Plate, Shell, Solid
+from geneva_cli.geometry.shapes import Arc, Cubic, Layer, Segment
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.geometry.sphere import Vector, cross, square_to, unit
 from geneva_cli.numerics.arrays import Array
@@ -32,119 +29,87 @@ DECIMALS = 6  # of coordinates in mm, so that rounding of another processor is n
 CORNERS_MAX = 200_000  # of a solid: a file of about 40 MB
 
 
-class Place(NamedTuple):
-    """A solid's position: p becomes ``turn`` @ p + ``shift``, in mm."""
-
-    turn: Array  # (3, 3)
-    shift: Array  # (3,)
-
-    def __call__(self, corners: Array) -> Array:
-        """Return corners (n, 3) at this position, rounded as those of a surface."""
-        return _rounded(corners @ self.turn.T + self.shift)
-
-
-class Surface(NamedTuple):
-    """Corners in mm (n, 3), and triangles by their numbers (m, 3), counterclockwise from outside.
-
-    Every side of a triangle is a side of one other, in the opposite sense.
-    """
-
-    corners: Array
-    triangles: Numbers
+Place: TypeAlias = tuple[Array, Array]  # a solid's position: p becomes turn @ p + shift, in mm
 
 
 class Body(NamedTuple):
-    """A kind of solid: its name and layer, its surface, and where it stands."""
+    """A kind of solid: its name and layer, its surface, and where it stands.
+
+    The surface has corners in mm (n, 3), and triangles by their numbers (m, 3), counterclockwise
+    from outside. Every side of a triangle is a side of one other, in the opposite sense.
+    """
 
     name: str
     layer: Layer
-    surface: Surface
-    places: tuple[Place, ...]
+    corners: Array
+    triangles: Numbers
+    places: list[Place]
 
 
-def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
+def bodies(drawing: Drawing, format: str) -> list[Body]:
     """Return the kinds of solids of a drawing; their chords keep the drawing's tolerance.
 
-    Raises GenevaError for a drawing without solids, for a unit other than mm, and for a solid that
-    has no closed surface.
+    Raises GenevaError for a drawing without solids, and for a solid that has no closed surface.
     """
     kinds: dict[Solid, list[Place]] = {}
-    here = Place(np.eye(3), np.zeros(3))
-    for solid, place in _placed(solid_part(drawing, units, format), here):
-        kinds.setdefault(solid, []).append(place)
+    rest: list[tuple[Part, Array, Array]] = [
+        (solid_part(drawing, format), np.eye(3), np.zeros(3)),
+    ]
+    while rest:
+        part, turn, shift = rest.pop()
+        if not isinstance(part, Group):
+            kinds.setdefault(part, []).append((turn, shift))
+            continue
+        for member in reversed(part.members):
+            c, s = math.cos(member.turn), math.sin(member.turn)
+            own = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+            if member.frame:
+                own = np.array([member.frame.x, member.frame.y, member.frame.z]).T
+            at = turn @ np.array([*member.at, 0.0]) + shift
+            rest.append((member.part, turn @ own, at))
     return [
-        Body(solid.name, solid.layer, _surface(solid, drawing.tolerance), tuple(places))
+        Body(solid.name, solid.layer, *_surface(solid, drawing.tolerance), places)
         for solid, places in kinds.items()
     ]
 
 
-def _placed(part: Part, at: Place) -> Iterator[tuple[Solid, Place]]:
-    if not isinstance(part, Group):
-        yield part, at
-        return
-    for member in part.members:
-        turn, shift = _turn(member), np.array([*member.at, 0.0])
-        yield from _placed(member.part, Place(at.turn @ turn, at.turn @ shift + at.shift))
-
-
-def _turn(member: Member) -> Array:
-    if member.frame:
-        return np.array([member.frame.x, member.frame.y, member.frame.z]).T
-    c, s = math.cos(member.turn), math.sin(member.turn)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+def placed(corners: Array, place: Place) -> Array:
+    """Return corners (n, 3) at a position, rounded as those of a surface."""
+    turn, shift = place
+    return _rounded(corners @ turn.T + shift)
 
 
 @lru_cache(maxsize=32)  # an export writes each solid by itself, and all of them together
-def _surface(solid: Solid, tolerance: float) -> Surface:
+def _surface(solid: Solid, tolerance: float) -> tuple[Array, Numbers]:
     if not tolerance > 0.0:
         raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
-    if isinstance(solid, Shell):
-        body = _shell(solid, tolerance)
-    else:
-        steps = [_plate(plate, tolerance) for plate in solid.plates]
-        body = m3.Manifold.batch_boolean(steps, m3.OpType.Add)
+    body = _shell(solid, tolerance) if isinstance(solid, Shell) else _plate(solid, tolerance)
     mesh = body.to_mesh64()
     corners = _rounded(np.asarray(mesh.vert_properties)[:, :3])
     if body.is_empty() or not np.ptp(corners, axis=0).all():  # thinner than the decimals
         raise _no_wall(solid.name)
-    return Surface(corners, np.asarray(mesh.tri_verts).astype(np.int64))
+    return corners, np.asarray(mesh.tri_verts).astype(np.int64)
 
 
 def _plate(plate: Plate, tolerance: float) -> m3.Manifold:
-    """Return a plate: a ring of corners at each level of its edges, strips, and two faces."""
+    """Return a plate: a ring of corners around each face, strips, and two faces."""
     shapes = plate_contours(plate)
     if not shapes:  # its outline is rounding
         raise _no_wall(plate.name)
     outline, *holes = shapes
-    contours, edge = oriented(outline, holes), plate.edge
-    steps = arc_chords(edge.size, 0.5 * math.pi, tolerance) if edge.rounded and edge.size else 1
-    sections = [edge.at(k / steps) for k in range(steps + 1)] if edge.size else [(0.0, 0.0)]
-    levels = [(depth, plate.low + edge.size - high) for depth, high in sections[::-1]]
-    levels += [(depth, plate.high - edge.size + high) for depth, high in sections]
-    insets = [[contour.segments] for contour in contours]
-    if edge.size:
-        walls = [lines_and_arcs(contour) for contour in contours]
-        deeper = [depth for depth, _ in sections[1:]]
-        insets = [[tuple(w), *(inset(w, "", d).segments for d in deeper)] for w in walls]
-    counts = [[_chords(piece, tolerance) for piece in contour[0]] for contour in insets]
+    contours = [contour.segments for contour in oriented(outline, holes)]
+    counts = [[_chords(piece, tolerance) for piece in contour] for contour in contours]
     around = sum(map(sum, counts))
-    _require_few(around * len(levels), plate.name)
-    rings = {
-        depth: np.concatenate([_corners(one[k], n) for one, n in zip(insets, counts, strict=True)])
-        for k, (depth, _) in enumerate(sections)
-    }
-    corners = np.concatenate([_raised(rings[depth], z) for depth, z in levels])
+    _require_few(2 * around, plate.name)
+    ring = np.concatenate([_corners(one, n) for one, n in zip(contours, counts, strict=True)])
+    corners = np.concatenate((_raised(ring, plate.low), _raised(ring, plate.high)))
     starts = np.cumsum([0, *map(sum, counts)])
     loops = [np.arange(a, b) for a, b in pairwise(starts)]
-    top = _triangles([rings[sections[-1][0]][loop] for loop in loops], plate.name)
-    triangles = [top[:, ::-1], top + around * (len(levels) - 1)]
-    for level in range(len(levels) - 1):
-        for loop in loops:
-            triangles += _strips(loop + level * around, around)
-    body = _manifold(corners, triangles)
-    for hole in plate.cross:
-        body -= _drill(hole, contours, tolerance)
-    return body
+    top = _triangles([ring[loop] for loop in loops], plate.name)
+    triangles = [top[:, ::-1], top + around]
+    for loop in loops:
+        triangles += _strips(loop, around)
+    return _manifold(corners, triangles)
 
 
 def _manifold(corners: Array, triangles: list[Numbers]) -> m3.Manifold:
@@ -168,17 +133,6 @@ def _triangles(loops: list[Array], name: str) -> Numbers:
     if not len(triangles) or twice.min() < -1e-6 * twice.sum():
         raise _no_wall(name)
     return triangles
-
-
-def _drill(hole: CrossHole, contours: list[Contour], tolerance: float) -> m3.Manifold:
-    low, high = hole.openings(contours)
-    over = -hole.radius, 0.0, hole.radius
-    start = min(low.x(y) for y in over) - hole.radius
-    end = max(high.x(y) for y in over) + hole.radius
-    chords = arc_chords(hole.radius, math.tau, tolerance)
-    drill = m3.Manifold.cylinder(end - start, hole.radius, circular_segments=chords)
-    drill = drill.rotate((0, 90, 0)).translate((start, 0, 0))
-    return drill.rotate((0, 0, math.degrees(hole.turn))).translate((*hole.at, hole.height))
 
 
 def _shell(shell: Shell, tolerance: float) -> m3.Manifold:

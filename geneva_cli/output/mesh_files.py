@@ -1,7 +1,8 @@
-"""3MF: each kind of solid as an object with its name and colour, and an item at each position.
+"""Meshes as files: binary STL, and 3MF with a name and a colour for each kind of solid.
 
-A 3MF file is an archive of XML. It is not compressed and has the archive's first date, so that its
-bytes are equal on every run and with every zlib.
+STL has no unit, no names and no colours; programs that read it take millimetres. A 3MF file is an
+archive of XML. It is not compressed and has the archive's first date, so that its bytes are equal
+on every run and with every zlib.
 """
 
 from __future__ import annotations
@@ -11,14 +12,16 @@ from collections.abc import Iterator
 from html import escape
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
+import numpy as np
+
 from geneva_cli.errors import clean
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.output.inks import inks
-from geneva_cli.output.mesh.solids import DECIMALS, Body, Place, bodies
+from geneva_cli.output.meshes import DECIMALS, Body, bodies, placed
 from geneva_cli.table import in_decimals
 
-PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
+PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 TYPES = (
     f'{XML}<Types xmlns="{PACKAGE}/content-types">'
     '<Default Extension="rels" '
@@ -32,11 +35,34 @@ RELATIONS = (
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>\n'
 )
 MATERIALS = 1  # the number of the list of colours; objects are counted from the next one
+RECORD = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
 
 
-def data(drawing: Drawing, units: str) -> Iterator[bytes]:
-    """The file's bytes. Raises GenevaError as ``bodies`` does."""
-    model = "".join(_model(drawing.title, bodies(drawing, units, "3MF")))
+def stl(drawing: Drawing) -> Iterator[bytes]:
+    """Yield an STL file's bytes. Raises GenevaError as ``bodies`` does."""
+    blocks = []
+    for body in bodies(drawing, "STL"):
+        for place in body.places:
+            corners = placed(body.corners, place)[body.triangles]
+            single = corners.astype("<f4")
+            p, q, r = (single[:, k] for k in range(3))
+            flat = (p == q).all(axis=1) | (q == r).all(axis=1) | (r == p).all(axis=1)
+            records = np.zeros(int((~flat).sum()), dtype=RECORD)
+            records["corners"] = single[~flat]
+            p, q, r = (corners[~flat, k] for k in range(3))
+            out = np.cross(q - p, r - p)
+            length = np.sqrt((out * out).sum(axis=1, keepdims=True))
+            records["normal"] = out / np.where(length > 0.0, length, 1.0)  # none without an area
+            blocks.append(records)
+    # "solid" at the start would mean an STL in text
+    yield b"geneva, millimetres".ljust(80, b"\0")
+    yield sum(map(len, blocks)).to_bytes(4, "little")
+    yield from (block.tobytes() for block in blocks)
+
+
+def threemf(drawing: Drawing) -> Iterator[bytes]:
+    """Yield a 3MF file's bytes. Raises GenevaError as ``bodies`` does."""
+    model = "".join(_model(drawing.title, bodies(drawing, "3MF")))
     stream = io.BytesIO()
     with ZipFile(stream, "w", ZIP_STORED) as archive:
         for name, text in (
@@ -58,38 +84,30 @@ def _model(title: str, kinds: list[Body]) -> Iterator[str]:
     colours = inks(tuple(layers))
     yield f'<basematerials id="{MATERIALS}">\n'
     for layer in layers:
-        yield f'<base name={_quoted(layer)} displaycolor="{colours[layer].rgb.upper()}"/>\n'
+        yield f'<base name="{_text(layer)}" displaycolor="{colours[layer].rgb.upper()}"/>\n'
     yield "</basematerials>\n"
     for number, body in enumerate(kinds, MATERIALS + 1):
         yield (
-            f'<object id="{number}" type="model" name={_quoted(body.name)} '
+            f'<object id="{number}" type="model" name="{_text(body.name)}" '
             f'pid="{MATERIALS}" pindex="{layers.index(body.layer)}"><mesh>\n<vertices>\n'
         )
-        for corner in body.surface.corners.tolist():
+        for corner in body.corners.tolist():
             x, y, z = (in_decimals(value, DECIMALS) for value in corner)
             yield f'<vertex x="{x}" y="{y}" z="{z}"/>\n'
         yield "</vertices>\n<triangles>\n"
-        for a, b, c in body.surface.triangles.tolist():
+        for a, b, c in body.triangles.tolist():
             yield f'<triangle v1="{a}" v2="{b}" v3="{c}"/>\n'
         yield "</triangles>\n</mesh></object>\n"
     yield "</resources>\n<build>\n"
     for number, body in enumerate(kinds, MATERIALS + 1):
-        for place in body.places:
-            yield f'<item objectid="{number}" transform="{_transform(place)}"/>\n'
+        for turn, shift in body.places:
+            # the images of the axes, with more decimals as they act through a length; the shift
+            words = [f"{round(value, 12) + 0.0:.12g}" for value in turn.T.ravel().tolist()]
+            words += [in_decimals(value, DECIMALS) for value in shift]
+            yield f'<item objectid="{number}" transform="{" ".join(words)}"/>\n'
     yield "</build>\n</model>\n"
-
-
-def _transform(place: Place) -> str:
-    """The position as the format has it: three images of the axes, and the shift."""
-    # a rotation acts through a length, so it has more decimals than one
-    turn = [f"{round(value, 12) + 0.0:.12g}" for value in place.turn.T.ravel().tolist()]
-    return " ".join([*turn, *(in_decimals(value, DECIMALS) for value in place.shift)])
 
 
 def _text(text: str) -> str:
     # an apostrophe may stay between quotes
     return escape(clean(text), quote=False).replace('"', "&quot;")
-
-
-def _quoted(text: str) -> str:
-    return f'"{_text(text)}"'

@@ -1,0 +1,202 @@
+"""Pieces parallel to others, their corners, and the path of a cutter along an outline.
+
+The path is the true offset, of lines and arcs as the outline is. Round an outer corner it is an arc
+about it. In an inner corner adjacent pieces end where they meet; the beam leaves its own radius.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.measure import at, directions, fraction_at, segment_length
+from geneva_cli.geometry.moments import with_material_left
+from geneva_cli.geometry.pieces import SHORTEST_MM, prepared
+from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.shapes import (
+    Arc,
+    Circle,
+    Contour,
+    Layer,
+    Line,
+    Point,
+    Segment,
+    Shape,
+    as_contour,
+    closed,
+)
+from geneva_cli.geometry.sheet import Drawing
+from geneva_cli.numerics.tolerances import SAME_CUT_MM
+from geneva_cli.spec.rules import TOOL_MM, require_mm
+
+
+class Closed(GenevaError):
+    """An offset that has no path; ``at`` is the place."""
+
+    def __init__(self, text: str, at: Point) -> None:
+        super().__init__(text)
+        self.at = at
+
+
+def paths(drawing: Drawing, kerf: float) -> Drawing:
+    """Drawing with the solid shapes replaced by paths for a cut of a width in mm, and no solid.
+
+    Raises GenevaError for a width outside of TOOL_MM, for cubics, and where no path fits.
+    """
+    require_mm("--kerf", kerf, TOOL_MM)
+    cut = plates(drawing.solid) if drawing.solid else []
+    outside = {hole: False for plate in cut for hole in plate.holes}
+    outside |= {plate.outline: True for plate in cut}
+    try:
+        shapes = tuple(
+            offset(shape, outside[shape], 0.5 * kerf) if shape in outside else shape
+            for shape in drawing.shapes
+        )
+    except Closed as error:
+        raise GenevaError(f"--kerf {kerf:g}: {error}; use a narrower one") from None
+    title = f"{drawing.title}, kerf {kerf:g} mm"
+    return drawing._replace(title=title, shapes=shapes, solid=None, shells=None)
+
+
+def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour | Circle:
+    """Move an outline outwards, or a hole inwards, by a distance above 0; may raise Closed."""
+    if isinstance(shape, Circle):
+        radius = shape.radius + (distance if outside else -distance)
+        if radius <= SHORTEST_MM:
+            text = f"the hole of {2.0 * shape.radius:.6g} mm on {shape.layer} is too narrow"
+            raise Closed(text, shape.centre)
+        return shape._replace(radius=radius)
+    (cleaned,) = prepared(Drawing("", (shape,))).shapes
+    assert isinstance(cleaned, Contour)
+    contour, layer = with_material_left(cleaned, outside), shape.layer
+    own = lines_and_arcs(contour, "--kerf works on lines and arcs only: omit --curves spline")
+    for piece in own:
+        if isinstance(piece, Arc) and piece.bulge < 0.0 and piece.radius - distance <= SHORTEST_MM:
+            text = f"a hollow of radius {piece.radius:.6g} mm on {layer} is narrower than the cut"
+            raise Closed(text, at(piece, 0.5))
+    path = closed(layer, _joined(layer, own, distance))
+    around = math.fsum(map(segment_length, path.segments))
+    # four samples in the offset's length, but at most 50,000 for the path
+    points = Polyarc([path]).samples(SAME_CUT_MM, max(distance / 4, around / 50_000))
+    away = Polyarc([contour]).signed(points)
+    if float(away.min()) < distance - SAME_CUT_MM:
+        x, y = points[int(np.argmin(away))].tolist()
+        text = f"near x = {x:.4g}, y = {y:.4g} on {contour.layer} a gap is narrower than the cut"
+        raise Closed(text, (x, y))
+    return path
+
+
+def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segment]:
+    """Join the moved pieces with arcs round outer corners, and cut them off in inner ones."""
+    moved = [parallel(piece, -distance) for piece in own]
+    starts, ends = [piece.start for piece in moved], [piece.end for piece in moved]
+    around: dict[int, Arc] = {}
+    for i, (piece, other) in enumerate(zip(moved, [*moved[1:], moved[0]], strict=True)):
+        k = (i + 1) % len(moved)
+        turn = math.remainder(directions(other)[0] - directions(piece)[1], math.tau)
+        if math.dist(piece.end, other.start) < SHORTEST_MM:
+            continue
+        if turn > 0.0:
+            around[i] = Arc(piece.end, other.start, math.tan(0.25 * turn))
+            continue
+        try:
+            ends[i] = starts[k] = point = corner(own[i], own[k], -distance, 1e-3)
+            s, t = fraction_at(piece, point), fraction_at(other, point)
+            apart = math.dist(at(piece, s), at(other, t))
+            meet = apart < SHORTEST_MM and 0.0 < s <= 1.0 and 0.0 <= t < 1.0
+        except GenevaError:  # too sharp
+            meet = False
+        if not meet:
+            raise Closed(f"an inner corner of {layer} is narrower than the cut", piece.end)
+    segments: list[Segment] = []
+    for i, (piece, start, end) in enumerate(zip(moved, starts, ends, strict=True)):
+        if (start, end) != (piece.start, piece.end):
+            if fraction_at(piece, start) >= fraction_at(piece, end):
+                text = f"a piece of {layer} is shorter than the cut is wide"
+                raise Closed(text, piece.start)
+            piece = between(piece, start, end)
+        segments += [piece, around[i]] if i in around else [piece]
+    return segments
+
+
+def lines_and_arcs(shape: Shape, cubics: str) -> list[Line | Arc]:
+    """Return the pieces of a closed shape; raises GenevaError with a text for a cubic."""
+    pieces = as_contour(shape).segments
+    plain = [piece for piece in pieces if isinstance(piece, Line | Arc)]
+    if len(plain) < len(pieces):
+        raise GenevaError(cubics)
+    return plain
+
+
+def away(piece: Line | Arc, at: Point) -> tuple[float, Point]:
+    """Return how far a point is to the left of a piece's line or circle, and that direction."""
+    (x0, y0), (x1, y1) = piece.start, piece.end
+    long = math.dist(piece.start, piece.end)
+    u, v, half = (x1 - x0) / long, (y1 - y0) / long, 0.0
+    if isinstance(piece, Arc):
+        half = 0.5 * piece.sweep
+    x, y = at[0] - 0.5 * (x0 + x1), at[1] - 0.5 * (y0 + y1)
+    along, left = x * u + y * v, y * u - x * v
+    bend, c = 2.0 * math.sin(half) / long, math.cos(half)
+    ahead, out = bend * along, c - bend * left  # from the centre, over the radius
+    far = math.hypot(ahead, out)
+    side = (bend * (0.25 * long * long - along * along - left * left) + 2.0 * c * left) / (
+        1.0 + far
+    )
+    return side, (-(ahead * u + out * v) / far, (out * u - ahead * v) / far)
+
+
+def corner(before: Line | Arc, after: Line | Arc, depth: float, sharpest: float = 0.1) -> Point:
+    """Return the point at a distance to the left of two pieces, near their common end.
+
+    Raises GenevaError for a corner so sharp that it is far away: ``sharpest`` is the least sum of 1
+    and the cosine of its turn, by default an angle of 26 degrees.
+    """
+    x, y = after.start
+    one, two = directions(before)[1], directions(after)[0]
+    ax, ay, bx, by = -math.sin(one), math.cos(one), -math.sin(two), math.cos(two)
+    both = 1.0 + ax * bx + ay * by
+    if both < sharpest:
+        raise _too_wide()
+    if abs(ax * by - ay * bx) < 1e-6:  # radians: tangent pieces meet in the common normal
+        return x + depth * (ax + bx) / both, y + depth * (ay + by) / both
+    for _ in range(40):  # Newton's digits double each time: five steps are usual
+        (d, (ux, uy)), (e, (vx, vy)) = away(before, (x, y)), away(after, (x, y))
+        det = ux * vy - uy * vx
+        if not det:  # so deep that both pieces are in one direction, to rounding
+            raise _too_wide()
+        d, e = depth - d, depth - e
+        dx, dy = (d * vy - e * uy) / det, (e * ux - d * vx) / det
+        x, y = x + dx, y + dy
+        if abs(dx) + abs(dy) < 1e-15 * (1.0 + abs(x) + abs(y)):
+            break
+    return x, y
+
+
+def parallel(piece: Line | Arc, depth: float) -> Line | Arc:
+    """Return a piece moved to the left; raises GenevaError for an arc that turns inside out."""
+    if isinstance(piece, Arc) and piece.bulge > 0.0 and piece.radius <= depth:
+        raise _too_wide()
+    # ends are moved along their own normals: a flat arc's centre is far away
+    ends = []
+    for (x, y), direction in zip((piece.start, piece.end), directions(piece), strict=True):
+        ends.append((x - depth * math.sin(direction), y + depth * math.cos(direction)))
+    return piece._replace(start=ends[0], end=ends[1])
+
+
+def between(piece: Line | Arc, start: Point, end: Point) -> Line | Arc:
+    """Return a piece between two points of its line or circle; GenevaError if it runs back."""
+    part = fraction_at(piece, end) - fraction_at(piece, start)
+    if part <= 0.0:
+        raise _too_wide()
+    bend = {"bulge": math.tan(0.25 * piece.sweep * part)} if isinstance(piece, Arc) else {}
+    return piece._replace(start=start, end=end, **bend)
+
+
+def _too_wide() -> GenevaError:
+    return GenevaError(
+        "it is wider than a rounding, or cuts off a face of a part; use a smaller value"
+    )

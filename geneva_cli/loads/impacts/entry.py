@@ -1,0 +1,330 @@
+"""The impact at entry: a roller that meets its slot off the slot's axis, or a corner of its mouth.
+
+The crank's radius R and the centre distance L always have errors. The roller should enter the
+resting slot along its axis. If R/L is too large by a fraction eps, its path crosses that axis
+before the entry. The wheel is then struck backwards at about tan b sqrt(2 eps) of the input's
+speed: by the square root of the error. If R/L is too small, the roller never reaches the axis, and
+meets the mouth.
+
+Speeds are in units of the input's. Wheel angles are in radians, input angles in degrees from the
+engagement's own mid-motion. For m designs the numbers of a machine and the errors are (m, 1), and
+results are (m,).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
+from geneva_cli.loads.strength.pin import PinSize
+from geneva_cli.motion.batch import taken
+from geneva_cli.motion.engagement import Anchor, Engagement
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.angles import DEGREE, radians
+from geneva_cli.numerics.arrays import (
+    Array,
+    Mask,
+    N,
+    Number,
+    Whole,
+    all_true,
+    choose,
+    library,
+    parameter,
+)
+from geneva_cli.numerics.jet import Jet, sqrt
+from geneva_cli.numerics.roots import find_roots
+
+# Ascending fractions of a span, half an octave apart, which bracket a crossing.
+OCTAVES = 0.5 ** (0.5 * np.arange(64, -1, -1))
+
+
+class FirstContacts(NamedTuple):
+    """First contacts of rollers with a slot at rest, and the jumps that follow.
+
+    (m,) each; NaN if a roller touches nothing.
+    """
+
+    at_deg: Array
+    jump: Array  # of the wheel's velocity, over the input's; negative if struck backwards
+
+
+class RestingAxis(NamedTuple):
+    """The axis of the slot at rest, for a roller that meets it with errors of R and L.
+
+    In the frame of the axis, from the wheel's centre outwards, the roller is at (1 + crank) p -
+    (crank - center) c. Here p is its true position and c the hub of the crank's arm. On a sphere
+    the shafts meet for any radius, so ``center`` must be 0.
+    """
+
+    engagement: Engagement
+    anchor: Anchor  # the true entry
+    hub_offset: float  # distance of the hub from the line through the wheel's centre,
+    along: float  # and its distance along that line
+
+    @staticmethod
+    def of(engagement: Engagement) -> RestingAxis | None:
+        """The axis of an engagement's straight slot.
+
+        None for a slot that is solved for, and for a crank as built, which crosses it at once.
+        """
+        engagement = engagement.through
+        anchor = engagement.motion.entry
+        if anchor is None or engagement.built is not None:
+            return None
+        x, y = engagement.slot(0.5 * engagement.entry_deg, 1)  # any place in a straight slot
+        (px, u), (py, v) = x.c, y.c
+        m = library(px)
+        sense = m.copysign(1.0, px * u + py * v)
+        hub, ahead = engagement.hub, engagement.half_step - m.atan2(sense * v, sense * u)
+        offset, along = parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead))
+        return RestingAxis(engagement, anchor, offset, along)
+
+    def offset(self, crank: N, center: N) -> N:
+        """Distance over L of the true path from the axis where the path with errors crosses it."""
+        arm = self.hub_offset + self.engagement.slot.offset  # from the slot's axis
+        return (crank * arm - center * self.hub_offset) / (1.0 + crank)
+
+    def distance(self, tau: Array) -> tuple[Array, Array]:
+        """Distance of the true path from the axis ``tau`` radians after entry, and its slope."""
+        value, slope = self.anchor.displacement(tau, 1)[1].arrays()
+        return value, slope
+
+
+def first_contacts(
+    engagement: Engagement, crank: Number, center: Number = 0.0
+) -> FirstContacts | None:
+    """First contacts with the axis for relative errors of the crank's radius and of L.
+
+    For m designs, or for m errors (m, 1). If no crank's arm carries the roller, only ``center`` has
+    a meaning. NaN if a roller never reaches the slot's axis, and meets the mouth, or if there are
+    no errors. None for slots and grooves that are solved for. A radial slot has sin(phi + b) = sin
+    b / l at the contact.
+
+        >>> from geneva_cli import Design, External
+        >>> first_contacts(Design(External(3)).mechanism.engagements[0], crank=1e-4)
+        FirstContacts(at_deg=array([-30.81025092]), jump=array([-0.02390983]))
+    """
+    axis = RestingAxis.of(engagement)
+    if axis is None:
+        return None
+    # The roller comes from one side, ``before``. At a true entry it stays on that side (a circle)
+    # or crosses to the other (a path with an inflection).
+    span = 0.5 * axis.engagement.motion_deg * DEGREE
+    before = axis.distance(np.atleast_2d(-1e-3 * span))[0]
+    offset = np.atleast_2d(axis.offset(crank, center)) + 0.0 * before
+    with np.errstate(all="ignore"):
+        sense = np.where(offset * before > 0.0, -1.0, np.where(offset > 0.0, 1.0, np.nan))
+        far = span * sense * np.append(0.0, OCTAVES)
+        passed = abs(axis.distance(far)[0]) >= abs(offset)
+
+    def less(tau: Array, which: Whole) -> tuple[Array, Array]:
+        value, slope = taken(axis, which).distance(tau)
+        return value - offset[which], slope
+
+    tau = _first_roots(less, far, passed)
+    along, across = axis.anchor.displacement(tau, 1)
+    moved = (center - crank) / (1.0 + crank) * axis.along
+    jump = across.arrays()[1] / (along.arrays()[0] + axis.anchor.along + moved)
+    return FirstContacts(np.ravel(engagement.entry_deg + tau / DEGREE), np.ravel(jump))
+
+
+def _first_roots(
+    f: Callable[[Array, Whole], tuple[Array, Array]], places: Array, passed: Mask
+) -> Array:
+    """The roots before the first places (m, k) that are passed, (m, 1); NaN if there is none.
+
+    ``f(x, which)`` returns value and slope of some designs at places (k, 1).
+    """
+    out, first = np.full((len(places), 1), np.nan), np.argmax(passed, axis=1)
+    there = np.flatnonzero(passed.any(axis=1) & (first > 0))
+    ends = np.sort([places[there, first[there] - k] for k in (0, 1)], axis=0)
+
+    def one_each(x: Array, live: Whole) -> tuple[Array, Array]:
+        value, slope = f(x[:, None], there[live])
+        return value[:, 0], slope[:, 0]
+
+    out[there, 0] = find_roots(one_each, *ends)
+    return out
+
+
+class _Corner(NamedTuple):
+    """A corner of the mouth, and the roller that meets it with errors of R and L.
+
+    The corner's place is from the wheel's centre: along the slot outwards, across it, and along the
+    wheel's axis, which is 0 on a plane. Lengths are over L, on a sphere its arcs.
+    """
+
+    axis: RestingAxis
+    crank: Number
+    center: Number
+    reach: Number  # distance of the roller's centre at which they touch
+    place: tuple[Number, Number, Number]
+
+    def roller(self, tau: Array) -> tuple[Jet, Jet, Jet]:
+        """Roller centre ``tau`` radians of the input after the true entry."""
+        axis, longer = self.axis, 1.0 + self.crank
+        slot, anchor = axis.engagement.slot, axis.anchor
+        x, y = anchor.displacement(tau, 1)
+        x = (x + anchor.along) * longer - (self.crank - self.center) * axis.along
+        y = (y - axis.offset(self.crank, self.center)) * longer - slot.offset
+        if slot.height is None:
+            return x, y, x * 0.0
+        z = slot.height(radians(anchor.input_deg) + tau, 1) * longer - self.crank * slot.height.hub
+        far = sqrt(x * x + y * y + z * z)
+        return x / far, y / far, z / far
+
+    def gap(self, tau: Array) -> tuple[Array, Array]:
+        """Squared distance of centre and corner minus that at contact, and its slope."""
+        x, y, z = (p - c for p, c in zip(self.roller(tau), self.place, strict=True))
+        value, slope = (x * x + y * y + z * z - self.reach**2).arrays()
+        return value, slope
+
+
+def mouth_contacts(
+    engagement: Engagement,
+    crank: Number,
+    center: Number,
+    roller: Number,
+    clearance: Number,
+    rounding: Number = 0.0,
+) -> FirstContacts | None:
+    """First contacts with the mouth's corners; NaN if the roller touches none.
+
+    ``crank`` and ``center`` are relative errors, as in ``first_contacts``. ``roller`` is the
+    roller's radius, ``clearance`` that of the slot per side, ``rounding`` the radius of the
+    corners, all over L. None for slots that are solved for. A negative jump is backwards.
+
+    A corner is met if the errors exceed the slot's clearance. The mouth lies across the slot where
+    the roller should enter, at the foot of the perpendicular from a crank's axis. An arm that is
+    too short strikes the corner on the side of the crank's axis, forwards. An arm that is too long
+    strikes the other corner, backwards. On a sharp corner the impact is about
+
+        jump / omega = tan b sqrt(2 eps) sqrt((R -+ r)/r),
+
+    less if the arm is too short. Here eps is the error of R beyond the clearance, as a fraction of
+    R. r is the roller's radius. A corner rounded by c acts like a sharp one on a roller of radius
+    r + c. The roller's centre P and the corner C keep their distance if the wheel turns at the
+    speed (P - C) . P' / (P - C) . (z x C), for any path of the roller. On a sphere P and C are
+    directions.
+
+        >>> from geneva_cli import Design, External
+        >>> [engagement] = Design(External(6)).mechanism.engagements
+        >>> contact = mouth_contacts(engagement, -1e-4, 0.0, roller=0.05, clearance=0.0)
+        >>> round(float(contact.jump[0]), 6)  # tan(30 deg) sqrt(2e-4) sqrt(9) is 0.024495
+        0.024448
+    """
+    axis = RestingAxis.of(engagement)
+    if axis is None:
+        return None
+    slot, along, wide = axis.engagement.slot, axis.anchor.along, roller + clearance
+    if np.any(rounding):  # its circle touches wall and rim
+        x, y = engagement.slot(0.0, 0)
+        sign = np.where(np.hypot(x.c[0], y.c[0]) < along, 1.0, -1.0)
+        rim = np.hypot(along, wide)
+        square = along * along - 2.0 * sign * rounding * (rim + sign * wide)
+        along = parameter(along - (along - np.sqrt(square)))
+    reach, wide = roller + rounding, wide + rounding
+    top: Number = 0.0  # of the mouth's middle along the wheel's axis
+    if slot.height is not None:
+        top = slot.height(radians(axis.anchor.input_deg), 0).c[0]
+        reach = 2.0 * np.sin(0.5 * reach)  # a chord
+    span, found = 0.5 * axis.engagement.motion_deg * DEGREE, []
+    with np.errstate(all="ignore"):
+        for side in (1.0, -1.0):  # first the corner on the side to which the wheel turns
+            place: tuple[Number, Number, Number] = along, side * wide - slot.offset, 0.0
+            if slot.height is not None:
+                m, own = library(wide), parameter(wide)
+                place = along * m.cos(own), side * m.sin(own), top * m.cos(own)
+            corner = _Corner(axis, crank, center, reach, place)
+            # The roller comes from outside, and has passed once its centre is in the mouth: first
+            # its distance outside, and its speed outwards.
+            x, _, z = corner.roller(np.atleast_2d(0.0 * span))
+            out, speed = (x - along if slot.height is None else x * top - z * along).arrays()
+            places = -out / speed - span * OCTAVES[::-1]
+            meets = corner.gap(places)[0] <= -1e-16  # of L²: nearer to 0 it is rounding
+            places = np.broadcast_to(places, meets.shape)
+            tau = _first_roots(
+                lambda tau, which, corner=corner: taken(corner, which).gap(tau), places, meets
+            )
+            supplied = turned = 0.0 * tau
+            direction = -place[1], place[0], 0.0
+            for p, c, w in zip(corner.roller(tau), place, direction, strict=True):
+                value, rate = p.arrays()
+                supplied, turned = supplied + (value - c) * rate, turned + (value - c) * w
+            found.append((tau, supplied / turned))
+        (one, forwards), (other, backwards) = found
+        tau = np.fmin(one, other)
+        jump = np.where(tau == one, forwards, backwards)
+    return FirstContacts(np.ravel(engagement.entry_deg + tau / DEGREE), np.ravel(jump))
+
+
+def entry_impacts(
+    mechanism: Mechanism, fraction: float = 1.0, pin: PinSize | None = None
+) -> Impacts:
+    """Impacts at entry of m designs with a ``fraction`` of the cranks' greatest errors.
+
+    Without the ``pin`` as it is drawn, forces are not known. The roller meets the slot's axis. If
+    the slot is too narrow for it to enter off the axis, it meets a corner of the mouth. The jump is
+    negative if the wheel is struck backwards.
+    """
+    best = np.full((2, 1), np.nan)
+    for engagement in mechanism.engagements:
+        every = [first_contacts(engagement, *e) for e in _errors(mechanism, engagement, fraction)]
+        for contacts in (*every, *_on_mouth(mechanism, engagement, fraction)):
+            if contacts is not None:
+                best = harder(best, shown(mechanism, engagement, *contacts))
+    return with_force(mechanism, best, pin)
+
+
+def _errors(
+    mechanism: Mechanism, engagement: Engagement, fraction: float
+) -> Iterator[tuple[float, float]]:
+    """Greatest relative errors of R and L that act across the slot, in both directions.
+
+    A longer crank acts as a shorter centre distance. It acts as a longer one where the slot misses
+    the wheel's centre by so much that the crank's axis lies between both.
+    """
+    spec, L, axis = mechanism.spec, mechanism.center_distance_mm, RestingAxis.of(engagement)
+    if axis is None:  # a slot that is solved for has no contacts
+        return
+    arm = arm_mm(mechanism, engagement)
+    crank = fraction * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
+    center = fraction * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
+    between = axis.hub_offset * (axis.hub_offset + axis.engagement.slot.offset) < 0.0
+    center = choose(between, -center, center)
+    if not all_true((crank == 0.0) & (center == 0.0)):
+        yield crank, -center
+        yield -crank, center
+
+
+def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
+    """Crank radius at an engagement, mm; its rollers' arms may differ."""
+    L = mechanism.center_distance_mm
+    if not mechanism.spec.wheel.FLAT:
+        return mechanism.ratio * L
+    x, y = (z.c[0] for z in engagement.path(0.0, 0))
+    return parameter(L * library(x, y).hypot(x - engagement.hub, y))
+
+
+def _on_mouth(
+    mechanism: Mechanism, engagement: Engagement, fraction: float
+) -> list[FirstContacts | None]:
+    """First contacts with the mouth's corners, for the largest roller in the narrowest slot."""
+    tolerance, size, L = mechanism.spec.tolerance, mechanism.spec.size, mechanism.center_distance_mm
+    lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
+    spare = parameter(np.maximum(size.allowances.slot_clearance_mm - lost, 0.0)) / L
+    roller, rounding = mechanism.roller_radius_mm / L, size.mouth_radius_mm / L
+    errors = _errors(mechanism, engagement, fraction)
+    return [mouth_contacts(engagement, *error, roller, spare, rounding) for error in errors]
+
+
+def mouth_jumps_worst(mechanism: Mechanism) -> Array:
+    """Sizes of the worst jumps on a mouth's corner, (m,); 0 if no roller touches a corner."""
+    every = [on for one in mechanism.engagements for on in _on_mouth(mechanism, one, 1.0)]
+    sizes = [np.nan_to_num(abs(one.jump)) for one in every if one is not None]
+    worst: Array = np.max(np.broadcast_arrays(np.zeros(1), *sizes), axis=0)
+    return worst

@@ -1,0 +1,311 @@
+"""The change of sides: the wheel coasts through its play and is struck at its end.
+
+If the wheel's torque changes its sign, the roller leaves one wall for the other. The wheel coasts
+through the play and is struck at its difference in speed.
+
+Speeds are in units of the input's. Wheel angles are in radians, input angles in degrees from the
+engagement's own mid-motion.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import reduce
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.loads.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.loads.contact import contact
+from geneva_cli.loads.impacts.shock_force import Impacts, harder, shown, with_force
+from geneva_cli.loads.load_case import load_case
+from geneva_cli.loads.strength.pin import PinSize
+from geneva_cli.motion.batch import selection, taken
+from geneva_cli.motion.engagement import Engagement, WheelMotion
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.peak_search import braking, spans
+from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.arrays import (
+    Mask,
+    Which,
+    Whole,
+    all_true,
+    blocks,
+    choose,
+    joined,
+    larger,
+    parameter,
+)
+from geneva_cli.numerics.extremes import Smooth, cuts
+from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.quadrature import rule
+from geneva_cli.numerics.roots import boundary, find_roots
+from geneva_cli.numerics.tolerances import ROUNDED
+from geneva_cli.spec.workshops import workshop
+
+
+def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
+    """Designs and input angles (k,) at which the wheel's torque changes sign: psi2 = -drag, (m, 1).
+
+    They are inside a motion. There are none if a drag holds the roller on one wall.
+    """
+    motion, m = engagement.motion, len(drag)
+    if engagement.paired:  # gears hold the wheel until another roller stops it
+        begins = np.broadcast_to(np.ravel(motion.breaks_deg[-2]), m)
+        return np.arange(m), begins.astype(float)
+    some = selection(motion)
+
+    def torque(x: Array, which: Which, order: int, _: Sequence[int]) -> list[tuple[Array, ...]]:
+        rate = some(which).rate(x, order + 1)
+        return [(rate.derivative() + parameter(drag[which])).arrays()]
+
+    f = Smooth(torque, 0, signs=1, unit=DEGREE)
+    which, _, (a, b), positive = cuts(f, spans(motion, m))
+    (middle,) = f(0.5 * (a + b)[:, None], which, 0)[1][0]
+    most = np.zeros(m)
+    np.maximum.at(most, which, abs(middle[:, 0]))
+    # a law may run at constant speed for a while
+    kept = abs(middle[:, 0]) > ROUNDED * most[which]
+    which, a, b, above = which[kept], a[kept], b[kept], positive[0, kept]
+    before = np.flatnonzero((above[1:] != above[:-1]) & (which[:-1] == which[1:]))
+    x = 0.5 * (b[before] + a[before + 1])
+    # a change of sign within 1e-12 degrees of mid-motion is at mid-motion
+    return which[before], np.where(abs(x) < 1e-12, 0.0, x)
+
+
+def impacts_of(
+    engagement: Engagement, at: tuple[Whole, Array], play: Array, drag: Array
+) -> tuple[Array, Array]:
+    """Impacts after the changes of sides ``at``, for the play of each, (k,) in radians.
+
+    They are the angles at which wheels are struck, and the speeds against the slot; NaN if the play
+    is not used up in the motion. ``drag`` is M_r / (I w²), (m, 1). A wheel coasts from the place
+    where psi2 = -drag, slowed only by the drag. It is struck when it is ahead of the slot by the
+    play, or behind if the torque returns. If the torque returns before that, the wall that it left
+    strikes it.
+
+        >>> from geneva_cli import Design, External
+        >>> [engagement] = Design(External(3)).mechanism.engagements
+        >>> drag = np.array([[0.0]])
+        >>> impacts_of(engagement, changes(engagement, drag), np.array([1e-4]), drag)[0]
+        array([0.55220712])
+    """
+    which, start = at
+    if not len(start):
+        return start, start
+    follows = np.append(which[1:] == which[:-1], False)
+    until = np.where(follows, np.append(start[1:], 0.0), np.nan)
+    x, speed, crosses = joined(
+        # the integrals of so many fit in the cache
+        [
+            _coasts(
+                taken(engagement.motion, which[part]),
+                start[part, None],
+                until[part],
+                play[part],
+                drag[which[part]],
+            )
+            for part in blocks(len(start), 256)
+        ]
+    )
+    # a wheel that has not crossed its play leaves no other wall at the next change
+    speed[1:][follows[:-1] & ~crosses[:-1]] = np.nan
+    return start + x / DEGREE, speed
+
+
+def _coasts(
+    motions: WheelMotion, start: Array, until: Array, play: Array, drags: Array
+) -> tuple[Array, Array, Mask]:
+    """Impacts after changes of sides, up to the next changes ``until`` or, if NaN, to the exits.
+
+    They are radians of the input until the wheels are struck, speeds, and masks of the wheels that
+    cross their play. The others may be struck by the wall that they left.
+    """
+    out: Array = np.full((2, len(start)), np.nan)
+    nodes, weights = rule(24)  # exact to a double over half a motion
+
+    def gained(x: Array, live: Whole) -> tuple[Array, Array]:
+        """Lead of wheels over their slots, and difference in speed, x radians after they coast.
+
+        d = -int (x - t) (psi2 + drag) dt, which loses no digits even for a small play.
+        """
+        motion, begin = taken(motions, live), start[live]
+        end = begin + x[:, None] / DEGREE
+        inner = [begin, *[np.clip(b, begin, end) for b in motion.breaks_deg], end]
+        halves = [0.5 * (b - a) for a, b in zip(inner[:-1], inner[1:], strict=True)]
+        parts = zip(inner[:-1], inner[1:], halves, strict=True)
+        t = np.hstack([0.5 * (a + b) + half * nodes for a, b, half in parts])
+        weight = np.hstack([half * (DEGREE * weights) for half in halves])
+        torque = (motion(t, 2).arrays()[2] + drags[live]) * weight
+        torque = np.where(weight > 0.0, torque, 0.0)
+        return -(torque * ((end - t) * DEGREE)).sum(axis=1), -torque.sum(axis=1)
+
+    with np.errstate(all="ignore"):
+        every = np.arange(len(start))
+        span = ((motions.exit_deg - start) * DEGREE)[:, 0]
+        # a wheel runs ahead of the slot, or behind, until the next change
+        turn = np.where(np.isnan(until), span, (until - start[:, 0]) * DEGREE)
+        sense = np.copysign(1.0, gained(turn, every)[0])
+        ahead_at_exit, speed_at_exit = gained(span, every)
+        slows = np.flatnonzero(sense * speed_at_exit < 0.0)
+
+        def faster(x: Array, live: Whole) -> tuple[Array, Array]:
+            of = slows[live]
+            place = start[of] + x[:, None] / DEGREE
+            torque = (taken(motions, of)(place, 2).arrays()[2] + drags[of])[:, 0]
+            return sense[of] * gained(x, of)[1], -sense[of] * torque
+
+        most = span.copy()  # where it is farthest from the wall that it left
+        most[slows] = find_roots(faster, turn[slows], span[slows])
+        crosses = (play > 0.0) & (play <= sense * gained(most, every)[0])
+        returns = (play > 0.0) & ~crosses & (sense * ahead_at_exit < 0.0)
+        there, gap = np.flatnonzero(crosses | returns), np.where(crosses, play, 0.0)
+
+        def over(x: Array, live: Whole) -> tuple[Array, Array]:
+            of = there[live]
+            ahead, speed = gained(x, of)
+            return sense[of] * ahead - gap[of], sense[of] * speed
+
+        if len(there):
+            low, high = np.where(crosses, 0.0, most)[there], np.where(crosses, most, span)[there]
+            out[0, there] = find_roots(over, low, high)
+            out[1, there] = abs(gained(out[0, there], there)[1])
+    return out[0], out[1], crosses
+
+
+def drag_over(mechanism: Mechanism) -> float:
+    """M_r / (I w²) of the spec's load; infinite without an inertia, as then nothing coasts."""
+    inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
+    heavy = inertia > 0.0
+    drag = resisting_torque_Nm(mechanism.spec) / (choose(heavy, inertia, 1.0) * w * w)
+    out: float = choose(heavy, drag, math.inf)
+    return out
+
+
+def lasting_drag_Nm(mechanism: Mechanism) -> float:
+    """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r.
+
+    0 if it stays there already; (m, 1) for m designs.
+    """
+    inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
+    most = reduce(larger, map(braking, mechanism.engagements))
+    return larger(inertia * w * w * most - resisting_torque_Nm(mechanism.spec), 0.0)
+
+
+def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impacts:
+    """Hardest impacts of m designs at a change of sides with the greatest play.
+
+    Without the ``pin`` as it is drawn, forces are not known. The play is the clearance over the
+    lever where the wheel begins to coast: for the smallest roller in the widest slot, and of the
+    fits of the process where both have nominal sizes. Without an inertia no wheel coasts. With a
+    drag above ``lasting_drag_Nm`` the roller never changes sides.
+    """
+    spec, case = mechanism.spec, load_case(mechanism)
+    given = spec.size.allowances.slot_clearance_mm
+    both = spec.tolerance.roller_diameter_mm + spec.tolerance.slot_width_mm
+    play_mm = choose(given == 0.0, workshop(spec.size.process).slot_play_mm, given) + 0.5 * both
+    drag = drag_over(mechanism)
+    none = (drag == np.inf) | (play_mm == 0.0)
+    best = np.full((3, 1), np.nan)
+    if not all_true(none):
+        numbers = mechanism.center_distance_mm, drag, play_mm, case.radius
+        rows = [np.broadcast_to(x, (mechanism.designs, 1)) for x in numbers]
+        for engagement in mechanism.engagements:
+            own = _reversal(engagement, *rows)
+            best = harder(best, shown(mechanism, engagement, *own))
+    *impacts, edge = best
+    hit = with_force(mechanism, np.array(impacts), pin)
+    if case.hertz is None:
+        return hit
+    with np.errstate(divide="ignore"):  # a wall as sharp as the roller
+        square = hit.force_N * np.ravel(case.hertz) / np.maximum(edge, 0.0)
+    return hit._replace(contact_stress_MPa=np.sqrt(square))
+
+
+def _reversal(
+    engagement: Engagement, L: Array, drag: Array, play_mm: Array, radius: Array
+) -> Array:
+    """Input angles, jumps and edges of one engagement's hardest impacts, (3, m).
+
+    The edge is 1 - k r, for a wall of curvature k under the roller (see ``instant``).
+    """
+    out = np.full((3, len(drag)), np.nan)
+    of, x = at = changes(engagement, drag)
+    if not len(x):
+        return out
+    lever = abs(contact(taken(engagement, of), x[:, None]).lever.arrays()[0][:, 0])
+    least = 1e-6  # of the centre distance: where the slot lies across the path, play is unbounded
+    sine = play_mm[of, 0] / (np.maximum(lever, least) * L[of, 0])
+    play = np.where(lever > least, engagement.slot.play(np.minimum(sine, 1.0)), 0.0)
+    at_deg, speed = impacts_of(engagement, at, play, drag)
+    # hardest of each design; of equal ones the first
+    order = np.lexsort((np.nan_to_num(-speed, nan=np.inf), of))
+    which, first = np.unique(of[order], return_index=True)
+    places = out[0, which] = at_deg[order][first]
+    out[1, which] = speed[order][first]
+    wall = contact(taken(engagement, which), places[:, None])
+    # the torque that the wheel then needs is that of the wall which strikes it
+    bears = np.copysign(1.0, wall.acceleration.arrays()[0] + drag[which])
+    out[2, which] = (1.0 - wall.curvature.arrays()[0] * bears * radius[which])[:, 0]
+    return out
+
+
+class Arrival(NamedTuple):
+    """The resisting torque, and the greatest with which the wheel reaches its dwell.
+
+    ``lag`` is the greatest lag, its place, and the place where the wheel meets the wall again, all
+    in degrees. It is None if the wheel does not reach its dwell, or nothing resists.
+    """
+
+    torque_Nm: float
+    most_Nm: float
+    lag: tuple[float, float, float] | None
+
+
+def arrival(mechanism: Mechanism) -> Arrival | None:
+    """Whether the wheel follows a roller that stops it with one wall only.
+
+    None if the slots have both walls, or without a load. If gears drive between two rollers, the
+    slot of the second one has a wall behind its roller only (see ``parts.outlines.wheel_outline``).
+    The wheel's inertia must hold it on that wall, against the torque that resists. From the
+    handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²), while the slot needs less
+    deceleration, psi'' > -m. It lags by
+
+        d(x) = psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2
+
+    and meets the wall where d is 0 again. -psi'' of a straight slot has one peak, and is not 0 at
+    the exit e. So the wheel reaches its dwell, and stays on the wall until then, if
+
+        m <= -psi''(e)  and  m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
+
+    With a larger m it stops short. Angles are input angles in radians.
+
+    >>> design = Design(External(3), GearSector(sector_deg=60), load=Load(inertia_kgm2=0.01))
+    >>> round(arrival(design.mechanism).most_Nm, 6)  # tan b = 0.57735 of I w²
+    0.227929
+    """
+    (engagement, *_), spec = mechanism.engagements, mechanism.spec
+    if not engagement.paired or not spec.is_loaded:
+        return None
+    w, motion = omega(spec.drive.n_rpm), engagement.motion
+    unit, torque = inertia_kgm2(spec) * w * w, resisting_torque_Nm(spec)
+    begin, exit_deg = motion.breaks_deg[-2], engagement.exit_deg
+    start, u = motion(begin, 1).scalars()[:2]
+    end, _, last = motion(exit_deg, 2).scalars()[:3]
+    span = (exit_deg - begin) * DEGREE
+    most = unit * max(0.0, min(-last, 2.0 * (u * span - (end - start)) / (span * span)))
+    if not 0.0 < torque <= most:
+        return Arrival(torque, most, None)
+    drag = torque / unit
+
+    def lags(x: float) -> tuple[float, float]:
+        """Lag, and its rate."""
+        span = (x - begin) * DEGREE
+        turned, speed = motion(x, 1).scalars()[:2]
+        return turned - start - span * (u - 0.5 * drag * span), speed - u + drag * span
+
+    farthest = boundary(lambda x: lags(x)[1] > 0.0, begin, exit_deg)
+    struck = boundary(lambda x: lags(x)[0] > 0.0, farthest, exit_deg)
+    at_deg, struck_deg = (mechanism.shown_deg(engagement.mid_deg + x) for x in (farthest, struck))
+    return Arrival(torque, most, (lags(farthest)[0] / DEGREE, at_deg, struck_deg))

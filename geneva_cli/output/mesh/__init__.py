@@ -1,1 +1,0 @@
-"""Meshes: solids as closed surfaces of triangles, written as STL, 3MF and OBJ."""

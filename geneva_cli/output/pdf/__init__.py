@@ -1,1 +1,0 @@
-"""PDF files: their objects, pages of text, and drawings on them."""

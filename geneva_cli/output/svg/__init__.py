@@ -1,1 +1,0 @@
-"""Drawings and scenes as SVG."""
