@@ -77,16 +77,6 @@ class Candidate(NamedTuple):
         rates = self.acceleration_max_rad_s2, self.acceleration_max_m_s2, self.acceleration_max
         return next(rate for rate in rates if rate is not None)
 
-    @property
-    def is_driven(self) -> bool:
-        """Return True if a side-crank or gears drive the crank."""
-        return self.A is not None or self.eccentricity is not None
-
-    @property
-    def of_two_numbers(self) -> bool:
-        """Return True if both the drive and the wheel differ from the plain machine."""
-        return self.is_driven and bool(self.axes_deg not in (None, 90.0) or self.offset_mm)
-
 
 class MachineRow(NamedTuple):
     """A machine: its spec, description and costs, and further requested quantities.

@@ -71,8 +71,7 @@ def search(target: Target) -> Ranking:
     if not every:
         raise GenevaError(_out_of_reach(target, [e for *_, errors in found for e in errors]))
     ranking = Ranking([], narrowed, target)
-    kept = _worthwhile(ranking, bounded(target, every))
-    kept.sort(key=ranking.rank)
+    kept = sorted(bounded(target, every), key=ranking.rank)
     # without a search for the goal or a bound a family has several rows: the first of each kind,
     # and the first that may be built
     every_kind, can_be = in_batch(target.names), dict[object, bool]()
@@ -196,39 +195,6 @@ def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
         return tuple(of.of(build(spec)))
     except GenevaError:  # parts that cannot be drawn have no quantities
         return None
-
-
-def _worthwhile(ranking: Ranking, found: list[MachineRow]) -> list[MachineRow]:
-    """The rows without machines of two numbers that are hardly better than one of one number."""
-    target = ranking.requested
-    nearest = target.with_times().any_motion and not target.sort
-
-    def value(row: MachineRow) -> float:
-        if not target.sort:
-            return row.candidate.peak
-        own = row.extra[target.names.index(target.sort.name)]
-        return target.sort.sign * float(own) if is_number(own) else math.nan
-
-    one = [row for row in found if not row.candidate.of_two_numbers]
-    kept = []
-    for row in found:
-        own = row.candidate
-        rivals = [
-            other
-            for other in (one if own.of_two_numbers else ())
-            if (own.z, own.rollers, None)
-            == (other.candidate.z, other.candidate.rollers, other.candidate.law)
-            and (
-                own.drive == other.candidate.drive
-                or (own.gearing == other.candidate.gearing and not other.candidate.is_driven)
-            )
-        ]
-        # a hundredth is the least gain over a machine of one number
-        if not rivals or (
-            not nearest and all(value(row) < value(x) - 0.01 * abs(value(row)) for x in rivals)
-        ):
-            kept.append(row)
-    return kept
 
 
 def _out_of_reach(target: Target, errors: list[str]) -> str:
