@@ -106,17 +106,15 @@ def _inputs(target: "Target") -> Sequence[str]:
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import is_watched, show
     from geneva_cli.output.formats import is_for_people
-    from geneva_cli.study.synth.shown import for_people, for_terminal
+    from geneva_cli.study.synth.shown import for_people
     from geneva_cli.study.synth.synth_table import synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
-    people = is_for_people(output, format)
     table = synthesis_table(target, check, buildable)
-    if is_watched(output, format):
-        table = for_terminal(table, max(check, 20))  # no fewer than are turned by default
-    elif people:
-        table = for_people(table)
+    if is_for_people(output, format):
+        # a terminal shows no fewer than are turned by default
+        table = for_people(table, max(check, 20) if is_watched(output, format) else None)
     show(table, output, format, _inputs(target))
 
 

@@ -107,7 +107,6 @@ def refuse_twice(axes: Sequence[VariedKey], settings: Sequence[Setting]) -> None
 def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
     parts = text.split(",")
     if len(parts) == 1 and (ends := range_text(text, option)):
-        ends = _ends_in_unit_of(key, ends, option)
         if random and not ends.step and not (_whole(ends[:2]) and is_whole(key)):
             low, high = float(_decimal(ends.low, option)), float(_decimal(ends.high, option))
             if low >= high:
@@ -117,11 +116,7 @@ def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
     values: list[Value] = []
     for part in parts:
         ends = range_text(part, option)
-        more: Sequence[Value] = (
-            _range(_ends_in_unit_of(key, ends, option), option)
-            if ends
-            else (_one(key, part, option),)
-        )
+        more: Sequence[Value] = _range(ends, option) if ends else (_one(key, part, option),)
         _refuse_many(option, len(values) + len(more), 1_000_000)  # all of them are in memory
         values += more
     return VariedKey(key, tuple(values))
@@ -168,15 +163,6 @@ def _in_unit_of(key: str, text: str, option: str) -> str:
         return repr(in_unit_of(key, text))
     except GenevaError as error:
         raise GenevaError(f"{option}: {error}") from None
-
-
-def _ends_in_unit_of(key: str, ends: RangeText, option: str) -> RangeText:
-    """A range whose numbers have units as plain numbers."""
-    plain = RangeText(*(_in_unit_of(key, part, option) for part in ends))
-    changed = [new != old for new, old in zip(plain, ends, strict=True) if old]
-    if any(changed) and not all(changed):
-        raise GenevaError(f"{option}: give each number of a range its unit, as 4 in..8 in:0.5 in")
-    return plain
 
 
 def _one(key: str, text: str, option: str) -> Value:
