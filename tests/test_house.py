@@ -168,7 +168,7 @@ def beside_designs(text):
 ASKS = {
     "drives.refuses": ["spec.wheel.NAME not in able"],
     "specfile.template": ["name != Crank.NAME"],
-    "study.synth.reading": ["field.key == 'stop'"],
+    "study.synth.reading": ["f.key == 'stop'"],
 }
 # Keys and tables of a kind that stand in the core.
 NAMED = {

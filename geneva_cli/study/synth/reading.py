@@ -35,13 +35,6 @@ SPANS = {
 
 def read_target(
     *,
-    tau: str = "",
-    motion_deg: str = "",
-    dwell_deg: str = "",
-    motion_s: str = "",
-    dwell_s: str = "",
-    cycle: str = "",
-    index_mm: str = "",
     z: str = "",
     internal: bool = False,
     external: bool = False,
@@ -54,17 +47,17 @@ def read_target(
     sort: str = "",
     subject_to: Sequence[str] = (),
     space: str = "",
+    **wanted: str,
 ) -> Target:
     """Return the requirement that the options state as text; an empty text is an option not given.
 
-    Numbers may be fractions (``1/3``), and those of ``SPANS`` ranges (``0.8..``). Raises
+    ``wanted`` are those of ``SPANS``: numbers, fractions (``1/3``) or ranges (``0.8..``). Raises
     GenevaError, naming the option, for contradictions and for values out of range.
     """
-    texts = (tau, motion_deg, dwell_deg, motion_s, dwell_s, cycle, index_mm)
     spans = {
-        name: span(f"--{name.replace('_', '-')}", text, rule)
-        for (name, (rule, *_)), text in zip(SPANS.items(), texts, strict=True)
-        if text
+        name: span(f"--{name.replace('_', '-')}", wanted[name], rule)
+        for name, (rule, *_) in SPANS.items()
+        if wanted.get(name)
     }
     if not (spans or subject_to or frame):
         raise GenevaError(
@@ -80,7 +73,7 @@ def read_target(
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     requested = tuple(g for g, is_chosen in chosen.items() if is_chosen)
     wheels = _wheels(carousel, frame)
-    racks = linear or bool(index_mm) or (frame is not None and not frame.output.turns)
+    racks = linear or "index_mm" in spans or (frame is not None and not frame.output.turns)
     gearings = _gearings(requested, racks, wheels, frame)
     words = ", ".join(phrases) or "the spec alone"
     target = Target(
@@ -143,48 +136,41 @@ def _gearings(
     chosen: tuple[str, ...], racks: bool, wheels: tuple[int, ...], frame: Spec | None
 ) -> tuple[str, ...]:
     """The gearings to try: racks alone, or wheels."""
+    if racks and (chosen or wheels):
+        other = f"--{chosen[0]}" if chosen else "--carousel"
+        raise GenevaError(f"{other}: racks are searched alone: leave it out, or the rack")
+    if racks and frame is not None and frame.output.turns:
+        raise GenevaError(
+            "--from: the spec has a wheel: leave out --linear and --index-mm, or take the spec of "
+            "a rack"
+        )
     if racks:
-        if chosen or wheels:
-            other = f"--{chosen[0]}" if chosen else "--carousel"
-            raise GenevaError(f"{other}: racks are searched alone: leave it out, or the rack")
-        if frame is not None and frame.output.turns:
-            raise GenevaError(
-                "--from: the spec has a wheel: leave out --linear and --index-mm, or take the spec "
-                "of a rack"
-            )
         return ("linear",)
+    able: tuple[str, ...] = GEARINGS
     if wheels:
         able = tuple(g for kind in KINDS if "carrier" in kind.families for g in kind.gearings)
         if not able:
             raise GenevaError("--carousel: no drive with wheels on a carrier is installed")
-        wrong = next((name for name in chosen if name not in able), None)
-        if wrong:
-            raise GenevaError(f"--{wrong}: a carrier has {' or '.join(able)} wheels")
-        return chosen or able
-    if frame is None or not frame.wheel.stopped:
-        return chosen or GEARINGS
-    several = chosen or GEARINGS
-    keys = {name: fields(registry.gearing(name)) for name in several}
-    stopped = tuple(g for g in several if any(field.key == "stop" for field in keys[g]))
-    if not stopped:
-        raise GenevaError(f"--{chosen[0]}: the spec has a stop, which this wheel cannot have")
-    return stopped
+    elif frame is not None and frame.wheel.stopped:
+        able = tuple(
+            g for g in GEARINGS if any(f.key == "stop" for f in fields(registry.gearing(g)))
+        )
+    wrong = next((name for name in chosen if name not in able), None)
+    if wrong:
+        what = "a carrier has" if wheels else "a stop needs"
+        raise GenevaError(f"--{wrong}: {what} {' or '.join(able)} wheels")
+    return chosen or able
 
 
 def _rollers(rollers: int | None, racks: bool, frame: Spec | None) -> int | None:
     """The number of rollers: None for any, 1 for a frame that has a stop."""
-    if racks and rollers not in (None, 1):
-        raise GenevaError(
-            f"--rollers {cut(rollers)}: a rack moves for half a turn, so that a second roller "
-            "would leave no dwell: leave it out"
-        )
+    has_stop = frame is not None and frame.wheel.stopped
     if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")
-    if frame is None or not frame.wheel.stopped:
-        return rollers
-    if rollers not in (None, 1):
-        raise GenevaError(f"--rollers {rollers}: the spec has a stop, which needs one roller")
-    return 1
+    if rollers not in (None, 1) and (racks or has_stop):
+        why = "a rack moves for half a turn, and" if racks else "the spec has a stop, which"
+        raise GenevaError(f"--rollers {cut(rollers)}: {why} needs one roller")
+    return 1 if has_stop else rollers
 
 
 def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:
@@ -198,14 +184,10 @@ def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:
 
 
 def _laws(name: str) -> tuple[str, ...]:
-    if name == "all":
-        return tuple(LAWS)
-    if name not in LAWS:
-        hint = nearest(name, (*LAWS, "all"))
-        raise GenevaError(
-            f'--law "{cut(name)}": unknown{hint}; it must be all or {few(name, LAWS)}'
-        )
-    return (name,)
+    if name == "all" or name in LAWS:
+        return tuple(LAWS) if name == "all" else (name,)
+    hint = nearest(name, (*LAWS, "all"))
+    raise GenevaError(f'--law "{cut(name)}": unknown{hint}; it must be all or {few(name, LAWS)}')
 
 
 def span(option: str, text: str, rule: Range) -> AllowedSpan:

@@ -103,7 +103,7 @@ def gears_motion(natural_deg: float, e: float) -> float:
 
 
 class _InFront(NamedTuple):
-    """A drive before the crank: its key, and its parameter for two motion angles."""
+    """A drive before the crank: its key, and its parameter and its motion by each other."""
 
     drive: Drive
     key: str
@@ -111,22 +111,10 @@ class _InFront(NamedTuple):
     motion: Callable[[float, float], float]
     low: float = -MOST
     high: float = MOST
-    distance: str = ""  # the key of its own centre distance: as far apart as wheel and crank
-
-    def spec(self, target: Target, wheel: Gearing) -> Spec:
-        def drive(n_rpm: float) -> Drive:
-            return self.drive.replace(n_rpm=n_rpm)
-
-        spec = machine(target, wheel, drive, 1, natural_deg(wheel))
-        apart = spec.given_distance_mm
-        return spec.with_(f"drive.{self.distance}", apart) if self.distance else spec
-
-    def size(self, parameter: Array) -> Array:
-        """The value of the key: the size of an eccentricity, whose sign is the phase."""
-        return parameter if self.low * self.high else abs(parameter)
 
 
 SIDE_CRANK = _InFront(SideCrank(A=0.0), "drive.A", side_crank, side_crank_motion)
+# of gears the sign of the eccentricity is the phase
 GEARS = tuple(
     _InFront(
         EllipticalGears(eccentricity=0.1, phase=phase),
@@ -134,7 +122,6 @@ GEARS = tuple(
         eccentricity,
         gears_motion,
         *span,
-        "gear_distance_mm",
     )
     for phase, span in (("slow", (0.0, MOST)), ("quick", (-MOST, 0.0)))
 )
@@ -210,11 +197,13 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
         c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
         least = -l / (1.0 + c if c > 0.0 else teeth) * (1.0 - 1e-6)
         span = AllowedSpan(least, l / (c * c - 1.0) * (1.0 - 1e-9))
-        yield line(planet(fixed, span.high), _planet, span, known=(0.0,))
+        yield line(
+            planet(fixed, span.high), partial(_key, "drive.planet_ratio"), span, known=(0.0,)
+        )
 
 
-def _planet(at: Array) -> dict[str, Array]:
-    return {"drive.planet_ratio": at[:, 0]}
+def _key(name: str, at: Array) -> dict[str, Array]:
+    return {name: at[:, 0]}
 
 
 def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -229,13 +218,21 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
         span = AllowedSpan(*(one.parameter(natural, x) for x in motion))
         span = span.within(AllowedSpan(one.low, one.high))
         if not span.empty:
+
+            def drive(n_rpm: float, kind: Drive = one.drive) -> Drive:
+                return kind.replace(n_rpm=n_rpm)
+
+            spec = machine(target, wheel, drive, 1, natural)
+            if one in GEARS:  # as far apart as wheel and crank
+                spec = spec.with_("drive.gear_distance_mm", spec.given_distance_mm)
             keys = partial(_in_front, target, natural, one)
-            yield line(one.spec(target, wheel), keys, span, known=known, plain=(0.0,))
+            yield line(spec, keys, span, known=known, plain=(0.0,))
 
 
 def _in_front(target: Target, natural: float, one: _InFront, at: Array) -> dict[str, Array]:
     motions = [one.motion(natural, x) for x in at[:, 0].tolist()]
-    return {one.key: one.size(at[:, 0]), **speeds(target, 1, motions)}
+    size = at[:, 0] if one.low * one.high else abs(at[:, 0])
+    return {one.key: size, **speeds(target, 1, motions)}
 
 
 def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
