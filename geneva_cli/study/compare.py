@@ -39,8 +39,6 @@ def compare(
     that need no parts are shown, and the keys of wheel, drives and motion in which the specs
     differ. ``ratio`` divides numbers by those of the first design. Numbers differ if they do so by
     more than rounding.
-
-    Raises GenevaError for a design that cannot be read or built.
     """
     # the table's own columns
     designs = designs_of(paths, settings, vary, reverse, ("quantity", "differs"))
@@ -104,8 +102,7 @@ def designs_of(
 
     ``settings``, texts ``KEY=VALUE``, replace keys of each spec. With ``vary``, texts
     ``KEY=VALUES``, there is one spec, and a design for each combination of values. With ``reverse``
-    each also turns the other way. Raises GenevaError for a spec that cannot be read, or that stands
-    twice in ``paths``.
+    each also turns the other way.
     """
     texts: dict[str, Text] = {}
     if vary and len(paths) > 1:

@@ -83,13 +83,7 @@ def short_document(design: Design) -> Document:
 
 
 def document(design: Design) -> Document:
-    """The whole document of a design. Raises GenevaError for a spec that makes no machine.
-
-    >>> from geneva_cli.study.document import document
-    >>> page = document(Design(External(6)))
-    >>> page.title, page.state, page.verdict
-    ('Geneva wheel of 6 slots', 'passes', 'All 16 checks pass')
-    """
+    """The whole document of a design."""
     table = design.report.table
     # the title, the verdict, the key figures and the spec show these
     shown = {"spec", "title", "passes", "chosen", "warnings", "checks_failed", "not_proved"}
@@ -265,11 +259,7 @@ def _fact(name: str, value: Any = None) -> Fact:
 
 
 def capital(text: str) -> str:
-    """A text that begins with a capital, unless it begins with a symbol.
-
-    >>> capital("slot width"), capital("k, time of motion")
-    ('Slot width', 'k, time of motion')
-    """
+    """A text that begins with a capital, unless it begins with a symbol."""
     is_symbol = len(text.partition(",")[0].partition("_")[0]) < 2
     return text if is_symbol else text[:1].upper() + text[1:]
 

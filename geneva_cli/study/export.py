@@ -70,10 +70,6 @@ def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[M
 
     A spherical machine has no bed of parts, and its outlines are those of wheel, crank and arm laid
     flat. Neither it nor a rack has a sheet.
-
-    >>> files, _ = export_files(Design(External(6)), trade_of("laser"))
-    >>> [file.name for file in files][:3]
-    ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
     """
     design.refuse_drawn("the files for a shop are those")
     files: list[ExportFile] = []

@@ -27,12 +27,6 @@ def of_specs(
 
     With ``vary``, texts ``KEY=VALUES``, there is one spec, drawn for each combination of values.
     With ``reverse`` each design also turns the other way.
-
-    Raises GenevaError for a spec that cannot be read or built, and as ``figure`` does.
-
-    >>> cycles, *_ = of_specs(["designs/internal-z6.toml", "designs/turret.toml"], (), ["jerk"])
-    >>> [curve.name for curve in cycles.panels[0].curves]
-    ['internal-z6', 'turret']
     """
     designs = designs_of(paths, tuple(settings), vary, reverse)
     names = []
@@ -51,8 +45,6 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
     """Columns of a CSV file over another column, one panel for each.
 
     Numbers that ascend make a curve, divided where a row has none; others are points.
-
-    Raises GenevaError for a file that cannot be read, and for a column without numbers.
     """
     table = read_columns(path)
     if not x or not ys:

@@ -285,11 +285,7 @@ class AllowedSpan(NamedTuple):
         return AllowedSpan(self.low * factor, self.high * factor)
 
     def within(self, other: AllowedSpan) -> AllowedSpan:
-        """The common part of two ranges; numbers that differ only by rounding are equal.
-
-        >>> AllowedSpan(1.0, 3.0).within(AllowedSpan(2.0, 4.0))
-        AllowedSpan(low=2.0, high=3.0)
-        """
+        """The common part of two ranges; numbers that differ only by rounding are equal."""
         low, high = max(self.low, other.low), min(self.high, other.high)
         if low > high and math.isclose(low, high, rel_tol=ROUNDED):
             return self if self.exact else other if other.exact else AllowedSpan(low, low)

@@ -39,15 +39,7 @@ from geneva_cli.verdict.report import words
 
 
 def scene(design: Design) -> Scene:
-    """The machine over a whole turn of its crank, with curves, forces and the wheel's states.
-
-    Raises GenevaError for a spec that makes no machine.
-
-    >>> from geneva_cli.study.animation.turning_scene import scene
-    >>> shown = scene(Design(External(6)))
-    >>> [body.name for body in shown.bodies], shown.turn_deg, len(shown.states)
-    (['wheel', 'crank'], 360.0, 2)
-    """
+    """The machine over a whole turn of its crank, with curves, forces and the wheel's states."""
     mechanism = design.mechanism
     turn = MachineTurn(mechanism)
     parts = tuple(body for body in _bodies(design, turn) if body.shapes)

@@ -207,19 +207,11 @@ def summary_of(design: Design, lines: Iterable[SummaryLine], warnings: Sequence[
 
 
 def title_of(design: Design) -> str:
-    """The title of a design, or else its description.
-
-    >>> title_of(Design(External(6)))
-    'Geneva wheel of 6 slots'
-    """
+    """The title of a design, or else its description."""
     return design.spec.title or design.spec.wheel.title
 
 
 def counted(warnings: Sequence[str]) -> str:
-    """The number of warnings behind a headline; empty without any.
-
-    >>> counted(["a", "b"]), counted([])
-    (': 2 warnings', '')
-    """
+    """The number of warnings behind a headline; empty without any."""
     many = len(open_warnings(warnings))
     return f": {many} warning{'s' * (many != 1)}" if many else ""

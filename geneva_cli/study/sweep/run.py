@@ -247,10 +247,7 @@ class Sweep(NamedTuple):
 
 
 def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
-    """Return the sweep of a spec.
-
-    Raises GenevaError for an unknown quantity, and if no design of a sample can be built.
-    """
+    """Return the sweep of a spec."""
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
     names = tuple(name for name in pick(picks).names if name not in varied)
     run, size, most = Sweep(text, plan, Pick(names)), len(plan), 1000  # designs of the sample

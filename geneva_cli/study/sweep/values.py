@@ -61,11 +61,7 @@ class VariedKey(NamedTuple):
 def axis(text: str, random: bool = False) -> VariedKey:
     """Return the varied key and its values from a text ``KEY=VALUES``.
 
-    With ``random`` values are drawn, and LOW..HIGH of a key that takes fractions is a span. Raises
-    GenevaError, naming the option, for another text.
-
-    >>> list(axis("drive.A=0..0.9:0.3").values)
-    [0.0, 0.3, 0.6, 0.9]
+    With ``random`` values are drawn, and LOW..HIGH of a key that takes fractions is a span.
     """
     key, sign, values = text.partition("=")
     option = f"--vary {cut(text.strip())}"
@@ -76,13 +72,7 @@ def axis(text: str, random: bool = False) -> VariedKey:
 
 
 def numbers(text: str, option: str) -> list[float]:
-    """The numbers of a list with ranges, in their order, for an option that is no key.
-
-    Raises GenevaError, naming the option, for another text.
-
-    >>> numbers("30,45,-10..10:10", "--at")
-    [30.0, 45.0, -10.0, 0.0, 10.0]
-    """
+    """The numbers of a list with ranges, in their order, for an option that is no key."""
     option = f"{option} {cut(text.strip())}"
     values = _axis("", text.strip(), option, random=False).values
     _refuse_many(option, len(values), 1_000_000)
@@ -149,11 +139,7 @@ def _range(ends: RangeText, option: str) -> Sequence[float]:
 
 
 def _in_unit_of(key: str, text: str, option: str) -> str:
-    """A text with a unit as the number in the key's unit, and any other text unchanged.
-
-    >>> _in_unit_of("size.pin_mm", "1/2 in", ""), _in_unit_of("size.pin_mm", "12", "")
-    ('12.7', '12')
-    """
+    """A text with a unit as the number in the key's unit, and any other text unchanged."""
     if not text.strip()[-1:].isalnum() or not unit_key(key):
         return text
     with suppress(ValueError):

@@ -51,8 +51,7 @@ def read_target(
 ) -> Target:
     """Return the requirement that the options state as text; an empty text is an option not given.
 
-    ``wanted`` are those of ``SPANS``: numbers, fractions (``1/3``) or ranges (``0.8..``). Raises
-    GenevaError, naming the option, for contradictions and for values out of range.
+    ``wanted`` are those of ``SPANS``: numbers, fractions (``1/3``) or ranges (``0.8..``).
     """
     spans = {
         name: span(f"--{name.replace('_', '-')}", wanted[name], rule)
@@ -100,10 +99,7 @@ def read_target(
 
 
 def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
-    """Return the spec with whose sizes, loads and limits other machines are sought.
-
-    Raises GenevaError where a search has nothing to choose, or does not know the drive.
-    """
+    """Return the spec with whose sizes, loads and limits other machines are sought."""
     from geneva_cli.specfile.reader import read  # TOML, which a search without a spec does not need
 
     text = read(path, settings)
@@ -191,11 +187,7 @@ def _laws(name: str) -> tuple[str, ...]:
 
 
 def span(option: str, text: str, rule: Range) -> AllowedSpan:
-    """Return the range in an option's text. Raises GenevaError, naming the option, for others.
-
-    >>> span("--dwell-s", "0.8..", Range(0.0))
-    AllowedSpan(low=0.8, high=inf)
-    """
+    """Return the range in an option's text."""
     ends = range_text(text, f"{option} {cut(text)}")
     if not ends:
         x = number(option, text, rule)
@@ -213,10 +205,7 @@ def span(option: str, text: str, rule: Range) -> AllowedSpan:
 
 
 def number(option: str, text: str, rule: Range) -> float:
-    """Return a number or a fraction of two.
-
-    Raises GenevaError, naming the option, for another text.
-    """
+    """Return a number or a fraction of two."""
     above, slash, below = text.partition("/")
     try:
         x = float(above) / float(below) if slash else float(text)

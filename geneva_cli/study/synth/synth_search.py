@@ -57,10 +57,7 @@ class Ranking(NamedTuple):
 
 
 def search(target: Target) -> Ranking:
-    """The machines that meet the requirement, in order; no part has been turned yet.
-
-    Raises GenevaError, saying what is within reach, if there is none.
-    """
+    """The machines that meet the requirement, in order; no part has been turned yet."""
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
     found = _all_groups(narrowed, target.names, False)
@@ -153,10 +150,7 @@ def with_batch_values(names: Sequence[str], found: Sequence[MachineRow]) -> list
 
 
 def bounded(target: Target, found: Sequence[MachineRow]) -> list[MachineRow]:
-    """The rows, with the requested quantities, that keep the bounds.
-
-    Raises GenevaError, saying how near they come, if there is none.
-    """
+    """The rows, with the requested quantities, that keep the bounds."""
     names = target.names
     if not names:
         return list(found)
