@@ -11,8 +11,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import Array
-from geneva_cli.study.batches import batch_machines, columns
+from geneva_cli.study.batches import batch_machines, columns, numbers
 from geneva_cli.study.synth.families.family import Family, allows
 from geneva_cli.study.synth.suiting import with_one_roller, with_rollers
 from geneva_cli.study.target import Target
@@ -107,13 +106,18 @@ def rows(
     limits = target.soft_bounds
     alone = [with_one_roller(spec) for spec in specs]
     each = [*dict.fromkeys(alone)]
-    costs = dict(zip(each, quantities(each, COSTS), strict=True))
+    costs: dict[Spec, list[float]] = {}  # and R/L
+    for members, machine in batch_machines(each):
+        values = columns(machine, COSTS, len(members)) or []
+        ratio = np.broadcast_to(np.ravel(machine.ratio), (len(members),))
+        own = np.column_stack((*values, ratio)).tolist() if values else ()
+        costs.update(zip((each[i] for i in members.tolist()), own, strict=False))
     names = [*(f"timing.{name}" for name in TIMES), *(b.name for b in limits.values())]
-    known = quantities(specs, names)
+    known = numbers(batch_machines(specs), names, len(specs)).T.tolist()
     out: list[MachineRow] = []
     for i, (spec, family) in enumerate(machines):
-        one, own = costs[alone[i]], known[i].tolist()
-        if not np.isfinite([one[1], own[0]]).all():
+        one, own = costs.get(alone[i]), known[i]
+        if one is None or not np.isfinite([one[1], own[0]]).all():
             try:
                 build(spec)
             except GenevaError as error:
@@ -122,23 +126,13 @@ def rows(
         motion = target.motion_for(spec.drive.rollers / spec.drive.turns)
         if motion is not None and not allows(motion, own[0]):
             continue
-        values = zip(limits.items(), own[len(TIMES) : -1], strict=True)
-        over = [key for (key, bound), x in values if not (np.isnan(x) or bound.kept(x))]
+        held = zip(limits.items(), own[len(TIMES) :], strict=True)
+        over = [key for (key, bound), x in held if not (np.isnan(x) or bound.kept(x))]
         with_roller, entry = sized[i]
         if over and entry and not entry.startswith("no"):
             entry = f"no: {', '.join(over)}"
-        candidate = _candidate(target, spec, one.tolist(), own, entry)
+        candidate = _candidate(target, spec, one, own, entry)
         out.append(MachineRow(with_roller, candidate, (), family))
-    return out
-
-
-def quantities(specs: Sequence[Spec], names: Sequence[str]) -> Array:
-    """The quantities and, last, R/L of each spec (n, q + 1); NaN for one that cannot be built."""
-    out = np.full((len(specs), len(names) + 1), np.nan)
-    for members, machine in batch_machines(specs):
-        if values := columns(machine, names, len(members)):
-            out[members, :-1] = np.column_stack(values)
-            out[members, -1] = np.ravel(machine.ratio)
     return out
 
 

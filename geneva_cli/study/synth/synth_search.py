@@ -8,6 +8,8 @@ from functools import partial
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
+import numpy as np
+
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -15,7 +17,7 @@ from geneva_cli.motion.records import families_of_kinds
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.progress import tracked
-from geneva_cli.study.batches import numbers
+from geneva_cli.study.batches import batch_machines, numbers
 from geneva_cli.study.fields import Pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.rows import Cell, rows_of
@@ -122,12 +124,12 @@ def _group(
     machines, near = best(families, target, how_near)
     # the bounds that do not depend on the roller; what no batch computes may keep them
     bounds = [b for b in target.bounds if in_batch([b.name]) and not b.name.startswith("loads.")]
-    values = numbers([spec for spec, _ in machines], [b.name for b in bounds]) if bounds else []
-    broken = {
-        i
-        for i, own in enumerate(values)
-        if own and not all(b.kept(x) for b, x in zip(bounds, own, strict=True))
-    }
+    specs = [spec for spec, _ in machines]
+    values = numbers(batch_machines(specs), [b.name for b in bounds], len(specs))
+    is_broken = np.full(len(specs), False)
+    for bound, own in zip(bounds, values, strict=True):
+        is_broken |= ~(bound.kept_by(own) | np.isnan(own))
+    broken = {*np.flatnonzero(is_broken).tolist()}
     shown = [one for i, one in enumerate(machines) if i not in broken]
     keeps = bool(shown)
     if how_near:
@@ -142,10 +144,10 @@ def with_batch_values(names: Sequence[str], found: Sequence[MachineRow]) -> list
     if not (names and in_batch(names)):
         return list(found)
     out = []
-    for row, own in zip(found, numbers([row.spec for row in found], names), strict=True):
-        is_known = own and not any(map(math.isnan, own))
-        cells = [None if math.isinf(x) else x for x in own or ()]
-        out.append(row._replace(extra=tuple(cells)) if is_known else row)
+    values = numbers(batch_machines([row.spec for row in found]), names, len(found))
+    for row, own in zip(found, values.T.tolist(), strict=True):
+        cells = tuple(None if math.isinf(x) else x for x in own)
+        out.append(row if any(map(math.isnan, own)) else row._replace(extra=cells))
     return out
 
 
