@@ -31,9 +31,14 @@ from geneva_cli.output.document.blocks import (
 )
 from geneva_cli.output.finite import only
 from geneva_cli.specfile.writer import keys_in, values_of
-from geneva_cli.study.summary.greatest_loads import PARTS, greatest_loads, parts_of
 from geneva_cli.study.summary.load_lines import title_of
-from geneva_cli.study.summary.report_summary import key_figures, machine_lines
+from geneva_cli.study.summary.report_summary import (
+    PARTS,
+    greatest_loads,
+    key_figures,
+    machine_lines,
+    parts_of,
+)
 from geneva_cli.table import Table, in_digits
 from geneva_cli.verdict.headline import headline
 from geneva_cli.verdict.strength import OF_LIFE
