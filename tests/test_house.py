@@ -173,7 +173,7 @@ ASKS = {
 # Keys and tables of a kind that stand in the core.
 NAMED = {
     "specfile.template": {"stop"},  # to be an example of the kind
-    "study.synth.reading": {"linear", "stop"},  # --linear; the key of a wheel
+    "study.synth.reading": {"stop"},  # the key of a wheel
     "study.target": {"stop"},  # the key of a wheel
     "verdict.headline": {"stop"},  # a label
 }

@@ -17,12 +17,12 @@ from geneva_cli.study.synth.suiting import with_one_roller, with_rollers
 from geneva_cli.study.target import Target
 
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
-TIMES = ("motion_deg", "dwell_deg", "tau", "k", "motion_s", "dwell_s", "index_mm")
+TIMES = ("motion_deg", "dwell_deg", "tau", "k", "motion_s", "dwell_s")
 # Keys of wheel and drive that only some machines have, and that describe a row.
 OWN_KEYS = (
     *("A", "eccentricity", "phase", "axes_deg", "offset_mm", "planet_ratio", "fixed"),
     *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
-    *("sector_deg", "first_z", "wheels"),
+    *("sector_deg", "first_z"),
 )
 
 
@@ -66,15 +66,12 @@ class Candidate(NamedTuple):
     entry_deg: float | None
     sector_deg: float | None
     first_z: int | None
-    index_mm: float | None  # of a rack
-    acceleration_max_m_s2: float | None
-    wheels: int | None  # on a carrier
 
     @property
     def peak(self) -> float:
-        """The greatest acceleration, in rad/s² or m/s² if the speed is required."""
-        rates = self.acceleration_max_rad_s2, self.acceleration_max_m_s2, self.acceleration_max
-        return next(rate for rate in rates if rate is not None)
+        """The greatest acceleration, in rad/s² if the speed is required."""
+        per_s2 = self.acceleration_max_rad_s2
+        return self.acceleration_max if per_s2 is None else per_s2
 
 
 class MachineRow(NamedTuple):
@@ -145,11 +142,10 @@ def _candidate(
     known = zip(TIMES, times, strict=False)
     own |= {name: x if np.isfinite(x) or name == "k" else None for name, x in known}
     own |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=False)}
-    own |= dict.fromkeys(("n_rpm", "acceleration_max_rad_s2", "acceleration_max_m_s2"))
+    own |= dict.fromkeys(("n_rpm", "acceleration_max_rad_s2"))
     if target.timed:
-        output, n = target.output, spec.drive.n_rpm
-        rate = costs[1] * omega(n) ** 2 * spec.output.rate_per_radian
-        own |= {"n_rpm": n, f"acceleration_max_{output.rate_unit}_s2": rate}
+        n = spec.drive.n_rpm
+        own |= {"n_rpm": n, "acceleration_max_rad_s2": costs[1] * omega(n) ** 2}
     else:
         own |= {"motion_s": None, "dwell_s": None}
     motion = spec.motion

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.records import KINDS
 from geneva_cli.motion.registry import STANDARD_LAWS as LAWS
 from geneva_cli.spec.rules import POSITIVE, Range, range_text
 from geneva_cli.spec.schema import fields
@@ -29,7 +28,6 @@ SPANS = {
     "motion_s": (POSITIVE, "a motion of", " s"),
     "dwell_s": (POSITIVE, "a dwell of", " s"),
     "cycle": (Range(1e-6, 1e6), "a cycle of", " s"),
-    "index_mm": (POSITIVE, "a step of", " mm"),
 }
 
 
@@ -39,8 +37,6 @@ def read_target(
     internal: bool = False,
     external: bool = False,
     spherical: bool = False,
-    linear: bool = False,
-    carousel: str = "",
     rollers: int | None = None,
     law: str = "modified-sine",
     frame: Spec | None = None,
@@ -61,7 +57,7 @@ def read_target(
     if not (spans or subject_to or frame):
         raise GenevaError(
             "no requirement; give one or more of --tau, --motion-deg, --dwell-deg, --motion-s, "
-            "--dwell-s, --cycle, --index-mm and --subject-to"
+            "--dwell-s, --cycle and --subject-to"
         )
     phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
@@ -71,22 +67,18 @@ def read_target(
     phrases += [str(bound) for bound in bounds]
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     requested = tuple(g for g, is_chosen in chosen.items() if is_chosen)
-    wheels = _wheels(carousel, frame)
-    racks = linear or "index_mm" in spans or (frame is not None and not frame.output.turns)
-    gearings = _gearings(requested, racks, wheels, frame)
     words = ", ".join(phrases) or "the spec alone"
     target = Target(
         words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
-        _slots(z or ("6" if racks and frame is None else ""), frame),
-        gearings,
-        _rollers(rollers, racks, frame),
+        _slots(z, frame),
+        _gearings(requested, frame),
+        _rollers(rollers, frame),
         _laws(law),
         spans,
         frame,
         objective(sort, "--sort") if sort else None,
         bounds,
         number("--space", space, Range(0.1, 100.0)) if space else SPACE,
-        wheels=wheels,
     )
     loads = [name for name in target.names if name.startswith("loads.")]
     if loads and not (target.frame and target.frame.is_loaded):
@@ -111,62 +103,34 @@ def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
                 "[drive.before] would change: remove it; `geneva sweep --best` varies both drives",
                 ("drive", "before"),
             )
+        if not spec.output.turns or spec.drive.wheels_on_carrier:
+            raise GenevaError(
+                "--from: synth finds wheels on axes that stand; `geneva sweep --best` varies racks "
+                "and carousels too",
+                ("wheel", "gearing"),
+            )
     return spec
 
 
-def _wheels(carousel: str, frame: Spec | None) -> tuple[int, ...]:
-    own = frame.drive.wheels_on_carrier if frame else 0
-    if not carousel:
-        return (own,) if own else ()
-    if frame and not own:
-        raise GenevaError(
-            f'--carousel: the spec has kind = "{frame.drive.NAME}": set kind = "carousel" in it'
-        )
-    low, high = span("--carousel", carousel, Range(1, 24))
-    if not (low.is_integer() and high.is_integer()):
-        raise GenevaError(f"--carousel {cut(carousel)}: write a number of wheels, or LOW..HIGH")
-    return tuple(range(int(low), int(high) + 1))
-
-
-def _gearings(
-    chosen: tuple[str, ...], racks: bool, wheels: tuple[int, ...], frame: Spec | None
-) -> tuple[str, ...]:
-    """The gearings to try: racks alone, or wheels."""
-    if racks and (chosen or wheels):
-        other = f"--{chosen[0]}" if chosen else "--carousel"
-        raise GenevaError(f"{other}: racks are searched alone: leave it out, or the rack")
-    if racks and frame is not None and frame.output.turns:
-        raise GenevaError(
-            "--from: the spec has a wheel: leave out --linear and --index-mm, or take the spec of "
-            "a rack"
-        )
-    if racks:
-        return ("linear",)
-    able: tuple[str, ...] = GEARINGS
-    if wheels:
-        able = tuple(g for kind in KINDS if "carrier" in kind.families for g in kind.gearings)
-        if not able:
-            raise GenevaError("--carousel: no drive with wheels on a carrier is installed")
-    elif frame is not None and frame.wheel.stopped:
-        able = tuple(
-            g for g in GEARINGS if any(f.key == "stop" for f in fields(registry.gearing(g)))
-        )
+def _gearings(chosen: tuple[str, ...], frame: Spec | None) -> tuple[str, ...]:
+    if frame is None or not frame.wheel.stopped:
+        return chosen or GEARINGS
+    able = tuple(g for g in GEARINGS if any(f.key == "stop" for f in fields(registry.gearing(g))))
     wrong = next((name for name in chosen if name not in able), None)
     if wrong:
-        what = "a carrier has" if wheels else "a stop needs"
-        raise GenevaError(f"--{wrong}: {what} {' or '.join(able)} wheels")
+        raise GenevaError(f"--{wrong}: the spec has a stop, which this wheel cannot have")
     return chosen or able
 
 
-def _rollers(rollers: int | None, racks: bool, frame: Spec | None) -> int | None:
+def _rollers(rollers: int | None, frame: Spec | None) -> int | None:
     """The number of rollers: None for any, 1 for a frame that has a stop."""
-    has_stop = frame is not None and frame.wheel.stopped
     if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")
-    if rollers not in (None, 1) and (racks or has_stop):
-        why = "a rack moves for half a turn, and" if racks else "the spec has a stop, which"
-        raise GenevaError(f"--rollers {cut(rollers)}: {why} needs one roller")
-    return 1 if has_stop else rollers
+    if frame is None or not frame.wheel.stopped:
+        return rollers
+    if rollers not in (None, 1):
+        raise GenevaError(f"--rollers {rollers}: the spec has a stop, which needs one roller")
+    return 1
 
 
 def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:

@@ -11,7 +11,7 @@ from geneva_cli.table import Reading, Table
 COLUMNS = {
     **{name: name for name in ("no", "z")},
     "gearing": "wheel",
-    **{name: name for name in ("rollers", "machine", "ratio", "index_mm", "motion_deg")},
+    **{name: name for name in ("rollers", "machine", "ratio", "motion_deg")},
     **{name: name for name in ("dwell_deg", "motion_s", "dwell_s", "tau", "k")},
     "n_rpm": "rpm",
     "velocity_max": "velocity_max",
@@ -19,7 +19,6 @@ COLUMNS = {
     "acceleration_entry": "accel_entry",
     **{name: name for name in ("jerk_max", "power_max")},
     "acceleration_max_rad_s2": "accel_rad/s2",
-    "acceleration_max_m_s2": "accel_m/s2",
     "extra": "",
     "parts": "parts",
 }
@@ -27,7 +26,7 @@ COLUMNS = {
 # number: a narrow window keeps both.
 RANKED = (
     *("no", "machine", "parts", "acceleration_max", "z", "gearing", "n_rpm", "extra", "rollers"),
-    *("motion_deg", "dwell_s", "acceleration_max_rad_s2", "acceleration_max_m_s2", "index_mm"),
+    *("motion_deg", "dwell_s", "acceleration_max_rad_s2"),
     *("acceleration_entry", "velocity_max", "jerk_max", "tau", "power_max", "motion_s"),
     *("dwell_deg", "k", "ratio"),
 )
@@ -66,10 +65,9 @@ def for_people(table: Table, most: int | None = None) -> Table:
     names = [*zip(*named, strict=True)]
     if len({*names}) < len(names) and "rollers" in heads:
         ranks[heads.index("rollers")] = RANKED.index("z") + 0.5
-    for rate in ("accel_rad/s2", "accel_m/s2"):
-        if rate in heads:  # rows are sorted by it
-            i, j = heads.index("accel_max"), heads.index(rate)
-            ranks[i], ranks[j] = ranks[j], ranks[i]
+    if "accel_rad/s2" in heads:  # rows are sorted by it
+        i, j = heads.index("accel_max"), heads.index("accel_rad/s2")
+        ranks[i], ranks[j] = ranks[j], ranks[i]
     first = sorted(range(len(heads)), key=ranks.__getitem__)
     reading = Reading(tuple(heads[i] for i in first), decide=("parts",))
     return Table(tuple(heads), columns, title=title, reading=reading)
@@ -84,16 +82,14 @@ def _machine(row: dict[str, Any], several: bool) -> str:
         "offset_mm": "offset {} mm",
         "sector_deg": "D {}",
         "first_z": "first z {}",
-        "wheels": "{} wheels",
     }
     own = [row["drive"], row["law"] if several else "", row["fixed"]]
     own.append(f"alpha0 {row['alpha0_deg']:.5g}" if row["law"] else "")
     if row["phase"]:
         own.append(f"e {row['eccentricity']:.5g} {row['phase']}")
-    usual = {"axes_deg": 90.0, "wheels": 1}
     for key, text in words.items():
         value = row[key]
-        if value is not None and value != usual.get(key):
+        if value is not None and (key, value) != ("axes_deg", 90.0):
             own.append(text.format(f"{value:.5g}" if isinstance(value, float) else value))
     if row["ground_mm"]:
         own += (f"{row[key]:.3g}" for key in LINKS)

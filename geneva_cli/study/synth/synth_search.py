@@ -91,7 +91,7 @@ def _all_groups(
     """The rows of all independent groups of machines, in order, from all cores.
 
     They are straight slots, and laws, of each gearing; those of kinds. Each has some of the numbers
-    of slots. If the target has wheels on a carrier: the carousels of each gearing.
+    of slots.
     """
     count = max(len(target.z) // GROUP, 1)
     ends = [-(-len(target.z) * i // count) for i in range(count + 1)]
@@ -102,8 +102,6 @@ def _all_groups(
         *((straight, one) for one in each),
         *((with_laws, one._replace(laws=(law,))) for law in target.laws for one in each),
     ]
-    if target.wheels:
-        tasks = [(kind, one) for kind in families_of_kinds("carrier") for one in each]
     # a small search ends before a second process has started
     is_small = len(target.gearings) * len(target.z) * len(target.laws) <= 6
     workers = 1 if is_small else min(len(tasks), cores())
@@ -219,16 +217,8 @@ def _out_of_reach(target: Target, errors: list[str]) -> str:
             "a wheel rests so long only behind a first wheel. That turns the crank once in "
             f"{TURNS[0]} to {TURNS[-1]} turns: none of these rests so long"
         )
-    elif target.wheels:
-        return (
-            f"{target.words}: out of reach on a carrier: its wheels have straight radial slots, "
-            "whose number gives the motion. Several wheels share one finger, and each must leave "
-            f"it before the next one arrives{first}"
-        )
     else:
         drives = f"no drive goes beyond A or eccentricity {MOST}"
-        if not target.output.turns:
-            return f"{target.words}: out of reach of a rack: {drives}{first}"
         return (
             f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: "
             "curved slots turn an internal wheel at most half as fast as the crank"

@@ -106,7 +106,7 @@ def machine(
     """
     own, made = target.frame or BARE, drive(target.n_rpm(m, motion_deg))
     size = own.size
-    L = target.center_distance_mm(size.center_distance_mm)
+    L = size.center_distance_mm
     if L is None and not made.ONE_ARM:  # it has no crank of one radius: the frame's distance
         L = size.derived_distance_mm
     as_built = L is not None and size.crank_radius_mm is not None  # a candidate has its own R/L
