@@ -273,7 +273,6 @@ class Design:
             drive=spec.drive.backwards(plan),
             drive_before=spec.drive_before and spec.drive_before.backwards(plan),
             motion=spec.motion and spec.motion.backwards,
-            mass=tuple(one.backwards for one in spec.mass),
             size=spec.size.replace(**loaded),
             title=", ".join(text for text in (spec.title, "backwards") if text),
         )
@@ -907,24 +906,10 @@ class Design:
         >>> indexed.tolerance().to_dict()["dwell_position.worst_arcsec"]
         72.0
         """
-        from geneva_cli.verdict.tolerance.study import tolerance_table
+        from geneva_cli.verdict.tolerance import tolerance_table
 
         self.refuse_drawn("tolerances are those")
         return tolerance_table(self.mechanism, self.parts, samples, seed, radius_mm)
-
-    @question
-    def tolerance_histogram(self, samples: int = 65536, seed: int = 0) -> Table:
-        """Histogram of the machines of ``tolerance``: middles of bins, and fractions in each.
-
-        >>> from geneva_cli import Design, External, Tolerance
-        >>> indexed = Design(External(6), tolerance=Tolerance(slot_angle_deg=0.02))
-        >>> float(sum(indexed.tolerance_histogram(1024).to_dict()["dwell_position_share"]))
-        1.0
-        """
-        from geneva_cli.verdict.tolerance.study import histogram_table
-
-        self.refuse_drawn("tolerances are those")
-        return histogram_table(self.mechanism, self.parts, samples, seed)
 
     @answer
     def motion_warnings(self) -> list[Notice]:

@@ -51,13 +51,13 @@ class Kind(NamedTuple):
     wheel_body: str = ""  # function that returns mass and inertia of a mechanism's wheel
     motion_checks: Mapping[str, str] = _NONE  # by their names
     parts_checks: Mapping[str, str] = _NONE  # of parts at rest, all or those that it adds
-    remedies: Mapping[str, str] = _NONE  # of its checks, in words of ``verdict.remedies``
+    remedies: Mapping[str, str] = _NONE  # of its checks, in words of ``verdict.advice``
     load_case: str = ""  # function that completes the load case of a mechanism
     quantities: tuple[Quantities, ...] = ()  # of the report
     # sizes of a mechanism's horns: half the slot's width, the recess (0 without a lock), and more
     horn_sizes: str = ""
     horns: str = ""  # function of a mechanism and them that returns horns of another shape
-    cut_parts: str = ""  # class of the parts as they are cut within the tolerances
+    locks: str = ""  # function of parts and tolerances: the locks as cut, and what they need
     # functions that return families of synth, by where they are searched: those of a "wheel" alone,
     # beside "straight" slots of any wheel, "alone", or where wheels on a "carrier" are required
     families: Mapping[str, str] = _NONE

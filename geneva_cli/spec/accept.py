@@ -37,17 +37,14 @@ class Accept(SpecTable):
     no_speed: Reason = None
     drives_the_motor: Reason = None
     heavy_inertia: Reason = None
-    faster_than_sound: Reason = None
     tiny_machine: Reason = None
     wheel_left_out: Reason = None
     weight_to_one_side: Reason = None
     unbalanced: Reason = None
-    far_mass: Reason = None
     unlikely_material: Reason = None
     nothing_to_act_on: Reason = None
     driven_by_one_wall: Reason = None
     lags_behind: Reason = None
-    roller_overtakes: Reason = None
     short_motion: Reason = None
     stout_horns: Reason = None
     tolerance_left_out: Reason = None
@@ -58,7 +55,6 @@ class Accept(SpecTable):
     taken_as_built: Reason = None
     outline_units: Reason = None
     ideal_machine: Reason = None
-    bent_parts: Reason = None
     narrow_for_process: Reason = None
 
     # warnings of `geneva vibration` and `geneva tolerance` alone

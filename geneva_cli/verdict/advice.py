@@ -1,58 +1,234 @@
-"""The adviser: one change of the given spec with which all checks pass, or one for each check.
+"""The adviser: one change of the spec with which all checks pass, or one for each check.
 
-It changes one value, builds the machine again and makes the checks, so its advice has been tried
-with the digits shown. The advice is the nearest value of its key, to ``NEARLY`` of the change.
-Trials are counted, not timed, so that equal specs get equal advice on every machine.
+A check has words for the keys that move it. One value is changed, and the machine is built again
+and checked: what is advised has been tried with the digits shown. Trials are counted, not timed, so
+that equal specs get equal advice on every machine.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from functools import lru_cache, partial
-from typing import TYPE_CHECKING, TypeAlias
+import re
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kept import cached_property
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.verdict.checks import checks, pushed_round, single_check
-from geneva_cli.verdict.checks.all_checks import (
-    LIMITS,
-    MOTION,
-    OF_TURN,
-    PUSHED,
-    TURNING,
-    check_named,
-    standing,
-    untold,
-)
+from geneva_cli.motion.records import KINDS
+from geneva_cli.spec.tables import Size
+from geneva_cli.verdict.checks import all_checks, checks, quick_first, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
-    from geneva_cli.verdict.remedies import Remedy, Value
 
 FINE = 0.005  # fraction of a change to which its least value is searched
-OTHER = -0.99  # margin where a check fails that passed before
+NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 TRIALS = 80  # machines that are built for all searches of a design
-SLOW = 20  # trials for which one counts whose turn takes too long
 # Fractions of the way to a remedy's end that are tried: the first step, the end, and between them.
 PLACES = (1.0 / 12.0, 1.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0)
-QUICK = {*MOTION, *LIMITS}  # which need no parts
-# Keys that change no outline: the parts need not be turned again.
-APART = (
-    *("drive.n_rpm", "size.face_width_mm", "size.pin_held", "size.lock_edge_mm"),
-    *("size.wheel_thickness_mm", "size.lock_thickness_mm", "size.arm_thickness_mm"),
-    *("shaft.wheel_diameter_mm", "shaft.wheel_overhang_mm"),
-    *("shaft.crank_diameter_mm", "shaft.crank_overhang_mm"),
-    "material.roller.dynamic_capacity_N",
-)
-Advice: TypeAlias = "tuple[Remedy, Value]"
+# Requirements on the machine's size, process and walls, which no advice reduces.
+REQUIRED = ("center_distance_mm", "crank_radius_mm", "face_width_mm", "process", "wall_min_mm")
+LARGER = "center_distance_mm*20"
+# The words of each check, the likeliest first. A word is a key, by default of [size], and what
+# becomes of its present value: key*2 is up to the double, key:5 towards 5, key+180 up to 180 more,
+# key=a,b one of these (an empty one leaves out the key), key? towards the default or anywhere.
+# Words in capitals stand for their own lines. The centre distance is changed for its own limits
+# only, where the spec gives it. The speed is a requirement: it is changed where a limit forbids it,
+# and for a part's strength only where no size of it helps.
+_TABLE = f"""
+LARGER: {LARGER}
+SLOWER: drive.n_rpm*0.001
+FASTER: drive.n_rpm*30
+WIDER: face_width_mm*10
+TIGHTER: slot_clearance_mm:0
+SMALLER: roller_radius_mm*0.2
+LONGER: motion.alpha0_deg+-180 motion.alpha0_deg+180
+BEFORE: drive.before.A:0.99 drive.before.A:-0.99 drive.before.eccentricity:0.99
+MILDER: drive.A:0.99 drive.A:-0.99 drive.eccentricity:0.99 drive.eccentricity:0 BEFORE
+  drive.before.eccentricity:0 LONGER wheel.z:24
+BLUNTER: lock_edge_mm*10 WIDER LARGER
+THICK: wheel_thickness_mm? face_width_mm? lock_thickness_mm? arm_thickness_mm?
+velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
+entry_velocity_max: crank_radius_mm= wheel_radius_mm?
+turns strike_velocity: crank_radius_mm=
+pin_force_max_N: SLOWER LARGER MILDER
+input_torque_max_Nm product_acceleration_max_m_s2 product_slip: SLOWER MILDER
+contact_stress_max_MPa: SLOWER WIDER LARGER MILDER
+stopping_torque_Nm: FASTER
+cycle_max_s: drive.stop_s*0.1 FASTER
+motion_max_s: FASTER MILDER
+dwell_min_s: drive.stop_s*10 SLOWER MILDER
+index_play_max_deg: TIGHTER
+dwell_play_max_deg: lock_clearance_mm:0
+dwell_position_max_deg: lock_clearance_mm:0 tolerance.lock_radius_mm:0
+  tolerance.recess_radius_mm:0 tolerance.center_distance_mm:0 tolerance.slot_angle_deg:0
+entry_shock_N: tolerance.crank_radius_mm:0 tolerance.center_distance_mm:0 SLOWER
+reversal_shock_N: TIGHTER SLOWER
+reversal_stress_MPa: TIGHTER SLOWER WIDER LARGER
+pv_max_W_m2: SLOWER WIDER LARGER
+roller_life_min_h: material.roller.dynamic_capacity_N*10 SLOWER LARGER
+slot_wear_max_mm_per_million: WIDER SLOWER LARGER
+pin_stress_MPa: pin_mm*1.9 roller_radius_mm*3 pin_held=fixed pin_mm= TIGHTER LARGER SLOWER
+horn_stress_MPa lock_horn_stress_MPa: WIDER lock_radius_mm*0.5 LARGER SLOWER
+lock_stress_max_MPa: BLUNTER
+lock_deflection_max_deg: lock_clearance_mm*0.1 WIDER LARGER
+wheel_shaft_stress_MPa: shaft.wheel_diameter_mm*5 shaft.wheel_overhang_mm*0.1 wheel_bore_mm*5
+  wheel_bore_mm= LARGER SLOWER
+crank_shaft_stress_MPa: shaft.crank_diameter_mm*5 shaft.crank_overhang_mm*0.1 arm_bore_mm*5
+  arm_bore_mm= crank_bore_mm= LARGER SLOWER
+arm_stress_MPa: arm_thickness_mm*10 arm_eye_mm*3 arm_hub_mm*3 arm_thickness_mm= LARGER SLOWER
+first_pin_stress_MPa: roller_radius_mm*3 pin_mm*1.9 LARGER
+first_horn_stress_MPa first_arm_stress_MPa: link_thickness_mm*10 LARGER
+first_crank_shaft_stress_MPa: link_bore_mm*5 LARGER
+wheel_key_pressure_MPa: wheel_thickness_mm*10 wheel_bore_mm*5 LARGER
+crank_key_pressure_MPa: arm_thickness_mm*10 arm_bore_mm*5 LARGER
+pressure_angle_deg: motion.ratio=matched LONGER wheel.z:24
+driven_fraction: FASTER LONGER
+undercut_mm: SMALLER LONGER
+velocity_min: motion.lambda=0.125,-0.125
+dwell_deg: drive.rollers:1 LONGER
+driver_gear_convexity driven_gear_convexity: drive.eccentricity:0 drive.A:0 wheel.z:24
+dwell_hold: lock_radius_mm= wheel.held_by=detent
+tolerance_slot_mm: slot_clearance_mm+1
+tolerance_lock_mm: lock_clearance_mm+1
+wall_between_slots_mm: SMALLER TIGHTER
+horn_mm: lock_radius_mm? SMALLER lock_clearance_mm:0 TIGHTER
+wheels_apart_mm: SMALLER LARGER drive.wheels:1
+rollers_apart_mm: SMALLER drive.sector_deg+30
+crank_shaft_mm crank_hub_mm crank_bore_wall_mm: crank_hub_mm? crank_bore_mm*0.2 crank_bore_mm=0
+wheel_shaft_mm wheel_bore_wall_mm: wheel_hub_mm? wheel_bore_mm*0.2 wheel_bore_mm=0
+beside_shafts_mm: wheel_hub_mm*0.5 crank_hub_mm*0.5 wheel_bore_mm*0.5 arm_eye_mm*0.5
+  crank_bore_mm=0
+gear_gap_mm: drive.gear_distance_mm*0.3 drive.eccentricity*0.3 drive.A*0.3
+  drive.before.gear_distance_mm*0.3 drive.before.eccentricity*0.3 drive.before.A*0.3
+  wheel_hub_mm=0 arm_bore_mm*0.3
+arm_wall_mm: arm_hub_mm? arm_eye_mm? arm_bore_mm*0.3 lock_bolt_mm*0.2 lock_bolt_circle_mm?
+arm_to_hub_mm: arm_eye_mm*0.2
+link_wall_mm: link_bore_mm? link_pin_mm? link_width_mm?
+link_gap_mm: link_width_mm? link_pin_mm? crank_shaft_low_mm= drive.before.input_crank_mm*0.2
+  wheel_hub_mm*0.5 wheel_hub_mm=0
+dial_wall_mm: dial_bolt_circle_mm? dial_bolt_mm? wheel_bore_mm*0.3
+outer_wall_mm: wheel_outer_radius_mm?
+cut_plate_mm: THICK
+cut_slot_mm: roller_radius_mm? THICK
+branches_apart_mm branches_crossed_mm: roller_radius_mm*3 LONGER
+OTHERS: lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4
+  wheel.offset_mm:0
+"""
+Value: TypeAlias = float | int | str | None  # None: the key is left out
 
 
-class OutOfTrials(Exception):
-    """The adviser has no trials left: not a fault of the spec, so not a GenevaError."""
+class Remedy(NamedTuple):
+    """Values of one key: a list of them, or all from the present one ``now`` to ``end``."""
+
+    table: str
+    key: str
+    values: tuple[Value, ...] = ()
+    now: float = 0.0
+    end: float = 0.0
+    even: bool = True  # or in one ratio
+
+    def at(self, fraction: float) -> float | int:
+        """The value at a fraction of the way from the present one, with the digits shown."""
+        if not self.even:
+            return float(f"{self.now * (self.end / self.now) ** fraction:.12g}")
+        value = self.now + (self.end - self.now) * fraction
+        return round(value) if isinstance(self.now, int) else float(f"{value:.12g}")
+
+    def rounded(self, fraction: float) -> list[float | int]:
+        """The value at a fraction with two digits, as limits often have, or a bit farther away."""
+        value = self.at(fraction)
+        if isinstance(value, int):
+            return [value]
+        near, short = NEARLY * abs(value - self.now), float(f"{value:.2g}")
+        out: list[float | int] = [short] if abs(short - value) <= near else []
+        for digits in range(3, 12):
+            step = 10.0 ** (math.floor(math.log10(abs(value) or 1.0)) + 1 - digits)
+            count = value / step
+            whole = math.ceil(count) if self.end > self.now else math.floor(count)
+            away = float(f"{whole * step:.{digits + 1}g}")
+            if abs(away - value) <= near:
+                return [*out, away]
+        return [*out, value]
+
+
+Advice: TypeAlias = tuple[Remedy, Value]
+
+
+@cache
+def _words() -> dict[str, str]:
+    """The words of each check, with those in capitals spelled out."""
+    out: dict[str, str] = {}
+    rows = [row.partition(":")[::2] for row in _TABLE.strip().replace("\n  ", " ").splitlines()]
+    for names, words in (*rows, *(row for kind in KINDS for row in kind.remedies.items())):
+        spelled = " ".join(out.get(word, word) for word in words.split())
+        out |= dict.fromkeys(names.split(), spelled)
+    return out
+
+
+def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
+    """Changes of the spec that may make a failing check pass, the likeliest first."""
+    spec, size = mechanism.spec, mechanism.spec.size.as_dict()
+    apart = (*all_checks.MOTION, *all_checks.LIMITS, *all_checks.TOLERANCES, *all_checks.PUSHED)
+    usual = {} if check.name in apart else Size().as_dict()
+    own = [key for key in usual if size[key] != usual[key] and key not in REQUIRED]
+    # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
+    words = [f"{key}?" for key in own if key in check.why]
+    words += _words().get(check.name, _words()["OTHERS"]).split()
+    words += [f"{key}?" for key in own if key not in check.why]
+    given = [key for key in REQUIRED[:2] if size[key]]
+    for word in words:
+        if word == LARGER and given:
+            if len(given) > 1 or spec.limits.as_dict().get(check.name) is None:
+                continue
+            word = word.replace(REQUIRED[0], given[0])
+        yield from _of_word(word, mechanism)
+
+
+def _of_word(word: str, mechanism: Mechanism) -> Iterator[Remedy]:
+    match = re.fullmatch(r"(?:([\w.]+)\.)?(\w+)([*:+=?])(.*)", word)
+    assert match, word
+    table, key, how, end = match[1] or "size", match[2], match[3], match[4]
+    if key not in mechanism.spec.table(table):
+        return
+    if how == "=":
+        texts = end.split(",")
+        yield Remedy(table, key, tuple(float(t) if t[-1:].isdigit() else t or None for t in texts))
+        return
+    now = _now(mechanism, table, key)
+    if isinstance(now, float | int) and not isinstance(now, bool):
+        if how == "?" and isinstance(now, int):
+            ends = [(0.0, True)]
+        elif how == "?":
+            usual: Value = None
+            with suppress(GenevaError):
+                bare = mechanism.spec.with_(f"size.{key}", None)
+                usual = _now(mechanism._replace(spec=bare), table, key)
+            ends = [(usual, True)] if isinstance(usual, float) else []
+            ends += [(0.1 * now, False), (10.0 * now, False)]
+        elif how == "*":
+            ends = [(now * float(end), False)]
+        else:
+            ends = [(float(end) + (now if how == "+" else 0.0), True)]
+        for last, even in ends:
+            if last != now:
+                yield Remedy(table, key, (), now, last, even)
+    if how == "?" and mechanism.spec.table(table)[key] is not None:
+        yield Remedy(table, key, (None,))
+
+
+def _now(mechanism: Mechanism, table: str, key: str) -> Value:
+    """A key's present value; the machine's for a size that the spec leaves out."""
+    value: Value = mechanism.spec.table(table)[key]
+    if value is None and table == "size":
+        from geneva_cli.parts.machine_sizes import built
+
+        value = built(mechanism).as_dict()[key]
+    return value
 
 
 def judged(mechanism: Mechanism, machine: Parts | None = None, parts: bool = True) -> list[Check]:
@@ -61,281 +237,35 @@ def judged(mechanism: Mechanism, machine: Parts | None = None, parts: bool = Tru
     Without such a change they say why, and name a change with which they pass themselves.
     """
     rows = checks(mechanism, machine, parts)
-    failing = tuple(c for c in rows if c.passes is False)
+    failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
-    advised = iter(_advised(mechanism, failing, parts))
-    return [next(advised) if c.passes is False else c for c in rows]
-
-
-@lru_cache(maxsize=4)  # a folder of files and the report in it need the same advice
-def _advised(mechanism: Mechanism, failing: tuple[Check, ...], parts: bool) -> list[Check]:
-    """The failing checks with the change that passes all, or with the reason for its absence."""
     adviser, count = Adviser(mechanism, failing, parts), len(failing)
     one, why = adviser.advice(failing, TRIALS if count == 1 else TRIALS // 2)
-    if one:
-        anew = adviser.chosen_anew([one])
-        return [_with_change(c, line(*one), anew) for c in failing]
+    each = [one] if one else []
     own = [""] * count
-    if count > 1:
+    if not one and count > 1:
         # one trial is for all changes together
-        each = [
-            adviser.advice((c,), (adviser.left - 1) // (count - i))[0]
-            for i, c in enumerate(failing)
+        some = [
+            adviser.advice([c], (adviser.left - 1) // (count - i))[0] for i, c in enumerate(failing)
         ]
-        by_key = {one[0][:2]: one for one in each if one}
-        if all(each) and adviser.suffice([*by_key.values()]):
-            lines = [line(*one) for one in by_key.values()]
-            lines.sort(key=lambda text: text.startswith("leaving out"))
-            anew = adviser.chosen_anew([*by_key.values()])
-            return [_with_change(c, " and ".join(lines), anew) for c in failing]
-        own = [f"{line(*one)} passes this one" if one else "" for one in each]
-    return [
-        c._replace(why="; ".join(text for text in (c.why, why, more) if text))
-        for c, more in zip(failing, own, strict=True)
-    ]
-
-
-def _with_change(check: Check, change: str, anew: str) -> Check:
-    # where the same key passes, the other sizes may have changed with it
-    value, but, _ = check.why.partition(", but ")
-    same_key = but and value.startswith(f"{change.partition(' ')[0]} is ")
-    return check._replace(nearest=change, why=value if same_key else check.why, anew=anew)
-
-
-class Trial:
-    """A machine with a changed spec, and its parts."""
-
-    def __init__(self, spec: Spec, like: Mechanism) -> None:
-        self.machine = build(spec, like)
-
-    @cached_property
-    def built(self) -> Parts:
-        """The parts; an error in them does not name the roller that fits."""
-        from geneva_cli.parts.parts import parts_of
-
-        return parts_of(self.machine, advice=False)
-
-    def spare(self, name: str) -> float:
-        """The margin of a check, negative where it fails."""
-        row: Check | None
-        if name in PUSHED:
-            pushed = pushed_round(self.machine) if self.machine.no_turn else []
-            row = next((check for check in pushed if check.name == name), None)
-        elif name in OF_TURN:
-            row = check_named(TURNING, name, self.built, self.built.turned.turn)
+        by_key = {one[0][:2]: one for one in some if one}
+        if all(some) and adviser.suffice([*by_key.values()]):
+            each = sorted(by_key.values(), key=lambda advice: advice[1] is None)
+        own = [f"{line(*one)} passes this one" if one else "" for one in some]
+    anew, change = adviser.chosen_anew(each), " and ".join(line(*one) for one in each)
+    advised = []
+    for c, more in zip(failing, own, strict=True):
+        if each:
+            # where the same key passes, the other sizes may have changed with it
+            value, but, _ = c.why.partition(", but ")
+            same = but and value.startswith(f"{change.partition(' ')[0]} is ")
+            advised.append(c._replace(nearest=change, why=value if same else c.why, anew=anew))
         else:
-            if name == "parts":
-                _ = self.built.turned
-            row = single_check(self.machine, name, self.built)
-        return row.spare if row else math.inf
-
-    def rows(self, parts: bool, turn: bool) -> Iterator[Check]:
-        """All checks, the quick ones first."""
-        machine = self.machine
-        for among in (MOTION, LIMITS):
-            yield from untold(among, machine)
-        if parts and machine.spec.is_turned and machine.spec.has_parts:
-            yield from untold(standing(machine), self.built.built)
-        if parts and machine.spec.is_turned and turn:
-            if machine.no_turn:
-                yield from pushed_round(machine)
-            else:
-                yield from untold(TURNING, self.built, self.built.turned.turn)
-
-
-class Adviser:
-    """Search for one change of the spec with which failing checks pass.
-
-    ``failing`` are all failing checks of the design, or without ``parts`` those of its motion and
-    limits.
-    """
-
-    def __init__(
-        self, mechanism: Mechanism, failing: tuple[Check, ...], parts: bool = True
-    ) -> None:
-        self.mechanism, self.failing, self.parts = mechanism, failing, parts
-        self.left = TRIALS
-        self._last: Trial | None = None
-
-    def advice(self, wanted: tuple[Check, ...], trials: int) -> tuple[Advice | None, str]:
-        """The change and its value with which some failing checks pass and no other fails.
-
-        Without one, None and the reason.
-        """
-        from geneva_cli.verdict.remedies import remedies
-
-        self._aim(wanted, self.left - trials)
-        tried = set()
-        try:
-            for check in wanted:
-                for remedy in remedies(check, self.mechanism):
-                    if remedy.way not in tried and (advice := self._least(remedy)):
-                        return advice, ""
-                    tried.add(remedy.way)
-        except OutOfTrials:
-            return None, STOPPED
-        return None, NONE
-
-    def suffice(self, each: list[Advice]) -> bool:
-        """True if all failing checks pass with several changes at once, and no other fails."""
-        self._aim(self.failing, 0)
-        try:
-            return self._margin(self._with(each), True, True) >= 0.0
-        except OutOfTrials:
-            return False
-
-    def chosen_anew(self, each: list[Advice]) -> str:
-        """The sizes that the load chooses anew with these changes, in words; empty if none."""
-        from geneva_cli.parts.chosen import ByLoad, by_load
-
-        if not self.mechanism.spec.is_loaded or (spec := self._with(each)) is None:
-            return ""
-        return ByLoad(by_load(build(spec, self.mechanism)), by_load(self.mechanism)).changes
-
-    def _with(self, each: list[Advice]) -> Spec | None:
-        """The spec with several changes."""
-        spec: Spec | None = self.mechanism.spec
-        for (table, key, *_), value in each:
-            spec = spec and _changed(spec, table, key, value)
-        return spec
-
-    def _aim(self, wanted: tuple[Check, ...], stop: int) -> None:
-        """Search for these checks, the quick ones first, until so many trials are left."""
-        by_cost = sorted(wanted, key=lambda c: _cost(c.name))
-        self.units = {c.name: -c.spare if c.spare > -math.inf else 1.0 for c in by_cost}
-        self.may_fail = {c.name for c in self.failing}
-        self.stop = stop
-
-    def _least(self, remedy: Remedy) -> Advice | None:
-        """The least sufficient value of one key, with its remedy; None if there is none."""
-
-        margins = {every: partial(self._margin_with, remedy, every) for every in (False, True)}
-
-        def passes(value: Value) -> bool:
-            return margins[True](value) >= 0.0
-
-        if remedy.values:
-            return next(((remedy, value) for value in remedy.values if passes(value)), None)
-        # parts that are built or turned anyway cost as much as all checks, which are last otherwise
-        at_once = any(name in OF_TURN or name == "parts" for name in self.units)
-        at, short = 0.0, -1.0
-        for every in (True,) if at_once else (False, True):
-            edge = _edge(remedy, margins[every], at, short)
-            if edge is None:
-                return None
-            for value in remedy.rounded(edge):
-                if passes(value):
-                    return remedy, value
-            at, short = edge, -math.inf
-        return remedy, remedy.at(at)
-
-    def _margin_with(self, remedy: Remedy, every: bool, value: Value) -> float:
-        spec = _changed(self.mechanism.spec, remedy.table, remedy.key, value)
-        return self._margin(spec, every, f"{remedy.table}.{remedy.key}" not in APART)
-
-    def _margin(self, spec: Spec | None, every: bool, turn: bool) -> float:
-        """The least margin of the wanted checks, relative to its present violation.
-
-        Checks that cost more are left out if one fails. A spec that makes no machine has
-        -inf. With ``every`` all checks are made, in the ``turn`` too, and another one that begins
-        to fail gives ``OTHER``.
-        """
-        from geneva_cli.parts.turn.pairs import WorkLimit
-
-        least, cost = math.inf, 0
-        try:
-            trial = self._trial(spec)
-            for name, unit in self.units.items():
-                if least < 0.0 and _cost(name) > cost:
-                    break
-                least, cost = min(least, trial.spare(name) / unit), _cost(name)
-            if every and least >= 0.0:
-                parts = self.parts and ("parts" in self.units or "parts" not in self.may_fail)
-                for check in trial.rows(parts, turn):
-                    wanted = check.name in self.units or check.name not in self.may_fail
-                    if check.passes is False and wanted:
-                        return OTHER
-        except WorkLimit:
-            self.left -= SLOW
-            return -math.inf
-        except GenevaError:
-            return -math.inf
-        return least
-
-    def _trial(self, spec: Spec | None) -> Trial:
-        """The machine of a spec, counted if it is not that of the last trial."""
-        if spec is None or spec == self.mechanism.spec:
-            raise GenevaError("no other machine")
-        if self._last is None or self._last.machine.spec != spec:
-            self.left -= 1
-            if self.left < self.stop:
-                raise OutOfTrials
-            self._last = Trial(spec, self.mechanism)
-        return self._last
-
-
-def _cost(name: str) -> int:
-    """The order of checks: of the motion and its limits, of parts at rest, of the whole turn."""
-    return 0 if name in QUICK else 2 if name in (*OF_TURN, *PUSHED) else 1
-
-
-def _edge(
-    remedy: Remedy, margin: Callable[[Value], float], start: float, short: float
-) -> float | None:
-    """The fraction nearest to a failing ``start`` with which a margin is enough; None without.
-
-    The margin may be largest between ``start`` and the remedy's end. ``short`` is that at the
-    start.
-    """
-    known, gain, good, left = {start: short}, math.inf, start, short
-    for part in PLACES:
-        good = start + (1.0 - start) * part
-        left = margin(remedy.at(good))
-        if left >= 0.0:
-            break
-        known[good] = left
-        best = max(known.values())
-        if part == PLACES[0]:
-            gain, hopeless = left - short, left < short
-        elif part == 1.0:  # no peak is expected before a bad end if the first step gains little
-            hopeless = best <= short or (left <= short and short + 2.0 * gain / PLACES[0] < 0.0)
-        else:
-            hopeless = best <= 0.5 * short
-        if hopeless and left > -math.inf:
-            return None
-    if left < 0.0:
-        return None
-    bad = max(x for x in known if x < good)
-    short, first, count = known[bad], good - bad, isinstance(remedy.now, int)
-    reach = 2.0 * first
-    # interpolation, truncated and projected (ITP): it takes one step more than halving at most, and
-    # far fewer where the margin is smooth
-    while good - bad > FINE * good:
-        width, middle = good - bad, 0.5 * (good + bad)
-        smooth = math.isfinite(left) and math.isfinite(short) and not count
-        root = good - width * left / (left - short) if smooth else middle
-        truncated = min(0.2 * width * width / first, abs(middle - root))
-        reach = max(0.5 * reach, 0.5 * FINE * good)
-        most = max(reach - 0.5 * width, 0.0)
-        at = root + math.copysign(truncated, middle - root)
-        at = min(max(at, middle - most), middle + most)
-        if count and remedy.at(at) in (remedy.at(good), remedy.at(bad)):
-            break
-        here = margin(remedy.at(at))
-        if here >= 0.0:
-            good, left = at, here
-        else:
-            bad, short = at, here
-    return good
-
-
-def _changed(spec: Spec, table: str, key: str, value: Value) -> Spec | None:
-    """The spec with one value changed; None for a value that the reader would refuse."""
-    try:
-        return spec.with_(f"{table}.{key}", value)
-    except GenevaError:
-        return None
+            reasons = "; ".join(text for text in (c.why, why, more) if text)
+            advised.append(c._replace(why=reasons))
+    left = iter(advised)
+    return [next(left) if c.passes is False else c for c in rows]
 
 
 def line(remedy: Remedy, value: Value) -> str:
@@ -347,3 +277,144 @@ def line(remedy: Remedy, value: Value) -> str:
     if value is None:
         return f"leaving out {key}"
     return f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value:.12g}"
+
+
+class OutOfTrials(Exception):
+    """The adviser has no trials left: not a fault of the spec, so not a GenevaError."""
+
+
+class Adviser:
+    """Search for changes with which the ``failing`` checks pass; without ``parts`` of the others"""
+
+    def __init__(self, mechanism: Mechanism, failing: list[Check], parts: bool = True) -> None:
+        self.mechanism, self.failing, self.parts = mechanism, failing, parts
+        self.left = TRIALS
+        self._last: tuple[Mechanism, Parts] | None = None
+
+    def advice(self, wanted: list[Check], trials: int) -> tuple[Advice | None, str]:
+        """The change with which some failing checks pass and no other fails; else the reason."""
+        self._aim(wanted, self.left - trials)
+        tried = set()
+        try:
+            for check in wanted:
+                for remedy in remedies(check, self.mechanism):
+                    way = remedy[:3] if remedy.values else (*remedy[:2], remedy.end > remedy.now)
+                    if way not in tried and (advice := self._least(remedy)):
+                        return advice, ""
+                    tried.add(way)
+        except OutOfTrials:
+            return None, STOPPED
+        return None, NONE
+
+    def suffice(self, each: list[Advice]) -> bool:
+        """True if all failing checks pass with several changes at once, and no other fails."""
+        self._aim(self.failing, 0)
+        try:
+            return self._margin(each, True) >= 0.0
+        except OutOfTrials:
+            return False
+
+    def chosen_anew(self, each: list[Advice]) -> str:
+        """The sizes that the load chooses anew with these changes, in words; empty if none."""
+        if not (each and self.mechanism.spec.is_loaded):
+            return ""
+        from geneva_cli.parts.chosen import ByLoad, by_load
+
+        changed = build(self._with(each), self.mechanism)
+        return ByLoad(by_load(changed), by_load(self.mechanism)).changes
+
+    def _with(self, each: Sequence[Advice]) -> Spec:
+        spec = self.mechanism.spec
+        for (table, key, *_), value in each:
+            spec = spec.with_(f"{table}.{key}", value)
+        return spec
+
+    def _aim(self, wanted: list[Check], stop: int) -> None:
+        """Search for these checks, the quick ones first, until so many trials are left."""
+        quick = {*all_checks.MOTION, *all_checks.LIMITS}
+        turned = (*all_checks.OF_TURN, *all_checks.PUSHED, "parts")
+        by_cost = sorted(wanted, key=lambda c: (c.name in turned, c.name not in quick))
+        self.units = {c.name: -c.spare if c.spare > -math.inf else 1.0 for c in by_cost}
+        self.turns = any(c.name in turned for c in wanted)
+        self.stop = stop
+
+    def _least(self, remedy: Remedy) -> Advice | None:
+        """The least sufficient value of one key, with its remedy; None if there is none."""
+        for value in remedy.values:
+            if self._margin([(remedy, value)], True) >= 0.0:
+                return remedy, value
+        if remedy.values:
+            return None
+        at, short = 0.0, -1.0
+        # parts that are turned anyway cost as much as all checks, which are last otherwise
+        for every in (True,) if self.turns else (False, True):
+
+            def margin(fraction: float, every: bool = every) -> float:
+                return self._margin([(remedy, remedy.at(fraction))], every)
+
+            edge = _edge(margin, at, short)
+            if edge is None:
+                return None
+            for value in remedy.rounded(edge):
+                if self._margin([(remedy, value)], True) >= 0.0:
+                    return remedy, value
+            at, short = edge, -math.inf
+        return remedy, remedy.at(at)
+
+    def _margin(self, changes: Sequence[Advice], every: bool) -> float:
+        """The least margin of the wanted checks, relative to its present violation.
+
+        With ``every`` it is -1 if another check begins to fail; -inf for a spec that makes no
+        machine, or whose turn takes too long.
+        """
+        from geneva_cli.parts.parts import parts_of
+
+        least = math.inf
+        try:
+            spec = self._with(changes)
+            if self._last is None or self._last[0].spec != spec:
+                self.left -= 1
+                if self.left < self.stop:
+                    raise OutOfTrials
+                machine = build(spec, self.mechanism)
+                self._last = machine, parts_of(machine, advice=False)
+            machine, parts = self._last
+            for name, unit in self.units.items():
+                check = single_check(machine, name, parts)
+                least = min(least, check.spare / unit if check else math.inf)
+                if least < 0.0:
+                    return least
+            if every:
+                failed = {c.name for c in self.failing} - self.units.keys()
+                for check in quick_first(machine, parts, self.parts):
+                    if check.passes is False and check.name not in failed:
+                        return -1.0
+        except GenevaError:
+            return -math.inf
+        return least
+
+
+def _edge(margin: Callable[[float], float], start: float, short: float) -> float | None:
+    """The fraction nearest to a failing ``start`` with a margin of at least 0; None without.
+
+    The margin may be largest between ``start`` and 1. ``short`` is that at the start.
+    """
+    known, good = {start: short}, start
+    for part in PLACES:
+        good = start + (1.0 - start) * part
+        known[good] = margin(good)
+        if known[good] >= 0.0:
+            break
+        # no peak is expected before an end that is no better, nor between places that are not
+        if part != PLACES[0] and -math.inf < max(known.values()) <= short:
+            return None
+    if known[good] < 0.0:
+        return None
+    bad = max(x for x in known if x < good)
+    while good - bad > FINE * good:
+        middle = 0.5 * (good + bad)
+        if margin(middle) >= 0.0:
+            good = middle
+        else:
+            bad = middle
+    return good

@@ -198,7 +198,7 @@ def tolerances(parts: Parts) -> Values:
     mechanism, tolerance = parts.mechanism, parts.mechanism.spec.tolerance
     if tolerance == Tolerance(distribution=tolerance.distribution):
         return {"warnings": None}
-    from geneva_cli.verdict.tolerance.study import tolerance_table
+    from geneva_cli.verdict.tolerance import tolerance_table
 
     # micrometres need a radius
     L = mechanism.center_distance_mm

@@ -14,7 +14,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.turn.full_turn import SAME, FullTurn
+from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.parts.wheel_body import known_wheel_body
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
@@ -22,7 +22,6 @@ from geneva_cli.verdict.checks.play_checks import motion_play_max, slips_deg
 from geneva_cli.verdict.motion_warnings import motion_warnings
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.plates import Solid
     from geneva_cli.parts.projection import Missing, NamedParts
 
 STEEP_DEG = 60.0  # a pressure angle that friction of 0.58 would hold, more than a dry pair has
@@ -44,42 +43,19 @@ def warnings(parts: Parts) -> list[Notice]:
         *carried_warnings(mechanism, known_wheel_body(mechanism)),
         *of_strength,
         *turn_warnings(parts),
-        *_bearing_warnings(parts),
         *_process_warnings(parts),
     ]
 
 
 def _process_warnings(parts: Parts) -> Iterator[Notice]:
-    """Warnings about holes, clearances, and shells to be cut from a plate."""
+    """Warnings about gears, holes and clearances, and shafts without a bearing."""
     spec = parts.mechanism.spec
-    if not (spec.has_parts and spec.size.process):
-        return
-    yield from gears_without_teeth(spec)
-    shop = workshop(spec.size.process)
-    try:
-        named = list(parts.built.by_name())
-    except GenevaError:  # the check of the parts has the reason
-        return
-    if parts.LAID_FLAT and math.isfinite(shop.plate_mm):
-        yield Notice(
-            "bent-parts",
-            f"a {spec.size.process} cuts flat plates, but these parts are shells of a sphere: cut "
-            "them laid flat (geneva help drawing-sheet) and roll them to their cones, or set "
-            'process = "mill" or "print"',
-        )
-    yield from _small_holes(named, shop.hole)
-    if spec.is_flat and shop.cut_mm:
-        yield from _narrow(parts.mechanism, parts.outlines.sizes)
-
-
-def _bearing_warnings(parts: Parts) -> Iterator[Notice]:
-    """A warning for each shaft that turns and has no bearing."""
-    if not parts.mechanism.spec.has_parts:
+    if not spec.has_parts:
         return
     try:
-        unborne = parts.built.unborne
+        unborne, named = parts.built.unborne, list(parts.built.by_name())
     except GenevaError:  # the check of the parts has the reason
-        return
+        unborne, named = (), []
     for name, reason in unborne:
         part = name.partition("'")[0]
         yield Notice(
@@ -87,6 +63,12 @@ def _bearing_warnings(parts: Parts) -> Iterator[Notice]:
             f"the {name} has no bearing: {reason}. Hold it from above: "
             f"{part}_shaft_high_mm makes it longer",
         )
+    if spec.size.process:
+        shop = workshop(spec.size.process)
+        yield from gears_without_teeth(spec)
+        yield from _small_holes(named, shop.hole)
+        if named and spec.is_flat and shop.cut_mm:
+            yield from _narrow(parts.mechanism, parts.outlines.sizes)
 
 
 def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
@@ -101,41 +83,34 @@ def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
 
 def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
-    from geneva_cli.geometry.plates import solids
+    from geneva_cli.drawings.single_parts import is_cut
+    from geneva_cli.geometry.plates import Plate, Shell, solids
     from geneva_cli.parts.projection import built_of
 
     if not least:
         return
     missing: list[Missing] = []  # the check of the parts reports them
-    cut = dict.fromkeys(one for part in built_of(named, missing) for one in solids(part))
     small: dict[str, tuple[float, float]] = {}
-    for solid in cut:
-        for wide, thick in _holes(solid):
-            if not keeps(wide, "at least", least * thick):
-                small[solid.name] = min(small.get(solid.name, (wide, thick)), (wide, thick))
+    for solid in dict.fromkeys(one for part in built_of(named, missing) for one in solids(part)):
+        wide, thick = list[float](), 0.0
+        if isinstance(solid, Shell):
+            wide, thick = [2.0 * bored.radius for bored in solid.holes], solid.outer - solid.inner
+        elif isinstance(solid, Plate) and (is_cut(solid) or solid.layer == "ROLLER"):
+            boxes = [bounds(hole) for hole in solid.holes]
+            wide = [min(box.x1 - box.x0, box.y1 - box.y0) for box in boxes]
+            thick = solid.thickness
+        narrow = min(wide, default=math.inf)
+        if not keeps(narrow, "at least", least * thick):
+            small[solid.name] = min(small.get(solid.name, (narrow, thick)), (narrow, thick))
     if not small:
         return
-    names = ", ".join(f"{name} Ø {wide:.4g}" for name, (wide, _) in sorted(small.items()))
-    name, (wide, _) = min(small.items(), key=lambda one: one[1][0] / one[1][1])
+    names = ", ".join(f"{name} Ø {one:.4g}" for name, (one, _) in sorted(small.items()))
+    name, (narrow, _) = min(small.items(), key=lambda one: one[1][0] / one[1][1])
     yield Notice(
         "small-hole",
         f"holes below {least:g} of their plate's thickness, which a laser does not cut well: "
-        f"{names} mm. Drill them, or make the {name} at most {wide / least:.4g} mm thick",
+        f"{names} mm. Drill them, or make the {name} at most {narrow / least:.4g} mm thick",
     )
-
-
-def _holes(solid: Solid) -> Iterator[tuple[float, float]]:
-    """Yield the widths of a part's holes and its thickness, if it is cut out of a plate."""
-    from geneva_cli.drawings.single_parts import is_cut
-    from geneva_cli.geometry.plates import Plate, Shell
-
-    if isinstance(solid, Shell):
-        for bored in solid.holes:
-            yield 2.0 * bored.radius, solid.outer - solid.inner
-    elif isinstance(solid, Plate) and (is_cut(solid) or solid.layer == "ROLLER"):
-        for hole in solid.holes:
-            box = bounds(hole)
-            yield min(box.x1 - box.x0, box.y1 - box.y0), solid.thickness
 
 
 def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
@@ -163,19 +138,13 @@ def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:
 
 
 def turn_warnings(parts: Parts) -> Iterator[Notice]:
-    """Warnings about the parts' whole turn; none without such a turn."""
+    """Warnings about a wheel that is pushed at a steep angle, or that one wall alone drives."""
     if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return
     try:
         turn = parts.turned.turn
     except GenevaError:
         return
-    yield from _steep(parts, turn)
-    yield from _one_wall(parts, turn)
-
-
-def _steep(parts: Parts, turn: FullTurn) -> Iterator[Notice]:
-    """A warning for a wheel that the roller pushes into line at a steep angle."""
     most = slips_deg(parts.assembly.full.spec.load.friction)
     if parts.locked and turn.push.deg > STEEP_DEG and keeps(turn.push.deg, "at most", most):
         yield Notice(
@@ -185,30 +154,23 @@ def _steep(parts: Parts, turn: FullTurn) -> Iterator[Notice]:
             f"{1.0 / math.tan(math.radians(most)):.3g} would hold it there. Less "
             "lock_clearance_mm or a larger wheel_radius_mm makes it less steep",
         )
-
-
-def _one_wall(parts: Parts, turn: FullTurn) -> Iterator[Notice]:
-    """A warning for a wheel that one wall of its slot alone drives."""
-    ahead, behind, limit = turn.ahead, turn.behind, motion_play_max(parts)
-    # Play to both sides has a limit of its own.
+    # play to both sides has a limit of its own
+    ahead, behind = turn.ahead, turn.behind
     free = max(ahead.deg, behind.deg)
-    if free <= limit or turn.motion.deg >= free * (1.0 - SAME):
+    if free <= motion_play_max(parts) or turn.motion.deg >= free * (1.0 - SAME):
         return
     first = ahead.deg >= behind.deg * (1.0 - SAME)
     side, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
-    if len(parts.assembly.rollers) > len(parts.assembly.motions):
-        yield Notice(
-            "driven-by-one-wall",
-            f"in its slots the wheel is free ahead by {ahead.deg:.4g}° at "
-            f"{ahead.at_deg:.4g}° and behind by {behind.deg:.4g}° at "
-            f"{behind.at_deg:.4g}°. One wall starts it and one stops it: it leaves them if "
-            "its load overruns the first roller, or stays behind the second",
-        )
-        return
     helps = "a load that overruns the roller" if first else "a load that holds back"
-    yield Notice(
-        "driven-by-one-wall",
-        f"in its slot the wheel is free {side} by {free:.4g}° at {at_deg:.4g}°, where "
-        f"one wall alone drives it: {helps} meets a corner. Friction or a brake keeps it on "
-        "that wall",
+    text = (
+        f"in its slot the wheel is free {side} by {free:.4g}° at {at_deg:.4g}°, where one wall "
+        f"alone drives it: {helps} meets a corner. Friction or a brake keeps it on that wall"
     )
+    if len(parts.assembly.rollers) > len(parts.assembly.motions):
+        text = (
+            f"in its slots the wheel is free ahead by {ahead.deg:.4g}° at {ahead.at_deg:.4g}° and "
+            f"behind by {behind.deg:.4g}° at {behind.at_deg:.4g}°. One wall starts it and one "
+            "stops it: it leaves them if its load overruns the first roller, or stays behind the "
+            "second"
+        )
+    yield Notice("driven-by-one-wall", text)

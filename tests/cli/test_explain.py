@@ -42,7 +42,7 @@ from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, STANDING, TURNING
 from geneva_cli.verdict.checks.all_checks import PROOFS as PROVED
 from geneva_cli.verdict.quantities import groups
-from geneva_cli.verdict.tolerance.study import ANGLES
+from geneva_cli.verdict.tolerance import ANGLES
 
 WORDLESS = {"word", "yes or no", "list", "table", "text", "number"}  # not worked out by a formula
 PACKAGE = repo.ROOT / "geneva_cli"
@@ -127,7 +127,6 @@ def quantities() -> set[str]:
     out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR}
     out |= set(checks_table([]).names)
     out |= {*WALLED, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
-    out |= {"dwell_position_share", "motion_play_share"}  # of a histogram
     return out | {f"tolerance.{name}" for name in tolerance_names()}
 
 

@@ -177,15 +177,9 @@ def test_each_null_names_its_key():
 
 
 @pytest.mark.sampled(2)
-@pytest.mark.parametrize(
-    ("keys", "said"),
-    [
-        ("[load]\ninertia_kgm2 = 4000\n", "If it is in kg cm², write 0.4"),
-        ("[drive]\nn_rpm = 1e6\n", "faster than sound"),
-    ],
-)
-def test_absurd_units_are_said(keys, said):
-    assert said in " ".join(run(text=WHEEL + keys).stdout.split())
+def test_absurd_units_are_said():
+    said = run(text=WHEEL + "[load]\ninertia_kgm2 = 4000\n").stdout
+    assert "If it is in kg cm², write 0.4" in " ".join(said.split())
 
 
 @pytest.mark.sampled(4)

@@ -136,8 +136,7 @@ def sphere(*settings: str) -> Design:
 def test_a_laser_cuts_no_shell_from_a_plate() -> None:
     """Its shells are 8 mm thick, within 32 mm; the slots inside 2 · 76 sin(5.3/80) mm wide."""
     ball = sphere("size.process=laser")
-    checks, texts = named(ball), {text.name: str(text) for text in ball.warnings}
-    assert "roll them to their cones" in texts["bent-parts"]
+    checks = named(ball)
     assert (checks["cut_plate_mm"].value, checks["cut_plate_mm"].limit) == (8.0, 32.0)
     # ISO 9013 gives 10 mm of slot in 8 mm ±0.25, so half of it twice is the clearance of a side
     half = (5.0 + ball.spec.size.allowances.slot_clearance_mm) / 80.0
@@ -149,7 +148,6 @@ def test_a_laser_cuts_no_shell_from_a_plate() -> None:
     for other in ("mill", "print"):
         made = sphere(f"size.process={other}")
         assert not {"cut_plate_mm", "cut_slot_mm"} & {*named(made)}
-        assert "bent-parts" not in {text.name for text in made.warnings}
 
 
 @pytest.mark.long

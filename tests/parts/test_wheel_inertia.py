@@ -140,10 +140,6 @@ def test_the_force_of_a_body_off_the_axis():
 @pytest.mark.parametrize(
     ("spec", "said"),
     [
-        (
-            Spec(External(6), mass=(Mass("point", mass_kg=1.0, radius_mm=9000.0),)),
-            "radius_mm = 9000 in [[mass]] is 90 centre distances",
-        ),
         (Spec(External(6), motor=Motor(service_factor=2.0)), "[motor] has no load to drive"),
         (
             Spec(External(6), load=Load(0.1), support=Support(friction=0.1)),

@@ -13,10 +13,9 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of
 from geneva_cli.verdict import advice
-from geneva_cli.verdict.advice import judged
+from geneva_cli.verdict.advice import judged, remedies
 from geneva_cli.verdict.checks import Check, all_pass, checks
 from geneva_cli.verdict.checks.check import NONE, STOPPED
-from geneva_cli.verdict.remedies import remedies
 
 DESIGNS = repo.DESIGNS
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from geneva_cli.cli.options import Format, Output, Settings, SpecPath, flag, option, say, warn
+from geneva_cli.cli.options import Format, Output, Settings, SpecPath, option, say, warn
 
 EXAMPLES = ("geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01",)
 
@@ -12,9 +12,6 @@ def run(
     samples: Annotated[int, option("N", "Number of machines to draw.")] = 65536,
     seed: Annotated[int, option("K", "The same seed, the same machines.")] = 0,
     radius: Annotated[float | None, option("MM", "Show micrometres too, at this radius.")] = None,
-    histogram: Annotated[
-        bool, flag("--histogram", "Distribution of the drawn machines, a row a bin.")
-    ] = False,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",
@@ -25,14 +22,11 @@ def run(
     dimension contributes, and the clearances with which every machine still turns.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show, show_answer
+    from geneva_cli.output import show_answer
     from geneva_cli.output.formats import is_for_people
     from geneva_cli.study.summary.report_summary import of_tolerance
 
     design = load(spec, settings or ())
-    if histogram:
-        show(design.tolerance_histogram(samples, seed), output, format, design.spec.files)
-        return
     table = design.tolerance(samples, seed, radius)
     show_answer(of_tolerance(design, table), output, format, design.spec.files)
     # the warnings of tolerances only

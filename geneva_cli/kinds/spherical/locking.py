@@ -25,16 +25,16 @@ The play is computed in the middle of a dwell, as on a plane.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
-from geneva_cli.kinds.spherical.parts import Shells, SphereParts
+from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.loads.tolerance.dimensions import Deviations
 from geneva_cli.loads.tolerance.locking import ROUNDING, LockPlay, positive_root
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import array, choose
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.tolerance.needed import SAME, Corners, CutParts
+from geneva_cli.verdict.tolerance import SAME, Locks
 
 
 class SphereLock(NamedTuple):
@@ -90,56 +90,18 @@ class SphereLock(NamedTuple):
         return atan2(positive_root(across * across - along * along), along)
 
 
-class CutShells(CutParts):
-    """Shells as they are cut."""
-
-    def __init__(self, parts: Parts) -> None:
-        assert isinstance(parts, SphereParts)
-        self.shells = parts.shells
-
-    def locks(self) -> list[SphereLock]:
-        """Return the locks, one for each shape; none without locking sectors."""
-        return sphere_locks(self.shells)
-
-    def corners(self, spec: Spec, sizes: dict[str, float], slot: float) -> Corners:
-        """Return the clearance of the lock, an arc, and the specs of tightest and loosest machine.
-
-        The radii that deviate are from the crank's axis, L times the sine of the angle from it.
-        """
-        ball = self.shells.ball
-        size, L = spec.size, ball.radius_mm
-
-        def arc_mm(angle: float, by: float) -> float:
-            """Return the arc by which an angle grows if its radius L sin(angle) grows ``by``."""
-            return L * (math.asin(min(1.0, max(-1.0, math.sin(angle) + by / L))) - angle)
-
-        def corner(sign: float) -> Spec:
-            roller = L * ball.roller - sign * 0.5 * sizes["roller_diameter_mm"]
-            clearance = max(size.allowances.slot_clearance_mm + sign * slot, 0.0)
-            beyond = L * (ball.half_width - ball.bottom) - roller - clearance
-            disc = L * math.sin(ball.lock) - sign * sizes["lock_radius_mm"]
-            changed = size.replace(
-                roller_radius_mm=roller,
-                slot_clearance_mm=clearance,
-                slot_bottom_clearance_mm=max(beyond + L * (ball.axes - ball.arm), 0.0),
-                lock_radius_mm=disc,
-            )
-            if ball.lock:
-                grown = arc_mm(ball.recess, sign * sizes["recess_radius_mm"])
-                clear = L * (ball.recess - math.asin(disc / L)) + grown
-                changed = changed.replace(lock_clearance_mm=max(clear, 0.0))
-            return spec.replace(size=changed)
-
-        least = arc_mm(ball.lock, sizes["lock_radius_mm"] + sizes["recess_radius_mm"])
-        return least if ball.lock else None, corner
-
-
-def sphere_locks(shells: Shells) -> list[SphereLock]:
-    """Return a recess with each locking sector of a spherical crank; empty without one."""
-    ball = shells.ball
-    edges = [region.boundary[0] for region in shells.crank]  # it begins with the locking edge
-    halves = {round(edge.sweep / SAME): 0.5 * edge.sweep for edge in edges}
-    return [
-        SphereLock(ball.radius_mm, ball.axes, ball.lock, ball.recess, ball.rim, half)
-        for half in halves.values()
+def sphere_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:
+    """A recess with each locking sector of a spherical crank, and the clearance that they need."""
+    assert isinstance(parts, SphereParts)
+    ball, L = parts.shells.ball, parts.shells.ball.radius_mm
+    halves = {
+        round(edge.sweep / SAME): 0.5 * edge.sweep
+        for region in parts.shells.crank
+        for edge in region.boundary[:1]  # it begins with the locking edge
+    }
+    locks = [
+        SphereLock(L, ball.axes, ball.lock, ball.recess, ball.rim, half) for half in halves.values()
     ]
+    by = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
+    grown = math.asin(min(1.0, math.sin(ball.lock) + by / L)) - ball.lock
+    return locks, L * grown if ball.lock else None

@@ -103,9 +103,7 @@ class Spread(NamedTuple):
     """Error of the wheel's angle towards one side, degrees.
 
     ``mean`` and ``std`` are of that angle with its sign. ``p997`` is the size that 99.7 % of the
-    machines keep. ``parts`` has the contribution of each dimension's plus or minus. ``shape`` is
-    the histogram of the random machines: the middles of its bins, and the fraction of the machines
-    in each.
+    machines keep. ``parts`` has the contribution of each dimension's plus or minus.
     """
 
     worst: float
@@ -114,7 +112,6 @@ class Spread(NamedTuple):
     std: float
     p997: float
     parts: tuple[float, ...]
-    shape: tuple[tuple[float, float], ...] = ()
 
     @property
     def fractions(self) -> tuple[float, ...]:
@@ -163,8 +160,6 @@ def spread(
         return float(np.ravel(angle(by).c[number is not None])[0])
 
     parts = [one(i) * size if size else 0.0 for i, size in enumerate(sizes)]
-    counts, edges = np.histogram(np.degrees(drawn), bins=60)
-    middles = 0.5 * (edges[:-1] + edges[1:])
     return Spread(
         math.degrees(worst),
         math.degrees(abs(one(None)) + math.sqrt(math.fsum(part * part for part in parts))),
@@ -172,7 +167,6 @@ def spread(
         math.degrees(drawn.std()),
         math.degrees(_p997(drawn)),
         tuple(math.degrees(abs(part)) for part in parts),
-        tuple(zip(middles.tolist(), (counts / len(drawn)).tolist(), strict=True)),
     )
 
 

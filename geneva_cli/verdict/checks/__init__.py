@@ -1,12 +1,8 @@
-"""The checks of a design, each with its value and its limit.
-
-A check is a file, or a function in a file of related ones, and one line in ``all_checks``.
-"""
+"""The checks of a design, each with its value and its limit."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import chain
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
@@ -19,6 +15,7 @@ from geneva_cli.verdict.checks.all_checks import (
     OF_TURN,
     PLAYS,
     PROOFS,
+    PUSHED,
     TURNING,
     applicable,
     check_named,
@@ -40,9 +37,93 @@ def checks(
 
     Without ``turned`` those of the whole turn are left out, which take the longest.
     """
-    motion = list(applicable(MOTION, mechanism))
-    shown = list(_parts(mechanism, machine, turned)) if parts else []
-    return [*motion, *shown, *applicable(LIMITS, mechanism)]
+    shown = of_parts(mechanism, machine, turned) if parts else ()
+    return [*applicable(MOTION, mechanism), *shown, *applicable(LIMITS, mechanism)]
+
+
+def quick_first(
+    mechanism: Mechanism, machine: Parts | None = None, parts: bool = True
+) -> Iterator[Check]:
+    """The same checks in the order of their cost, for those who stop at one that fails."""
+    yield from applicable(MOTION, mechanism)
+    yield from applicable(LIMITS, mechanism)
+    if parts:
+        yield from of_parts(mechanism, machine)
+
+
+def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) -> Check | None:
+    """The check with this name, without the others; None if there is no such check.
+
+    Raises GenevaError if its parts cannot be built, or turned if it is of the turn.
+    """
+    check = check_named(MOTION, name, mechanism) or check_named(LIMITS, name, mechanism)
+    if check or name in (*MOTION, *LIMITS) or not mechanism.spec.is_turned:
+        return check
+    if name in PUSHED:
+        pushed = pushed_round(mechanism) if mechanism.no_turn else []
+        return next((one for one in pushed if one.name == name), None)
+    from geneva_cli.parts.parts import parts_of
+
+    machine = machine or parts_of(mechanism)
+    if name in OF_TURN:
+        return check_named(TURNING, name, machine, machine.turned.turn)
+    if name == "parts":
+        _ = machine.turned
+    return (
+        check_named(standing(mechanism), name, machine.built) if mechanism.spec.has_parts else None
+    )
+
+
+def of_parts(
+    mechanism: Mechanism, machine: Parts | None = None, turned: bool = True
+) -> Iterator[Check]:
+    """Walls, shafts and, if ``turned``, the full turn of a machine whose parts are drawn.
+
+    If wheel or crank cannot be built, or turned, a single check says so instead. A rack can be
+    turned although some of its machine's parts are not built.
+    """
+    spec, none = mechanism.spec, list[Check]()
+    if not spec.has_parts:
+        none = [Check("parts", None, "proved", None, None, spec.no_parts)]
+    if not spec.is_turned:
+        yield from none
+        for name in PLAYS:
+            if (limit := spec.limits.as_dict()[name]) is not None:
+                why = "not computed, because the parts of this machine are not turned"
+                yield Check(name, None, "at most", limit, None, why)
+        return
+    from geneva_cli.parts.parts import parts_of
+    from geneva_cli.parts.turn.pairs import WorkLimit
+
+    machine = machine or parts_of(mechanism)
+    try:
+        rows = none or list(applicable(standing(mechanism), machine.built))
+        _ = machine.turned
+    except GenevaError as error:
+        yield refused("parts", error)
+        return
+    yield from rows
+    if turned and mechanism.no_turn:
+        yield from pushed_round(mechanism)
+    elif turned:
+        try:
+            turn = machine.turn
+        except WorkLimit as error:
+            yield refused("full_turn", error)
+            return
+        yield from applicable(TURNING, machine, turn)
+
+
+def pushed_round(mechanism: Mechanism) -> list[Check]:
+    """Whether parts turn that do not follow the formulas, and how hard they are struck.
+
+    Without that extra, or where it cannot turn them, there is no verdict.
+    """
+    try:
+        rows: list[Check] = load_extra("outline", "as_built")(mechanism)
+    except GenevaError:
+        return [Check("full_turn", None, "proved", None, None, mechanism.no_turn)]
+    return rows
 
 
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
@@ -58,18 +139,7 @@ def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
         return []  # the checks of the parts report the error
 
 
-def single_check(mechanism: Mechanism, name: str, parts: Parts | None = None) -> Check | None:
-    """The check with this name, without the others and the turn; None if there is no such check.
-
-    A failing one has no reason in words yet. Raises GenevaError if its parts cannot be built.
-    """
-    check = check_named(MOTION, name, mechanism) or check_named(LIMITS, name, mechanism)
-    among = standing(mechanism)
-    if check or not mechanism.spec.has_parts or name not in among:
-        return check
-    from geneva_cli.parts.parts import parts_of
-
-    return check_named(among, name, (parts or parts_of(mechanism)).built)
+# Quantities of a study: values of checks by their names.
 
 
 def values_before_turn(parts: Parts) -> Values:
@@ -87,71 +157,10 @@ def check_values(parts: Parts) -> Values:
 
 
 def passed(parts: Parts) -> Values:
-    """Whether no check fails: the quick ones first, up to one that fails."""
-    mechanism = parts.mechanism
-    quick = chain(applicable(MOTION, mechanism), applicable(LIMITS, mechanism))
-    return {"passes": all_pass(quick) and all_pass(_parts(mechanism, parts, turned=True))}
+    """Whether no check fails, computed until the first that does."""
+    return {"passes": all_pass(quick_first(parts.mechanism, parts))}
 
 
 def proved(parts: Parts) -> Values:
     """The gap that is proved."""
     return {c.name: c.value for c in proofs(parts)}
-
-
-def _parts(mechanism: Mechanism, machine: Parts | None, turned: bool) -> Iterator[Check]:
-    """Walls, shafts and, if ``turned``, the full turn of a machine whose parts are drawn.
-
-    If wheel or crank cannot be built, or turned, a single check says so instead. A rack can be
-    turned although some of its machine's parts are not built.
-    """
-    spec, none = mechanism.spec, list[Check]()
-    if not spec.has_parts:
-        none = [Check("parts", None, "proved", None, None, spec.no_parts)]
-    if not spec.is_turned:
-        yield from none
-        yield from _unknown_plays(mechanism)
-        return
-    from geneva_cli.parts.parts import parts_of
-
-    machine = machine or parts_of(mechanism)
-    try:
-        rows = none or list(applicable(standing(mechanism), machine.built))
-        _ = machine.turned
-    except GenevaError as error:
-        yield refused("parts", error)
-        return
-    yield from rows
-    if not turned:
-        return
-    if mechanism.no_turn:
-        yield from pushed_round(mechanism)
-        return
-    from geneva_cli.parts.turn.pairs import WorkLimit
-
-    try:
-        turn = machine.turn
-    except WorkLimit as error:
-        yield refused("full_turn", error)
-        return
-    yield from applicable(TURNING, machine, turn)
-
-
-def pushed_round(mechanism: Mechanism) -> list[Check]:
-    """Return whether parts turn that do not follow the formulas, and how hard they are struck.
-
-    Without that extra, or where it cannot turn them, there is no verdict.
-    """
-    try:
-        rows: list[Check] = load_extra("outline", "as_built")(mechanism)
-    except GenevaError:
-        return [Check("full_turn", None, "proved", None, None, mechanism.no_turn)]
-    return rows
-
-
-def _unknown_plays(mechanism: Mechanism) -> Iterator[Check]:
-    """The limited plays of a machine whose parts are not turned, without values."""
-    limits = mechanism.spec.limits.as_dict()
-    for name in PLAYS:
-        if limits[name] is not None:
-            why = "not computed, because the parts of this machine are not turned"
-            yield Check(name, None, "at most", limits[name], None, why)

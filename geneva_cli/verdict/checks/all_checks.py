@@ -1,7 +1,7 @@
 """The list of checks, in the order shown; each is imported at its first use.
 
-A new check is a function in a file of related ones, and its name here. The function gets the name
-and the object to check, and returns None if the check does not apply.
+A new check is a function, and its name here. The function gets the name and the object to check,
+and returns None if the check does not apply.
 """
 
 from __future__ import annotations
@@ -120,22 +120,8 @@ STANDING: Checks = {
     **{name: path for kind in KINDS for name, path in kind.parts_checks.items()},
     **PROCESS,
 }
-# Checks of all the machines within the tolerances, for which parts are turned.
-TOLERANCES = _of(
-    "play_checks",
-    slot_clearance="tolerance_slot_mm",
-    lock_clearance="tolerance_lock_mm",
-    extremes_turn="tolerance_turns",
-)
 # Checks of plates or shells in a whole turn. JAMS are those that fail where a roller does not find
 # its slot, or meets the rim next to it, and jams.
-_DWELL = _of(
-    "play_checks",
-    dwell_hold="dwell_hold",
-    smallest_gap="gap_mm",
-    idle_roller="idle_roller_mm",
-    dwell="dwell_play_deg dwell_play_mm",
-)
 JAMS = _of(
     "play_checks",
     hand_over="hand_over_play_deg hand_over_play_mm",
@@ -150,8 +136,19 @@ PLAYS = _of(
     limited_play="index_play_max_deg dwell_play_max_deg",
     dwell_position="dwell_position_max_deg",
 )
+# Of all the machines within the tolerances.
+TOLERANCES = _of(
+    "play_checks",
+    toleranced="tolerance_slot_mm tolerance_lock_mm",
+)
 TURNING: Checks = {
-    **_DWELL,
+    **_of(
+        "play_checks",
+        dwell_hold="dwell_hold",
+        smallest_gap="gap_mm",
+        idle_roller="idle_roller_mm",
+        dwell="dwell_play_deg dwell_play_mm",
+    ),
     **JAMS,
     **_of("play_checks", motion="motion_play_deg motion_play_mm"),
     **PLAYS,
@@ -159,8 +156,6 @@ TURNING: Checks = {
 }
 # Of flat parts at every angle of the turn, made for a design's own answer.
 PROOFS = _of("play_checks", least_gap="gap_proved_mm")
-
-
 # The names of all checks but those of the whole turn; ``parts``: they can be built.
 BEFORE_TURN = tuple(dict.fromkeys((*MOTION, *LIMITS, "parts", *STANDING)))
 # The names of those of the whole turn; ``full_turn``: the parts can be turned.
@@ -170,41 +165,38 @@ OF_TURN = ("full_turn", *TURNING)
 def standing(mechanism: Mechanism) -> Checks:
     """The checks of the parts of a machine at rest."""
     kinds = of_wheel(mechanism.spec.wheel.NAME)
-    own = next((kind.parts_checks for kind in reversed(kinds) if kind.parts), {})
-    added = [kind.parts_checks.items() for kind in kinds if not kind.parts]
-    some = {name: path for rows in added for name, path in rows}
+    own = next((kind.parts_checks for kind in reversed(kinds) if kind.parts), None)
+    some: Checks = {}
+    for kind in kinds:
+        some |= {} if kind.parts else kind.parts_checks
     return {**own, **some} if own else {**STATIC, **some, **PROCESS}
 
 
 def standing_checks(parts: Parts) -> Iterator[Check]:
     """The checks of parts at rest: walls, shafts, branches of a slot."""
-    yield from applicable(standing(parts.mechanism), parts)
+    return applicable(standing(parts.mechanism), parts)
 
 
 def turn_checks(parts: Parts, turn: FullTurn) -> Iterator[Check]:
     """The checks of a whole turn: no parts overlap, and lock and slots leave little play."""
-    yield from applicable(TURNING, parts, turn)
+    return applicable(TURNING, parts, turn)
 
 
 def check_named(among: Checks, name: str, *of: object) -> Check | None:
-    """The check with this name; None if it is not in the list, or does not apply."""
+    """The check with this name, without its reason; None if it is none, or does not apply."""
     return load_named(among[name])(name, *of) if name in among else None
-
-
-def untold(among: Checks, *of: object) -> Iterator[Check]:
-    """The checks of a list that apply to ``of``; those that fail have no reason in words yet."""
-    for name, path in among.items():
-        if check := load_named(path)(name, *of):
-            yield check
 
 
 def applicable(among: Checks, *of: object) -> Iterator[Check]:
     """The checks of a list that apply to ``of``; of those that fail for one reason, the first."""
     reasons = set()
-    for name, path in among.items():
-        if check := load_named(path)(name, *of):
-            told = check.told
-            if told.passes is not False or told.why not in reasons:
-                yield told
-            if told.passes is False and told.why:
-                reasons.add(told.why)
+    for name in among:
+        check = check_named(among, name, *of)
+        if check is None:
+            continue
+        check = check.told
+        if check.passes is not False:
+            yield check
+        elif check.why not in reasons:
+            yield check
+            reasons |= {check.why} - {""}

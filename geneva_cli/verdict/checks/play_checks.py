@@ -6,7 +6,6 @@ A play is an angle, or the travel of a rack: each check has a name for either un
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.parts import Parts
@@ -15,9 +14,6 @@ from geneva_cli.parts.turn.full_turn import FullTurn, Most
 from geneva_cli.parts.turn.turn_certificate import Certificate, certificate, tolerance_mm
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
-
-if TYPE_CHECKING:
-    from geneva_cli.verdict.tolerance.needed import LeastClearances
 
 DRY_FRICTION = 0.3  # of a sliding pair that nobody greases: steel on steel or PLA on PLA
 
@@ -101,7 +97,7 @@ def dwell_position(name: str, parts: Parts, turn: FullTurn) -> Check | None:
     limit = machine.spec.limits.dwell_position_max_deg
     if limit is None:
         return None
-    from geneva_cli.verdict.tolerance.study import worst_dwell_deg
+    from geneva_cli.verdict.tolerance import worst_dwell_deg
 
     try:
         worst = worst_dwell_deg(machine, parts)
@@ -141,41 +137,23 @@ def finds_slot(parts: Parts) -> float:
     return math.degrees(moves.half_span(sizes.half_width, sizes.rim))
 
 
-def slot_clearance(name: str, parts: Parts, turn: FullTurn) -> Check | None:
-    """The clearance per side of the slots, against what the tolerances need."""
-    least, own = _least(parts), parts.assembly.full.spec.size.allowances
-    return least and compared(name, own.slot_clearance_mm, "at least", least.slot_mm)
-
-
-def lock_clearance(name: str, parts: Parts, turn: FullTurn) -> Check | None:
-    """The clearance per side of the lock, against what the tolerances need."""
-    least, own = _least(parts), parts.assembly.full.spec.size.allowances
-    if least is None or least.lock_mm is None:  # no disc holds the wheel
-        return None
-    return compared(name, own.lock_clearance_mm, "at least", least.lock_mm)
-
-
-def extremes_turn(name: str, parts: Parts, turn: FullTurn) -> Check | None:
-    """Check that the tightest and the loosest machine turn, if their clearances are enough."""
-    least = _least(parts)
-    if least is None or least.short(parts.assembly.full.spec):
-        return None
-    turns, why = least.turns()
-    return Check(name, None if turns is None else float(turns), "at least", 1.0, turns, why)
-
-
-def _least(parts: Parts) -> LeastClearances | None:
-    """What the tolerances need; None without tolerances, or where none are computed."""
+def toleranced(name: str, parts: Parts, turn: FullTurn) -> Check | None:
+    """The clearance per side of slots or lock, against what the tolerances need."""
     machine = parts.assembly.full
-    tolerance = machine.spec.tolerance
+    tolerance, own = machine.spec.tolerance, machine.spec.size.allowances
     none = tolerance == Tolerance(distribution=tolerance.distribution)
     if none or not machine.output.turns:
         return None
     # a spec without tolerances is checked without their modules
     from geneva_cli.loads.tolerance.motion_error import used
-    from geneva_cli.verdict.tolerance.needed import least_clearances
+    from geneva_cli.verdict.tolerance import needed_mm
 
-    return least_clearances(machine, parts, used(machine))
+    slot_mm, lock_mm = needed_mm(machine, parts, used(machine))
+    if name == "tolerance_slot_mm":
+        return compared(name, own.slot_clearance_mm, "at least", slot_mm)
+    if lock_mm is None:  # no disc holds the wheel
+        return None
+    return compared(name, own.lock_clearance_mm, "at least", lock_mm)
 
 
 def least_gap(name: str, parts: Parts, to_mm: float | None) -> Check | None:

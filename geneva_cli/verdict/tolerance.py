@@ -1,0 +1,298 @@
+"""The effects of tolerances on dwell, motion, entry and clearances: ``geneva tolerance``.
+
+The clearances needed are those of the tightest machine: the largest roller in the narrowest slot,
+and the largest disc in the smallest recess. At entry the wheel rests in its lock. The deviations of
+crank radius, centre distance and slot angle then offset the roller from the slot. The wheel yields
+by the least play of its lock; the slot's clearance must take the rest. The deviation of the centre
+distance reduces the lock's clearance. These sums are exact if the roller enters along the slot.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError, Notice, cut
+from geneva_cli.loads.impacts.entry import arm_mm, mouth_jumps_worst
+from geneva_cli.loads.tolerance.dimensions import Deviations, corners, tolerances, without_effect
+from geneva_cli.loads.tolerance.locking import CutLock, Lock
+from geneva_cli.loads.tolerance.motion_error import entry_jumps_worst, motion_errors, used
+from geneva_cli.loads.tolerance.random_machines import (
+    Draws,
+    Spread,
+    entry_jumps,
+    likely_place,
+    random_machines,
+    spread,
+)
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.records import thing
+from geneva_cli.parts.outlines.cut_outlines import cut_arcs
+from geneva_cli.parts.parts import Parts
+from geneva_cli.spec.rules import POSITIVE, require_mm
+from geneva_cli.table import Table, record_table, rows_table
+
+SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
+# The locks of a machine as it is cut, one for each shape, and the clearance that they need.
+Locks: TypeAlias = tuple[Sequence[CutLock], float | None]
+ANGLES = ("worst", "rss", "mean", "std", "p997")
+
+
+def flat_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:
+    """Each corner of a recess with each locking arc of the crank; none without a locking disc.
+
+    ``sizes`` are the tolerances that apply, in millimetres and radians.
+    """
+    outlines = parts.outlines
+    size, assembly = outlines.sizes, outlines.assembly
+    if not outlines.crank:
+        return [], None
+    near = SAME * assembly.L
+    radii = {
+        round(math.hypot(*end) / near): math.hypot(*end)
+        for arc in cut_arcs([outlines.wheel], size.recess, assembly.L, near)
+        for end in (arc.start, arc.end)
+    }
+    halves = {
+        round(arc.sweep / SAME): 0.5 * abs(arc.sweep)
+        for arc in cut_arcs(outlines.crank, size.lock, 0.0, near)
+    }
+    locks = [
+        Lock(assembly.L, assembly.sign, size.lock, size.recess, radius, half)
+        for radius in radii.values()
+        for half in halves.values()
+        if half > SAME
+    ]
+    ring = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
+    return locks, ring + sizes["center_distance_mm"]
+
+
+def cut_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:
+    """The locks, which a kind of wheel may have in its own way."""
+    of: Callable[[Parts, Mapping[str, float]], Locks]
+    of = thing(parts.mechanism.spec.wheel.NAME, "locks") or flat_locks
+    return of(parts, sizes)
+
+
+def needed_mm(
+    mechanism: Mechanism, parts: Parts | None, sizes: dict[str, float]
+) -> tuple[float, float | None]:
+    """The clearances per side that slot and lock need; without ``parts`` only the slot's."""
+    locks, lock_mm = cut_locks(parts, sizes) if parts else ([], None)
+    ends = corners(list(sizes.values()))
+    play = min((float(np.min(lock(ends).angle.c[0])) for lock in locks), default=0.0)
+    L, most = mechanism.center_distance_mm, 0.0
+    for one in mechanism.engagements:
+        fraction = sizes["crank_radius_mm"] / arm_mm(mechanism, one)
+        for at in (one.entry_deg, one.exit_deg):
+            x, y = one.path(at, 1)
+            (px, vx), (py, vy) = x.scalars(), y.scalars()
+            # the roller runs along the slot there, which gives its normal; on a sphere the
+            # meridian's
+            tx, ty = (vx, vy) if one.slot.height is None else (px, py)
+            far = math.hypot(tx, ty)
+            nx, ny = -ty / far, tx / far
+            of_arm = abs(nx * (px - one.hub) + ny * py) * L * fraction
+            of_distance = abs(nx) * sizes["center_distance_mm"]
+            lever = abs(ny * px - nx * py) * L
+            of_angle = lever * (math.sin(sizes["slot_angle_deg"]) - math.sin(play))
+            most = max(most, of_arm + of_distance + of_angle)
+    return 0.5 * (sizes["roller_diameter_mm"] + sizes["slot_width_mm"]) + most, lock_mm
+
+
+def worst_dwell_deg(mechanism: Mechanism, parts: Parts) -> float | None:
+    """The greatest error of the resting wheel's angle within the tolerances, degrees.
+
+    None without a drawn locking disc. Raises GenevaError for tolerances that are too wide, and for
+    parts that cannot be built.
+    """
+    use = used(mechanism)
+    _refuse_large(mechanism, use)
+    loosest = _loosest_lock(mechanism, parts, use)
+    return math.degrees(loosest[1]) if loosest else None
+
+
+def _loosest_lock(
+    mechanism: Mechanism, parts: Parts, use: dict[str, float]
+) -> tuple[CutLock, float] | None:
+    """The lock that lets the wheel turn farthest, and its greatest error with the slot's, radians.
+
+    None if no drawn lock holds the wheel.
+    """
+    locks = cut_locks(parts.turned, use)[0] if mechanism.spec.is_turned else []
+    ends = corners(list(use.values()))
+    each = [(float(np.max(lock(ends).angle.arrays()[0])), lock) for lock in locks]
+    most, loosest = max(each, key=lambda one: one[0], default=(0.0, None))
+    return (loosest, most + use["slot_angle_deg"]) if loosest else None
+
+
+def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
+    if not 1 <= samples <= 10_000_000:
+        raise GenevaError(f"--samples {cut(samples)}: it must be from 1 to 10000000")
+    if seed < 0:
+        raise GenevaError(f"--seed {cut(seed)}: it must be 0 or more")
+    if not mechanism.output.turns:
+        raise GenevaError(
+            f"tolerances are computed for a wheel on a shaft, not for a {mechanism.output.noun}",
+            ("wheel", "gearing"),
+        )
+    if not any(tolerances(mechanism.spec).values()):
+        raise GenevaError(
+            "the spec gives no tolerances: set one or more of "
+            + ", ".join(Deviations._fields)
+            + " in [tolerance], each a plus or minus",
+            ("tolerance",),
+        )
+
+
+def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
+    """Raise GenevaError if some machine's roller may reach the wheel's axis or the crank's.
+
+    A normal distribution has tails: deviations lie within three times the plus or minus.
+    """
+    for one in motion_errors(mechanism):
+        margin_mm = one.margin_mm(mechanism.spec, use)
+        if not use["center_distance_mm"] + use["crank_radius_mm"] < margin_mm:
+            raise GenevaError(
+                "the tolerances are too wide: center_distance_mm and crank_radius_mm must add up "
+                f"to less than {max(margin_mm, 0.0):.6g} mm. Beyond that the roller could reach "
+                "the wheel's axis or the crank's",
+                ("tolerance", "center_distance_mm"),
+            )
+
+
+class Study(NamedTuple):
+    """The effects of the tolerances; None for those that do not exist, as ``warnings`` say."""
+
+    dwell: Spread | None
+    motion: Spread | None
+    values: dict[str, float | bool | None]  # of the table, which these make
+    warnings: list[Notice]
+
+
+def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
+    """The study of a machine by its ``[tolerance]``.
+
+    Raises GenevaError without tolerances, and for numbers of samples and seeds out of range.
+    """
+    _refuse(mechanism, samples, seed)
+    spec, use, given = mechanism.spec, used(mechanism), tolerances(mechanism.spec)
+    warnings = [
+        Notice("tolerance-left-out", f"{name} is left out: {reason}")
+        for name, reason in without_effect(spec).items()
+        if given[name]
+    ]
+    _refuse_large(mechanism, use)
+    sizes = list(use.values())
+    ends = corners(sizes)
+    loosest = None
+    try:
+        loosest = _loosest_lock(mechanism, parts, use)
+    except GenevaError as error:
+        warnings.append(Notice("not-known", f"no parts: {error}"))
+    motions = motion_errors(mechanism)
+    errors = [(one, one.greatest(ends)) for one in motions]
+    roots = [(one, one.greatest_rss(sizes)) for one in motions]
+    jumps = max(entry_jumps(mechanism), key=lambda one: float(np.max(one(ends)[0])), default=None)
+    machines = Draws(tuple(sizes), spec.tolerance.distribution == "normal", seed)
+    likely = likely_place(machines, samples, motions) if motions else None
+    drawn = random_machines(machines, samples, loosest and loosest[0], likely, jumps)
+    values: dict[str, float | bool | None] = {}
+    dwell = motion = None
+    if loosest:
+        lock, worst = loosest
+        dwell = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
+    else:
+        text = "dwell_position is not known: no drawn locking disc holds the wheel at rest"
+        warnings.append(Notice("not-known", text))
+    if errors:
+        one, farthest = max(errors, key=lambda error: float(error[1].error[0]))
+        shown = mechanism.shown_deg(one.engagement.mid_deg + float(farthest.at_deg[0]))
+        values["motion_play.at_deg"] = shown
+        other, root = max(roots, key=lambda root: float(root[1].error[0]))
+        place, side, worst = (float(a[0]) for a in (root.at_deg, root.side, farthest.error))
+        motion = spread(lambda by: other(by, place, side) * side, sizes, worst, drawn.motion)
+    else:
+        text = "motion_play is not known: curved slots are computed for a path without errors"
+        warnings.append(Notice("not-known", text))
+    if jumps:
+        worst_jump = entry_jumps_worst(mechanism, use)
+        assert worst_jump is not None  # there are slots to enter
+        mouth = mouth_jumps_worst(mechanism)
+        values |= {
+            "entry_jump.mean": float(drawn.jump.mean()),
+            "entry_jump.std": float(drawn.jump.std()),
+            "entry_jump.worst": float(worst_jump[0]),
+            "entry_jump.missed_share": drawn.missed,
+            "entry_jump.mouth_worst": mouth.item(),
+        }
+    else:
+        text = "entry_jump is not known: the law, not the path, sets how the roller enters"
+        warnings.append(Notice("not-known", text))
+    turned, why = None, mechanism.no_turn or "there are no drawn parts to turn"
+    try:
+        turned = parts.turned if spec.is_turned and not mechanism.no_turn else None
+    except GenevaError as error:
+        why = str(error)
+    slot_mm, lock_mm = needed_mm(mechanism, turned, use)
+    own = spec.size.allowances
+    pairs = {"slot": (own.slot_clearance_mm, slot_mm), "lock": (own.lock_clearance_mm, lock_mm)}
+    short = [
+        f"{name}_clearance_mm must be at least {needed:.6g}"
+        for name, (mm, needed) in pairs.items()
+        if turned and needed is not None and mm < needed * (1.0 - 1e-12)
+    ]
+    if short or not turned:
+        text = f"not every machine turns: {' and '.join(short)}"
+        text = text if short else f"no turn was computed: {why}"
+        warnings.append(Notice("not-every-machine-turns", text))
+    values |= {
+        "clearances.slot_mm": own.slot_clearance_mm,
+        "clearances.slot_needed_mm": slot_mm,
+        "clearances.lock_mm": None if lock_mm is None else own.lock_clearance_mm,
+        "clearances.lock_needed_mm": lock_mm,
+        "clearances.turns": not short if turned else None,
+        "clearances.jam_share": drawn.jams,
+    }
+    return Study(dwell, motion, values, warnings)
+
+
+def tolerance_table(
+    mechanism: Mechanism, parts: Parts, samples: int, seed: int, radius_mm: float | None = None
+) -> Table:
+    """The study as a record, with micrometres at ``radius_mm``, if not None."""
+    if radius_mm is not None:
+        require_mm("--radius", radius_mm, POSITIVE)
+    results, spec = study(mechanism, parts, samples, seed), mechanism.spec
+    values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
+    values |= {"samples": samples, "seed": seed, "distribution": spec.tolerance.distribution}
+    values["radius_mm"] = radius_mm
+    angles = {"dwell_position": results.dwell, "motion_play": results.motion}
+    micron = None if radius_mm is None else math.radians(1.0) * radius_mm * 1e3
+    for name, of in angles.items():
+        for unit, scale in {"deg": 1.0, "arcsec": 3600.0, "um": micron}.items():
+            for angle in ANGLES:
+                known = of is not None and scale is not None
+                values[f"{name}.{angle}_{unit}"] = getattr(of, angle) * scale if known else None
+    # a row for each dimension that deviates: its fraction of the squares, its plus or minus
+    names = ("dimension", "share", "dwell_position_deg", "motion_share", "motion_play_deg")
+    rows = []
+    for i, name in enumerate(Deviations._fields):
+        if tolerances(spec)[name]:
+            row: list[Any] = [name]
+            for of in angles.values():
+                row += [of.fractions[i], of.parts[i]] if of else [None, None]
+            rows.append(tuple(row))
+    rows.sort(key=lambda row: -(row[1] or 0.0))
+    values |= {"motion_play.at_deg": None, "contributions": rows_table(names, rows)}
+    ends = ("mean", "std", "worst", "missed_share", "mouth_worst")
+    values |= {f"entry_jump.{end}": None for end in ends}
+    warnings = spec.accept.applied(results.warnings)
+    known_angles = [name for name, of in angles.items() if of]
+    if radius_mm is None and known_angles:
+        text = f"micrometres of {' and '.join(known_angles)}: need --radius"
+        warnings.append(Notice("not-known", text))
+    return record_table(values | results.values | {"warnings": tuple(warnings)}, spec.title)
