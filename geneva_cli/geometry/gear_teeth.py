@@ -23,7 +23,7 @@ from geneva_cli.geometry.shapes import ORIGIN, Point, Segment, about
 from geneva_cli.numerics.arrays import Array
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.fit.path import Curve
+    from geneva_cli.geometry.fit.arcs import Curve
 
 
 Writer: TypeAlias = "Callable[[Curve, float, float], Sequence[Segment]]"  # fits pieces to a curve

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from geneva_cli.geometry.fit.arcs import Curve
 from geneva_cli.geometry.fit.arcs import arcs as arcs
 from geneva_cli.geometry.fit.cubics import cubics as cubics
-from geneva_cli.geometry.fit.path import Curve
 from geneva_cli.geometry.shapes import Segment
 
 # the kinds of pieces that a curve can be written in

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.fit.path import Curve, CurvePath, fewest, points_of
+from geneva_cli.geometry.fit.arcs import Curve, CurvePath, fewest, points_of
 from geneva_cli.geometry.shapes import Cubic
 from geneva_cli.numerics.arrays import Array
 

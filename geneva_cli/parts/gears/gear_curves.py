@@ -33,7 +33,7 @@ from geneva_cli.spec.tables import Size
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.fit.path import Curve
+    from geneva_cli.geometry.fit.arcs import Curve
 
 
 NAMES = (
