@@ -1,13 +1,10 @@
 """Gear teeth as a rack cuts them, along any pitch curve: flanks, fillets, and whole round gears.
 
-The rack's pitch line rolls on the pitch curve. Where they touch, at P, all normals of contact meet.
-So a point of the gear is the foot of the perpendicular from P on the rack's flank. Below the flank
-it lies on the line from P through the centre of the rounded corner, behind the corner. About a
-circle the flank is an involute, and the fillet is offset from a trochoid.
-
-A curve is a function of its length s in mm, counterclockwise. It returns its points and its unit
-tangents. A tooth has two sides, 1 for the one at greater s, and -1. The gear that rolls on a curve,
-with teeth of the same rack, meshes with those along it. Tips and roots are parallel to it.
+The rack's pitch line rolls on the pitch curve. Where they touch, at P, all normals of contact meet:
+a point of the gear is the foot of the perpendicular from P on the rack's flank; below, it lies on
+the line from P through the centre of the rounded corner. A curve is a function of its length s in
+mm, counterclockwise, that returns points and unit tangents. A tooth has the sides 1, at greater s,
+and -1.
 """
 
 from __future__ import annotations

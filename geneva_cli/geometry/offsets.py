@@ -1,7 +1,6 @@
 """Pieces parallel to others, their corners, and the path of a cutter along an outline.
 
-The path is the true offset, of lines and arcs as the outline is. Round an outer corner it is an arc
-about it. In an inner corner adjacent pieces end where they meet; the beam leaves its own radius. A
+The path is the true offset, of lines and arcs as the outline is, with arcs about outer corners. A
 milling cutter reaches all of an outline if the offset by its radius keeps that distance.
 """
 

@@ -1,11 +1,8 @@
 """A smooth curve in the fewest pieces that stay within a tolerance: arcs with common tangents.
 
-Points and tangents are complex numbers here, so that a product rotates one. A biarc joins two
-points with tangents: two arcs that touch. Biarcs along the curve's own tangents have an error of
-k' h³ / 40 with arcs of length h, where k' is the rate of the curvature. The best spline of arcs
-meets the curve at all its joints, with tangents off by k' h² / 12. Its error is the third Bernoulli
-polynomial, k' h³ / 125, which takes a third fewer arcs. Its tangents lie half-way between the
-curve's own and the mean of the chords on both sides.
+Points and tangents are complex. Biarcs along the curve's own tangents have an error of k' h³ / 40
+with arcs of length h, where k' is the rate of the curvature. With tangents half-way between the
+curve's own and the mean of the chords on both sides it is k' h³ / 125, with a third fewer arcs.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
 """The angles that a wheel of any outline may have, at each angle of its crank.
 
-The branches of both outlines meet at intervals of the wheel's angle (``stops``). Their union is
-what the wheel cannot have, and its gaps are the free ranges. The wheel's axis is the origin, and
-the crank's axis is at (L, 0). At crank angle 0 the first roller points to the wheel's axis, for an
-internal wheel away from it. The wheel turns counterclockwise as the crank's angle rises.
+The wheel's axis is the origin, and the crank's axis is at (L, 0). At crank angle 0 the first
+roller points to the wheel's axis, for an internal wheel away from it. The wheel turns
+counterclockwise as the crank's angle rises.
 """
 
 from __future__ import annotations

@@ -1,11 +1,9 @@
 """The gaps between wheel, crank and rollers at given positions.
 
 Two boundaries are nearest to each other at a corner of one of them, or where their normals
-coincide. On an arc that is in the direction of the other arc's centre, or of the other line's
-normal. On a line it is at the foot of the perpendicular from the other arc's centre. If the
-outlines overlap, one of these points lies inside the other outline. If one piece of each bounds the
-overlap, the point is between the ends of the pieces; any other overlap has a corner in it. So no
-contact between two samples is missed.
+coincide: on an arc in the direction of the other arc's centre, or of the other line's normal; on a
+line at the foot of the perpendicular from the other arc's centre. If they overlap, one of these
+points lies inside the other outline. So no contact between two samples is missed.
 """
 
 from __future__ import annotations

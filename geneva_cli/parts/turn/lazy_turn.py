@@ -1,7 +1,6 @@
-"""The motion of a wheel that moves only when it is pushed.
+"""The motion of a wheel that moves only when it is pushed, without inertia and friction.
 
-The crank turns. The wheel keeps its angle until a part overlaps it, and then goes along with the
-nearer end of the blocked range. It stops where the push ends. Inertia and friction play no part.
+It keeps its angle until a part overlaps it, and then goes with the nearer end of what is blocked.
 """
 
 from __future__ import annotations

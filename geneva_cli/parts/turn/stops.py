@@ -1,15 +1,12 @@
 """How far a wheel can turn until its outline meets others: exact intervals of its angle.
 
-A wheel's motion leaves the level of its points as it is, their distance from the axis, and changes
-their place, the polar angle. Each piece of an outline is cut where its level is least or greatest.
-So each branch has one place at a level. A branch of the wheel and one of another outline meet at
-the differences of their places at common levels. These angles of the wheel are an interval. Its
-ends are at an end of the common levels, where a corner touches, or at a level where both are
-tangent, which has a closed form. A formula's other solution lies in the interval too. The wheel is
-free up to the first interval on either side: no search, no inside and outside.
-
-The same holds on a sphere, whose levels are angles from the axis, and for a rack, whose levels are
-positions across it.
+A wheel's motion leaves the level of its points, their distance from the axis, and changes their
+place, the polar angle. Each piece of an outline is cut where its level is least or greatest, so
+that each branch has one place at a level. A branch of the wheel and one of another outline meet at
+the differences of their places at common levels: an interval of the wheel's angle. Its ends are at
+an end of the common levels, where a corner touches, or where both are tangent, in closed form. The
+wheel is free up to the first interval on either side. On a sphere levels are angles from the axis,
+for a rack positions across it.
 """
 
 from __future__ import annotations
