@@ -186,19 +186,15 @@ def show_figure(
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
-    """Write the scene as a page of HTML (``-`` prints it), or as a still .svg.
+    """Write the scene as a page of HTML; ``-`` prints it.
 
     Raises GenevaError for another extension, and if the file cannot be written.
     """
     if is_seen(output):
         raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
-    extension = os.path.splitext(output)[1].lower()
-    if output != "-" and extension not in (".html", ".htm", ".svg"):
-        raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm or .svg')
-    from geneva_cli.output import page
-
-    chunks = page.still_chunks if extension == ".svg" else page.chunks
-    _put(chunks(scene), output, inputs)
+    if output != "-" and os.path.splitext(output)[1].lower() not in (".html", ".htm"):
+        raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm')
+    _put(_module("page").chunks(scene), output, inputs)
 
 
 def show_document(

@@ -20,8 +20,7 @@ from geneva_cli import design
 from geneva_cli.design import Design
 from geneva_cli.drawings.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
 from geneva_cli.errors import GenevaError
-from geneva_cli.extras.certify.certificate import certificate
-from geneva_cli.extras.certify.certified_loads import LOADS, not_proved
+from geneva_cli.extras.certify.certificate import LOADS, certificate, not_proved
 from geneva_cli.geometry.sheet import prepared
 from geneva_cli.motion.motion_table import motion_table
 from geneva_cli.motion.peaks import QUANTITIES, peaks_table, worst

@@ -114,13 +114,6 @@ def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> 
     if abs(apart) < SAME_ANGLE:
         pieces: tuple[Segment, ...] = (first, Arc(first.end, last.start, -out), last)
     else:
-        if apart < 0.0:
-            raise GenevaError(
-                "the slots that start and stop the wheel cross by "
-                f"{math.degrees(-2.0 * apart):.4g} deg: increase sector_deg, or set "
-                'gear_ratio = "shockless"',
-                ("drive", "sector_deg"),
-            )
         middle = (bottom - w, 0.0)
         quarter = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
         begin = turned_pieces([first, Arc(first.end, middle, -quarter)], -apart)
