@@ -17,7 +17,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.numerics.arrays import Array, Mask, Whole
-from geneva_cli.parts.turn.stops import Meetings, TurningStops
+from geneva_cli.parts.turn.stops import Meetings, Stops
 
 SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
 BLOCK = 32  # crank angles that are computed together, as much the same pieces are near then
@@ -59,7 +59,7 @@ class FreeRanges:
         self._meets(sector)
 
     def _meets(self, wheel: Polyarc) -> None:
-        self.stops = TurningStops(wheel, self.period, self.crank, self.L, 0.0)
+        self.stops = Stops(wheel, self.period, self.crank, self.L, 0.0)
         self.own = self.stops.wheel(0.0)
 
     def with_slack(self, slack: float) -> FreeRanges:

@@ -23,7 +23,7 @@ from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.pairs import Lengths, Pose, Stop
-from geneva_cli.parts.turn.stops import Stops, TurningStops
+from geneva_cli.parts.turn.stops import Stops
 
 Owned: TypeAlias = tuple[Whole, Array, Array]  # points x, y, and the pose that each belongs to
 
@@ -112,9 +112,7 @@ class Gaps:
     def _stops(self) -> Stops:
         each = len(self.wheel) // len(self.assembly.slots)
         one = self.wheel.subset(np.arange(each)) if self.pitch else self.wheel
-        return TurningStops(
-            one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller
-        )
+        return Stops(one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller)
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap between the outlines of crank and wheel, mm (n,); see ``rollers``."""
