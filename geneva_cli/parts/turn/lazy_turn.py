@@ -124,7 +124,8 @@ class Turner:
             jam = stuck.jam
         if path.begun is not None:
             path.pushes.append(Push(*path.begun, *path.rows[-1][:2]))
-        return LazyTurn(*np.array(path.rows).reshape(-1, 4).T, tuple(path.pushes), jam)
+        crank_at, wheel_at, low, high = np.array(path.rows).reshape(-1, 4).T
+        return LazyTurn(crank_at, wheel_at, low, high, tuple(path.pushes), jam)
 
 
 def _looker(ranges: Ranges, i: int) -> Around:
