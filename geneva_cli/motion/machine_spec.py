@@ -23,7 +23,7 @@ BEFORE = "drive.before"  # table of the drive that turns the input shaft of [dri
 # limits that need a load
 LOADED = (
     *("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa", "pv_max_W_m2"),
-    *("roller_life_min_h", "slot_wear_max_mm_per_million"),
+    "roller_life_min_h",
 )
 # limits that need another key, with its table and its meaning
 _CONTACT = ("face_width_mm", "size", "the length of the line of contact")
@@ -33,7 +33,6 @@ NEEDED = {
     "lock_stress_max_MPa": _CONTACT,
     "stop_stress_max_MPa": _CONTACT,
     "lock_deflection_max_deg": _CONTACT,
-    "slot_wear_max_mm_per_million": ("wear_mm3_Nm", "material.wheel", "its material's wear"),
     "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
 }
 

@@ -25,7 +25,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     return [
         *_of_sizes(mechanism),
         *_fits(mechanism),
-        *_of_gears_and_points(mechanism),
+        *_of_rounded_points(mechanism),
         *(_of_law(mechanism, mechanism.law) if mechanism.law else ()),
     ]
 
@@ -125,8 +125,8 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
             )
 
 
-def _of_gears_and_points(mechanism: Mechanism) -> Iterator[Notice]:
-    """Warnings about points of a file that round the jerk, and a roller that overtakes."""
+def _of_rounded_points(mechanism: Mechanism) -> Iterator[Notice]:
+    """A warning about points of a file that round the jerk."""
     law = mechanism.law
     doubt = law.doubt() if law else None
     if doubt is not None:
@@ -139,14 +139,6 @@ def _of_gears_and_points(mechanism: Mechanism) -> Iterator[Notice]:
                 f"the points have {doubt[0]} decimals, so the jerk is known only to about "
                 f"{float(f'{100.0 * fraction:.2g}'):g} %: use more decimals, or fewer points",
             )
-    lead = mechanism.engagements[0].overtaking / DEGREE
-    if lead > 1e-6:  # degrees: less is rounding
-        yield Notice(
-            "roller-overtakes",
-            f"the roller overtakes the wheel by {lead:.4g}° while the gears drive. Near the "
-            "line of centres its slot would turn the wheel faster than the gears do. It presses "
-            'into the wall that it drove: gear_ratio = "shockless" keeps it behind',
-        )
 
 
 def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
