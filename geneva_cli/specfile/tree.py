@@ -227,6 +227,8 @@ def _refuse_foreign(
 ) -> None:
     """Raise GenevaError for a key of another kind; capitals make no difference to whose it is."""
     known = {field.key.casefold(): field.key for field in own}
+    if all(key.casefold() in known for key in values):
+        return  # before all kinds are imported
     theirs: dict[str, str] = {}  # the first kind that has a key
     for name, keys in kinds.keys.items():
         for field in keys:
