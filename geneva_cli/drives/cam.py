@@ -51,8 +51,16 @@ class Cam(PinPath, kw_only=True):
         # At input 0 the roller crosses the line of centres, and the wheel is half-way.
         early = motion.law.half_way * motion_deg
         turned = LawMotion(-early, motion_deg - early, wheel.step.b, motion.law)
-        path = SolvedPath(turned, wheel.SIGN)
-        _refuse_unreachable(turned, wheel.SIGN)
+        path, sign, V = SolvedPath(turned, wheel.SIGN), wheel.SIGN, turned(0.0, 1).c[1]
+        text = "at mid-motion the law moves the wheel {V:.4g} times as fast as the crank: the "
+        text += "factor must be above 0" + (" and below 1" if sign < 0 else "")
+        refuse_text((V <= 0.0) | ((V >= 1.0) & (sign < 0.0)), ("motion", "law"), text, V=V)
+        # the greatest angle of slot and crank: at 180 degrees they become parallel
+        wide = radians(larger(-turned.entry_deg, turned.exit_deg)) + sign * turned.half_step
+        text = "in {deg:.6g} deg of motion crank and slot become parallel before the end: "
+        text += "increase alpha0_deg to shorten it"
+        outside = (wide <= 0.0) | (wide >= math.pi)
+        refuse_text(outside, ("motion", "alpha0_deg"), text, deg=turned.exit_deg - turned.entry_deg)
         body = ConstantRate(-wheel.SIGN)  # the roller slides along the crank and turns with it
         slot = SolvedPathSlot(path)
         engagement = Engagement(0.0, path, slot, turned, body, _slide, groove=path)
@@ -73,18 +81,3 @@ def _slide(input_deg: Number, path: Vector, loads: Sequence[Load]) -> list[tuple
         crank = across[0] * push, across[1] * push
         out.append((crank, (wall[0] * hold, wall[1] * hold)))
     return out
-
-
-def _refuse_unreachable(motion: LawMotion, sign: float) -> None:
-    """Raise GenevaError if slot and crank become parallel, or the wheel stands at mid-motion."""
-    V = motion(0.0, 1).c[1]
-    text = "at mid-motion the law moves the wheel {V:.4g} times as fast as the crank: the factor "
-    text += "must be above 0" + (" and below 1" if sign < 0 else "")
-    refuse_text((V <= 0.0) | ((V >= 1.0) & (sign < 0.0)), ("motion", "law"), text, V=V)
-    end = radians(motion.exit_deg) + sign * motion.half_step
-    start = radians(-motion.entry_deg) + sign * motion.half_step
-    wide, key = larger(start, end), ("motion", "alpha0_deg")
-    text = "in {deg:.6g} deg of motion crank and slot become parallel before the end: increase "
-    text += "alpha0_deg to shorten it"
-    motion_deg = motion.exit_deg - motion.entry_deg
-    refuse_text((wide <= 0.0) | (wide >= math.pi), key, text, deg=motion_deg)

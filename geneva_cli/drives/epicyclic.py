@@ -66,7 +66,12 @@ class Epicyclic(PinPath, kw_only=True):
         c = 1.0 + teeth if self.fixed == "sun" else 1.0 - teeth
         l, cos_b = step.sin_cos
         rp = l / (c * c - 1.0) if isinstance(self.planet_ratio, str) else self.planet_ratio
-        _refuse_reach(l, rp, teeth, c)
+        # the wheel would start backwards, or the roller leave its slot
+        most, least = l / (c * c - 1.0), -l / choose(c > 0.0, 1.0 + c, teeth)
+        text = "planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot: "
+        text += "it must be above {least:.6g} and at most {most:.6g} (shockless)"
+        key, outside = ("drive", "planet_ratio"), (rp <= least) | (rp > most)
+        refuse_text(outside, key, text, rp=rp, least=least, most=most)
         R0 = l + rp
         half = wheel.half_motion_deg(step)
 
@@ -155,13 +160,3 @@ class _Arms(NamedTuple):
         x, y = self.pose.displacement(*sine_versine(turn))
         u, v = self.pose.displacement(*sine_versine(turn * self.c))
         return x * self.R0 + u * self.rp, y * self.R0 + v * self.rp
-
-
-def _refuse_reach(l: float, rp: float, teeth: int, c: float) -> None:
-    """Raise GenevaError if the wheel would start backwards or the roller would leave its slot."""
-    most = l / (c * c - 1.0)
-    least = -l / choose(c > 0.0, 1.0 + c, teeth)
-    text = "planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot: it "
-    text += "must be above {least:.6g} and at most {most:.6g} (shockless)"
-    key, outside = ("drive", "planet_ratio"), (rp <= least) | (rp > most)
-    refuse_text(outside, key, text, rp=rp, least=least, most=most)

@@ -233,19 +233,15 @@ class WheelMotion(Batchable, ABC):
 
         out: list[Array] = []
         for block in blocks(len(input_deg), BLOCK):
-            values = self._requested(input_deg[block], orders)
+            if 0 in orders:
+                every = self(input_deg[block], max(orders)).derivatives()
+            else:  # without the wheel's angle
+                every = (0.0, *self.rate(input_deg[block], max(orders) - 1).derivatives())
+            values = [array(every[k]) for k in orders]
             out = out or [np.empty((*value.shape[:-1], len(input_deg))) for value in values]
             for whole, value in zip(out, values, strict=True):
                 whole[..., block] = value
         return out
-
-    def _requested(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
-        """Derivatives at angles; without the wheel's angle if that is not among them."""
-        if 0 in orders:
-            values = self(input_deg, max(orders)).derivatives()
-            return [array(values[k]) for k in orders]
-        rates = self.rate(input_deg, max(orders) - 1).derivatives()
-        return [array(rates[k - 1]) for k in orders]
 
 
 @dataclass(eq=False)

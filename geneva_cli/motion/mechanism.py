@@ -21,13 +21,11 @@ from geneva_cli.spec.load_named import load_named
 
 
 class Mechanism(NamedTuple):
-    """A Geneva mechanism.
-
-    ``engagements`` holds one for each kind of motion in a period. Rollers that all move the wheel
-    alike share one engagement, and the period is then one index.
-    """
+    """A Geneva mechanism."""
 
     spec: Spec
+    # One for each kind of motion in a period. Rollers that all move the wheel alike share one, and
+    # the period is then one index.
     engagements: tuple[Engagement, ...]
     period_deg: float  # input angle after which the sequence of engagements repeats
     ratio: float  # l = R/L
@@ -120,11 +118,7 @@ class Mechanism(NamedTuple):
 
     @property
     def matched_ratio(self) -> float | None:
-        """R/L at which the pressure angle of curved slots stays finite at mid-motion.
-
-        It does not depend on the machine's own R/L. None for straight slots, or if no R/L below 1
-        has this property. For a single design only.
-        """
+        """R/L of finite pressure at mid-motion of a design's curved slots; None without."""
         if self.law is None:
             return None
         motion_deg = self.engagements[0].own.motion_deg

@@ -87,9 +87,3 @@ def test_against_50_digits(z, gearing, quantity):
         exact, at_deg = Geneva(z, gearing, float(A[i])).peak(quantity)
         assert abs(float(size[i] / exact - 1)) <= EXACT
         assert place[i] == pytest.approx(float(at_deg), abs=1e-8)
-
-
-def test_no_numpy_state_changes_and_no_warning():
-    before = np.geterr()
-    acceleration_peaks(batch(*designs(1000, 3)))
-    assert np.geterr() == before

@@ -16,9 +16,8 @@ from sampling import some
 from shapely import affinity
 from shapely.ops import unary_union
 
-from geneva_cli import Crank, Cycloidal, Design, EllipticalGears, External, Load, Motion
+from geneva_cli import Crank, Cycloidal, Design, External, Load, Motion
 from geneva_cli.drawings.parts_list import parts_list
-from geneva_cli.motion.machine_spec import Spec
 
 pytestmark = pytest.mark.usefixtures("no_advice")
 
@@ -83,24 +82,6 @@ def test_motion_and_loads_are_those_of_one_crank(z, places):
         in_turn = "crank_bearing_N" in name and name.endswith((".mean", ".rms"))
         if name.startswith(("timing.", "jerk.", "loads.", "cycle.", "life.", "strength.")):
             assert answers[name] == own[name] or in_turn
-
-
-@pytest.mark.long
-def test_the_bearing_of_the_most_loaded_crank_behind_gears():
-    """Gears give the cranks different motions: a dense sum over the engagement of each."""
-    design, shares = eased(5, (0, 4, 3)), []
-    every = design.mechanism.engagements
-    assert len(every) == 3
-    assert design.mechanism.period_deg == 360.0
-    for one in every:
-        x = np.linspace(one.mid_deg + one.entry_deg, one.mid_deg + one.exit_deg, 20_001)[1:-1]
-        force = np.sqrt(design.cycle.states(x).crank_bearing_squared)
-        shares.append((np.trapezoid(force, x) / 360.0, np.trapezoid(force**2, x) / 360.0))
-    means, squares = zip(*shares, strict=True)
-    bearing = design.loads["crank_bearing_N"]
-    assert max(means) > 1.05 * min(means)
-    assert bearing.mean == pytest.approx(max(means), rel=2e-4)  # of the sum's two ends
-    assert bearing.rms == pytest.approx(math.sqrt(max(squares)), rel=2e-4)
 
 
 def polygons(group):
@@ -214,26 +195,6 @@ def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
 
 
 BEFORE = {"eccentricity": 0.3}
-
-
-def eased(z, places):
-    """Cranks whose shaft elliptical gears turn."""
-    gears = EllipticalGears(**BEFORE)
-    drive = Crank(rollers=len(places), crank_steps=places)
-    return Design.of(Spec(External(z), drive, drive_before=gears, load=LOAD))
-
-
-def test_gears_turn_cranks_whose_slots_a_law_gives():
-    """The law holds by the shaft's angle: the wheel is where it is behind one crank then."""
-    law = Motion(Cycloidal())
-    alone = Design(External(6), Crank(rollers=2, crank_steps=(0, 3)), law)
-    spec = alone.spec.replace(drive_before=EllipticalGears(**BEFORE))
-    behind = Design.of(spec).mechanism.engagements
-    (own,) = alone.mechanism.engagements
-    for one in behind:
-        x = np.linspace(one.entry_deg, one.exit_deg, 31)
-        turned = one.motion(x, 0).c[0]
-        assert turned == pytest.approx(own.motion(one.own_deg(x), 0).c[0], abs=1e-14)
 
 
 def test_backwards_the_second_of_two_cranks_stands_at_the_other_steps():

@@ -4,18 +4,13 @@ Each machine is asked as one design at one angle, as one design at an array of a
 array of designs at both kinds of array.
 """
 
-import pickle
-
 import numpy as np
 import pytest
 from design_arrays import MACHINES, alone, drawn, machine
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from machine_witness import motions
 from sampling import some
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.batch import taken
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.jet import turning
@@ -100,20 +95,6 @@ def test_the_same_motion_path_and_slot(case):
                             near(full(at_one, (n, 1))[:, row], jet[:, row, here], level[here])
 
 
-@pytest.mark.long
-def test_it_pickles_and_can_be_taken_apart(case):
-    _, _, found, _ = case
-    again = pickle.loads(pickle.dumps(found.machine))
-    some = found.which % 2 == 0
-    part = taken(again, some)
-    x = 0.3 * found.machine.engagements[0].entry_deg
-    whole = np.broadcast_to(found.machine.engagements[0].motion(x).c[1], (len(found.which), 1))
-    x = x if np.ndim(x) == 0 else x[some]
-    assert np.array_equal(
-        np.broadcast_to(part.engagements[0].motion(x).c[1], (some.sum(), 1)), whole[some]
-    )
-
-
 @pytest.mark.parametrize("name", ["side-crank", "offset", "spherical", "epicyclic", "cycloidal"])
 def test_against_50_digits(name):
     """Of an array of designs, four against the geometry."""
@@ -130,21 +111,6 @@ def test_against_50_digits(name):
             for k, expected in enumerate(exact.derivatives(x[row, j])[:4]):
                 # as of one design: test_machines
                 assert abs(values[k][row, j] - float(expected)) <= 1e-13 * max(1.0, abs(expected))
-
-
-@pytest.mark.long
-@settings(max_examples=60)
-@given(st.sampled_from(sorted(MACHINES)), st.integers(0, 2**32 - 1))
-def test_refused_together_as_alone(name, seed):
-    spec, rules = MACHINES[name]
-    varied = drawn(rules, 5, seed)
-    random = np.random.default_rng(seed)
-    for key, values in varied.items():  # and what no range allows
-        if values.dtype.kind == "f" and random.random() < 0.3:
-            values[random.integers(5)] = random.choice([np.nan, np.inf, -1e13, 0.0])
-            varied[key] = values
-    found = many(spec, varied)
-    assert found.refused.tolist() == [alone(spec, varied, i) is None for i in range(5)]
 
 
 def test_keys_that_cannot_vary():

@@ -108,11 +108,3 @@ def test_keys_that_agree_pass_and_others_name_both() -> None:
     design = Design(Spherical(6), size=Size(crank_radius_mm=R, center_distance_mm=70.0))
     with pytest.raises(GenevaError, match=r"needs 0.5; .* = 35, or center_distance_mm = 60,"):
         _ = design.mechanism
-
-
-def test_a_sized_spec_keeps_the_crank_radius_alone() -> None:
-    """With both keys a later change of z would make a machine as built."""
-    sized = Design(External(6), size=Size(crank_radius_mm=R)).sized
-    assert sized.spec.size.center_distance_mm is None
-    assert sized.spec.size.roller_radius_mm == 3.0
-    assert sized.mechanism.center_distance_mm == pytest.approx(60.0, rel=1e-15)

@@ -8,7 +8,7 @@ import mpmath as mp
 import pytest
 from typer.testing import CliRunner
 
-from geneva_cli import Carousel, Crank, Design, External, Linear, Size
+from geneva_cli import Crank, Design, External, Linear, Size
 from geneva_cli.cli.app import app
 
 
@@ -48,22 +48,6 @@ def test_any_turn_and_any_order() -> None:
     slope = math.tan(math.pi / 6.0)  # the jump at entry, tan(pi/z)
     accelerations = [slope, slope, -slope, 0.0, 0.0]
     assert rows["acceleration"].tolist() == pytest.approx(accelerations, rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    "design",
-    [
-        Design(External(4), Crank(rollers=2)),
-        Design(External(6, steps_deg=(72.0, 48.0))),
-        Design(External(4), Carousel(wheels=3)),
-    ],
-)
-def test_rows_are_those_of_the_whole_table(design: Design) -> None:
-    table = design.motion(40).to_dict()
-    some = [3, 11, 24, 38]  # the last row of all is an entry
-    rows = design.motion(at_deg=[table["input_deg"][i] for i in some]).to_dict()
-    for name, column in table.items():
-        assert rows[name].tolist() == pytest.approx([column[i] for i in some], abs=1e-12)
 
 
 @pytest.mark.parametrize(

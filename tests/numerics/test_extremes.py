@@ -117,17 +117,6 @@ def test_extremes_of_polynomials(sized):
         assert (abs(here) if sized else here * (1.0, -1.0)) == pytest.approx(most[:, i], abs=size)
 
 
-def test_narrow_peaks_among_broad_ones():
-    """Peaks from as broad as the span to a thousandth of it: each refined as far as it needs."""
-    width, middle = (
-        10.0 ** -np.linspace(0.0, 3.0, 181)[:, None],
-        np.linspace(-0.9, 0.7, 181)[:, None],
-    )
-    result = search(lorentzians(middle, width), [(column([-1.0] * 181), column([1.0] * 181))], True)
-    assert result.x[0] == pytest.approx(middle[:, 0], rel=0.0, abs=1e-15)
-    assert result.most[0] == pytest.approx(1.0, rel=2.3e-16)
-
-
 def test_every_zero_is_a_cut():
     """Of sin(rate x) they are the multiples of pi/rate."""
     rates = np.random.default_rng(4).uniform(0.5, 6.0, 200)

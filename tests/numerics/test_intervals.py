@@ -9,7 +9,7 @@ import pytest
 from sampling import some
 
 from geneva_cli.numerics.arrays import Undecided, library, narrowed, piece_of
-from geneva_cli.numerics.intervals import Interval, size_of
+from geneva_cli.numerics.intervals import Interval
 from geneva_cli.numerics.spline import at_rest
 
 ONE_OF = {
@@ -24,12 +24,6 @@ ONE_OF = {
 
 def holds(interval, value):
     return mpmath.mpf(float(interval.low)) <= value <= mpmath.mpf(float(interval.high))
-
-
-@pytest.mark.parametrize("take", [float, bool, int, round, math.sin, np.sin, np.float64])
-def test_no_float_comes_of_an_interval(take):
-    with pytest.raises(TypeError):
-        take(Interval(0.5, 1.0))
 
 
 @pytest.mark.parametrize(
@@ -108,13 +102,6 @@ def test_intervals_in_several_pieces_of_a_spline_are_evaluated_together():
     for k, (low, high) in enumerate(ends.T.tolist()):
         for whole, alone in zip(together, spline(Interval(low, high), 3), strict=True):
             assert (whole.low[k], whole.high[k]) == (alone.low, alone.high)
-
-
-def test_what_is_unknown_has_no_bound():
-    x = Interval(-1.0, 1.0)
-    assert (1.0 / x).size == math.inf
-    assert library(x).sqrt(x).size == math.inf
-    assert size_of(-2.5) == 2.5
 
 
 def test_a_rising_function_is_as_narrow_as_its_ends():

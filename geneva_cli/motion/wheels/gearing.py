@@ -191,10 +191,9 @@ class Gearing(SpecTable):
         return PlaneMotion()
 
     def matched_ratio(self, v: float) -> float:
-        """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.
+        """R/L at which the pin crosses the line of centres as fast as its slot does; NaN if none.
 
-        ``v`` is the wheel's speed over the crank's there: l/(1 - l), inside l/(1 + l). NaN if no
-        R/L below 1 has this property.
+        ``v`` is the wheel's speed over the crank's there: l/(1 - l), inside l/(1 + l).
         """
         able = (v > 0.0) & ((1.0 - self.SIGN) * v < 1.0)
         ratio: float = choose(able, v, math.nan) / (1.0 + self.SIGN * choose(able, v, 0.0))
