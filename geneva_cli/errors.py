@@ -93,6 +93,11 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
     marks.append(where)
 
 
+def refuse_text(where: Any, key: tuple[str, str], text: str, /, **values: object) -> None:
+    """``refuse`` with a text of a key, in which ``values`` are put when it is raised."""
+    refuse(where, lambda: GenevaError(text.format(**values), key))
+
+
 @contextmanager
 def marking() -> Iterator[list[Any]]:
     """Collect the masks of designs that ``refuse`` marks within the block."""

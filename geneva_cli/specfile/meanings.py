@@ -80,7 +80,7 @@ def related(word: str) -> list[tuple[str, str, str]]:
     The word may be a group, such as ``checks``. Names and headings come before texts.
 
     >>> len(related("laws")), related("loads")[0][:2]
-    (12, ('quantity', 'loads.omega_rad_s'))
+    (11, ('quantity', 'loads.omega_rad_s'))
     """
     plain = word.casefold()
     everything = [*listed(), *(("key", key.name, key.meaning) for key in _keys())]

@@ -25,7 +25,6 @@ REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *grou
 OF_LIFE = (
     *("roller_life_turns", "roller_life_motions", "roller_life_h", "equivalent_force_N"),
     *("horn_stress_MPa", "friction_work_J", "pv_max_W_m2", "pin_stress_MPa"),
-    "slot_wear_mm_per_million",
 )
 # All values whose needs a report lists, by their names in checks and in ``life``.
 NEEDY = (
@@ -34,7 +33,6 @@ NEEDY = (
     *("arm_stress_MPa", "wheel_key_pressure_MPa", "crank_key_pressure_MPa"),
     *("roller_life_min_h", "roller_life_turns", "roller_life_motions", "roller_life_h"),
     *("equivalent_force_N", "friction_work_J", "pv_max_W_m2"),
-    *("slot_wear_mm_per_million", "slot_wear_max_mm_per_million"),
 )
 BOUND = "a force with a bound: see the warnings"
 _FLAT = "a wheel that is drawn as a flat outline"
@@ -130,13 +128,6 @@ class Strength:
                 needs.append((vars(spec.shaft)[key] is not None or is_known, f"{key} in [shaft]"))
         elif part in ("arm", "wheel_key", "crank_key") and not self._has_part(part):
             return None
-        elif name.startswith("slot_wear"):
-            worn = spec.material_wheel.wear_mm3_Nm is not None
-            needs += [
-                (worn, "wear_mm3_Nm in [material.wheel]"),
-                (spec.load.rubs_in_slot, 'friction_at = "slot" in [load]'),
-                face,
-            ]
         elif part == "pin":
             needs.append((load.contact_mm is not None, _WIDTH))
         return " and ".join(words for is_met, words in needs if not is_met) or None

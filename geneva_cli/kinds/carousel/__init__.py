@@ -7,8 +7,7 @@ KINDS = (
         "carousel",
         drive="kinds.carousel.motion:Carousel",
         gearings=("external", "internal"),
-        refuses="kinds.carousel.refuses:refuses",
-        families={"carrier": "kinds.carousel.family:carousels"},
+        refuses="kinds.carousel.motion:refuses",
         quantities=(
             Quantities(
                 "carousel",

@@ -64,10 +64,7 @@ class Goal(NamedTuple):
 
 
 class CouplerDrive(NamedTuple):
-    """A wheel's drive: entry and motion in radians, the wheel's sense, the roller's place; (n, 1).
-
-    A batch of them and their links are the machines of the search.
-    """
+    """A wheel's drive, (n, 1): entry and motion in radians, sense, and the roller's place."""
 
     entry: Array
     motion: Array
@@ -135,10 +132,7 @@ def _costs(goal: Goal, places: int, of: Whole, at: Array) -> tuple[Array, Array]
 
 
 def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBars:
-    """The machines at places of the cube, for wheels by their numbers.
-
-    Their motion is sampled at ``places``.
-    """
+    """The machines at places of the cube, for wheels by their numbers."""
     rows = [(w.wheel.step.b, *w.motion, w.roller, float(w.wheel.z)) for w in goal.wheels]
     half, low, high, radius, slots = np.array(rows).T[:, of, None]
     u = at.T[:, :, None]
@@ -234,13 +228,10 @@ def _driven(
     r, half = (roller * L / rho)[which], b[which]
     place = (returns - centre[which]) / (p - centre)[which]
     d, angle = np.abs(place), np.abs((np.angle(place) + half) % (2.0 * half) - half)
-    along_slot, across = d * np.cos(angle), d * np.sin(angle)
-    corner = np.where(
-        along_slot >= 1.0, np.hypot(along_slot - 1.0, r - across), r - across
-    )  # in front of a slot
-    gap = (
-        np.where(across < r * along_slot, corner, d - np.hypot(1.0, r)) - r
-    )  # before a slot or not
+    ahead, across = d * np.cos(angle), d * np.sin(angle)
+    corner = np.where(ahead >= 1.0, np.hypot(ahead - 1.0, r - across), r - across)
+    # in front of a slot its mouth's corner is nearest, else the rim
+    gap = np.where(across < r * ahead, corner, d - np.hypot(1.0, r)) - r
     touch = 1e-6  # a roller that leaves its slot is this near to it
     passes = np.all((gap >= -touch) & (d > 1.0), axis=1)
     _, ground, coupler, *_ = links.numbers

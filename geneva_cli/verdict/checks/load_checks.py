@@ -162,8 +162,9 @@ def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
     stop = arrival(mechanism)
     if stop is None:
         return None
-    check = compared(name, stop.torque_Nm, "at most", stop.most_Nm)
-    if check.passes or stop.most_Nm > 0.0:
+    torque_Nm, most_Nm, _ = stop
+    check = compared(name, torque_Nm, "at most", most_Nm)
+    if check.passes or most_Nm > 0.0:
         return check
     return check._replace(why="no inertia carries the wheel on: set inertia_kgm2 in [load]")
 
@@ -173,8 +174,7 @@ def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
 _WHEEL, _SHAFT = "material.wheel.stress_max_MPa", "shaft.shear_stress_max_MPa"
 BOUNDS = {
     **{
-        name: (f"limits.{name}", LIMITED[name], "")
-        for name in ("pv_max_W_m2", "roller_life_min_h", "slot_wear_max_mm_per_million")
+        name: (f"limits.{name}", LIMITED[name], "") for name in ("pv_max_W_m2", "roller_life_min_h")
     },
     "pin_stress_MPa": ("material.roller.stress_max_MPa", "strength.pin.stress_MPa", "pin"),
     "horn_stress_MPa": (_WHEEL, "strength.horn.stress_MPa", "horn"),
