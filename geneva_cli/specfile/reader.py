@@ -11,8 +11,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
-from itertools import islice
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import tomli
 
@@ -25,41 +24,28 @@ from geneva_cli.specfile.tree import spec_of
 def line_of(text: str, path: tuple[str | int, ...]) -> int:
     """Line on which a key (or else its table) is set; 0 if it is not set.
 
-    The key's line is the first after which the text so far parses and contains the key. Only lines
-    that look like setting it are tried. A number in the path counts the tables of a list, from 0.
+    A number in the path counts the tables of a list, from 0.
     """
-    lines = text.split("\n")
-    while path:
-        before = sum(part for part in path if isinstance(part, int))  # tables that may set it too
-        name = re.escape(next((p for p in reversed(path) if isinstance(p, str)), ""))
-        sets = re.compile(rf"""(^|[\s.,{{\["']){name}["']?\s*[=.\]]""")
-        likely = (
-            i for i, x in enumerate(lines) if sets.search(x) and not x.lstrip().startswith("#")
-        )
-        for i in islice(likely, 10 + before):  # else its table is named
-            if _holds(lines, i + 1, path):
-                return i + 1
-        path = path[:-1]
-    return 0
-
-
-def _holds(lines: list[str], end: int, path: tuple[str | int, ...]) -> bool:
-    """True if the lines up to the end of the value that starts on line ``end`` set the key."""
-    more = 0
-    while True:
-        try:
-            node: Any = tomli.loads("\n".join(lines[: end + more]))
-            break
-        except (ValueError, RecursionError):
-            if end + more >= len(lines):
-                return False
-            more = 2 * more + 1  # a value of many lines
-    try:
-        for part in path:
-            node = node[part]
-    except (LookupError, TypeError):
-        return False
-    return True
+    names = [part for part in path if isinstance(part, str)]
+    numbers = [part for part in path if isinstance(part, int)]
+    most, found, count = 0, 0, -1
+    table, in_text = list[str](), False
+    for i, line in enumerate(text.split("\n"), 1):
+        header = re.match(r"\s*\[+([^\]=]+)\]", line)
+        name = header[1] if header else line.partition("=")[0] if "=" in line else "#"
+        inside = in_text
+        in_text ^= line.count('"""') % 2 == 1 or line.count("'''") % 2 == 1
+        if inside or name.lstrip().startswith("#"):
+            continue
+        own = [part.strip().strip("\"'") for part in name.split(".")]
+        if header:
+            table = own
+            count += own == names[:1]
+        whole = own if header else [*table, *own]
+        here = not numbers or count in (-1, numbers[0])
+        if here and len(whole) > most and whole == names[: len(whole)]:
+            most, found = len(whole), i
+    return found
 
 
 class Text(NamedTuple):

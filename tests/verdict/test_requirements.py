@@ -103,7 +103,10 @@ def test_what_cannot_be_computed_says_so() -> None:
     ("design", "message"),
     [
         (Design(External(6), limits=Limits(dwell_position_max_deg=0.1)), r"in \[tolerance\]"),
-        (Design(gearing("linear")(6), limits=Limits(index_play_max_deg=0.1)), "a rack has none"),
+        (
+            Design(gearing("linear")(6), limits=Limits(index_play_max_deg=0.1)),
+            "not available for a rack",
+        ),
     ],
 )
 def test_limits_without_their_subject_are_refused(design: Design, message: str) -> None:

@@ -69,8 +69,7 @@ LIMITS: Checks = {
             "wheel_shaft_stress_MPa crank_shaft_stress_MPa arm_stress_MPa "
             "wheel_key_pressure_MPa crank_key_pressure_MPa"
         ),
-        product_acceleration="product_acceleration_max_m_s2",
-        product_slip="product_slip",
+        product="product_acceleration_max_m_s2 product_slip",
     ),
 }
 # Checks of flat parts at rest.

@@ -17,7 +17,6 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
     from geneva_cli.loads.impacts.shock_force import Impact
-    from geneva_cli.loads.product import ProductMotion
     from geneva_cli.loads.strength.pin import PinSize
 
 
@@ -34,32 +33,22 @@ def limited_load(name: str, mechanism: Mechanism) -> Check | None:
     return compared(name, most, "at most", limit, at_deg)
 
 
-def product_acceleration(name: str, mechanism: Mechanism) -> Check | None:
-    """The product's greatest acceleration, where ``[limits]`` bounds it."""
-    limit = mechanism.spec.limits.product_acceleration_max_m_s2
+def product(name: str, mechanism: Mechanism) -> Check | None:
+    """The product's greatest acceleration, or the friction that holds it, where it is bounded."""
+    spec = mechanism.spec
+    limit = spec.limits.product_acceleration_max_m_s2
+    if name == "product_slip":
+        limit = spec.product.friction if spec.support.axis == "vertical" else None
     if limit is None:
         return None
-    most, at_deg = _product_motion(mechanism).acceleration_m_s2
-    return compared(name, most.item(), "at most", limit, at_deg.item())
-
-
-def product_slip(name: str, mechanism: Mechanism) -> Check | None:
-    """The friction coefficient that holds the product, where ``[product]`` has its own."""
-    friction = mechanism.spec.product.friction
-    if friction is None or mechanism.spec.support.axis != "vertical":
-        return None
-    motion = _product_motion(mechanism)
-    at_deg = motion.acceleration_m_s2.at_deg
-    return compared(name, motion.friction_needed.item(), "at most", friction, at_deg.item())
-
-
-def _product_motion(mechanism: Mechanism) -> ProductMotion:
     from geneva_cli.verdict.quantities.batch_designs import single
     from geneva_cli.verdict.quantities.motion_quantities import product_motion_of
 
     motion = single(mechanism).once(product_motion_of)
     assert motion is not None  # the spec refuses limit and friction without the product's place
-    return motion
+    most, at_deg = motion.acceleration_m_s2
+    value = motion.friction_needed if name == "product_slip" else most
+    return compared(name, value.item(), "at most", limit, at_deg.item())
 
 
 def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
