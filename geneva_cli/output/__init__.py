@@ -133,16 +133,13 @@ def draw(
 ) -> None:
     """Print the drawing, or write it to the file ``output``; ``version`` is that of a DXF file.
 
-    Formats of tables get the drawing's pieces. Raises GenevaError for an unknown format, for a
-    version of another one, if nothing is drawn, and if the file cannot be written.
+    Raises GenevaError for a format of tables or an unknown one, for a version of another one, if
+    nothing is drawn, and if the file cannot be written.
     """
     name = drawn_as(output, format)
     own = _of_dxf(name, version)
     if name in FORMATS:
-        from geneva_cli.geometry.pieces import pieces_table
-
-        show(pieces_table(drawing), output, name, inputs)
-        return
+        raise GenevaError(f"a drawing is no table: write it as {', '.join(DRAWN)}, or --part slot")
     refuse_columns()
     module, function = DRAWN[name].split(":")
     _put(getattr(_module(module), function)(drawing, *own), output, inputs, name)

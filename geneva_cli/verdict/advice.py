@@ -116,7 +116,7 @@ outer_wall_mm: wheel_outer_radius_mm?
 cut_plate_mm: THICK
 cut_slot_mm: roller_radius_mm? THICK
 branches_apart_mm branches_crossed_mm: roller_radius_mm*3 LONGER
-OTHERS: drive.gear_ratio=shockless lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4
+OTHERS: lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4
   wheel.offset_mm:0
 """
 Value: TypeAlias = float | int | str | None  # None: the key is left out

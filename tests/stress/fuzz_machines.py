@@ -197,8 +197,7 @@ def own_keys(rng, kind):
         way = rng.choice(['ratio_file = "ratio.csv"', f"A = {rng.uniform(-0.95, 0.95)!r}"])
         return [way, f"gear_distance_mm = {near(rng, 100.0)!r}"]
     if kind == "gear-sector":
-        ratio = rng.choice(['"shockless"', repr(near(rng, 0.7))])
-        return [f"sector_deg = {rng.uniform(1, 200)!r}", f"gear_ratio = {ratio}"]
+        return [f"sector_deg = {rng.uniform(1, 200)!r}"]
     if kind == "carousel":
         return [f"wheels = {rng.choice([1, 1, 2, 3, 5])}"]
     if kind == "geneva-pair":

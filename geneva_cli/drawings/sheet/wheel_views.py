@@ -16,8 +16,8 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.slot_ends import cut_walls
 from geneva_cli.parts.projection import outlines_of
+from geneva_cli.parts.slots.roller_paths import cut_walls
 from geneva_cli.spec.written import degrees, length
 
 

@@ -6,7 +6,7 @@ import shapely
 from shapely.affinity import rotate, translate
 from test_gear_teeth import gears
 
-from geneva_cli import Design, Epicyclic, External, GearSector
+from geneva_cli import Design, External, GearSector
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.spec.tables import Size
@@ -48,19 +48,6 @@ def test_sectors_drive_the_whole_arc_and_are_free_beyond(z, sector, module, back
     # chords of the outlines' arcs lie below them by up to 1e-4 mm
     assert max(gaps[x] for x in inner) < 3e-4
     assert not gaps[half + 40.0] < 1e-3  # NaN: no tooth is near
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("no_advice")
-def test_sectors_whose_last_tooth_is_lower_turn_one_way():
-    """Backwards the lower tooth would be the first, and the last one would jam."""
-    sector, teeth = GearSector(sector_deg=60.0), Size(gear_module_mm=2.0)
-    with pytest.raises(GenevaError, match="it drives one way only"):
-        _ = Design(External(3), sector, size=teeth).backwards
-    assert Design(External(3), sector).backwards.passes
-    # planets turn either way
-    planet = Epicyclic(planet_ratio="shockless")
-    assert Design(External(4), planet, size=teeth).backwards.passes
 
 
 @pytest.mark.parametrize(
