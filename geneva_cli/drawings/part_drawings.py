@@ -116,16 +116,15 @@ def gears(parts: EdgedParts) -> Drawing:
     mechanism, name = parts.mechanism, "gears"
     if mechanism.spec.gears or not mechanism.spec.drive.round_gears:
         pair = required_gears(mechanism)
-        if mechanism.spec.size.gear_module_mm is None:
-            name = "pitch curves of the gears"
-            parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
+        name = "pitch curves of the gears"
+        parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
     L = mechanism.center_distance_mm
     members = (*parts.round_gears, *parts.gear_pair)
-    about_crank = tuple(one._replace(at=(one.at[0] - L, one.at[1])) for one in members)
+    about_crank = [one._replace(at=(one.at[0] - L, one.at[1])) for one in members]
     title, ends = titled(mechanism, name), [one.at for one in about_crank]
     line = Contour("PITCH", (Line(min(ends), max(ends)),), closed=False)
     drawn = tuple(once(shapes(about_crank)))
-    return Drawing(title, (*drawn, line), solid=Group(title, about_crank))
+    return Drawing(title, (*drawn, line), solid=Group(title, members))
 
 
 def groove_plate(parts: FlatParts) -> Drawing:

@@ -175,8 +175,6 @@ def _dimensions(parts: Parts) -> list[Dimension | Missing]:
             entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     entries += _motions(mechanism)
     entries += [d for d in mechanism.layout if isinstance(d, Dimension)]
-    if spec.size.gear_module_mm is not None:
-        entries += or_missing("teeth of the gears", lambda: parts.flat.tooth_dimensions)
     return entries
 
 

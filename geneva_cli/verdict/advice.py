@@ -71,7 +71,6 @@ reversal_shock_N: TIGHTER SLOWER
 reversal_stress_MPa: TIGHTER SLOWER WIDER LARGER
 pv_max_W_m2: SLOWER WIDER LARGER
 roller_life_min_h: material.roller.dynamic_capacity_N*10 SLOWER LARGER
-slot_wear_max_mm_per_million: WIDER SLOWER LARGER
 pin_stress_MPa: pin_mm*1.9 roller_radius_mm*3 pin_held=fixed pin_mm= TIGHTER LARGER SLOWER
 horn_stress_MPa lock_horn_stress_MPa: WIDER lock_radius_mm*0.5 LARGER SLOWER
 lock_stress_max_MPa: BLUNTER

@@ -11,10 +11,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Self
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.geometry.sheet import rectangle
-from geneva_cli.geometry.stacks import least_wall
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear.frame import bar_bolts, guide, rack_frame, shafts_and_frame
 from geneva_cli.kinds.linear.outlines import RackOutlines, turned_rack
@@ -145,7 +144,7 @@ class RackParts(EdgedParts):
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
-        """The noncircular gears that turn the crank, with teeth or up to their pitch curves."""
+        """The noncircular gears that turn the crank, up to their pitch curves."""
         return gear_pair(self.mechanism, None, self.writer, rack_bore(self.mechanism))
 
     @cached_property
@@ -181,7 +180,7 @@ class RackParts(EdgedParts):
             )
             if holes
         ]
-        return (*own, *(self.frame_screws if self.mechanism.spec.has_parts else ()))
+        return (*own, *(self._framed.screws if self.mechanism.spec.has_parts else ()))
 
     @property
     def standing(self) -> tuple[Member, ...]:
