@@ -184,12 +184,12 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
         view = begin(plate.name)
         _, *through = (hole for hole in plate.holes if isinstance(hole, Circle))
         screws = {hole: sized.screw_hole(hole.radius) for hole in through}
-        draw_frame(view, plate, axis_name="the crank's axis", screws=screws)
+        draw_frame(view, plate, screws, "the crank's axis")
         yield view
     (frame,) = _plates_among([parts.frame])
     view = begin(frame.name)
     threads = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads}
-    draw_frame(view, frame, screws=threads)
+    draw_frame(view, frame, threads)
     yield view
 
 

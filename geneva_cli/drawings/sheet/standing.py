@@ -21,39 +21,34 @@ from geneva_cli.spec.written import length, number
 
 
 def draw_frame(
-    view: View,
-    plate: Plate,
-    axis: Point = ORIGIN,
-    axis_name: str = "the wheel's axis",
-    screws: Mapping[Circle, str] | None = None,
+    view: View, plate: Plate, screws: Mapping[Circle, str], axis_name: str = "the wheel's axis"
 ) -> None:
-    """Draw the frame: its size, and diameter and position of each hole from an axis.
+    """Draw the frame: its size, and diameter and position of each hole from the axis.
 
     ``screws`` has the texts of holes for screws, without those for mounting.
     """
     view.draw_plate(plate)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     # the axis may have no hole
-    first = {axis: holes[0].radius} if holes else {}
-    for centre, radius in {**first, **{h.centre: h.radius for h in holes}}.items():
+    first = [(ORIGIN, holes[0].radius)] if holes else []
+    for centre, radius in dict([*first, *((h.centre, h.radius) for h in holes)]).items():
         view.cross(centre, radius)
     box = bounds(plate.outline)
     up = 0.5 * math.pi
     where = f"from {axis_name} to a hole"
-    view.places((hole.centre for hole in holes), axis, (f"across, {where}", f"up, {where}"))
+    view.places((hole.centre for hole in holes), ORIGIN, (f"across, {where}", f"up, {where}"))
     corner = (box.x0, box.y0)
     if holes:
-        to_left, to_low = length(axis[0] - box.x0), length(axis[1] - box.y0)
-        view.linear(corner, axis, 0.0, to_left, f"from the left edge to {axis_name}")
-        view.linear(corner, axis, up, to_low, f"from the lower edge to {axis_name}")
+        to_left, to_low = length(-box.x0), length(-box.y0)
+        view.linear(corner, ORIGIN, 0.0, to_left, f"from the left edge to {axis_name}")
+        view.linear(corner, ORIGIN, up, to_low, f"from the lower edge to {axis_name}")
     view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0), "wide")
     view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0), "high")
     texts_of = {hole: sized.bore(view.fits, hole.radius) for hole in holes}
     texts_of |= {hole: sized.screw_hole(hole.radius) for hole in mounts_of(plate)}
-    texts_of |= screws or {}
+    texts_of |= screws
     for text, some in grouped((texts_of[hole], hole) for hole in holes):
-        u, v = axis
-        places = ", ".join(f"({length(x - u)}, {length(y - v)})" for _, (x, y), _ in some)
+        places = ", ".join(f"({length(x)}, {length(y)})" for _, (x, y), _ in some)
         view.diameter(some, text, f"at {places} from {axis_name}")
     assert isinstance(plate.outline, Contour)
     arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
