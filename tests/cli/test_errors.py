@@ -308,7 +308,6 @@ OPTIONS = [
             "profile --samples",
             "profile --part",
             "profile --curves",
-            "profile --units",
             "synth --tau",
         )
     ],
