@@ -137,7 +137,9 @@ def without_sheet(mechanism: Mechanism) -> str:
     wheel = mechanism.spec.wheel.NAME
     if not any(SHEET in kind.drawings for kind in of_wheel(wheel)):
         return f"{wheel} machines"
-    return "machines with gears" if is_geared(mechanism.spec) else ""
+    if is_geared(mechanism.spec):
+        return "machines with gears"
+    return "machines with a groove" if mechanism.engagements[0].groove else ""
 
 
 def _maker(parts: Parts, part: str) -> Callable[[float, str], Any]:

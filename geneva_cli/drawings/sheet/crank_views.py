@@ -118,7 +118,7 @@ def draw_roller(view: View, mechanism: Mechanism) -> None:
 
 def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> None:
     """Draw the assembled machine, with the centre distance."""
-    layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "GROOVE": HIDDEN, "HUB": HIDDEN}
+    layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "HUB": HIDDEN}
     for shape in shapes:
         view.draw(shape, layers.get(shape.layer, OUTLINE))
     L = parts.assembly.L

@@ -23,7 +23,7 @@ from geneva_cli.drawings.sheet.crank_views import (
 )
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller, table
-from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove, draw_shaft
+from geneva_cli.drawings.sheet.standing import draw_frame, draw_shaft
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.board import chords
@@ -174,11 +174,6 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
         assert not isinstance(part, Group | Shell)
         view = begin(part.name, thick=False)
         draw_shaft(view, part)
-        yield view
-    grooved = _plates_among(parts.groove_plate)
-    if grooved:
-        view = begin(*(plate.name for plate in grooved), "groove")
-        draw_groove(view, parts.groove, parts.outlines.sizes.half_width, grooved[0])
         yield view
     for plate in _plates_among(parts.bridge):
         view = begin(plate.name)

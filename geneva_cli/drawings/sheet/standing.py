@@ -1,4 +1,4 @@
-"""The views of frame, groove plate, hubs and shafts, and dimensions of bores and bolts."""
+"""The views of frame, hubs and shafts, and dimensions of bores and bolts."""
 
 from __future__ import annotations
 
@@ -54,29 +54,6 @@ def draw_frame(
     arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
     if arcs:  # of one radius but for rounding, which may show in the last decimal
         view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
-
-
-def draw_groove(
-    view: View, flanks: tuple[Shape, ...], half: float, plate: Plate | None = None
-) -> None:
-    """Draw a cam's groove, in its plate if there is one."""
-    round_ = (plate.outline, *plate.holes) if plate else ()
-    mounts = [hole for hole in round_[1:] if isinstance(hole, Circle) and math.hypot(*hole.centre)]
-    for shape in (*round_, *flanks):
-        view.draw(shape, CENTRE if shape.layer == "PITCH" else OUTLINE)
-    circle_of(view, mounts)
-    places = [
-        piece.start for shape in flanks if isinstance(shape, Contour) for piece in shape.segments
-    ]
-    outer = max(places, key=lambda p: math.hypot(*p))
-    view.cross((0.0, 0.0), math.hypot(*outer))
-    view.note(outer, f"groove {sized.fitted(view.fits, 2.0 * half, '', 'H7')} wide")
-    view.remark("flanks as in the groove's dxf")
-    for hole in round_:
-        if isinstance(hole, Circle) and hole not in mounts:
-            text = sized.plain(2.0 * hole.radius, "Ø ")
-            view.diameter([hole], text if hole is round_[0] else sized.bore(view.fits, hole.radius))
-    bolted(view, mounts)
 
 
 def draw_hub(view: View, hub: Plate) -> None:
