@@ -36,6 +36,7 @@ from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import alike
 from geneva_cli.parts.shafts.fits import Fits
+from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.written import length, number
 
 
@@ -145,9 +146,10 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
                 titles.append(f"{i} {row['name']}" + f", t = {length(row['thickness_mm'])}" * thick)
         view = View("; ".join(titles) or names[0], scale, fits)
         for name in names:
-            view.to_fix(name, to_fix)
+            if name in to_fix and FIX not in view.notes:  # a round bore does not hold it
+                view.notes.append(FIX)
             if name in unborne:
-                view.remark("no bearing: hold it from above")
+                view.notes.append("no bearing: hold it from above")
         return view
 
     for front, of in zip(("", "first "), (parts, *parts.in_front), strict=False):

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple
 
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.geometry.measure import at, bounds
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, polygon
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Shape, polygon
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.mounted_plate import mounts_of
@@ -27,7 +26,7 @@ def draw_frame(
 
     ``screws`` has the texts of holes for screws, without those for mounting.
     """
-    view.draw_plate(plate)
+    view.draw_all((plate.outline, *plate.holes))
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     # the axis may have no hole
     first = [(ORIGIN, holes[0].radius)] if holes else []
@@ -64,60 +63,46 @@ def draw_hub(view: View, hub: Plate) -> None:
 
 
 def draw_shaft(view: View, shaft: Plate) -> None:
-    """Draw a shaft from the side."""
+    """Draw a shaft from the side; a hexagon has no fit, as its corners are free."""
     long, radius = shaft.thickness, around(shaft.outline)
     corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
     view.draw(polygon("", corners), OUTLINE)
     view.centre_line((0.0, 0.0), (long, 0.0))
     view.linear((0.0, -radius), (long, -radius), 0.0, length(long))
-    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, _diameter(view, shaft.outline))
+    has_corners = radius > radius_of(shaft.outline) + SAME_ON_SHEET
+    size = sized.plain(2.0 * radius, "Ø ") if has_corners else sized.shaft(view.fits, radius)
+    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, size)
     note = section_note(shaft.outline)
     if note:
-        view.remark(note if view.fits.turned.is_iso else note.replace(" P9", ""))
+        view.notes.append(note if view.fits.turned.is_iso else note.replace(" P9", ""))
 
 
-def _diameter(view: View, section: Shape) -> str:
-    """Return the diameter around a shaft; without a fit for a hexagon, whose corners are free."""
-    radius = around(section)
-    has_corners = radius > radius_of(section) + SAME_ON_SHEET
-    return sized.plain(2.0 * radius, "Ø ") if has_corners else sized.shaft(view.fits, radius)
-
-
-class Holes(NamedTuple):
-    """The round holes of plates on one axis: bores about it, and others, such as bolts."""
-
-    bores: tuple[Shape, ...]
-    bolts: tuple[Circle, ...]
-
-
-def holes_of(plates: Iterable[Plate]) -> Holes:
-    """Return the bores and bolts of plates that lie on each other, each once."""
+def holes_of(plates: Iterable[Plate]) -> tuple[list[Shape], list[Circle]]:
+    """Return the bores of plates on one axis, and their other round holes, such as bolts."""
     holes = [hole for plate in plates for hole in plate.holes if hole.layer == "BORE"]
     bores = dict.fromkeys(about_axis(holes))
     bolts = (hole for hole in holes if isinstance(hole, Circle) and hole not in bores)
-    return Holes(tuple(bores), tuple(dict.fromkeys(bolts)))
+    return list(bores), list(dict.fromkeys(bolts))
 
 
-def bored(view: View, bores: Sequence[Shape], size: Size, part: str, axis: Point = ORIGIN) -> None:
-    """Draw the diameter of a part's bore, and what else its shape needs; a remark has its angle.
-
-    The bores are about the part's own origin, which is drawn at ``axis``.
-    """
-    for shape in bores[:1]:
-        form: Bore = Bore(radius_of(shape))
-        if isinstance(shape, Contour):
-            # without the rounding errors of the sum, which would choose another key
-            form = bore_of(size, part, round(form.radius - size.allowances.around_shaft_mm, 9))
-        if form.form != "hex":
-            cut = form.radius + form.loose
-            view.diameter([Circle("", axis, cut)], sized.bore(view.fits, cut))
-        if isinstance(shape, Contour):
-            x, y = at(shape.segments[0], 0.5)
-            turn = math.degrees(math.atan2(y, x))
-            note = form.note if view.fits.is_iso else form.note.replace(" JS9", "")
-            view.note((x + axis[0], y + axis[1]), note)
-            what = note.split()[0].rstrip(",")
-            view.remark(f"{what} at {number(turn, 2)}°, counterclockwise from the right")
+def bored(view: View, bores: Sequence[Shape], size: Size, part: str) -> None:
+    """Draw the diameter of a part's bore, and what else its shape needs; a note has its angle."""
+    if not bores:
+        return
+    shape = bores[0]
+    form = Bore(radius_of(shape))
+    if isinstance(shape, Contour):
+        # without the rounding errors of the sum, which would choose another key
+        form = bore_of(size, part, round(form.radius - size.allowances.around_shaft_mm, 9))
+    if form.form != "hex":
+        cut = form.radius + form.loose
+        view.diameter([Circle("", ORIGIN, cut)], sized.bore(view.fits, cut))
+    if isinstance(shape, Contour):
+        x, y = at(shape.segments[0], 0.5)
+        note = form.note if view.fits.is_iso else form.note.replace(" JS9", "")
+        view.note((x, y), note)
+        turn, what = math.degrees(math.atan2(y, x)), note.split()[0].rstrip(",")
+        view.notes.append(f"{what} at {number(turn, 2)}°, counterclockwise from the right")
 
 
 def circle_of(view: View, screwed: Sequence[Circle]) -> None:
