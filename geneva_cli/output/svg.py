@@ -64,11 +64,15 @@ def chunks(drawing: Drawing) -> Iterator[str]:
     yield _head(' version="1.1"', f"{x} {y}", width, height, title)
     plates = rings(drawing.solid) if look and drawing.solid else []
     if look:
-        yield _style(drawing.layers, tuple(layer for layer, _ in plates))
+        yield _style(drawing.layers, list(dict.fromkeys(layer for layer, _ in plates)))
         yield f'<rect class="page" fill="{LIGHT.page}" x="{x}" y="{y}" width="{width}"'
         yield f' height="{height}"/>\n'
     if plates:
-        yield from _filled(plates)
+        yield '<g id="FILL" stroke="none" fill-rule="evenodd">\n'
+        for layer, contours in plates:
+            yield f'<path class="{layer}" fill="{_tint(layer, LIGHT)}"'
+            yield f' d="{" ".join(map(path, contours))}"/>\n'
+        yield "</g>\n"
     for layer, ink in inks(drawing.layers).items():
         dashes, stroke = "", mm * STROKE * (1.6 if look else 1.0)  # wider lines to view
         if layer in CENTRE_LINES:
@@ -176,18 +180,8 @@ def number(value: float) -> str:
     return text if text.strip("-0.") else text.lstrip("-")
 
 
-def _filled(plates: list[tuple[Layer, tuple[Contour, ...]]]) -> Iterator[str]:
-    tint = _tints(tuple(dict.fromkeys(layer for layer, _ in plates)), LIGHT)
-    yield '<g id="FILL" stroke="none" fill-rule="evenodd">\n'
-    for layer, contours in plates:
-        yield f'<path class="{layer}" fill="{tint[layer]}" d="{" ".join(map(path, contours))}"/>\n'
-    yield "</g>\n"
-
-
-def _tints(layers: tuple[Layer, ...], paper: Paper) -> dict[Layer, str]:
-    """The tint of each layer on a page."""
-    inked = inks(layers)
-    return {layer: mixed(inked[layer].rgb, opacity(layer), paper.page) for layer in layers}
+def _tint(layer: Layer, paper: Paper) -> str:
+    return mixed(inks((layer,))[layer].rgb, opacity(layer), paper.page)
 
 
 def opacity(layer: Layer) -> float:
@@ -206,16 +200,14 @@ def rings(solid: Part) -> list[tuple[Layer, tuple[Contour, ...]]]:
     return list(dict.fromkeys(reversed(drawn)))[::-1]
 
 
-def _style(layers: tuple[str, ...], plates: tuple[Layer, ...]) -> str:
+def _style(layers: tuple[str, ...], plates: list[Layer]) -> str:
     """The colours of a dark page; programs without CSS show the light one."""
     dark = "".join(
         f"g[id='{layer}'] {{ stroke: {mixed(ink.rgb, 0.55, '#ffffff')} }}\n"
         for layer, ink in inks(layers).items()
     )
-    dark += "".join(
-        f"path[class='{layer}'] {{ fill: {tint} }}\n"
-        for layer, tint in _tints(plates, DARK).items()
-    )
+    for layer in plates:
+        dark += f"path[class='{layer}'] {{ fill: {_tint(layer, DARK)} }}\n"
     return (
         "<style>\n@media screen and (prefers-color-scheme: dark) {\n"
         f".page {{ fill: {DARK.page} }}\n"
