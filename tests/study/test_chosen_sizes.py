@@ -208,18 +208,6 @@ def test_a_sweep_says_that_each_row_has_its_own_sizes(turret):
     strong = run("sweep", "turret.toml", *vary, "--pick", "strength.crank_shaft.diameter_mm")
     assert "sizes that its own load needs, the spec crank shaft 12" in strong.stderr
     assert run("sweep", "turret.toml", *vary, "--pick", "velocity.max").stderr == ""
-    best = run("sweep", "turret.toml", *vary, "--best", "min:timing.motion_s")
-    assert "# sizes chosen anew: crank shaft 12 → 17 mm" in best.stdout
-
-
-def test_a_comparison_says_which_columns_have_other_sizes(turret):
-    vary = "--vary", "drive.n_rpm=40,41,90", "--format", "md"
-    strong = run("compare", "turret.toml", *vary, "--pick", "strength.crank_shaft.diameter_mm")
-    assert strong.stdout.startswith(
-        "sizes chosen anew, against drive.n_rpm=40: drive.n_rpm=90: crank shaft 12 → 17 mm\n"
-    )
-    plain = run("compare", "turret.toml", *vary, "--pick", "velocity.max")
-    assert plain.stdout.startswith("| quantity")
 
 
 def test_the_table_and_the_file(turret):

@@ -25,7 +25,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from geneva_cli.loads.carried import MM, carried_kg
-from geneva_cli.loads.forces import QuantityValue
+from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.motion.machine_spec import Spec
