@@ -213,7 +213,8 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     half, free = math.radians(25.0), math.radians(140.0)
     turns = sorted(place.turn for place in mechanism.crank_places)
     if len(turns) > 1:  # between the cranks that are farthest apart
-        free = 0.5 * sum(max(pairwise([*turns, math.tau]), key=lambda ends: ends[1] - ends[0]))
+        before, after = max(pairwise([*turns, math.tau]), key=lambda ends: ends[1] - ends[0])
+        free = 0.5 * (before + after)
     yield about((0.0, 0.0), beyond, free - half, 2.0 * half)
     if mechanism.frame:  # the finger stands, and the carrier turns
         sense = mechanism.frame

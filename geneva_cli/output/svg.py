@@ -73,16 +73,16 @@ def chunks(drawing: Drawing) -> Iterator[str]:
             yield f'<path class="{layer}" fill="{_tint(layer, LIGHT)}"'
             yield f' d="{" ".join(map(path, contours))}"/>\n'
         yield "</g>\n"
-    for layer, ink in inks(drawing.layers).items():
+    for name, ink in inks(drawing.layers).items():
         dashes, stroke = "", mm * STROKE * (1.6 if look else 1.0)  # wider lines to view
-        if layer in CENTRE_LINES:
+        if name in CENTRE_LINES:
             dashes = f' stroke-dasharray="{" ".join(number(mm * d) for d in DASHES)}"'
         # rollers' paths, and the lowest layer
-        if look and layer in (*CENTRE_LINES, "FRAME"):
+        if look and name in (*CENTRE_LINES, "FRAME"):
             stroke *= 0.6
-        yield f'<g id="{escape(layer)}" stroke="{ink.rgb}"'
+        yield f'<g id="{escape(name)}" stroke="{ink.rgb}"'
         yield f' stroke-width="{number(stroke)}"{dashes}>\n'
-        yield from (element(shape) for shape in drawing.shapes if shape.layer == layer)
+        yield from (element(shape) for shape in drawing.shapes if shape.layer == name)
         yield "</g>\n"
     if shown:
         yield from _noted(shown, mm)
