@@ -97,18 +97,12 @@ def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
 
 
 def parts_having(parts: Parts, part: str) -> Parts:
-    """Return the parts of the machine that has a part: these, or those of the first of two wheels.
-
-    Raises GenevaError for a part of a first wheel if there is none.
-    """
+    """Return the parts of the machine that has a part: these, or those of the first wheel."""
     return parts.front if part.startswith("first-") else parts
 
 
 def part_drawing(parts: Parts, part: str, tolerance_mm: float, curves: str) -> Drawing:
-    """Return a part's drawing: lines and arcs, or with ``curves`` = "cubics" also cubics.
-
-    Raises GenevaError for a part that is not drawn, or that the machine does not have.
-    """
+    """Return a part's drawing: lines and arcs, or with ``curves`` = "cubics" also cubics."""
     if is_sheet(part):
         raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
     parts = parts_having(parts, part)
@@ -119,10 +113,7 @@ def part_drawing(parts: Parts, part: str, tolerance_mm: float, curves: str) -> D
 
 
 def part_sheet(parts: Parts, tolerance_mm: float, curves: str) -> Sheet:
-    """Return all parts as a drawing sheet with dimensions.
-
-    Raises GenevaError for a machine without a sheet, or whose parts do not fit on one.
-    """
+    """Return all parts as a drawing sheet. Raises GenevaError for a machine without one."""
     if of := without_sheet(parts.mechanism):
         raise GenevaError(
             f"--part {SHEET}: no sheet for {of}: use -o FILE.step or a dxf of each part"

@@ -46,10 +46,7 @@ SHEET_STYLE = """<style>
 
 
 def chunks(drawing: Drawing) -> Iterator[str]:
-    """Yield a drawing's text.
-
-    Raises GenevaError for a coordinate that is not finite, or a drawing without shapes.
-    """
+    """Yield a drawing's text. Raises GenevaError for a drawing without shapes."""
     look, drawing = drawing.look, prepared(drawing)
     box = extent(drawing)
     size = max(box.x1 - box.x0, box.y1 - box.y0)
