@@ -710,7 +710,7 @@ class Design:
         Warnings are about corners that it leaves round, and narrow holes.
 
         >>> Design(External(6)).cutter("wheel", 12.0)[0].partition(": an ")[2]
-        'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
+        'inner radius of 5 mm is narrower; use a smaller one'
         """
         from geneva_cli.drawings.catalogue import require_cut
         from geneva_cli.geometry.offsets import judged

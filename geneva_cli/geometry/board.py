@@ -64,40 +64,40 @@ class Board:
             if not left or not least:
                 break
             left -= best is not None
-            if self._meets(measure) or not self._is_free(measure, gap):
+            if not self._is_free(measure, gap):
                 continue
-            count = self._crossings(measure)
+            # of others, and lines of the part that it grazes; extension lines may cross each other
+            # (ISO 129-1)
+            main = _main(measure)
+            count = _crossings(main, self._main) + _crossings(main, self._extended)
+            count += _crossings(_chords(measure.extension_lines), self._main)
+            count += sum(_grazes(piece, self._part) for piece in measure.main_lines)
             if count < least:
                 best, least = measure, count
         if best is not None:
             self.put(best)
         return best
 
-    def _meets(self, measure: Measure) -> bool:
-        """Return True if a dimension line runs along another one, or along a line of the part."""
+    def _is_free(self, measure: Measure, gap: float) -> bool:
+        """Return True if a dimension keeps clear of texts, and of lines along its own."""
         own = measure.lines[0]
         if isinstance(own, Arc):
-            return any(_arcs_together(own, other) for other in self._swept)
-        if not isinstance(own, Line):
-            return False
-        beside_part = measure.kind == "length" and _runs_along(own, self._drawn, ON)
-        return beside_part or _runs_along(own, self._ruled, BESIDE)
-
-    def _crossings(self, measure: Measure) -> int:
-        """Return how often a dimension crosses others, and grazes lines of the part."""
-        # extension lines may cross each other (ISO 129-1)
-        main = _main(measure)
-        crossings = _crossings(main, self._main) + _crossings(main, self._extended)
-        crossings += _crossings(_chords(measure.extension_lines), self._main)
-        grazed = (_grazes(piece, self._part) for piece in measure.main_lines)
-        return crossings + sum(grazed)
-
-    def _is_free(self, measure: Measure, gap: float) -> bool:
-        """Return True if a dimension's text keeps ``gap`` mm clear, and its lines meet no text."""
+            for other in self._swept:  # arcs side by side
+                same = math.dist(own.centre, other.centre) < IN_LINE
+                turn = 0.5 * (sum(legs(other)) - sum(legs(own))) % math.tau
+                overlap = 0.5 * (abs(own.sweep) + abs(other.sweep)) - min(turn, math.tau - turn)
+                near = abs(own.radius - other.radius) < BESIDE
+                if same and near and overlap * own.radius > IN_LINE:
+                    return False
+        elif isinstance(own, Line):
+            if measure.kind == "length" and _runs_along(own, self._drawn, ON):
+                return False
+            if _runs_along(own, self._ruled, BESIDE):
+                return False
         if crosses(measure.label, self._all, gap):
             return False
-        own = np.concatenate((_lines(measure), _ring(measure.label.corners)))
-        return not any(crosses(text, own, 0.6) for text in self._texts)
+        lines = np.concatenate((_lines(measure), _ring(measure.label.corners)))
+        return not any(crosses(text, lines, 0.6) for text in self._texts)
 
     def box(self) -> tuple[float, float, float, float]:
         """Return the bounding box of all lines and texts: x0, y0, x1, y1."""
@@ -108,14 +108,6 @@ class Board:
 def chords(shape: Shape) -> Array:
     """Return the chords of a shape, (n, 4)."""
     return _chords(two_arcs(shape) if isinstance(shape, Circle) else shape.segments)
-
-
-def _arcs_together(a: Arc, b: Arc) -> bool:
-    """Return True if two arcs run side by side with less than ``BESIDE`` between."""
-    same = math.dist(a.centre, b.centre) < IN_LINE and abs(a.radius - b.radius) < BESIDE
-    turn = 0.5 * (sum(legs(b)) - sum(legs(a))) % math.tau
-    off = min(turn, math.tau - turn)
-    return same and (0.5 * (abs(a.sweep) + abs(b.sweep)) - off) * a.radius > IN_LINE
 
 
 def _beside(line: Line, lines: Array) -> tuple[float, Array, Array]:
@@ -188,8 +180,6 @@ def _main(measure: Measure) -> Array:
 
 def _crossings(some: Array, others: Array) -> int:
     """Return how many pairs of chords, (m, 4) and (n, 4), cross."""
-    if not len(some) or not len(others):
-        return 0
     a, b = some[:, None, :2], some[:, None, 2:]
     c, d = others[None, :, :2], others[None, :, 2:]
     apart = _side(a, b, c) * _side(a, b, d) < 0.0

@@ -1,8 +1,4 @@
-"""Places on curves, as few as possible, whose chords keep a tolerance.
-
-As in a drawing, no curve in a table of points is farther from its chords than the tolerance.
-Several curves may share their places, as a slot's pitch curve and flanks do.
-"""
+"""Places on curves, as few as possible, whose chords keep a tolerance; several may share them."""
 
 from __future__ import annotations
 

@@ -40,8 +40,15 @@ class Polyarc:
             ends = [directions(piece) for piece in pieces]
             steps = (math.remainder(on[0] - ends[i - 1][1], math.tau) for i, on in enumerate(ends))
             turns = [turn if abs(turn) > SAME_ANGLE else 0.0 for turn in steps]
-            every = zip(pieces, turns, [*turns[1:], *turns[:1]], strict=True)
-            rows += [(*_row(piece), before, after) for piece, before, after in every]
+            for piece, before, after in zip(pieces, turns, [*turns[1:], *turns[:1]], strict=True):
+                circle = 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
+                if isinstance(piece, Arc):
+                    half, sense = 0.5 * abs(piece.sweep), math.copysign(1.0, piece.bulge)
+                    sine = math.sin(half)
+                    # as ``piece.radius``, without another arc tangent and sine
+                    radius = 0.5 * math.dist(piece.start, piece.end) / abs(sine)
+                    circle = (*piece.centre, radius, sense, sine, math.cos(half))
+                rows.append((*piece.start, *piece.end, *circle, before, after))
         x0, y0, x1, y1, cx, cy, radius, sense, sin_half, cos_half, *turned = np.array(rows).T
         dx, dy = x1 - x0, y1 - y0
         dx = np.where((dx == 0.0) & (dy == 0.0), 1e-150, dx)  # a point has a direction too
@@ -162,16 +169,6 @@ def _changes(numbers: Whole) -> Mask:
     out = np.ones(len(numbers), dtype=bool)
     out[1:] = numbers[1:] != numbers[:-1]
     return out
-
-
-def _row(piece: Line | Arc) -> tuple[float, ...]:
-    if isinstance(piece, Line):
-        return (*piece.start, *piece.end, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
-    half = 0.5 * abs(piece.sweep)
-    sine, sense = math.sin(half), math.copysign(1.0, piece.bulge)
-    # as ``piece.radius``, without another arc tangent and sine
-    radius = 0.5 * math.dist(piece.start, piece.end) / abs(sine)
-    return (*piece.start, *piece.end, *piece.centre, radius, sense, sine, math.cos(half))
 
 
 def farthest(outline: Polyarc, x: Number, y: Number) -> Array:

@@ -1,7 +1,6 @@
 """Pieces of a drawing that others made, as closed outlines with the material on their left.
 
-Ends that lie within ``JOINED_MM`` of each other are joined. Outlines are told apart by nesting: one
-that lies in no other bounds a plate, one inside it a hole, one inside that a plate again.
+Nesting tells plates from holes. Ends within ``JOINED_MM`` of each other are joined.
 """
 
 from __future__ import annotations

@@ -111,35 +111,12 @@ def angular(
             at = first + fraction * wide if inside else middle
             start, end = min(first - spare, at), max(last + spare, at)
             arc = about(ORIGIN, radius, start, end - start)
-            label = _clear_of(polar(ORIGIN, radius, at), at, text)
+            # an upright text whose box keeps clear of the arc
+            half = 0.5 * width(text) * SMALL, 0.7 * SMALL
+            away = half[0] * abs(math.cos(at)) + half[1] * abs(math.sin(at)) + 2.0 * CLEAR
+            x, y = polar(polar(ORIGIN, radius, at), away, at)
+            label = Label(text, (x - half[0], y - 0.4 * SMALL), SMALL)
             yield Measure("angular", points, value, label, (arc, *sides), arrows)
-
-
-def _clear_of(p: Point, angle: float, text: str) -> Label:
-    """Return an upright text whose box keeps clear of a point, in a direction from it."""
-    half = 0.5 * width(text) * SMALL, 0.7 * SMALL
-    away = half[0] * abs(math.cos(angle)) + half[1] * abs(math.sin(angle)) + 2.0 * CLEAR
-    x, y = polar(p, away, angle)
-    return Label(text, (x - half[0], y - 0.4 * SMALL), SMALL)
-
-
-def diameter(
-    centre: Point, radius: float, angles: Iterable[float], text: str, value: float
-) -> Iterator[Measure]:
-    """Yield candidates of a diameter, with a leader to the circle in one of some directions."""
-    return _led("diameter", (centre, radius), angles, text, value)
-
-
-def radius(
-    centre: Point, reach: float, angles: Iterable[float], text: str, value: float
-) -> Iterator[Measure]:
-    """Yield candidates of a radius, with a leader to the circle in one of some directions."""
-    return _led("radius", (centre, reach), angles, text, value)
-
-
-def note(tip: Point, text: str) -> Iterator[Measure]:
-    """Yield candidates of a text with a leader to a point."""
-    return _led("note", (tip, 0.0), around(), text, 0.0)
 
 
 def balloon(tip: Point, text: str) -> Iterator[Measure]:
@@ -179,11 +156,14 @@ def within(start: float, end: float, count: int = 9) -> list[float]:
     return sorted(angles, key=lambda a: abs(math.sin(2.0 * a)) < 2.0 * 0.14)
 
 
-def _led(
-    kind: str, circle: tuple[Point, float], angles: Iterable[float], text: str, value: float
+def led(
+    kind: str, centre: Point, reach: float, angles: Iterable[float], text: str, value: float = 0.0
 ) -> Iterator[Measure]:
-    """Yield candidates with a leader to a circle, and a line under the text, short ones first."""
-    (centre, reach), directions, long = circle, list(angles), width(text) * SMALL
+    """Yield candidates with a leader to a circle, and a line under the text, short ones first.
+
+    They are a "diameter", a "radius", or a "note" on a point, with ``reach`` 0.
+    """
+    directions, long = list(angles), width(text) * SMALL
     for length in (6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0):
         for angle in directions:
             tip = polar(centre, reach, angle)

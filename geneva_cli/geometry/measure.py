@@ -1,7 +1,6 @@
 """Bounds and lengths of shapes, and shapes moved and rotated.
 
-Lengths are in the unit of the coordinates. Arcs are computed from their ends and
-bulge. The centre of a nearly straight arc is far away and inaccurate.
+Nothing is measured from an arc's centre, which may be far away.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Area, first moments and polar moment of the inside of outlines, by Green's theorem.
 
-Lines are in closed form. Arcs and cubics use Gauss's eight points. These are exact for a cubic's
-polynomials of degree eleven, and to rounding for the sines of an arc of a radian or less.
+Gauss's eight points are exact for cubics, and to rounding for arcs of a radian or less.
 """
 
 from __future__ import annotations

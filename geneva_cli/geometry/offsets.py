@@ -1,7 +1,6 @@
 """Pieces parallel to others, their corners, and the path of a cutter along an outline.
 
-The path is the true offset, of lines and arcs as the outline is. Round an outer corner it is an arc
-about it. In an inner corner adjacent pieces end where they meet; the beam leaves its own radius. A
+The path is the true offset, of lines and arcs as the outline is, with arcs about outer corners. A
 milling cutter reaches all of an outline if the offset by its radius keeps that distance.
 """
 
@@ -29,8 +28,6 @@ from geneva_cli.geometry.shapes import (
     closed,
 )
 from geneva_cli.geometry.sheet import SHORTEST_MM, Drawing, prepared
-from geneva_cli.numerics.preferred import to_digits
-from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
@@ -228,21 +225,28 @@ def _judge_plate(plate: Plate, radius: float, stops: list[str], notes: list[str]
             continue
         (cleaned,) = prepared(Drawing("", (original,))).shapes
         assert isinstance(cleaned, Contour)
-        _to_mill(cleaned)
-        shape, outside = with_material_left(cleaned, i == 0), i == 0
-        place = _blocked(shape, outside, radius)
+        outside = i == 0
+        shape = with_material_left(cleaned, outside)
+        own = lines_and_arcs(shape, "--cutter works on lines and arcs only: use --curves arcs")
+        hollows = [p for p in own if isinstance(p, Arc) and p.bulge < 0.0]
+        tightest = min(hollows, key=lambda arc: arc.radius, default=None)
+        place, what = None, "a gap"
+        if tightest and tightest.radius < radius - 0.5 * SAME_CUT_MM:
+            place, what = at(tightest, 0.5), f"an inner radius of {tightest.radius:.5g} mm"
+        else:
+            try:
+                # of an arc that just fits, half of SAME_CUT_MM is left
+                offset(shape, outside, radius - SAME_CUT_MM)
+            except Closed as error:
+                place = error.at
         if place:
             # a micrometre's last digit moves with rounding; six decimals in mm are steady
-            (x, y), hollow = (round(v, 6) + 0.0 for v in place[0]), place[1]
-            what = f"an inner radius of {hollow:.5g} mm" if hollow else "a gap"
-            most = 2.0 * _widest(shape, outside, radius)
-            instead = f"use a cutter up to {most:.6g} mm" if most else "no cutter is small enough"
+            x, y = (round(v, 6) + 0.0 for v in place)
             stops.append(
                 f"it does not enter {plate.name}, layer {shape.layer}, at x = {x:.5g}, "
-                f"y = {y:.5g}: {what} is narrower; {instead}"
+                f"y = {y:.5g}: {what} is narrower; use a smaller one"
             )
             continue
-        own = _to_mill(shape)
         for k, piece in enumerate(own):
             after = own[(k + 1) % len(own)]
             turn = -math.remainder(directions(after)[0] - directions(piece)[1], math.tau)
@@ -253,31 +257,3 @@ def _judge_plate(plate: Plate, radius: float, stops: list[str], notes: list[str]
                     f"it leaves a radius of {radius:.6g} mm in the corner of {plate.name}, layer "
                     f"{shape.layer}, at x = {x:.5g}, y = {y:.5g}"
                 )
-
-
-def _blocked(contour: Contour, outside: bool, radius: float) -> tuple[Point, float] | None:
-    """Return a place that a cutter cannot reach, and the radius of a hollow arc there, or 0."""
-    hollow = [p for p in _to_mill(contour) if isinstance(p, Arc) and p.bulge < 0.0]
-    tightest = min(hollow, key=lambda arc: arc.radius, default=None)
-    if tightest and tightest.radius < radius - 0.5 * SAME_CUT_MM:
-        return at(tightest, 0.5), tightest.radius
-    try:
-        # of an arc that just fits, half of SAME_CUT_MM is left
-        offset(contour, outside, radius - SAME_CUT_MM)
-    except Closed as error:
-        return error.at, 0.0
-    return None
-
-
-def _widest(contour: Contour, outside: bool, radius: float) -> float:
-    """Return the largest cutter that enters, as a radius to about three digits; 0 for none."""
-    # 14 halvings give more than the three digits that are shown
-    largest = boundary(lambda r: _blocked(contour, outside, r) is None, 0.0, radius, 14)
-    if not largest:
-        return 0.0
-    near, below = (0.5 * to_digits(2.0 * largest, 3, way) for way in (round, math.floor))
-    return near if _blocked(contour, outside, near) is None else below
-
-
-def _to_mill(contour: Contour) -> list[Line | Arc]:
-    return lines_and_arcs(contour, "--cutter works on lines and arcs only: use --curves arcs")

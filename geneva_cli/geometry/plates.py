@@ -1,8 +1,4 @@
-"""Solids extruded from outlines along the axis, or cut out of a sphere, and groups of them.
-
-The wheel's plane is z = 0..thickness, or its sphere's centre is the origin. Lengths are in
-millimetres, angles in radians.
-"""
+"""Solids extruded along the axis from z = 0, or cut out of a sphere, and groups of them; in mm."""
 
 from __future__ import annotations
 

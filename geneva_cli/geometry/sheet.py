@@ -1,7 +1,6 @@
 """A drawing, and a drawing sheet: shapes, texts and dimensions on layers, in millimetres.
 
-The formats of sheets write it without knowing the part. The origin is the paper's lower left
-corner.
+The origin is the paper's lower left corner.
 """
 
 from __future__ import annotations

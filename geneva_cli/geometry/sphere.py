@@ -227,11 +227,23 @@ def convex_hull(caps: Sequence[Cap]) -> Region:
 def _tangents(i: int, caps: Sequence[Cap]) -> list[tuple[int, SphereArc]]:
     """Arcs of great circles from a cap to others, with all caps on their left."""
     found: list[tuple[int, SphereArc]] = []
-    for j in range(len(caps)):
-        pole = _pole(caps[i], caps[j]) if j != i else None
-        if pole is None or any(dot(pole, c.middle) < math.sin(c.angle) - SAME_LENGTH for c in caps):
+    one = caps[i]
+    for j, other in enumerate(caps):
+        # the circle's pole is a quarter of the sphere from each middle, less the cap's angle
+        g = dot(one.middle, other.middle)
+        square = 1.0 - g * g
+        if j == i or square <= 0.0:
             continue
-        ends = [unit(combined(caps[k].middle, 1.0, pole, -math.sin(caps[k].angle))) for k in (i, j)]
+        s, t = math.sin(one.angle), math.sin(other.angle)
+        a, b = (s - g * t) / square, (t - g * s) / square
+        left = (1.0 - (a * s + b * t)) / square
+        if left <= SAME_LENGTH * SAME_LENGTH:
+            continue  # one cap holds the other
+        both = combined(one.middle, a, other.middle, b)
+        pole = unit(combined(both, 1.0, cross(one.middle, other.middle), math.sqrt(left)))
+        if any(dot(pole, c.middle) < math.sin(c.angle) - SAME_LENGTH for c in caps):
+            continue
+        ends = [unit(combined(c.middle, 1.0, pole, -math.sin(c.angle))) for c in (one, other)]
         found.append((j, SphereArc(pole, 0.5 * math.pi, *ends)))
     return [
         (j, arc)
@@ -242,21 +254,3 @@ def _tangents(i: int, caps: Sequence[Cap]) -> list[tuple[int, SphereArc]]:
             for _, other in found
         )
     ]
-
-
-def _pole(one: Cap, other: Cap) -> Vector | None:
-    """Pole of the great circle from one cap to another that has both on its left, or None.
-
-    Its distance from each middle is a quarter of the sphere minus the cap's angle.
-    """
-    g = dot(one.middle, other.middle)
-    square = 1.0 - g * g
-    s, t = math.sin(one.angle), math.sin(other.angle)
-    if square <= 0.0:
-        return None
-    a, b = (s - g * t) / square, (t - g * s) / square
-    left = (1.0 - (a * s + b * t)) / square
-    if left <= SAME_LENGTH * SAME_LENGTH:
-        return None  # one cap holds the other
-    both = combined(one.middle, a, other.middle, b)
-    return unit(combined(both, 1.0, cross(one.middle, other.middle), math.sqrt(left)))

@@ -1,8 +1,4 @@
-"""Arcs of circles on a unit sphere as arrays: distances of points, and the points facing them.
-
-The distance of two points is the angle between them. At the nearest points of two boundaries, one
-has a corner, or the points and the axes of both circles are on one great circle.
-"""
+"""Arcs of circles on a unit sphere as arrays: distances of points as angles, and facing points."""
 
 from __future__ import annotations
 

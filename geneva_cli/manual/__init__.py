@@ -32,7 +32,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "hand-over": "hand over to a shop",
         "inches": "write values in inches and pounds",
         "electronic-cam": "replay the motion by a servo; Geneva, cam indexer or servo?",
-        "sweep-front": "sweep a million designs and plot the front, also on a cluster",
+        "sweep-front": "sweep a million designs and plot the front",
         "ci": "gate a CI job",
     },
     "reference": {

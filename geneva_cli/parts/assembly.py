@@ -70,19 +70,6 @@ class Assembly(NamedTuple):
         """Return the input angle as commands show it, for an input angle of the assembly."""
         return self.full.shown_deg(self.to_input(input_deg))
 
-    def place_deg(self, shown_deg: float) -> float:
-        """Return the inverse of ``shown_deg``, to a hundredth of a degree."""
-        low, high = self.start_deg, self.start_deg + self.turn_deg
-        period = 360.0 * self.full.spec.turns
-        best = low
-        for _ in range(3):
-            grid = np.linspace(low, high, 361)
-            off = [abs(math.remainder(self.to_input(x) - shown_deg, period)) for x in grid]
-            best = float(grid[int(np.argmin(off))])
-            step = (high - low) / 180.0
-            low, high = best - step, best + step
-        return best
-
     def pin(self, number: int, input_deg: Array) -> Array:
         """Return a roller's centre, mm, at input angles in degrees (n,): an array (n, 2)."""
         return self._path(*self.rollers[number], input_deg)

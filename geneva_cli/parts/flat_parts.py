@@ -36,7 +36,7 @@ from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import dial_bolts, wheel_part, wheel_plate
+from geneva_cli.parts.outlines.wheel_circles import dial_circle, wheel_part, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, NamedBuilds
 from geneva_cli.parts.shafts.screws import Screws
@@ -335,7 +335,7 @@ class FlatParts(EdgedParts):
         framed, drawn = self._framed.screws, self.drawn
         if not drawn:
             return framed
-        holes = {"dial": (dial_bolts(drawn.assembly, drawn.sizes), "the dial")}
+        holes = {"dial": (dial_circle(drawn.assembly, drawn.sizes).holes, "the dial")}
         if self.locking:
             holes[self.locking[0].name] = bolts(drawn), "the arm"
         own = (

@@ -18,7 +18,7 @@ from geneva_cli.parts.assembly import input_of
 from geneva_cli.parts.turn.pairs import TurnedParts, WorkLimit
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.fit.path import Curve
+    from geneva_cli.geometry.fit.arcs import Curve
     from geneva_cli.geometry.shapes import Circle, Segment
     from geneva_cli.parts.mounted_plate import FrameAndShafts
     from geneva_cli.parts.outlines.outlines import Outlines

@@ -68,8 +68,8 @@ def trade_of(name: str | None) -> Trade:
 def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[Missing]]:
     """The files of a design for a trade, and parts that cannot be built.
 
-    A spherical machine has no bed of parts, and outlines of wheel and crank laid
-    flat. Neither it nor a rack has a sheet.
+    A spherical machine has no bed of parts, and outlines of wheel and crank laid flat. Neither it
+    nor a rack has a sheet.
     """
     design.refuse_drawn("the files for a shop are those")
     files: list[ExportFile] = []

@@ -1,7 +1,5 @@
 """Every place is an input angle from one zero, and an event has the same one in every command."""
 
-import csv
-import math
 from pathlib import Path
 from typing import Any
 
@@ -74,19 +72,4 @@ def one_zero(found: Design) -> None:
 @pytest.mark.sampled(48)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_designs_have_one_zero(path: Path) -> None:
-    one_zero(design.load(str(path)))
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("no_advice")
-@pytest.mark.parametrize("name", FAR)
-def test_far_places_have_one_zero(name: str, tmp_path: Path) -> None:
-    share = [i / 40.0 for i in range(41)]
-    with (tmp_path / "late.csv").open("w", encoding="utf-8", newline="") as file:
-        # x^2 (with a start at rest, as the reader asks): half of the way after 0.7 of the time
-        csv.writer(file).writerows(
-            [("u", "s"), *((u, 0.5 * (1 - math.cos(math.pi * u * u))) for u in share)]
-        )
-    path = tmp_path / "far.toml"
-    path.write_text(FAR[name])
     one_zero(design.load(str(path)))

@@ -199,17 +199,6 @@ def test_values_for_people(number, unit, text):
     assert value(number, unit) == text
 
 
-@pytest.mark.long
-def test_a_table_longer_than_is_held_fits_too():
-    """It is laid out by its first rows, and a later number may be longer than theirs."""
-    count = 20_000
-    table = rows_table(("n", "x_mm", "y"), [(i, float(i), -1e-9 * i) for i in range(count)])
-    lines = lines_of(table, 60)
-    require_width(lines, 60)
-    assert lines[-1].split() == ["19999", "19999", "-1.9999e-5"]
-    assert {len(line) for line in lines[-9000:]} == {len(lines[-1])}  # in one column
-
-
 def test_a_page_is_not_for_a_terminal(monkeypatch):
     """It would fill the screen with half a megabyte of HTML."""
     monkeypatch.setattr(output, "is_seen", lambda file: True)

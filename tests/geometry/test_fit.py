@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 import shapely
-from scipy.spatial import cKDTree
 from scipy.special import fresnel
 
 from geneva_cli.errors import GenevaError
@@ -102,28 +101,12 @@ def ways(piece):
     return first, last, 8.0 * math.ulp(size) / min(abs(first), abs(last)) + 4e-15
 
 
-def farthest(points, others, tolerance):
-    """The greatest distance from points to a polyline through others.
-
-    The chords at the nearest corner come first, being the nearest nearly always. Where they are
-    farther than the tolerance, all the chords are asked: beside long ones another's corner may be
-    nearer.
-    """
+def farthest(points, others):
+    """The greatest distance from points to a polyline through others, by shapely."""
     corners = np.column_stack((others.real, others.imag))
-    _, near = cKDTree(corners).query(np.column_stack((points.real, points.imag)))
-    best = np.full(len(points), np.inf)
-    for i in (near - 1, near):
-        i = np.clip(i, 0, len(others) - 2)
-        chord, way = others[i + 1] - others[i], points - others[i]
-        share = np.clip((way / chord).real, 0.0, 1.0)
-        best = np.minimum(best, np.abs(way - share * chord))
-    if (far := best > tolerance).any():
-        chords = shapely.linestrings(np.stack((corners[:-1], corners[1:]), axis=1))
-        asked = shapely.points(points.real[far], points.imag[far])
-        best[far] = shapely.STRtree(chords).query_nearest(
-            asked, return_distance=True, all_matches=False
-        )[1]
-    return float(best.max())
+    chords = shapely.STRtree(shapely.linestrings(np.stack((corners[:-1], corners[1:]), axis=1)))
+    where = shapely.points(points.real, points.imag)
+    return float(chords.query_nearest(where, return_distance=True, all_matches=False)[1].max())
 
 
 def stray(curve, a, b, pieces, tolerance):
@@ -144,7 +127,7 @@ def stray(curve, a, b, pieces, tolerance):
         runs.append(places(piece, 2 if isinstance(piece, Line) else each + 10)[:-1])
     found = np.concatenate(runs)
     found = np.append(found, complex(*pieces[-1].end))
-    return max(farthest(z, found, tolerance), farthest(found, z, tolerance))
+    return max(farthest(z, found), farthest(found, z))
 
 
 def check(curve, a, b, pieces, tolerance, kind):

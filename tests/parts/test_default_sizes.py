@@ -12,7 +12,7 @@ from words import Spec, Wheel
 from geneva_cli import Design
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.wheel_circles import dial_bolts
+from geneva_cli.parts.outlines.wheel_circles import dial_circle
 from geneva_cli.spec.tables import Size
 
 L = 100.0
@@ -97,7 +97,7 @@ def test_bolts_of_a_dial():
         own = {"wheel_bore_mm": 20.0} if gearing == "external" else {}
         size = Size(L, 6.0, dial_bolts=3, **own)
         parts = Design.of(Spec(Wheel(6, gearing), size=size)).parts.outlines
-        bolts = dial_bolts(parts.assembly, parts.sizes)
+        bolts = dial_circle(parts.assembly, parts.sizes).holes
         assert {(round(math.hypot(*one.centre), 9), one.radius) for one in bolts} == {(far, 1.2)}
         first = math.degrees(math.atan2(*reversed(bolts[0].centre)))
         assert first % 60.0 == pytest.approx(30.0)

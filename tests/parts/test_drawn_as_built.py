@@ -12,7 +12,7 @@ from drawing_witness import polygon
 from shapely import affinity
 from test_assembles import SAGITTA, samples
 
-from geneva_cli import Design, Internal, Size, load
+from geneva_cli import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group
 from geneva_cli.geometry.shapes import Circle
@@ -134,15 +134,3 @@ def assert_assembled(design, drawing):
         next(loops_of(*one)) for one in parts if one[0].layer in ("WHEEL", "CRANK", "ARM", "FRAME")
     ]
     assert not missing(cut, drawn, L)
-
-
-@pytest.mark.long
-def test_an_internal_cranks_bore_is_the_arms():
-    """Nothing of its locking disc is left about the axis, so neither drawing nor solid is bored."""
-    design = Design(Internal(6), size=Size(80.0, crank_bore_mm=9.0, lock_bolts=0))
-    crank, arm = (assert_drawn_as_built(design, part) for part in ("crank", "arm"))
-    assert "BORE" not in crank.layers
-    assert Circle("BORE", (0.0, 0.0), 4.5) in arm.shapes
-    (check,) = (c for c in design.checks if c.name == "crank_shaft_mm")
-    assert not check.passes  # the wheel's horns sweep over the shaft
-    assert check.nearest == "crank_bore_mm = 0"

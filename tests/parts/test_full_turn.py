@@ -4,22 +4,16 @@ The witnesses: polygons of shapely at some positions of a turn, and closed forms
 """
 
 import math
-import random
 from collections.abc import Iterator
 
 import numpy as np
 import pytest
 import shapely
 from drawing_witness import polygon
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from other_shape import with_shape
-from sampling import some
 from shapely import affinity
 from test_outline import STRAIGHT, L, disc, made, name, turned
-from words import LAWS, Motion
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
@@ -124,58 +118,6 @@ def test_play_in_the_dwell_of_an_internal_wheel() -> None:
     wanted = math.degrees(0.1 / (L * math.sin(half)))
     # the next order: the play's way over the sector's width
     assert full_turn(found).dwell.deg == pytest.approx(wanted, rel=0.1 / found.sizes.lock)
-
-
-# --- random machines
-
-
-def random_case(rng: random.Random) -> dict:
-    """A machine with default sizes, a roller of any size that leaves walls, and clearances."""
-    z = rng.randint(3, 24)
-    gearing = rng.choice(["external", "external", "internal"])
-    R, outside = L * math.sin(math.pi / z), gearing == "external"
-    room = min(R, (L - R) * math.sin(math.pi / z)) if outside else R
-    case = {
-        "z": z,
-        "gearing": gearing,
-        "roller_radius_mm": round(room * rng.uniform(0.03, 0.45), 2),
-    }
-    law = rng.choice([None, None, None, *LAWS])
-    alpha0 = float(rng.choice([0, 0, -25, -10, 10, 25]))
-    if law is not None:
-        case["motion"] = Motion(law, alpha0_deg=alpha0, ratio="matched")
-    elif outside and rng.random() < 0.3:
-        case["rollers"] = rng.randint(1, math.ceil(2 * z / (z - 2)) - 1)
-    elif outside and rng.random() < 0.3:
-        case["offset"] = round(rng.uniform(-0.3, 0.3) * (L - R), 2)
-    for key in ("slot_clearance_mm", "lock_clearance_mm"):
-        case[key] = rng.choice([0.0, 0.0, 0.01, 0.1])
-    return case
-
-
-def turns_as_polygons_do(case: dict) -> bool | None:
-    """Whether a machine passes, None where it is refused. What the full turn calls free is so by
-    polygons; and radial slots at default sizes always clear, and hold the wheel unless a tenth of
-    a millimetre of clearance is much for a small roller."""
-    try:
-        found = made(**case)
-    except GenevaError:
-        return None
-    assert polygon(found.outlines.wheel, 1e-3).is_valid
-    turn = full_turn(found)
-    assert turn.smallest.mm < -found.close or not list(overlaps(found, 40))
-    if "motion" not in case and "offset" not in case:
-        assert turn.smallest.mm >= -found.close
-        assert passes(found, turn) or case["lock_clearance_mm"] > 0.01
-    return passes(found, turn)
-
-
-@pytest.mark.long
-@settings(max_examples=some(300, 3))
-@given(st.randoms(use_true_random=False))
-def test_random_machines(rng: random.Random) -> None:
-    """Each is compared with polygons at some positions."""
-    turns_as_polygons_do(random_case(rng))
 
 
 # --- spoilt machines

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from geneva_cli import GenevaError, load
+from geneva_cli import GenevaError
 from geneva_cli.study.compare import compare
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -37,37 +37,6 @@ def test_what_nothing_bounds_is_none():
     stress = "checks.contact_stress_max_MPa"
     found = by_quantity(compare([path("press-345.toml")], limited, picks=[stress, "passes"]))
     assert list(found) == ["checks.passes"] and found["checks.passes"]["press-345"] is False
-
-
-@pytest.mark.long
-def test_each_column_is_the_designs_own_report():
-    names = ["internal-z6.toml", "four-bar-z4.toml", "spherical-z6.toml"]
-    found = by_quantity(compare([path(n) for n in names]))
-    for name in names:
-        report = load(path(name)).report.table.to_dict()
-        column = {q: row[name.removesuffix(".toml")] for q, row in found.items()}
-        shared = column.keys() & report.keys()
-        assert len(shared) > 30
-        assert all(column[q] == report[q] for q in shared)
-
-
-@pytest.mark.long
-def test_keys_in_which_specs_differ(tmp_path):
-    """The keys of both drives. Keys that the specs share, or that --vary sets, have no row."""
-    for name, A in (("near", 0.3), ("far", 0.5)):
-        (tmp_path / f"{name}.toml").write_text(
-            '[wheel]\nz = 4\n[drive]\nkind = "epicyclic"\nplanet_ratio = "shockless"\n'
-            f'[drive.before]\nkind = "side-crank"\nA = {A}\n'
-        )
-    near, far = (str(tmp_path / f"{name}.toml") for name in ("near", "far"))
-    rows = by_quantity(compare([near, far, path("turret.toml")]))
-    cells = {name: list(row.values())[1:] for name, row in rows.items()}
-    assert cells["drive.before.kind"] == ["side-crank", "side-crank", None, True]
-    assert cells["drive.before.A"] == [0.3, 0.5, None, True]
-    assert cells["drive.planet_ratio"] == ["shockless", "shockless", None, True]
-    pair = by_quantity(compare([near, far]))
-    assert "drive.before.A" in pair and "drive.planet_ratio" not in pair
-    assert "drive.before.A" not in by_quantity(compare([near], vary=["drive.before.A=0.3,0.5"]))
 
 
 @pytest.mark.long

@@ -2,11 +2,9 @@
 
 import json
 import math
-from fractions import Fraction
 
 import mpmath
 import pytest
-from sampling import some
 from searched import searched
 from typer.testing import CliRunner
 from words import Drive, Spec, Wheel, load
@@ -22,7 +20,7 @@ from geneva_cli.study.synth.families import straight_slots as closed
 from geneva_cli.study.synth.machine_rows import MachineRow
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_search import search
-from geneva_cli.study.synth.synth_table import chosen, commented, synthesis_table, turned
+from geneva_cli.study.synth.synth_table import chosen, commented, synthesis_table
 from geneva_cli.verdict.checks import checks
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
@@ -99,18 +97,6 @@ def test_elliptical_gears_are_found_again(gearing, phase, e):
 # The sources' tables
 
 
-@pytest.mark.long
-def test_tau_of_one_roller_outside():
-    """From 1/6 to 11/24 for z = 3 to 24, one plain crank for each."""
-    for z in some((3, 4, 5, 6, 7, 9, 12, 24), (3, 24)):
-        tau = Fraction(z - 2, 2 * z)
-        near = f"{max(z - 1, 3)}..{min(z + 1, 24)}"
-        (candidate,) = plain(candidates(tau=str(tau), external=True, rollers=1, z=near, space=NEAR))
-        assert (candidate.z, candidate.tau) == (z, pytest.approx(float(tau), rel=1e-14))
-    for beyond in ("0.1666", "0.4584"):
-        assert not plain(candidates(tau=beyond, external=True, rollers=1, space=NEAR))
-
-
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize(("z", "most"), [(3, 5), (4, 3), (5, 3), (6, 2), (7, 2), (12, 2), (24, 2)])
 def test_rollers_up_to_the_strict_bound(z, most):
@@ -121,20 +107,6 @@ def test_rollers_up_to_the_strict_bound(z, most):
         assert candidate.n_rpm == pytest.approx(60.0 / candidate.rollers)
     with pytest.raises(GenevaError, match=f"at most {most}"):
         candidates(z=str(z), cycle="1", external=True, rollers=most + 1)
-
-
-@pytest.mark.long
-def test_the_side_crank_paper_s_half_turn():
-    (candidate,) = [
-        w for w in candidates(motion_deg="180", z="6", external=True) if w.A is not None
-    ]
-    assert f"{candidate.A:.5f}" == "0.57735"
-    ours = plain(candidates(motion_deg="120", z="6", external=True))[0]
-    ratios = [
-        getattr(ours, n) / getattr(candidate, n) for n in ("velocity_max", "acceleration_max")
-    ]
-    assert [f"{r:.3f}" for r in ratios] == ["1.577", "2.510"]
-    assert f"{ours.power_max / candidate.power_max:.3f}" == "3.990"
 
 
 # A greatest acceleration
@@ -285,21 +257,6 @@ def test_write(tmp_path):
     assert "tau = 0.5" in text
 
 
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("words", "wants"),
-    [
-        (["--write", "99"], "rows 1 to"),
-        (["--write", "1", "-o", "rows.csv"], "must end in .toml"),
-        (["-o", "spec.toml"], "--write N"),
-    ],
-)
-def test_what_cannot_be_written(words, wants):
-    result = run("--tau", "1/3", "--z", "6", *words)
-    assert result.exit_code == 2
-    assert wants in result.stderr
-
-
 # What is listed
 
 
@@ -340,21 +297,6 @@ def test_a_row_that_says_yes_passes_check_and_is_cut(options, number, tmp_path):
     result = CliRunner().invoke(app, words)
     assert result.exit_code == 0, result.output
     assert wheel.stat().st_size > 1000
-
-
-@pytest.mark.long
-def test_rows_are_turned_in_their_order():
-    """Three of them; buildable: the first that pass, under the numbers that they have."""
-    _, found = searched(motion_deg="105", z="8", external=True, rollers=1)
-    shown = turned(found, 2)
-    assert [one.no for one in shown] == list(range(1, len(found.rows) + 1))
-    said = [one.row.candidate.parts for one in shown]
-    assert all(s == "yes" or s.startswith("no: ") for s in said[:2])
-    assert "maybe" in said[2:]
-    assert "yes" not in said[2:]
-    only = turned(found, 1, buildable=True)
-    assert [one.row.candidate.parts for one in only] == ["yes"]
-    assert all(one.row.candidate[:10] == found.rows[one.no - 1].candidate[:10] for one in only)
 
 
 @pytest.mark.long

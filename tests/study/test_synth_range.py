@@ -27,22 +27,6 @@ def rows(**options):
     return searched(**options)[1].rows
 
 
-@pytest.mark.long
-def test_wishes_for_times_leave_motions_and_cycles():
-    """Half a second of motion, a whole one of rest: tau is a third, whatever the cycle is."""
-    for row in rows(motion_s="0.5", dwell_s="1", z="6", external=True):
-        assert row.candidate.tau == pytest.approx(1.0 / 3.0, rel=1e-12)
-        assert row.candidate.motion_s == pytest.approx(0.5, rel=1e-12)
-        assert row.candidate.dwell_s == pytest.approx(1.0, rel=1e-12)
-    for row in rows(dwell_s="2", tau="1/3", z="6", external=True):
-        assert row.candidate.dwell_s == pytest.approx(2.0, rel=1e-12)
-    # at 60 rpm a turn takes a second: with nothing else said the speed stays
-    for row in rows(dwell_s="0.1..", tau="1/3", z="6", rollers=1):
-        assert row.candidate.n_rpm == 60.0
-    with pytest.raises(GenevaError, match="no machine does both"):
-        rows(motion_s="0.5", dwell_s="1", tau="0.5")
-
-
 def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
     """A first wheel of n slots turns the crank by 360/n once a turn, and that is its motion."""
     found = rows(dwell_deg="1000..")

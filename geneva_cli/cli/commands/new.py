@@ -73,16 +73,12 @@ def _write(text: str, output: str, files: dict[str, str], force: bool) -> None:
     if not force:
         refuse_existing(output)
         for place, content in places.items():
-            if not _holds(place, content):
+            is_equal = False
+            if os.path.isfile(place):
+                with open(place, encoding="utf-8", errors="replace") as file:
+                    is_equal = file.read() == content
+            if not is_equal:
                 refuse_existing(place)
     for place, content in places.items():
         show_text(content, place)
     show_text(text, output)
-
-
-def _holds(place: str, content: str) -> bool:
-    try:
-        with open(place, encoding="utf-8", errors="replace") as file:
-            return file.read() == content
-    except FileNotFoundError:
-        return False

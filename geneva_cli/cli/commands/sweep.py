@@ -73,8 +73,11 @@ def run(
 
     if format and format not in FORMATS:
         raise GenevaError(f"--format {cut(format)}: it must be one of {', '.join(FORMATS)}")
-    if best:
-        _refuse_with_best(output, format, resume)
+    if best and output != "-" and not output.endswith(".toml"):
+        raise GenevaError(f'-o "{cut(output, 300)}": --best writes a spec: it must end in .toml')
+    if best and (format or resume):
+        wrong = f"--format {format}" if format else "--resume"
+        raise GenevaError(f"{wrong}: --best writes a spec, as TOML, and no rows")
     plan = request(
         spec,
         vary or (),
@@ -106,15 +109,6 @@ def run(
         show(table, output, format, plan.inputs)
     for note in outcome.refused() if best else outcome.notes():
         print(clean(f"{spec}: {note}"), file=sys.stderr)
-
-
-def _refuse_with_best(output: str, format: str, resume: bool) -> None:
-    if output != "-" and not output.endswith(".toml"):
-        raise GenevaError(f'-o "{cut(output, 300)}": --best writes a spec: it must end in .toml')
-    if format:
-        raise GenevaError(f"--format {format}: --best writes a spec, as TOML")
-    if resume:
-        raise GenevaError("--resume continues rows, and --best writes none; leave one out")
 
 
 def _write_rows(

@@ -126,8 +126,13 @@ class View:
     def diameter(self, circles: Iterable[Circle], text: str, where: str = "") -> None:
         """Draw the diameter of one of some circles; ``where`` is added if it stands as a note."""
         candidates = (
-            marks.diameter(
-                self._at(c.centre), self._long(c.radius), marks.around(), text, 2.0 * c.radius
+            marks.led(
+                "diameter",
+                self._at(c.centre),
+                self._long(c.radius),
+                marks.around(),
+                text,
+                2.0 * c.radius,
             )
             for c in circles
         )
@@ -135,9 +140,10 @@ class View:
 
     def of_arcs(self, arcs: Sequence[Arc], text: str, whole: bool = False) -> None:
         """Draw the radius of one of some arcs, or, with ``whole``, its diameter."""
-        kind, factor = (marks.diameter, 2.0) if whole else (marks.radius, 1.0)
+        kind, factor = ("diameter", 2.0) if whole else ("radius", 1.0)
         candidates = (
-            kind(
+            marks.led(
+                kind,
                 self._at(arc.centre),
                 self._long(arc.radius),
                 marks.within(*legs(arc)),
@@ -157,7 +163,7 @@ class View:
 
     def note(self, tip: Point, text: str) -> None:
         """Draw a text that points at a place."""
-        self._put(marks.note(self._at(tip), text), text)
+        self._put(marks.led("note", self._at(tip), 0.0, marks.around(), text), text)
 
     def balloon(self, tips: Iterable[Point], item: str) -> None:
         """Draw an item's number in a circle that points at one of some places."""

@@ -1,8 +1,7 @@
 """A curve as cubic Béziers with common tangents, in few pieces.
 
-Each starts and ends on the curve, along its tangents. With Hermite's handles, thirds of the length,
-the error is of the fourth power of the length. With handles by least squares it is of the sixth
-power. The error is measured along the normal, so that a point may slide along the cubic.
+With handles by least squares the error is of the sixth power of the length. It is measured along
+the normal, so that a point may slide along the cubic.
 """
 
 from __future__ import annotations
@@ -11,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.fit.path import Curve, CurvePath, fewest, points_of
+from geneva_cli.geometry.fit.arcs import Curve, CurvePath, fewest, points_of
 from geneva_cli.geometry.shapes import Cubic
 from geneva_cli.numerics.arrays import Array
 

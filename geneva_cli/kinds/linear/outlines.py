@@ -18,7 +18,6 @@ from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.stops import (
     Branches,
     Stops,
-    TurningStops,
     cut,
     inset_ends,
     masked,
@@ -27,7 +26,7 @@ from geneva_cli.parts.turn.stops import (
 )
 
 
-class SlidingStops(TurningStops):
+class SlidingStops(Stops):
     """Stops of one machine's rack, which slides by L a radian.
 
     Levels are positions across the rack, x. Of an arc, ``size`` is the radius and ``excess`` the

@@ -34,7 +34,7 @@ class SphereStops(Stops):
         out: Callable[[Array, Array], Array],
         roller: float,
     ) -> None:
-        self.edge, self.pitch, self.crank, self.out = edge, pitch, crank, out
+        self.edge, self.pitch, self.sectors, self.out = edge, pitch, crank, out
         self.roller = roller
 
     def wheel(self, inset: float) -> Branches:
@@ -51,7 +51,7 @@ class SphereStops(Stops):
 
     def locking(self, crank: Array, inset: float) -> Iterator[tuple[Branches, Branches]]:
         """Yield the branches of each sector at n angles of the crank: sides and convex corners."""
-        for sector in self.crank:
+        for sector in self.sectors:
             points = self.out(sector.start[sector.first > SAME_ANGLE], crank)
             row = np.repeat(np.arange(len(crank)), points.shape[1])
             level, at = polar(points).ravel(), azimuth(points).ravel()

@@ -1,8 +1,7 @@
 """The crank's outline in the wheel's plane: the locking disc, its relief and its round holes.
 
-It is in the crank's frame: its axis is the origin, and x is through the first roller at
-mid-motion. The disc is whole where it locks, and relieved where a roller moves the wheel. If the
-wheel reaches beyond the crank's axis, as internal ones do, only locking sectors are left.
+Its axis is the origin, and x is through the first roller at mid-motion. If the wheel reaches beyond
+the crank's axis, as internal ones do, only locking sectors are left.
 """
 
 from __future__ import annotations

@@ -1,10 +1,7 @@
 """The boundary of a curved slot: the outer boundary of all positions of its roller.
 
-The roller comes along its circle while the wheel still rests. It runs into the slot and out again,
-and leaves along its circle. Each of these paths has a wall on either side. Where the roller turns
-back, its own outline is a wall too. Of all walls only those stretches remain that no other position
-of the roller covers. Of these only the chain from one corner of the mouth round the bottom to the
-other remains. An island between the paths in and out falls out of the wheel.
+Of the walls of the roller's path only those stretches remain that no other position covers, and of
+these the chain from one corner of the mouth round the bottom to the other.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The walls on both sides of a roller's path through a curved slot, and which of them are free.
 
-The path has four parts: the roller's circle before entry while the wheel rests, the path in, the
-path out, and the circle again. Where the roller turns back, its own outline is a wall too.
+Before and after the path in and out there is the roller's circle while the wheel rests. Where the
+roller turns back, its own outline is a wall too.
 """
 
 from __future__ import annotations

@@ -21,12 +21,7 @@ def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
     if sizes.wheel_bore or has_shape(size, "wheel"):
         own = bore_of(size, "wheel", sizes.wheel_bore)
         circles.append(own.shape("BORE", assembly.rests[0]))
-    return [*circles, *dial_bolts(assembly, sizes)]
-
-
-def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
-    """Return the holes for the dial on the wheel, evenly spaced, the first between two slots."""
-    return dial_circle(assembly, sizes).holes
+    return [*circles, *dial_circle(assembly, sizes).holes]
 
 
 def dial_circle(assembly: Assembly, sizes: Sizes) -> BoltCircle:

@@ -1,10 +1,8 @@
 """The wheel's outline: slots, rim and recesses in one closed contour; the walls of straight slots.
 
-Where gears drive between two rollers, a motion has two slots: one starts the wheel, one stops it.
-They lie half of the angle between them on either side of its middle. A roller leaves the first slot
-on an epicycloid with its cusp at the slot's end, and comes to the second on another. Each
-epicycloid leans to the other slot and sweeps away that side of its own slot. So each slot keeps the
-wall on its recess's side. Between the two lies an arc about the wheel's axis, as deep as the slots.
+Where gears drive between two rollers, a motion has two slots, half of the angle between them on
+either side of its middle. A roller leaves the first on an epicycloid, which sweeps away the side
+towards the other slot. So each keeps the wall on its recess's side, with an arc between the two.
 """
 
 from __future__ import annotations

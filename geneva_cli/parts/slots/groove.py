@@ -1,8 +1,4 @@
-"""The fixed groove of a cam-Geneva and the plate with it, as three plates that are stacked.
-
-On a base lie a ring and an island with the groove between them, as deep as the roller is thick. The
-crank's axis is the origin. The bore is that of the crank's shaft, and four holes mount the plate.
-"""
+"""The fixed groove of a cam-Geneva about the crank axis, and its plate: base, ring and island."""
 
 from __future__ import annotations
 

@@ -1,13 +1,8 @@
 """The paths of the rollers' centres, and the ends of slots: mouths, and horns beside recesses.
 
-A horn between slot and recess is thinnest at its tip. With ``horn_tip_mm`` a thinner tip is cut
-off, square to its slot: the flat from the slot's wall to the recess is then that long. In a frame
-along the wall the recess's centre is at the depth d below it, and the flat is
-
-    s = sqrt(k² - (d - t)²)
-
-inwards of the centre, with k the recess's radius and t the flat. With ``mouth_radius_mm`` the
-corner of wall and rim, or of wall and flat, is rounded by an arc that touches both.
+With ``horn_tip_mm`` a horn's thin tip is cut off, square to its slot. Along the wall, with the
+recess's centre at the depth d below it, k its radius and t the tip, the flat is at
+s = sqrt(k² - (d - t)²) before the centre. With ``mouth_radius_mm`` an arc rounds the corner.
 """
 
 from __future__ import annotations

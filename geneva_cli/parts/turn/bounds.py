@@ -1,8 +1,7 @@
 """Proved lower bounds of the gaps between wheel, crank and rollers on intervals of the input angle.
 
-A gap is at least that in the middle of an interval, less how far the parts move from there: a point
-at most its lever times its part's turn, a roller as its path's formulas on intervals say. Pairs
-that touch by design have more exact bounds. ``geneva help accuracy`` derives them.
+A gap is at least that in the middle of an interval, less how far the parts move from there.
+``geneva help accuracy`` derives the bounds.
 """
 
 from __future__ import annotations

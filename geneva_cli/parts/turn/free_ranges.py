@@ -1,9 +1,8 @@
 """The angles that a wheel of any outline may have, at each angle of its crank.
 
-The branches of both outlines meet at intervals of the wheel's angle (``stops``). Their union is
-what the wheel cannot have, and its gaps are the free ranges. The wheel's axis is the origin, and
-the crank's axis is at (L, 0). At crank angle 0 the first roller points to the wheel's axis, for an
-internal wheel away from it. The wheel turns counterclockwise as the crank's angle rises.
+The wheel's axis is the origin, and the crank's axis is at (L, 0). At crank angle 0 the first
+roller points to the wheel's axis, for an internal wheel away from it. The wheel turns
+counterclockwise as the crank's angle rises.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.numerics.arrays import Array, Mask, Whole
-from geneva_cli.parts.turn.stops import Meetings, TurningStops
+from geneva_cli.parts.turn.stops import Meetings, Stops
 
 SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
 BLOCK = 32  # crank angles that are computed together, as much the same pieces are near then
@@ -60,7 +59,7 @@ class FreeRanges:
         self._meets(sector)
 
     def _meets(self, wheel: Polyarc) -> None:
-        self.stops = TurningStops(wheel, self.period, self.crank, self.L, 0.0)
+        self.stops = Stops(wheel, self.period, self.crank, self.L, 0.0)
         self.own = self.stops.wheel(0.0)
 
     def with_slack(self, slack: float) -> FreeRanges:

@@ -1,8 +1,7 @@
 """The full turn: a collision check of the parts through a whole turn of the crank.
 
-No parts may overlap, and in every dwell something must hold the wheel. From its place in the ideal
-motion the wheel is pushed back and on until slot or lock stop it: that is its play. If it is off by
-that as the roller arrives, the roller must push it into line and not jam.
+From its place in the ideal motion the wheel is pushed back and on until slot or lock stop it: that
+is its play. If it is off by that as the roller arrives, the roller must push it into line.
 """
 
 from __future__ import annotations

@@ -1,11 +1,9 @@
 """The gaps between wheel, crank and rollers at given positions.
 
 Two boundaries are nearest to each other at a corner of one of them, or where their normals
-coincide. On an arc that is in the direction of the other arc's centre, or of the other line's
-normal. On a line it is at the foot of the perpendicular from the other arc's centre. If the
-outlines overlap, one of these points lies inside the other outline. If one piece of each bounds the
-overlap, the point is between the ends of the pieces; any other overlap has a corner in it. So no
-contact between two samples is missed.
+coincide: on an arc in the direction of the other arc's centre, or of the other line's normal; on a
+line at the foot of the perpendicular from the other arc's centre. If they overlap, one of these
+points lies inside the other outline. So no contact between two samples is missed.
 """
 
 from __future__ import annotations
@@ -25,7 +23,7 @@ from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.pairs import Lengths, Pose, Stop
-from geneva_cli.parts.turn.stops import Stops, TurningStops
+from geneva_cli.parts.turn.stops import Stops
 
 Owned: TypeAlias = tuple[Whole, Array, Array]  # points x, y, and the pose that each belongs to
 
@@ -114,9 +112,7 @@ class Gaps:
     def _stops(self) -> Stops:
         each = len(self.wheel) // len(self.assembly.slots)
         one = self.wheel.subset(np.arange(each)) if self.pitch else self.wheel
-        return TurningStops(
-            one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller
-        )
+        return Stops(one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller)
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap between the outlines of crank and wheel, mm (n,); see ``rollers``."""

@@ -1,7 +1,6 @@
-"""The motion of a wheel that moves only when it is pushed.
+"""The motion of a wheel that moves only when it is pushed, without inertia and friction.
 
-The crank turns. The wheel keeps its angle until a part overlaps it, and then goes along with the
-nearer end of the blocked range. It stops where the push ends. Inertia and friction play no part.
+It keeps its angle until a part overlaps it, and then goes with the nearer end of what is blocked.
 """
 
 from __future__ import annotations
@@ -125,7 +124,8 @@ class Turner:
             jam = stuck.jam
         if path.begun is not None:
             path.pushes.append(Push(*path.begun, *path.rows[-1][:2]))
-        return LazyTurn(*np.array(path.rows).reshape(-1, 4).T, tuple(path.pushes), jam)
+        crank_at, wheel_at, low, high = np.array(path.rows).reshape(-1, 4).T
+        return LazyTurn(crank_at, wheel_at, low, high, tuple(path.pushes), jam)
 
 
 def _looker(ranges: Ranges, i: int) -> Around:

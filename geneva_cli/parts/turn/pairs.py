@@ -138,38 +138,29 @@ class Clearances(Protocol):
         """
 
 
-class Pairs(Protocol):
-    """The pairs of parts that may meet, whose gaps are bounded on intervals."""
+class _Pairs(Protocol):
+    """The pairs of parts that may meet, whose gaps are bounded on intervals.
 
-    def lock(self, window: Window, on: Intervals) -> Bounds:
-        """Return the gap of the crank's locking surfaces and the wheel, in a motion or dwell."""
+    They are the crank's locking surfaces and the wheel, a roller and the wheel outside the slot
+    that the roller drives, and a roller and the wheel in its slot between two input angles.
+    """
 
-    def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
-        """Return the gap of a roller and the wheel, outside the slot that the roller drives."""
-
-    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds:
-        """Return the gap of a roller and the wheel, in its slot between two input angles."""
+    def lock(self, window: Window, on: Intervals) -> Bounds: ...
+    def free(self, roller: int, window: Window, on: Intervals) -> Bounds: ...
+    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds: ...
 
 
-class Shape(Protocol):
+class _Shape(Protocol):
     """Wheel and crank of a machine, as they are cut and turned."""
 
     @property
-    def assembly(self) -> Assembly:
-        """Positions of the parts at any input angle."""
-
+    def assembly(self) -> Assembly: ...
     @property
-    def sizes(self) -> Lengths:
-        """Lengths of the parts."""
-
+    def sizes(self) -> Lengths: ...
     @property
-    def gaps(self) -> Clearances:
-        """Clearances between the parts."""
-
+    def gaps(self) -> Clearances: ...
     @property
-    def crank(self) -> Sized:
-        """The locking surfaces of the crank; empty if there are none."""
-
+    def crank(self) -> Sized: ...
     def _replace(self, *, assembly: Assembly) -> Self: ...
 
 
@@ -192,7 +183,7 @@ class TurnedParts(ABC):
 
     @property
     @abstractmethod
-    def _shape(self) -> Shape:
+    def _shape(self) -> _Shape:
         """Wheel and crank as they are turned. Raises GenevaError where the sizes leave none."""
 
     @property
@@ -248,5 +239,5 @@ class TurnedParts(ABC):
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
 
     @abstractmethod
-    def pairs(self, target: float) -> Pairs:
+    def pairs(self, target: float) -> _Pairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""

@@ -1,8 +1,7 @@
 """The wheel's play through a turn: the angle that it can be turned until parts touch.
 
-Slot and lock hold the wheel alternately. Where one takes over from the other, and in a slot that is
-wider than its roller, the wheel has some play. A wheel that is off by it must be pushed into line,
-not blocked.
+It has some where slot and lock take over from each other, and in a slot wider than its roller. A
+wheel that is off by it must be pushed into line, not blocked.
 """
 
 from __future__ import annotations

@@ -1,20 +1,16 @@
 """How far a wheel can turn until its outline meets others: exact intervals of its angle.
 
-A wheel's motion leaves the level of its points as it is, their distance from the axis, and changes
-their place, the polar angle. Each piece of an outline is cut where its level is least or greatest.
-So each branch has one place at a level. A branch of the wheel and one of another outline meet at
-the differences of their places at common levels. These angles of the wheel are an interval. Its
-ends are at an end of the common levels, where a corner touches, or at a level where both are
-tangent, which has a closed form. A formula's other solution lies in the interval too. The wheel is
-free up to the first interval on either side: no search, no inside and outside.
-
-The same holds on a sphere, whose levels are angles from the axis, and for a rack, whose levels are
-positions across it.
+A wheel's motion leaves the level of its points, their distance from the axis, and changes their
+place, the polar angle. Each piece of an outline is cut where its level is least or greatest, so
+that each branch has one place at a level. A branch of the wheel and one of another outline meet at
+the differences of their places at common levels: an interval of the wheel's angle. Its ends are at
+an end of the common levels, where a corner touches, or where both are tangent, in closed form. The
+wheel is free up to the first interval on either side. On a sphere levels are angles from the axis,
+for a rack positions across it.
 """
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
@@ -66,10 +62,59 @@ class Meetings(NamedTuple):
     wheel: Branches
 
 
-class Stops(ABC):
-    """Stops of one machine's wheel, which repeats after ``pitch`` radians."""
+def spread(branches: Branches) -> tuple[Array, Array]:
+    """Return middles of the places of branches, radians, and bounds of their distance from them."""
+    ends = branches.at_low, branches.at_high
+    middle = branches.ahead + 0.5 * branches.sign * (ends[0] + ends[1])
+    # an arc may be widest between its ends; 1 + size * excess is its centre's distance over radius
+    far = np.maximum(1.0 + branches.size * branches.excess, 1.0)
+    widest = np.arcsin(1.0 / far)
+    wide = np.where(branches.size > 0.0, widest, 0.0)
+    return middle, 0.5 * np.abs(ends[1] - ends[0]) + branches.half + wide
 
-    pitch: float
+
+def cut(
+    start: Array, end: Array, known: Array, extremes: Array
+) -> Iterator[tuple[Mask, Array, Array, float]]:
+    """Yield arcs cut at their nearest and farthest points: which, both ends, and the side.
+
+    ``start`` and ``end`` are angles about an arc's centre, from the farthest point on. ``known``
+    has the levels (2, n, k) of these ends, and their angles from the place of the centre.
+    ``extremes`` has level and angle of the nearest point and of the farthest.
+    """
+    least, most = extremes
+    for k in (-2, -1, 0, 1, 2):
+        sign = 1.0 if k % 2 == 0 else -1.0
+        first, last = (most, least) if sign > 0.0 else (least, most)
+        low, high = k * np.pi, (k + 1) * np.pi
+        a, b = np.where(start > low, known[:, 0], first), np.where(end < high, known[:, 1], last)
+        there, rises = np.maximum(start, low) < np.minimum(end, high), a[0] <= b[0]
+        yield there, np.where(rises, a, b), np.where(rises, b, a), sign
+
+
+def masked(mask: Mask, *columns: Array) -> Branches:
+    """Return branches where a mask (n, k) is True; their rows are the poses."""
+    return Branches(np.nonzero(mask)[0], *(each[mask] for each in columns))
+
+
+def merged(parts: Iterable[Branches]) -> Branches:
+    """Return all branches of some parts."""
+    return Branches(*(np.concatenate(each) for each in zip(*parts, strict=True)))
+
+
+class Stops:
+    """Stops of a wheel about the origin, of its ``outline`` or of a sector that repeats.
+
+    The crank is in its own frame, with its axis at (L, 0). Of a branch, ``size`` is the curvature,
+    and ``excess`` how much farther from the origin the centre is than the radius; of a line the
+    distance of its foot.
+    """
+
+    def __init__(
+        self, outline: Polyarc, pitch: float, crank: Polyarc | None, L: float, roller: float
+    ) -> None:
+        self.outline, self.pitch, self.crank, self.L = outline, pitch, crank, L
+        self.roller = roller
 
     def first(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and turned on from n poses.
@@ -151,85 +196,6 @@ class Stops(ABC):
                         least[bent[less]], at[bent[less]] = here[less], level[less]
             spare = one.half + two.half
             yield Meetings(one.row, low - spare, high + spare, at_low, at_high, one, two)
-
-    @abstractmethod
-    def wheel(self, inset: float) -> Branches:
-        """Return the branches of the wheel, ``inset`` within its outline, in its own frame."""
-
-    @abstractmethod
-    def rollers(self, centres: Array, inset: float) -> Branches:
-        """Return the branches of rollers about n centres, in the fixed frame."""
-
-    @abstractmethod
-    def locking(self, crank: Array, inset: float) -> Iterator[tuple[Branches, Branches]]:
-        """Yield the branches of the crank at n angles: sides, ``inset`` inside, and corners."""
-
-    @abstractmethod
-    def place(self, branch: Branches, level: Array) -> Array:
-        """Return the places of branches at levels."""
-
-    @abstractmethod
-    def tangents(self, one: Branches, two: Branches) -> Iterator[Array]:
-        """Yield the levels at which branches may be tangent; not a number where none is."""
-
-    @abstractmethod
-    def lean(self, level: Array, pins: Array, close: float) -> Array:
-        """Return the sine of the pressure angle where rollers touch, ``close`` inside them."""
-
-
-def spread(branches: Branches) -> tuple[Array, Array]:
-    """Return middles of the places of branches, radians, and bounds of their distance from them."""
-    ends = branches.at_low, branches.at_high
-    middle = branches.ahead + 0.5 * branches.sign * (ends[0] + ends[1])
-    # an arc may be widest between its ends; 1 + size * excess is its centre's distance over radius
-    far = np.maximum(1.0 + branches.size * branches.excess, 1.0)
-    widest = np.arcsin(1.0 / far)
-    wide = np.where(branches.size > 0.0, widest, 0.0)
-    return middle, 0.5 * np.abs(ends[1] - ends[0]) + branches.half + wide
-
-
-def cut(
-    start: Array, end: Array, known: Array, extremes: Array
-) -> Iterator[tuple[Mask, Array, Array, float]]:
-    """Yield arcs cut at their nearest and farthest points: which, both ends, and the side.
-
-    ``start`` and ``end`` are angles about an arc's centre, from the farthest point on. ``known``
-    has the levels (2, n, k) of these ends, and their angles from the place of the centre.
-    ``extremes`` has level and angle of the nearest point and of the farthest.
-    """
-    least, most = extremes
-    for k in (-2, -1, 0, 1, 2):
-        sign = 1.0 if k % 2 == 0 else -1.0
-        first, last = (most, least) if sign > 0.0 else (least, most)
-        low, high = k * np.pi, (k + 1) * np.pi
-        a, b = np.where(start > low, known[:, 0], first), np.where(end < high, known[:, 1], last)
-        there, rises = np.maximum(start, low) < np.minimum(end, high), a[0] <= b[0]
-        yield there, np.where(rises, a, b), np.where(rises, b, a), sign
-
-
-def masked(mask: Mask, *columns: Array) -> Branches:
-    """Return branches where a mask (n, k) is True; their rows are the poses."""
-    return Branches(np.nonzero(mask)[0], *(each[mask] for each in columns))
-
-
-def merged(parts: Iterable[Branches]) -> Branches:
-    """Return all branches of some parts."""
-    return Branches(*(np.concatenate(each) for each in zip(*parts, strict=True)))
-
-
-class TurningStops(Stops):
-    """Stops of a wheel about the origin, of its ``outline`` or of a sector that repeats.
-
-    The crank is in its own frame, with its axis at (L, 0). Of a branch, ``size`` is the curvature,
-    and ``excess`` how much farther from the origin the centre is than the radius; of a line the
-    distance of its foot.
-    """
-
-    def __init__(
-        self, outline: Polyarc, pitch: float, crank: Polyarc | None, L: float, roller: float
-    ) -> None:
-        self.outline, self.pitch, self.crank, self.L = outline, pitch, crank, L
-        self.roller = roller
 
     def wheel(self, inset: float) -> Branches:
         """Return the branches of the wheel, ``inset`` mm within its outline, in its own frame."""

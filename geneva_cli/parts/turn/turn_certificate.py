@@ -1,7 +1,6 @@
 """Certificate of the full turn: a proved lower bound of the gap at every input angle.
 
-It proves by halving intervals that no gap is smaller than the smallest sampled one by more than a
-tolerance. Distances at single positions are taken as exact, up to their rounding.
+Distances at single positions are taken as exact, up to their rounding.
 """
 
 from __future__ import annotations
