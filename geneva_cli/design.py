@@ -719,12 +719,7 @@ class Design:
         return judged(self.drawing(part), cutter_mm)
 
     @question
-    def sheet(
-        self,
-        tolerance_mm: float = 0.001,
-        curves: str = "arcs",
-        part: str = "sheet",
-    ) -> Sheet:
+    def sheet(self, tolerance_mm: float = 0.001, curves: str = "arcs") -> Sheet:
         """A drawing sheet of the parts with dimensions, to a standard scale on A4 to A1.
 
         ``geneva_cli.output.draw_sheet`` writes it as DXF, SVG or PDF. Millimetres on paper.
@@ -735,7 +730,7 @@ class Design:
         """
         from geneva_cli.drawings.catalogue import part_sheet
 
-        return part_sheet(self.parts, part, tolerance_mm, _form(curves))
+        return part_sheet(self.parts, tolerance_mm, _form(curves))
 
     @question
     def save(
@@ -769,7 +764,7 @@ class Design:
         if refused:
             raise GenevaError(f"{cut(path, 300)}: not written: {refused}")
         if sheet:
-            draw_sheet(self.sheet(tolerance_mm, curves, part), path, inputs=files)
+            draw_sheet(self.sheet(tolerance_mm, curves), path, inputs=files)
         else:
             draw(self.drawing(part, tolerance_mm, curves), path, inputs=files)
 

@@ -46,16 +46,30 @@ def is_sheet(part: str) -> bool:
 def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
     """Return True if a part is written as a table; ``drawn`` is True for a drawing's format.
 
-    Raises GenevaError for a part that is unknown, or has no drawing.
+    Raises GenevaError for a part that is unknown, has no drawing, or that no machine with such a
+    wheel has.
     """
+    return bool(_table(mechanism, part, drawn))
+
+
+def _table(mechanism: Mechanism, part: str, drawn: bool = False) -> str:
+    """Return the function of a part's table, "" for a drawing. Raises GenevaError as above."""
     is_sheet(part)
-    require_drawn(mechanism, part)
+    kinds = of_wheel(mechanism.spec.wheel.NAME)
+    has = {name for kind in kinds for name in (*kind.drawings, *kind.tables)}
+    known = [name for name, table in PARTS.items() if table or name in has]
+    if part not in known:
+        raise GenevaError(
+            f"--part {part}: a machine of this kind has none; it may have {', '.join(known)}",
+            ("wheel", "gearing"),
+        )
     if drawn and part not in DRAWINGS:
         raise GenevaError(
             f"--part {part} is a table of points: write it as .csv or .json; these are drawings: "
             f"{', '.join(DRAWINGS)}"
         )
-    return not drawn and bool(_table(mechanism, part))
+    own = (kind.tables.get(part) for kind in reversed(kinds))
+    return "" if drawn else next(filter(None, own), PARTS[part])
 
 
 def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: int | None) -> Table:
@@ -65,28 +79,12 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     """
     if samples is not None and not 2 <= samples <= SAMPLES_MAX:
         raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
-    if part == SHEET or not is_table(mechanism, part, drawn=False):
+    function = "" if part == SHEET else _table(mechanism, part)
+    if not function:
         raise GenevaError(f"--part {part} is a drawing: write it as .dxf or .svg")
     require_tolerance(mechanism, tolerance_mm)
-    table: Table = load_named(_table(mechanism, part))(mechanism, tolerance_mm, samples)
+    table: Table = load_named(function)(mechanism, tolerance_mm, samples)
     return table
-
-
-def _table(mechanism: Mechanism, part: str) -> str:
-    own = (kind.tables.get(part) for kind in reversed(of_wheel(mechanism.spec.wheel.NAME)))
-    return next(filter(None, own), PARTS[part])
-
-
-def require_drawn(mechanism: Mechanism, part: str) -> None:
-    """Raise GenevaError for a part that no machine with such a wheel has."""
-    kinds = of_wheel(mechanism.spec.wheel.NAME)
-    drawn = {name for kind in kinds for name in (*kind.drawings, *kind.tables)}
-    known = [name for name, table in PARTS.items() if table or name in drawn]
-    if part not in known:
-        raise GenevaError(
-            f"--part {part}: a machine of this kind has none; it may have {', '.join(known)}",
-            ("wheel", "gearing"),
-        )
 
 
 def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
@@ -99,18 +97,12 @@ def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
 
 
 def parts_having(parts: Parts, part: str) -> Parts:
-    """Return the parts of the machine that has a part: these, or those of the first of two wheels.
-
-    Raises GenevaError for a part of a first wheel if there is none.
-    """
+    """Return the parts of the machine that has a part: these, or those of the first wheel."""
     return parts.front if part.startswith("first-") else parts
 
 
 def part_drawing(parts: Parts, part: str, tolerance_mm: float, curves: str) -> Drawing:
-    """Return a part's drawing: lines and arcs, or with ``curves`` = "cubics" also cubics.
-
-    Raises GenevaError for a part that is not drawn, or that the machine does not have.
-    """
+    """Return a part's drawing: lines and arcs, or with ``curves`` = "cubics" also cubics."""
     if is_sheet(part):
         raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
     parts = parts_having(parts, part)
@@ -120,19 +112,14 @@ def part_drawing(parts: Parts, part: str, tolerance_mm: float, curves: str) -> D
     return drawing._replace(tolerance=tolerance_mm)
 
 
-def part_sheet(parts: Parts, part: str, tolerance_mm: float, curves: str) -> Sheet:
-    """Return a part, or all of them, as a drawing sheet with dimensions.
-
-    Raises GenevaError for a part without a sheet, or that does not fit on one.
-    """
-    if not is_sheet(part):
-        raise GenevaError(f"--part {part} is no drawing sheet; use {SHEET}")
+def part_sheet(parts: Parts, tolerance_mm: float, curves: str) -> Sheet:
+    """Return all parts as a drawing sheet. Raises GenevaError for a machine without one."""
     if of := without_sheet(parts.mechanism):
         raise GenevaError(
             f"--part {SHEET}: no sheet for {of}: use -o FILE.step or a dxf of each part"
         )
     require_tolerance(parts.mechanism, tolerance_mm)
-    sheet: Sheet = _maker(parts, part)(tolerance_mm, curves)
+    sheet: Sheet = _maker(parts, SHEET)(tolerance_mm, curves)
     return sheet
 
 
@@ -141,15 +128,16 @@ def without_sheet(mechanism: Mechanism) -> str:
     wheel = mechanism.spec.wheel.NAME
     if not any(SHEET in kind.drawings for kind in of_wheel(wheel)):
         return f"{wheel} machines"
-    return "machines with gears" if is_geared(mechanism.spec) else ""
+    if is_geared(mechanism.spec):
+        return "machines with gears"
+    return "machines with a groove" if mechanism.engagements[0].groove else ""
 
 
 def _maker(parts: Parts, part: str) -> Callable[[float, str], Any]:
     """Return what draws a part for a tolerance and curves, by the record of the machine's kind."""
     kinds = of_wheel(parts.mechanism.spec.wheel.NAME)
     kind = next(kind for kind in reversed(kinds) if part in kind.drawings)
-    # links and gears in front of a sphere are flat
-    built, draw = parts.built if kind.parts else parts.flat, load_named(kind.drawings[part])
+    draw, built = load_named(kind.drawings[part]), parts.built if kind.parts else parts.flat
     return lambda tolerance_mm, curves: draw(built.within(tolerance_mm, curves))
 
 

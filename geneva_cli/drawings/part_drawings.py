@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import bounds, turned
-from geneva_cli.geometry.plates import Group, Member, Plate, in_place, placed
+from geneva_cli.geometry.plates import Group, Member, in_place, placed
 from geneva_cli.geometry.shapes import (
     Arc,
     Circle,
@@ -24,7 +24,6 @@ from geneva_cli.geometry.shapes import (
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import arm_plate, crank_arm
@@ -35,6 +34,8 @@ from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.projection import drawing_of, once, outlines_of, shapes, titled, uncovered
 from geneva_cli.parts.slots.roller_paths import roller_reaches
+
+BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
 
 
 def wheel(parts: EdgedParts) -> Drawing:
@@ -54,8 +55,7 @@ def arm(parts: FlatParts) -> Drawing:
     """Return the crank arm below the wheel's plane: outline, bore, holes for pins and bolts."""
     # without an arm the error says why
     solid = parts.arm_plate or arm_plate(parts.outlines, crank_arm(parts.outlines))
-    title = titled(parts.mechanism, "arm")
-    return Drawing(title, (solid.outline, *solid.holes), solid=solid)
+    return Drawing(titled(parts.mechanism, "arm"), (solid.outline, *solid.holes), solid=solid)
 
 
 def slot(parts: FlatParts) -> Drawing:
@@ -88,20 +88,16 @@ def links(parts: FlatParts) -> Drawing:
                 else "--part parts lists what it has"
             )
         )
-    # links side by side are 0.05 of the centre distance apart
-    members = tuple(_side_by_side(bars.plates, 0.05 * mechanism.center_distance_mm))
-    title = titled(mechanism, "links")
-    return Drawing(title, tuple(shapes(members)), solid=Group(title, members))
-
-
-def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
-    top = 0.0
-    for plate in dict.fromkeys(plates):
+    members, top = [], 0.0
+    for plate in dict.fromkeys(bars.plates):
         box = bounds(plate.outline)
         # moved itself, so that the kerf finds its outlines in the drawing
         ((_, moved),) = in_place([Member(plate, (0.0, top - box.y0))])
-        yield Member(moved)
-        top += box.y1 - box.y0 + between
+        members.append(Member(moved))
+        # links side by side are 0.05 of the centre distance apart
+        top += box.y1 - box.y0 + 0.05 * mechanism.center_distance_mm
+    title = titled(mechanism, "links")
+    return Drawing(title, tuple(shapes(members)), solid=Group(title, tuple(members)))
 
 
 def frame(parts: EdgedParts) -> Drawing:
@@ -118,17 +114,16 @@ def gears(parts: EdgedParts) -> Drawing:
     from geneva_cli.parts.gears.gear_pair import FINE
 
     mechanism, name = parts.mechanism, "gears"
-    round_only = mechanism.spec.drive.round_gears and not mechanism.spec.gears
-    if not round_only:
+    if mechanism.spec.gears or not mechanism.spec.drive.round_gears:
         pair = required_gears(mechanism)
         name = "pitch curves of the gears"
         parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
-    members = *parts.round_gears, *parts.gear_pair
     L = mechanism.center_distance_mm
+    members = (*parts.round_gears, *parts.gear_pair)
     about_crank = [one._replace(at=(one.at[0] - L, one.at[1])) for one in members]
-    drawn = tuple(once(shapes(about_crank)))
     title, ends = titled(mechanism, name), [one.at for one in about_crank]
     line = Contour("PITCH", (Line(min(ends), max(ends)),), closed=False)
+    drawn = tuple(once(shapes(about_crank)))
     return Drawing(title, (*drawn, line), solid=Group(title, members))
 
 
@@ -149,49 +144,60 @@ def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:
 
     Where the roller returns on the same path, it is the first half.
     """
-    apart = engagement.apart
-    line = _pitch_line(parts, engagement.through)
+    assembly, apart, through = parts.outlines.assembly, engagement.apart, engagement.through
+    x, y = through.slot(np.array([through.entry_deg, 0.0]), 0)
+    if not through.slot.curved:
+        mouth, end = (assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))).tolist()
+        line = Contour("PITCH", (Line(tuple(mouth), tuple(end)),), closed=False)
+    else:
+        from geneva_cli.geometry import fit
+        from geneva_cli.parts.outlines.path_walls import parallel
+
+        fine = 1e-3 if parts.tolerance is None else parts.tolerance  # mm, as a drawing's
+        pieces: list[Segment] = []
+        for a, b in ((through.entry_deg, 0.0), (0.0, through.exit_deg)):
+            path = parallel(assembly, through, 0.0, b > 0.0)
+            pieces += fit.KINDS[parts.curves](path, a, b, fine)
+        line = Contour("PITCH", joined(pieces), closed=False)
     return [turned(line, -apart), turned(line, apart)] if apart else [line]
-
-
-def _pitch_line(parts: FlatParts, engagement: Engagement) -> Contour:
-    assembly = parts.outlines.assembly
-    fine = 1e-3 if parts.tolerance is None else parts.tolerance  # mm, as a drawing's
-    at = np.array([engagement.entry_deg, 0.0])
-    x, y = engagement.slot(at, 0)
-    if not engagement.slot.curved:
-        mouth, end = assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * at))
-        ends = [(float(p[0]), float(p[1])) for p in (mouth, end)]
-        return Contour("PITCH", (Line(*ends),), closed=False)
-    from geneva_cli.geometry import fit
-    from geneva_cli.parts.outlines.path_walls import parallel
-
-    pieces: list[Segment] = []
-    for a, b in ((engagement.entry_deg, 0.0), (0.0, engagement.exit_deg)):
-        path = parallel(assembly, engagement, 0.0, b > 0.0)
-        pieces += fit.KINDS[parts.curves](path, a, b, fine)
-    return Contour("PITCH", joined(pieces), closed=False)
-
-
-BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
 
 
 def machine(parts: FlatParts) -> Drawing:
     """Return the machine at input angle 0, from the frame up to the wheel."""
-    outlines, title = parts.outlines, titled(parts.mechanism)
+    assembly, title = parts.outlines.assembly, titled(parts.mechanism)
     drawn = [shape for one in (parts.wheel, *parts.orbiting) for shape in _seen(one)]
     for one in parts.about_wheel(parts.crank_without_arm):
-        drawn += [*_seen(one), *_arm(parts, one)]
-    drawn += _links(parts)
+        seen = _seen(one)
+        drawn += seen
+        if parts.arm:
+            drawn.append(placed(parts.arm.outline, one.at, one.turn))
+            if parts.arm.bore not in outlines_of(one.part):
+                drawn.append(placed(parts.arm.bore._replace(layer="ARM"), one.at, one.turn))
+    # the links, and the round gears by their pitch circles, with all holes
+    drawn += [shape._replace(layer="LINK") for shape in shapes(parts.links.cut)]
+    blanks = list(shapes(parts.round_gears))
+    drawn += [shape for shape in blanks if shape.layer == "PITCH"]
+    drawn += [shape._replace(layer="LINK") for shape in blanks if shape.layer != "PITCH"]
     drawn += outlines_of(Group("", parts.gear_pair))
     drawn += shapes(parts.first)
     drawn += [
         shape._replace(layer="FRAME") if isinstance(shape, Circle) else shape
         for shape in uncovered(parts.standing, drawn)
     ]
-    drawn += _roller_lines(parts)
-    L = outlines.assembly.L
-    look = Annotations((LevelDistance((0.0, 0.0), (L, 0.0), "L"),), tuple(_turns(outlines)))
+    # the line of centres, and the rollers' paths on their circles and in their slots
+    axes = [place.at for place in assembly.full.crank_places]
+    drawn += [Contour("PITCH", (Line((0.0, 0.0), axis),), closed=False) for axis in axes]
+    radii = set()
+    for number, (engagement, behind) in enumerate(assembly.rollers):
+        if not engagement.crank_sense and engagement.groove is None:
+            x, y = assembly.pin(number, np.array([behind]))[0]
+            radii.add(round(math.hypot(x - assembly.L, y), 9))
+    drawn += [Circle("PITCH", axis, radius) for axis in axes for radius in sorted(radii)]
+    pitches = {one: pitch_lines(parts, one) for one in assembly.kinds}
+    for engagement, direction in assembly.slots:
+        drawn += [turned(line, direction + parts.wheel.turn) for line in pitches[engagement]]
+    distance = LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L")
+    look = Annotations((distance,), tuple(_turns(parts.outlines)))
     return Drawing(title, tuple(once(drawn)), look, Group(title, parts.members))
 
 
@@ -199,26 +205,22 @@ def _seen(member: Member) -> list[Shape]:
     return [placed(shape, member.at, member.turn) for shape in outlines_of(member.part)]
 
 
-def _links(parts: FlatParts) -> Iterator[Shape]:
-    """Yield the links, and the round gears by their pitch circles, with all holes."""
-    yield from (shape._replace(layer="LINK") for shape in shapes(parts.links.cut))
-    blanks = list(shapes(parts.round_gears))
-    yield from (shape for shape in blanks if shape.layer == "PITCH")
-    yield from (shape._replace(layer="LINK") for shape in blanks if shape.layer != "PITCH")
-
-
 def _turns(parts: Outlines) -> Iterator[Arc]:
     """Yield the senses of rotation of wheel and crank, as arcs outside of them."""
-    assembly, sizes = parts.assembly, parts.sizes
+    assembly, sizes, mechanism = parts.assembly, parts.sizes, parts.assembly.full
     reach = max(math.hypot(*s.start) for s in parts.wheel.segments)
     beyond = (sizes.outer or reach) + BEYOND * assembly.L
-    half = math.radians(25.0)
-    yield about((0.0, 0.0), beyond, _free_direction(assembly.full) - half, 2.0 * half)
-    frame = assembly.full.frame
-    if frame:  # the finger stands, and the carrier turns
-        yield about((assembly.L, 0.0), assembly.L + beyond, -frame * 0.5, frame)
+    half, free = math.radians(25.0), math.radians(140.0)
+    turns = sorted(place.turn for place in mechanism.crank_places)
+    if len(turns) > 1:  # between the cranks that are farthest apart
+        before, after = max(pairwise([*turns, math.tau]), key=lambda ends: ends[1] - ends[0])
+        free = 0.5 * (before + after)
+    yield about((0.0, 0.0), beyond, free - half, 2.0 * half)
+    if mechanism.frame:  # the finger stands, and the carrier turns
+        sense = mechanism.frame
+        yield about((assembly.L, 0.0), assembly.L + beyond, -sense * 0.5, sense)
         return
-    if not assembly.full.spec.drive.ONE_ARM:
+    if not mechanism.spec.drive.ONE_ARM:
         yield from _link_turns(parts)
         return
     step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
@@ -226,16 +228,8 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     # an internal wheel's crank turns within the wheel, so its arrow is near its shaft
     far = max(roller_reaches(assembly)) + 2.0 * sizes.roller
     radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
-    for place in assembly.full.crank_places:
+    for place in mechanism.crank_places:
         yield about(place.at, radius, place.turn - sense * 0.5, sense)
-
-
-def _free_direction(mechanism: Mechanism) -> float:
-    turns = sorted(place.turn for place in mechanism.crank_places)
-    if len(turns) == 1:
-        return math.radians(140.0)
-    before, after = max(pairwise([*turns, math.tau]), key=lambda ends: ends[1] - ends[0])
-    return 0.5 * (before + after)
 
 
 def _link_turns(parts: Outlines) -> Iterator[Arc]:
@@ -253,34 +247,3 @@ def _link_turns(parts: Outlines) -> Iterator[Arc]:
         sense = math.copysign(1.0, float(np.angle(ahead[2] / ahead[0])))
         far = max(float(np.abs(ahead).max()), parts.sizes.lock) + 2.0 * BEYOND * L
         yield about((L, 0.0), far, -sense * 0.5, sense)
-
-
-def _arm(parts: FlatParts, crank: Member) -> list[Shape]:
-    if parts.arm is None:
-        return []
-    bore = parts.arm.bore
-    hidden = bore in outlines_of(crank.part)
-    visible: list[Shape] = [parts.arm.outline, *([] if hidden else [bore._replace(layer="ARM")])]
-    return [placed(shape, crank.at, crank.turn) for shape in visible]
-
-
-def _roller_lines(parts: FlatParts) -> list[Shape]:
-    """Return the line of centres, and the rollers' paths on their circles and in their slots."""
-    assembly = parts.outlines.assembly
-    cranks = [place.at for place in assembly.full.crank_places]
-    lines: list[Shape] = [
-        Contour("PITCH", (Line((0.0, 0.0), axis),), closed=False) for axis in cranks
-    ]
-    arms = set()
-    for number, (engagement, behind) in enumerate(assembly.rollers):
-        if not engagement.crank_sense and engagement.groove is None:
-            x, y = assembly.pin(number, np.array([behind]))[0]
-            arms.add(round(math.hypot(x - assembly.L, y), 9))
-    lines += [Circle("PITCH", axis, arm) for axis in cranks for arm in sorted(arms)]
-    pitches = {s: pitch_lines(parts, s) for s in assembly.kinds}
-    lines += [
-        turned(line, direction + parts.wheel.turn)
-        for engagement, direction in assembly.slots
-        for line in pitches[engagement]
-    ]
-    return lines

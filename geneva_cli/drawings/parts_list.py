@@ -33,19 +33,8 @@ from geneva_cli.table import Reading, Table, rows_table
 # columns of a row of each kind
 KINDS = {
     "part": (
-        "name",
-        "count",
-        "material",
-        "density_kgm3",
-        "thickness_mm",
-        "z_low_mm",
-        "z_high_mm",
-        "mass_kg",
-        "inertia_kgm2",
-        "centroid_x_mm",
-        "centroid_y_mm",
-        "size_x_mm",
-        "size_y_mm",
+        *("name", "count", "material", "density_kgm3", "thickness_mm", "z_low_mm", "z_high_mm"),
+        *("mass_kg", "inertia_kgm2", "centroid_x_mm", "centroid_y_mm", "size_x_mm", "size_y_mm"),
     ),
     "pivot": ("name", "x_mm", "y_mm"),
     "dimension": ("name", "value", "unit"),
@@ -65,7 +54,12 @@ def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 def parts_list(parts: Parts) -> Table:
     """Return the list of parts of a machine, whose outlines may already be computed."""
     mechanism = parts.mechanism
-    entries = [*_parts(parts), *_pivots(mechanism), *_dimensions(parts)]
+    entries = [*_parts(parts)]
+    pivots = [p for p in mechanism.layout if isinstance(p, Pivot)]
+    for pivot in (*mechanism.spec.wheel.axes(mechanism.center_distance_mm), *pivots):
+        entries.append({"row": "pivot", **pivot._asdict()})
+    for one in _dimensions(parts):
+        entries.append(one if isinstance(one, Missing) else {"row": "dimension", **one._asdict()})
     mappings = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in entries]
     rows = [[row.get(name) for name in NAMES] for row in mappings]
     table = rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
@@ -147,13 +141,7 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
     }
 
 
-def _pivots(mechanism: Mechanism) -> Iterator[Row]:
-    pivots = [p for p in mechanism.layout if isinstance(p, Pivot)]
-    for pivot in (*mechanism.spec.wheel.axes(mechanism.center_distance_mm), *pivots):
-        yield {"row": "pivot", **pivot._asdict()}
-
-
-def _dimensions(parts: Parts) -> Iterator[Row | Missing]:
+def _dimensions(parts: Parts) -> list[Dimension | Missing]:
     mechanism = parts.mechanism
     spec, L = mechanism.spec, mechanism.center_distance_mm
     r, clear = mechanism.roller_radius_mm, spec.size.allowances.slot_clearance_mm
@@ -187,8 +175,7 @@ def _dimensions(parts: Parts) -> Iterator[Row | Missing]:
             entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     entries += _motions(mechanism)
     entries += [d for d in mechanism.layout if isinstance(d, Dimension)]
-    for entry in entries:
-        yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
+    return entries
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:

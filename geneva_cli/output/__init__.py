@@ -1,7 +1,8 @@
 """Output of tables, drawings, figures and documents to standard output or files, by format.
 
 Each format is a module that is imported when it is asked for. Its ``chunks`` yield a file's text in
-pieces; those of a mesh are bytes. Input files are never overwritten.
+pieces; those of a mesh are bytes. ``inputs`` are never overwritten. All functions raise GenevaError
+for a format that they do not write, and for a file that cannot be written.
 """
 
 from __future__ import annotations
@@ -70,10 +71,7 @@ def _module(name: str) -> Any:
 
 
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
-    """Print the table, or write it to the file ``output``.
-
-    Raises GenevaError if the format is not for tables, or if the file cannot be written.
-    """
+    """Print the table, or write it to the file ``output``."""
     name = table_as(output, format)
     _put(_chunks(table, output, name), output, inputs, name)
 
@@ -105,7 +103,7 @@ def is_watched(output: str, format: str) -> bool:
 def show_answer(
     answer: Answer, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
-    """Print an answer, or write it to the file ``output``. Raises GenevaError as ``show`` does."""
+    """Print an answer, or write it to the file ``output``."""
     name = table_as(output, format)
     if name not in ("table", "md"):  # formats for people have a summary above the table
         show(answer.data, output, format, inputs)
@@ -131,11 +129,7 @@ def draw(
     inputs: Iterable[str] = (),
     version: str = "",
 ) -> None:
-    """Print the drawing, or write it to the file ``output``; ``version`` is that of a DXF file.
-
-    Raises GenevaError for a format of tables or an unknown one, for a version of another one, if
-    nothing is drawn, and if the file cannot be written.
-    """
+    """Print the drawing, or write it; ``version`` is that of a DXF file."""
     name = drawn_as(output, format)
     own = _of_dxf(name, version)
     if name in FORMATS:
@@ -148,10 +142,7 @@ def draw(
 def draw_sheet(
     sheet: Sheet, output: str = "-", format: str = "", inputs: Iterable[str] = (), version: str = ""
 ) -> None:
-    """Print the drawing sheet, or write it to the file ``output``.
-
-    Raises GenevaError as ``draw`` does, for formats that are not in SHEETS.
-    """
+    """Print the drawing sheet, or write it to the file ``output``."""
     name = sheet_as(output, format)
     own = _of_dxf(name, version)
     refuse_columns()
@@ -167,11 +158,7 @@ def _of_dxf(name: str, version: str) -> tuple[str, ...]:
 def show_figure(
     figure: Figure, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
-    """Print the figure, or write it to the file ``output``; formats of tables get its points.
-
-    Raises GenevaError for an unknown format, for one that needs a missing package, and if the file
-    cannot be written.
-    """
+    """Print the figure, or write it to the file ``output``; formats of tables get its points."""
     name = plotted_as(output, format)
     if name not in PLOTTED:
         show(figure.table(), output, name, inputs)
@@ -186,10 +173,7 @@ def show_figure(
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
-    """Write the scene as a page of HTML; ``-`` prints it.
-
-    Raises GenevaError for another extension, and if the file cannot be written.
-    """
+    """Write the scene as a page of HTML; ``-`` prints it."""
     if is_seen(output):
         raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
     if output != "-" and os.path.splitext(output)[1].lower() not in (".html", ".htm"):
@@ -200,10 +184,7 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
 def show_document(
     document: Document, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
-    """Print the document, or write it to the file ``output``.
-
-    Raises GenevaError if the format is not one of DOCUMENTS, or if the file cannot be written.
-    """
+    """Print the document, or write it to the file ``output``."""
     name = document_as(output, format)
     refuse_columns()
     _put(_module(f"document.{DOCUMENTS[name]}").chunks(document), output, inputs)

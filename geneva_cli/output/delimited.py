@@ -33,7 +33,7 @@ def text_of(columns: Sequence[Any], infinity: str = "inf") -> str:
     ``infinity`` stands for infinite numbers of arrays.
     """
     parts: list[str | Sequence[str]] = []  # one text for all rows, or one for each
-    for is_numbers, group in groupby(columns, lambda c: getattr(c, "dtype", "") == "float64"):
+    for is_numbers, group in groupby(columns, _is_numbers):
         own = [*group]
         parts += [_number_lines(own, infinity)] if is_numbers else map(_fields, own)
     varied = [k for k, part in enumerate(parts) if not isinstance(part, str)]
@@ -44,6 +44,10 @@ def text_of(columns: Sequence[Any], infinity: str = "inf") -> str:
         return before + (after + before).join(parts[k]) + after
     each = [repeat(part, len(columns[0])) if isinstance(part, str) else part for part in parts]
     return "".join([",".join(row) + "\n" for row in zip(*each, strict=True)])
+
+
+def _is_numbers(column: Any) -> bool:
+    return not isinstance(column, (list, tuple)) and column.dtype == "float64"
 
 
 def _fields(column: Any) -> str | Sequence[str]:

@@ -45,11 +45,7 @@ KINDS = {
 
 
 def chunks(drawing: Drawing, version: str = USUAL) -> Iterator[str]:
-    """Yield a drawing's text.
-
-    Raises GenevaError for an unknown version, a coordinate that is not finite, a drawing without
-    shapes, or cubics in R12.
-    """
+    """Yield a drawing's text. Raises GenevaError for an unknown version, or cubics in R12."""
     drawing = prepared(drawing)
 
     def fill(document: Document, space: Modelspace) -> None:

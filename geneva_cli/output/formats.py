@@ -71,10 +71,7 @@ def plotted_as(output: str, format: str) -> str:
 
 
 def is_drawn(output: str, format: str) -> bool:
-    """Return True for a drawing of lines and arcs, False for a table.
-
-    Raises GenevaError for another format.
-    """
+    """Return True for lines and arcs, False for a table. Raises GenevaError for another format."""
     return drawn_as(output, format) in DRAWN
 
 

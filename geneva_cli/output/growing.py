@@ -156,19 +156,16 @@ class GrowingFile:
 
 
 def _open_locked(path: str, inputs: Iterable[str]) -> BinaryIO:
+    name = cut(os.path.basename(path.removesuffix(SUFFIX)))
+    busy = f"{name}: another run is writing this file; wait until it ends, or give -o another name"
     if os.path.lexists(path):
         status = os.lstat(path)
         if not stat.S_ISREG(status.st_mode):
             raise _not_ours(path)
         refuse_input(path, status, inputs)
     # A link or a pipe that somebody puts there now is neither followed nor waited for.
-    flags = os.O_RDWR | os.O_CREAT | CAREFUL
-    file = os.fdopen(os.open(path, flags, 0o666), "r+b")
+    file = os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT | CAREFUL, 0o666), "r+b")
     try:
-        name = cut(os.path.basename(path.removesuffix(SUFFIX)))
-        busy = (
-            f"{name}: another run is writing this file; wait until it ends, or give -o another name"
-        )
         lock_or_refuse(file.fileno(), busy, alone=True)
         if not os.fstat(file.fileno()).st_nlink:  # the run with the lock has just removed it
             raise GenevaError(busy)
@@ -179,10 +176,9 @@ def _open_locked(path: str, inputs: Iterable[str]) -> BinaryIO:
 
 
 def _not_ours(path: str) -> GenevaError:
-    name = cut(os.path.basename(path))
     return GenevaError(
-        f"{name}: a sweep keeps its state under this name, but something else has it; "
-        "rename it, or give -o another name"
+        f"{cut(os.path.basename(path))}: a sweep keeps its state under this name, but something "
+        "else has it; rename it, or give -o another name"
     )
 
 

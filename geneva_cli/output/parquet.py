@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -41,9 +41,8 @@ def write_blocks(
 ) -> None:
     """Write blocks of rows, at least one, as parquet: numbers, truth values or texts.
 
-    They are read twice: the type of a column follows from all its rows.
-    Columns named in ``texts`` are texts even if all their rows are empty, so that the files of
-    several shards have one schema.
+    They are read twice: the type of a column follows from all its rows. Columns named in ``texts``
+    are texts even if all their rows are empty.
     """
     import pyarrow as pa
     from pyarrow import parquet
@@ -57,19 +56,14 @@ def write_blocks(
     )
     words = [field.name for field in schema if field.type == pa.string()]
     with parquet.ParquetWriter(target, schema, use_dictionary=words) as out:
-        for group in _groups(pa.ipc.open_stream(block).read_all() for block in blocks()):
-            out.write_table(pa.concat_tables([_cast(table, schema) for table in group]))
-
-
-def _groups(tables: Iterable[pa.Table]) -> Iterator[list[pa.Table]]:
-    group: list[pa.Table] = []
-    for table in tables:
-        group.append(table)
-        if sum(map(len, group)) >= ROWS:
-            yield group
-            group = []
-    if group:
-        yield group
+        group: list[pa.Table] = []
+        for block in blocks():
+            group.append(_cast(pa.ipc.open_stream(block).read_all(), schema))
+            if sum(map(len, group)) >= ROWS:
+                out.write_table(pa.concat_tables(group))
+                group = []
+        if group:
+            out.write_table(pa.concat_tables(group))
 
 
 def _array(column: Any) -> pa.Array:

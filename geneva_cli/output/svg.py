@@ -46,10 +46,7 @@ SHEET_STYLE = """<style>
 
 
 def chunks(drawing: Drawing) -> Iterator[str]:
-    """Yield a drawing's text.
-
-    Raises GenevaError for a coordinate that is not finite, or a drawing without shapes.
-    """
+    """Yield a drawing's text. Raises GenevaError for a drawing without shapes."""
     look, drawing = drawing.look, prepared(drawing)
     box = extent(drawing)
     size = max(box.x1 - box.x0, box.y1 - box.y0)
@@ -64,21 +61,25 @@ def chunks(drawing: Drawing) -> Iterator[str]:
     yield _head(' version="1.1"', f"{x} {y}", width, height, title)
     plates = rings(drawing.solid) if look and drawing.solid else []
     if look:
-        yield _style(drawing.layers, tuple(layer for layer, _ in plates))
+        yield _style(drawing.layers, list(dict.fromkeys(layer for layer, _ in plates)))
         yield f'<rect class="page" fill="{LIGHT.page}" x="{x}" y="{y}" width="{width}"'
         yield f' height="{height}"/>\n'
     if plates:
-        yield from _filled(plates)
-    for layer, ink in inks(drawing.layers).items():
+        yield '<g id="FILL" stroke="none" fill-rule="evenodd">\n'
+        for layer, contours in plates:
+            yield f'<path class="{layer}" fill="{_tint(layer, LIGHT)}"'
+            yield f' d="{" ".join(map(path, contours))}"/>\n'
+        yield "</g>\n"
+    for name, ink in inks(drawing.layers).items():
         dashes, stroke = "", mm * STROKE * (1.6 if look else 1.0)  # wider lines to view
-        if layer in CENTRE_LINES:
+        if name in CENTRE_LINES:
             dashes = f' stroke-dasharray="{" ".join(number(mm * d) for d in DASHES)}"'
         # rollers' paths, and the lowest layer
-        if look and layer in (*CENTRE_LINES, "FRAME"):
+        if look and name in (*CENTRE_LINES, "FRAME"):
             stroke *= 0.6
-        yield f'<g id="{escape(layer)}" stroke="{ink.rgb}"'
+        yield f'<g id="{escape(name)}" stroke="{ink.rgb}"'
         yield f' stroke-width="{number(stroke)}"{dashes}>\n'
-        yield from (element(shape) for shape in drawing.shapes if shape.layer == layer)
+        yield from (element(shape) for shape in drawing.shapes if shape.layer == name)
         yield "</g>\n"
     if shown:
         yield from _noted(shown, mm)
@@ -176,18 +177,8 @@ def number(value: float) -> str:
     return text if text.strip("-0.") else text.lstrip("-")
 
 
-def _filled(plates: list[tuple[Layer, tuple[Contour, ...]]]) -> Iterator[str]:
-    tint = _tints(tuple(dict.fromkeys(layer for layer, _ in plates)), LIGHT)
-    yield '<g id="FILL" stroke="none" fill-rule="evenodd">\n'
-    for layer, contours in plates:
-        yield f'<path class="{layer}" fill="{tint[layer]}" d="{" ".join(map(path, contours))}"/>\n'
-    yield "</g>\n"
-
-
-def _tints(layers: tuple[Layer, ...], paper: Paper) -> dict[Layer, str]:
-    """The tint of each layer on a page."""
-    inked = inks(layers)
-    return {layer: mixed(inked[layer].rgb, opacity(layer), paper.page) for layer in layers}
+def _tint(layer: Layer, paper: Paper) -> str:
+    return mixed(inks((layer,))[layer].rgb, opacity(layer), paper.page)
 
 
 def opacity(layer: Layer) -> float:
@@ -206,16 +197,14 @@ def rings(solid: Part) -> list[tuple[Layer, tuple[Contour, ...]]]:
     return list(dict.fromkeys(reversed(drawn)))[::-1]
 
 
-def _style(layers: tuple[str, ...], plates: tuple[Layer, ...]) -> str:
+def _style(layers: tuple[str, ...], plates: list[Layer]) -> str:
     """The colours of a dark page; programs without CSS show the light one."""
     dark = "".join(
         f"g[id='{layer}'] {{ stroke: {mixed(ink.rgb, 0.55, '#ffffff')} }}\n"
         for layer, ink in inks(layers).items()
     )
-    dark += "".join(
-        f"path[class='{layer}'] {{ fill: {tint} }}\n"
-        for layer, tint in _tints(plates, DARK).items()
-    )
+    for layer in plates:
+        dark += f"path[class='{layer}'] {{ fill: {_tint(layer, DARK)} }}\n"
     return (
         "<style>\n@media screen and (prefers-color-scheme: dark) {\n"
         f".page {{ fill: {DARK.page} }}\n"

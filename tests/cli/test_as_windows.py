@@ -111,7 +111,7 @@ def test_every_command_and_format():
     assert all(os.path.getsize(line.split()[-1]) for line in LINES if " -o " in line)
     assert unfinished() == []
     assert all(name[0] != "." for name in os.listdir("shop"))
-    assert "Größe 六" in get("page.svg")
+    assert "Größe 六" in get("page.html")
 
 
 # four blocks of four rows

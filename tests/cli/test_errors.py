@@ -276,7 +276,6 @@ OPTIONS = [
             "profile --samples",
             "profile --part",
             "profile --curves",
-            "profile --units",
             "synth --tau",
         )
     ],

@@ -93,7 +93,7 @@ def run(
         require_written(design, design.judge(part), force)
     if sheet:
         _refuse(kerf, cutter)
-        draw_sheet(design.sheet(tolerance, curves, part), output, format, files, dxf_version or "")
+        draw_sheet(design.sheet(tolerance, curves), output, format, files, dxf_version or "")
     else:
         if cutter is not None:
             require_written(design, design.cutter(part, cutter), force)

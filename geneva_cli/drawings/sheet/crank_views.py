@@ -113,12 +113,12 @@ def draw_roller(view: View, mechanism: Mechanism) -> None:
     view.diameter(circles[:1], sized.made(view.fits, mechanism, "roller", roller))
     if pin:
         view.diameter(circles[1:], sized.made(view.fits, mechanism, "roller bore", hole))
-        view.remark(f"turns on its pin {sized.shaft(view.fits, pin)}, which is pressed in")
+        view.notes.append(f"turns on its pin {sized.shaft(view.fits, pin)}, which is pressed in")
 
 
 def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> None:
     """Draw the assembled machine, with the centre distance."""
-    layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "GROOVE": HIDDEN, "HUB": HIDDEN}
+    layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "HUB": HIDDEN}
     for shape in shapes:
         view.draw(shape, layers.get(shape.layer, OUTLINE))
     L = parts.assembly.L
@@ -133,7 +133,7 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     """Draw a link, or a block that slides in one, with dimensions from its first hole."""
     plate = member.part
     assert isinstance(plate, Plate) and isinstance(plate.outline, Contour)
-    view.draw_plate(plate)
+    view.draw_all((plate.outline, *plate.holes))
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     slots = [hole for hole in plate.holes if isinstance(hole, Contour) and hole.layer == "LINK"]
     shaped = [hole for hole in plate.holes if isinstance(hole, Contour) and hole not in slots]
@@ -148,7 +148,7 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
         base = nearest
     elif not shaped:
         view.cross(ORIGIN, own.radius if own else 0.0)
-        view.remark("one piece with its shaft")
+        view.notes.append("one piece with its shaft")
     for slot in slots:
         _slot(view, slot, base)
     view.places((hole.centre for hole in holes), base)

@@ -23,7 +23,7 @@ from geneva_cli.drawings.sheet.crank_views import (
 )
 from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller, table
-from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove, draw_shaft
+from geneva_cli.drawings.sheet.standing import draw_frame, draw_shaft
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
 from geneva_cli.geometry.board import chords
@@ -36,6 +36,7 @@ from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import alike
 from geneva_cli.parts.shafts.fits import Fits
+from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.written import length, number
 
 
@@ -145,9 +146,10 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
                 titles.append(f"{i} {row['name']}" + f", t = {length(row['thickness_mm'])}" * thick)
         view = View("; ".join(titles) or names[0], scale, fits)
         for name in names:
-            view.to_fix(name, to_fix)
+            if name in to_fix and FIX not in view.notes:  # a round bore does not hold it
+                view.notes.append(FIX)
             if name in unborne:
-                view.remark("no bearing: hold it from above")
+                view.notes.append("no bearing: hold it from above")
         return view
 
     for front, of in zip(("", "first "), (parts, *parts.in_front), strict=False):
@@ -175,21 +177,16 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
         view = begin(part.name, thick=False)
         draw_shaft(view, part)
         yield view
-    grooved = _plates_among(parts.groove_plate)
-    if grooved:
-        view = begin(*(plate.name for plate in grooved), "groove")
-        draw_groove(view, parts.groove, parts.outlines.sizes.half_width, grooved[0])
-        yield view
     for plate in _plates_among(parts.bridge):
         view = begin(plate.name)
         _, *through = (hole for hole in plate.holes if isinstance(hole, Circle))
         screws = {hole: sized.screw_hole(hole.radius) for hole in through}
-        draw_frame(view, plate, axis_name="the crank's axis", screws=screws)
+        draw_frame(view, plate, screws, "the crank's axis")
         yield view
     (frame,) = _plates_among([parts.frame])
     view = begin(frame.name)
     threads = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads}
-    draw_frame(view, frame, screws=threads)
+    draw_frame(view, frame, threads)
     yield view
 
 

@@ -122,8 +122,8 @@ def _frame(paper: PaperSize) -> list[Shape]:
     """Return the frame, with marks at the middle of its sides."""
     _, w, h = paper
     x, y = 0.5 * w, 0.5 * h
-    sides = (((x, 0.0), (x, MARGIN)), ((x, h), (x, h - MARGIN)))
-    sides += (((0.0, y), (LEFT, y)), ((w, y), (w - MARGIN, y)))
+    sides = [((x, 0.0), (x, MARGIN)), ((x, h), (x, h - MARGIN))]
+    sides += [((0.0, y), (LEFT, y)), ((w, y), (w - MARGIN, y))]
     box = rectangle(FRAME, LEFT, MARGIN, w - MARGIN, h - MARGIN)
     return [box, *(line(FRAME, *ends) for ends in sides)]
 

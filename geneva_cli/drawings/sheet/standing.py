@@ -1,16 +1,15 @@
-"""The views of frame, groove plate, hubs and shafts, and dimensions of bores and bolts."""
+"""The views of frame, hubs and shafts, and dimensions of bores and bolts."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple
 
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.geometry.measure import at, bounds
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape, polygon
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Shape, polygon
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.mounted_plate import mounts_of
@@ -21,67 +20,39 @@ from geneva_cli.spec.written import length, number
 
 
 def draw_frame(
-    view: View,
-    plate: Plate,
-    axis: Point = ORIGIN,
-    axis_name: str = "the wheel's axis",
-    screws: Mapping[Circle, str] | None = None,
+    view: View, plate: Plate, screws: Mapping[Circle, str], axis_name: str = "the wheel's axis"
 ) -> None:
-    """Draw the frame: its size, and diameter and position of each hole from an axis.
+    """Draw the frame: its size, and diameter and position of each hole from the axis.
 
     ``screws`` has the texts of holes for screws, without those for mounting.
     """
-    view.draw_plate(plate)
+    view.draw_all((plate.outline, *plate.holes))
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     # the axis may have no hole
-    first = {axis: holes[0].radius} if holes else {}
-    for centre, radius in {**first, **{h.centre: h.radius for h in holes}}.items():
+    first = [(ORIGIN, holes[0].radius)] if holes else []
+    for centre, radius in dict([*first, *((h.centre, h.radius) for h in holes)]).items():
         view.cross(centre, radius)
     box = bounds(plate.outline)
     up = 0.5 * math.pi
     where = f"from {axis_name} to a hole"
-    view.places((hole.centre for hole in holes), axis, (f"across, {where}", f"up, {where}"))
+    view.places((hole.centre for hole in holes), ORIGIN, (f"across, {where}", f"up, {where}"))
     corner = (box.x0, box.y0)
     if holes:
-        to_left, to_low = length(axis[0] - box.x0), length(axis[1] - box.y0)
-        view.linear(corner, axis, 0.0, to_left, f"from the left edge to {axis_name}")
-        view.linear(corner, axis, up, to_low, f"from the lower edge to {axis_name}")
+        to_left, to_low = length(-box.x0), length(-box.y0)
+        view.linear(corner, ORIGIN, 0.0, to_left, f"from the left edge to {axis_name}")
+        view.linear(corner, ORIGIN, up, to_low, f"from the lower edge to {axis_name}")
     view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0), "wide")
     view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0), "high")
     texts_of = {hole: sized.bore(view.fits, hole.radius) for hole in holes}
     texts_of |= {hole: sized.screw_hole(hole.radius) for hole in mounts_of(plate)}
-    texts_of |= screws or {}
+    texts_of |= screws
     for text, some in grouped((texts_of[hole], hole) for hole in holes):
-        u, v = axis
-        places = ", ".join(f"({length(x - u)}, {length(y - v)})" for _, (x, y), _ in some)
+        places = ", ".join(f"({length(x)}, {length(y)})" for _, (x, y), _ in some)
         view.diameter(some, text, f"at {places} from {axis_name}")
     assert isinstance(plate.outline, Contour)
     arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
     if arcs:  # of one radius but for rounding, which may show in the last decimal
         view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
-
-
-def draw_groove(
-    view: View, flanks: tuple[Shape, ...], half: float, plate: Plate | None = None
-) -> None:
-    """Draw a cam's groove, in its plate if there is one."""
-    round_ = (plate.outline, *plate.holes) if plate else ()
-    mounts = [hole for hole in round_[1:] if isinstance(hole, Circle) and math.hypot(*hole.centre)]
-    for shape in (*round_, *flanks):
-        view.draw(shape, CENTRE if shape.layer == "PITCH" else OUTLINE)
-    circle_of(view, mounts)
-    places = [
-        piece.start for shape in flanks if isinstance(shape, Contour) for piece in shape.segments
-    ]
-    outer = max(places, key=lambda p: math.hypot(*p))
-    view.cross((0.0, 0.0), math.hypot(*outer))
-    view.note(outer, f"groove {sized.fitted(view.fits, 2.0 * half, '', 'H7')} wide")
-    view.remark("flanks as in the groove's dxf")
-    for hole in round_:
-        if isinstance(hole, Circle) and hole not in mounts:
-            text = sized.plain(2.0 * hole.radius, "Ø ")
-            view.diameter([hole], text if hole is round_[0] else sized.bore(view.fits, hole.radius))
-    bolted(view, mounts)
 
 
 def draw_hub(view: View, hub: Plate) -> None:
@@ -92,60 +63,46 @@ def draw_hub(view: View, hub: Plate) -> None:
 
 
 def draw_shaft(view: View, shaft: Plate) -> None:
-    """Draw a shaft from the side."""
+    """Draw a shaft from the side; a hexagon has no fit, as its corners are free."""
     long, radius = shaft.thickness, around(shaft.outline)
     corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
     view.draw(polygon("", corners), OUTLINE)
     view.centre_line((0.0, 0.0), (long, 0.0))
     view.linear((0.0, -radius), (long, -radius), 0.0, length(long))
-    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, _diameter(view, shaft.outline))
+    has_corners = radius > radius_of(shaft.outline) + SAME_ON_SHEET
+    size = sized.plain(2.0 * radius, "Ø ") if has_corners else sized.shaft(view.fits, radius)
+    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, size)
     note = section_note(shaft.outline)
     if note:
-        view.remark(note if view.fits.turned.is_iso else note.replace(" P9", ""))
+        view.notes.append(note if view.fits.turned.is_iso else note.replace(" P9", ""))
 
 
-def _diameter(view: View, section: Shape) -> str:
-    """Return the diameter around a shaft; without a fit for a hexagon, whose corners are free."""
-    radius = around(section)
-    has_corners = radius > radius_of(section) + SAME_ON_SHEET
-    return sized.plain(2.0 * radius, "Ø ") if has_corners else sized.shaft(view.fits, radius)
-
-
-class Holes(NamedTuple):
-    """The round holes of plates on one axis: bores about it, and others, such as bolts."""
-
-    bores: tuple[Shape, ...]
-    bolts: tuple[Circle, ...]
-
-
-def holes_of(plates: Iterable[Plate]) -> Holes:
-    """Return the bores and bolts of plates that lie on each other, each once."""
+def holes_of(plates: Iterable[Plate]) -> tuple[list[Shape], list[Circle]]:
+    """Return the bores of plates on one axis, and their other round holes, such as bolts."""
     holes = [hole for plate in plates for hole in plate.holes if hole.layer == "BORE"]
     bores = dict.fromkeys(about_axis(holes))
     bolts = (hole for hole in holes if isinstance(hole, Circle) and hole not in bores)
-    return Holes(tuple(bores), tuple(dict.fromkeys(bolts)))
+    return list(bores), list(dict.fromkeys(bolts))
 
 
-def bored(view: View, bores: Sequence[Shape], size: Size, part: str, axis: Point = ORIGIN) -> None:
-    """Draw the diameter of a part's bore, and what else its shape needs; a remark has its angle.
-
-    The bores are about the part's own origin, which is drawn at ``axis``.
-    """
-    for shape in bores[:1]:
-        form: Bore = Bore(radius_of(shape))
-        if isinstance(shape, Contour):
-            # without the rounding errors of the sum, which would choose another key
-            form = bore_of(size, part, round(form.radius - size.allowances.around_shaft_mm, 9))
-        if form.form != "hex":
-            cut = form.radius + form.loose
-            view.diameter([Circle("", axis, cut)], sized.bore(view.fits, cut))
-        if isinstance(shape, Contour):
-            x, y = at(shape.segments[0], 0.5)
-            turn = math.degrees(math.atan2(y, x))
-            note = form.note if view.fits.is_iso else form.note.replace(" JS9", "")
-            view.note((x + axis[0], y + axis[1]), note)
-            what = note.split()[0].rstrip(",")
-            view.remark(f"{what} at {number(turn, 2)}°, counterclockwise from the right")
+def bored(view: View, bores: Sequence[Shape], size: Size, part: str) -> None:
+    """Draw the diameter of a part's bore, and what else its shape needs; a note has its angle."""
+    if not bores:
+        return
+    shape = bores[0]
+    form = Bore(radius_of(shape))
+    if isinstance(shape, Contour):
+        # without the rounding errors of the sum, which would choose another key
+        form = bore_of(size, part, round(form.radius - size.allowances.around_shaft_mm, 9))
+    if form.form != "hex":
+        cut = form.radius + form.loose
+        view.diameter([Circle("", ORIGIN, cut)], sized.bore(view.fits, cut))
+    if isinstance(shape, Contour):
+        x, y = at(shape.segments[0], 0.5)
+        note = form.note if view.fits.is_iso else form.note.replace(" JS9", "")
+        view.note((x, y), note)
+        turn, what = math.degrees(math.atan2(y, x)), note.split()[0].rstrip(",")
+        view.notes.append(f"{what} at {number(turn, 2)}°, counterclockwise from the right")
 
 
 def circle_of(view: View, screwed: Sequence[Circle]) -> None:

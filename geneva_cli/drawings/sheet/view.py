@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from heapq import merge
 from typing import TypeVar
 
@@ -14,13 +14,11 @@ from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.geometry import marks
 from geneva_cli.geometry.board import Board, chords
 from geneva_cli.geometry.measure import legs, mapped
-from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Layer, Point, Segment, Shape
 from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line, polar
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.fits import Fits
-from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.written import degrees, length
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
@@ -42,7 +40,7 @@ class View:
         self.shapes: list[Shape] = []
         self.corners: list[Array] = []  # start points of the chords of all shapes
         self.measures: list[Measure] = []
-        self.notes: list[str] = []  # remarks, and dimensions that did not fit
+        self.notes: list[str] = []  # below the title: remarks, and dimensions that did not fit
         self.board = Board()
 
     def draw(self, shape: Shape, layer: Layer) -> None:
@@ -53,10 +51,6 @@ class View:
         """Draw shapes as outlines."""
         for shape in shapes:
             self.draw(shape, OUTLINE)
-
-    def draw_plate(self, plate: Plate) -> None:
-        """Draw a plate's outline and holes."""
-        self.draw_all((plate.outline, *plate.holes))
 
     def cross(self, centre: Point, reach: float, turn: float = 0.0) -> None:
         """Draw both centre lines of a circle."""
@@ -185,15 +179,6 @@ class View:
         """Draw where a section along a level line is, between two points and beyond."""
         for end, outwards in ((left, -1.0), (right, 1.0)):
             self._put(marks.section(self._at(end), outwards, letter), f"section {letter}")
-
-    def remark(self, text: str) -> None:
-        """Add a text below the title."""
-        self.notes.append(text)
-
-    def to_fix(self, name: str, names: Collection[str]) -> None:
-        """Add what to do with a part among ``names``, which a round bore does not hold."""
-        if name in names and FIX not in self.notes:
-            self.remark(FIX)
 
     def block(self) -> Block:
         """Return the view with its title below it."""

@@ -63,7 +63,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
             _slot(view, outlines, engagement, count)
             continue
         width = sized.made(view.fits, assembly.mechanism, "slot", sizes.half_width)
-        view.remark(f"{times(count, 'slot')}, {width} wide: flanks as in the wheel's dxf")
+        view.notes.append(f"{times(count, 'slot')}, {width} wide: flanks as in the wheel's dxf")
     up = 0.5 * math.pi
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
     _steps(view, outlines, reach)
@@ -73,11 +73,13 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     if clear.source and clear.slot_clearance_mm:  # of a process, whose fits do not say it
         text = f"clearance a side: {length(clear.slot_clearance_mm)} from roller to slot"
         lock = f", {length(clear.lock_clearance_mm)} from locking disc to recess"
-        view.remark(text + (lock if sizes.lock else ""))
+        view.notes.append(text + (lock if sizes.lock else ""))
     if sizes.mouth_radius:
-        view.remark(f"mouths of the slots rounded with R {length(sizes.mouth_radius)}")
+        view.notes.append(f"mouths of the slots rounded with R {length(sizes.mouth_radius)}")
     if sizes.arm - sizes.half_width - sizes.recess < sizes.horn_tip:
-        view.remark(f"horns cut square to the slots where they are {length(sizes.horn_tip)} wide")
+        view.notes.append(
+            f"horns cut square to the slots where they are {length(sizes.horn_tip)} wide"
+        )
     for hub in hubs:
         draw_hub(view, hub)
     bored(view, bores, assembly.mechanism.spec.size, "wheel")

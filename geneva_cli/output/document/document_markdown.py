@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from geneva_cli.output.document.blocks import (
     Block,
@@ -24,9 +24,9 @@ from geneva_cli.output.plot.plot_layout import mark_text, named
 
 
 def chunks(document: Document) -> Iterator[str]:
-    """The text, block by block."""
+    """Yield the text, block by block."""
     yield f"# {escaped(document.title)}\n\n**{escaped(document.verdict)}**\n\n"
-    yield from _list(document.reasons)
+    yield _list(document.reasons)
     for block in document.blocks:
         yield from _block(block)
 
@@ -37,7 +37,7 @@ def _block(block: Block) -> Iterator[str]:
     elif isinstance(block, Prose):
         yield f"{escaped(block.text)}\n\n"
     elif isinstance(block, TextList):
-        yield from _list(block.texts)
+        yield _list(block.texts)
     elif isinstance(block, Facts):
         rows = tuple((f.name, value_text(f.value, f.unit)) for f in block.facts)
         yield from _grid(Grid(block.caption, ("Quantity", "Value"), rows), right=(False, True))
@@ -45,23 +45,18 @@ def _block(block: Block) -> Iterator[str]:
         yield from _grid(block)
     elif isinstance(block, Picture):
         look = block.drawing.look
-        spans = [span_text(span) for span in look.spans] if look else []
-        yield from _list(tuple(spans))
+        yield _list([span_text(span) for span in look.spans] if look else [])
         yield "The drawing: `geneva profile SPEC --part assembly -o FILE.svg`\n\n"
     else:
         assert isinstance(block, Curves)
-        yield from _grid(_peaks(block))
+        peaks = tuple(
+            (named(panel.y), mark_text(mark))
+            for panel in block.figure.panels
+            for curve in panel.curves
+            for mark in curve.marks
+        )
+        yield from _grid(Grid(block.figure.title, ("Curve", "Peak"), peaks))
         yield "The curves: `geneva plot SPEC -o FILE.svg`\n\n"
-
-
-def _peaks(curves: Curves) -> Grid:
-    rows = tuple(
-        (named(panel.y), mark_text(mark))
-        for panel in curves.figure.panels
-        for curve in panel.curves
-        for mark in curve.marks
-    )
-    return Grid(curves.figure.title, ("Curve", "Peak"), rows)
 
 
 def _grid(grid: Grid, right: tuple[bool, ...] = ()) -> Iterator[str]:
@@ -75,6 +70,5 @@ def _grid(grid: Grid, right: tuple[bool, ...] = ()) -> Iterator[str]:
     yield "\n"
 
 
-def _list(texts: tuple[str, ...]) -> Iterator[str]:
-    if texts:
-        yield "".join(f"- {escaped(text)}\n" for text in texts) + "\n"
+def _list(texts: Sequence[str]) -> str:
+    return "".join(f"- {escaped(text)}\n" for text in texts) + "\n" * bool(texts)

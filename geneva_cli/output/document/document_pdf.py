@@ -280,11 +280,11 @@ def _drawing(drawn: Drawing) -> Item:
         for layer, contours in every:
             out += f"{tint(inked[layer].rgb, opacity(layer))} rg\n"
             out += "".join(map(traced, contours)) + "f*\n"
-        for layer, ink in inks(shown.layers).items():
-            is_thin = layer in CENTRE_LINES
+        for name, ink in inks(shown.layers).items():
+            is_thin = name in CENTRE_LINES
             out += f"{tint(ink.rgb)} RG {0.16 if is_thin else 0.3} w"
             out += f" [{'4 0.8 0.8 0.8' if is_thin else ''}] 0 d\n"
-            out += "".join(f"{traced(shape)}S\n" for shape in shown.shapes if shape.layer == layer)
+            out += "".join(f"{traced(shape)}S\n" for shape in shown.shapes if shape.layer == name)
         out += f"{SOFT} RG {SOFT} rg 0.16 w [] 0 d\n"
         out += "".join(f"{traced(one)}S\n" for one in (*noted.lines, *noted.scale_bar))
         out += "".join(triangle([at(corner) for corner in head]) for head in noted.heads)

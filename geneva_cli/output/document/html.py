@@ -35,10 +35,12 @@ NUMBER = ' class="n"'
 def chunks(document: Document) -> Iterator[str]:
     """The page's text; the same document gives the same bytes."""
     title = _text(document.title)
+    with open(os.path.join(os.path.dirname(__file__), "page.css"), encoding="utf-8") as file:
+        style = file.read()
     yield (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{title}</title>\n<style>\n{_style()}</style>\n</head>\n<body>\n<main>\n"
+        f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n<main>\n"
         f'<h1>{title}</h1>\n<section class="verdict {document.state}" aria-label="Verdict">\n'
         f'<p><span aria-hidden="true">{SIGNS[document.state]}</span> '
         f"{_text(document.verdict)}</p>\n"
@@ -61,30 +63,23 @@ def inline(chunks: Iterable[str], name: str) -> str:
     text = text[text.index("<svg") :]
     text = re.sub(r' id="([^"]+)"', rf' id="{name}-\1"', text)
     text = text.replace("url(#", f"url(#{name}-")
-    style_element = re.compile(r"<style>\n(.*?)</style>\n", re.DOTALL)
-    text = style_element.sub(lambda m: f"<style>\n{_scoped(m[1], name)}</style>\n", text)
-    return text.replace("<svg ", f'<svg id="{name}" ', 1)
 
-
-def _scoped(style: str, name: str) -> str:
-    style = style.replace("[id='", f"[id='{name}-")
-    style = re.sub(r"#(?=[A-Z])", f"#{name}-", style)  # an id; colours have small letters
-    # a file's styles hold on any medium; a printed page is light
-    dark_mode = re.compile(r"@media (?:screen and )?\(prefers-color-scheme: dark\)")
-    style = dark_mode.sub("@media screen and (prefers-color-scheme: dark)", style)
-    lines = style.splitlines(keepends=True)
-    rule = re.compile(r"([^{}\n]+?) \{")
-
-    def scoped(match: re.Match[str]) -> str:
+    def of_rule(match: re.Match[str]) -> str:
         return ", ".join(f"#{name} {one.strip()}" for one in match[1].split(",")) + " {"
 
-    return "".join(line if line.startswith("@") else rule.sub(scoped, line) for line in lines)
+    def scoped(match: re.Match[str]) -> str:
+        style = match[1].replace("[id='", f"[id='{name}-")
+        style = re.sub(r"#(?=[A-Z])", f"#{name}-", style)  # an id; colours have small letters
+        # a file's styles hold on any medium; a printed page is light
+        dark_mode = r"@media (?:screen and )?\(prefers-color-scheme: dark\)"
+        style = re.sub(dark_mode, "@media screen and (prefers-color-scheme: dark)", style)
+        lines = style.splitlines(keepends=True)
+        rule = re.compile(r"([^{}\n]+?) \{")
+        lines = [one if one.startswith("@") else rule.sub(of_rule, one) for one in lines]
+        return f"<style>\n{''.join(lines)}</style>\n"
 
-
-def _style() -> str:
-    path = os.path.join(os.path.dirname(__file__), "page.css")
-    with open(path, encoding="utf-8") as file:
-        return file.read()
+    text = re.sub(r"<style>\n(.*?)</style>\n", scoped, text, flags=re.DOTALL)
+    return text.replace("<svg ", f'<svg id="{name}" ', 1)
 
 
 def _block(block: Block, number: int) -> Iterator[str]:

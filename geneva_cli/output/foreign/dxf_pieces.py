@@ -149,9 +149,13 @@ def _pieces(kind: str, entity: Any, unit: float) -> Pieces:
     if is_flat and abs(abs(across[2]) - 1.0) > 1e-9:
         raise GenevaError(f"{kind} does not lie in the drawing's plane")
     if is_flat and across[2] < 0.0:
-        flipped = mapped(Contour("", tuple(pieces)), lambda p: (-p[0], p[1]), abs).segments
-        pieces = [p._replace(bulge=-p.bulge) if isinstance(p, Arc) else p for p in flipped]
+        pieces = [_flipped(piece) for piece in pieces]
     return pieces
+
+
+def _flipped(piece: Line | Arc) -> Line | Arc:
+    start, end = (-piece.start[0], piece.start[1]), (-piece.end[0], piece.end[1])
+    return Arc(start, end, -piece.bulge) if isinstance(piece, Arc) else Line(start, end)
 
 
 def _bulged(points: list[Any], close: bool) -> Pieces:

@@ -36,7 +36,8 @@ def read_svg(data: bytes) -> Drawn:
         raise GenevaError(f"this is no SVG file: its first element is <{cut(_name(root), 50)}>")
     width = re.fullmatch(r"\s*([\d.eE+-]+)\s*([a-zA-Z]*|%)\s*", root.get("width", ""))
     box = _numbers(root.get("viewBox", ""))
-    unit, notes = UNITS.get(width[2].lower()) if width else None, ()
+    unit = UNITS.get(width[2].lower()) if width else None
+    notes: tuple[str, ...] = ()
     if width is None or unit is None:
         unit, notes = 1.0, ("has no width in mm: its units are taken as millimetres",)
     elif len(box) == 4:

@@ -19,10 +19,7 @@ from geneva_cli.output.step.shell import ShellWriter
 
 
 def chunks(drawing: Drawing) -> Iterator[str]:
-    """Yield the file's text.
-
-    Raises GenevaError for a drawing without solids, and for a coordinate that is not finite.
-    """
+    """Yield the file's text. Raises GenevaError for a drawing without solids."""
     file = Entities()
     _Products(file, solid_part(drawing, "STEP"))
     yield (

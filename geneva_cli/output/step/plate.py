@@ -18,10 +18,7 @@ from geneva_cli.output.step.entities import DIRECTION, Entities, listed, real
 
 
 def plate_solid(file: Entities, plate: Plate) -> str:
-    """Write a plate, and return its MANIFOLD_SOLID_BREP.
-
-    Raises GenevaError for a coordinate that is not finite, or a plate without thickness.
-    """
+    """Write a plate, and return its MANIFOLD_SOLID_BREP."""
     faces: list[str] = []
     loops: tuple[list[str], list[str]] = [], []  # of the lower and the upper face
     levels = plate.low, plate.high

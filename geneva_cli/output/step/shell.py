@@ -30,10 +30,7 @@ class ShellWriter:
         self.sides: dict[tuple[Vector, Vector, Vector], tuple[str, str, bool]] = {}
 
     def solid(self) -> str:
-        """Write the shell, and return its MANIFOLD_SOLID_BREP.
-
-        Raises GenevaError for a shell without thickness, or one that reaches the centre.
-        """
+        """Write the shell, and return its MANIFOLD_SOLID_BREP."""
         require_thick(self.shell)
         file, shell = self.file, self.shell
         arcs = {arc.key for region in shell.regions for arc in region.boundary}

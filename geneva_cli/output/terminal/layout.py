@@ -178,7 +178,7 @@ def transposed(columns: Sequence[ShownColumn], width: int) -> list[str] | None:
     sizes = widths(sides, width)
     if sizes is None:
         return None
-    lines = []
+    lines: list[str] = []
     for column, cells in zip(columns, zip(labels, *rows, strict=True), strict=True):
         is_text = [column.is_text or len(rows) == 1] * len(rows)
         lines += row(cells, sizes, [True, *is_text])
