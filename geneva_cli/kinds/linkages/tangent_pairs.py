@@ -1,21 +1,14 @@
 """Pairs of entry and exit on a roller's closed path that a wheel's straight slots can use.
 
-A wheel with straight radial slots takes a roller without shock if the path enters along one slot
-and leaves along the next. Both points are equally far from the wheel's centre O. With the unit
-tangents t1 and t2 there,
+A wheel takes a roller without shock if the path enters along one slot and leaves along the next.
+With the unit tangents t1 and t2 there, its centre is
 
     O = P1 + rho t1 = P2 - rho t2 ,    the angle from -t1 to t2 = the index angle 2b ,
 
 so that the chord P2 - P1 is parallel to t1 + t2. Draw the line of the chord through each point of
-the path: as an entry at the angle pi/2 - b from the tangent to one side, as an exit to the other
-side. A line is a point in a plane of its angle and its offset from an origin. So entries and exits
-are two curves in that plane, and the pairs are the crossings of the curves.
-
-Each path is sampled until its direction is known between the samples, and at its inflections. So an
-arc between two samples is a cubic in that plane, and angles rise or fall along it. Where an arc of
-the entries and one of the exits have angles in common, the difference of their offsets changes its
-sign at a pair. If it does not, but falls from an end, it may do so twice. From there Newton's
-method leads to the pairs.
+the path, as an entry and as an exit. By its angle and its offset from an origin a line is a point in
+a plane. So entries and exits are two curves, cubics between samples, and the pairs are their
+crossings. From there Newton's method leads to the pairs.
 """
 
 from __future__ import annotations
