@@ -6,7 +6,7 @@ With the unit tangents t1 and t2 there, its centre is
     O = P1 + rho t1 = P2 - rho t2 ,    the angle from -t1 to t2 = the index angle 2b ,
 
 so that the chord P2 - P1 is parallel to t1 + t2. Draw the line of the chord through each point of
-the path, as an entry and as an exit. By its angle and its offset from an origin a line is a point in
+the path, as an entry and as an exit. By its angle and its offset from an origin it is a point in
 a plane. So entries and exits are two curves, cubics between samples, and the pairs are their
 crossings. From there Newton's method leads to the pairs.
 """
