@@ -273,7 +273,6 @@ class Design:
             drive=spec.drive.backwards(plan),
             drive_before=spec.drive_before and spec.drive_before.backwards(plan),
             motion=spec.motion and spec.motion.backwards,
-            mass=tuple(one.backwards for one in spec.mass),
             size=spec.size.replace(**loaded),
             title=", ".join(text for text in (spec.title, "backwards") if text),
         )
@@ -735,7 +734,7 @@ class Design:
         'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
         """
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.geometry.cutter import judged
+        from geneva_cli.geometry.offsets import judged
 
         require_cut(part, "--cutter")
         return judged(self.drawing(part), cutter_mm)

@@ -35,8 +35,8 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
     endless = [at for at, value in ends if math.isinf(value)]
     if case.all_friction and endless:
         held, of, more, less = "wheel", f"{case.friction:g}", "torque as the wall", "friction"
-        if case.guided:  # the slot's friction is across the travel, and holds nothing
-            held, of = mechanism.output.noun, f"{case.guide_friction:g} in the guide"
+        if case.guide and case.guided:  # the slot's friction holds nothing: it is across the travel
+            held, of = mechanism.output.noun, f"{case.guide.friction:g} in the guide"
             more, less = "force as the roller", "guide_friction"
         yield Notice(
             "friction-holds-the-wheel",

@@ -11,7 +11,7 @@ from sampling import some
 from geneva_cli import Design, SideCrank, load
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import at
-from geneva_cli.output.scene import body_pose, pose
+from geneva_cli.output.scene import pose, value_at
 from geneva_cli.study.animation.turning_scene import scene
 
 
@@ -26,7 +26,7 @@ def toothed(shown, t):
     """The outlines of all gears at an input angle of a scene, with their positions."""
     for body in shown.bodies:
         if "gear" in body.name:
-            yield body.shapes, body_pose(body, t)
+            yield body.shapes, (*body.centre, value_at(body.angle, t))
     for bar in shown.bars:
         if bar.name == "planet's arm":
             yield bar.plates[-1].shapes, pose(bar, bar.plates[-1], t)

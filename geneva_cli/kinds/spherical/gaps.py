@@ -22,7 +22,6 @@ from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import QUARTER, at_mid_motion, edge
 from geneva_cli.kinds.spherical.stops import SphereStops, about, polar
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.pairs import Bounds, Intervals, Pose, Stop, Window, raised
 
@@ -72,17 +71,6 @@ class BallGaps:
             away = self.to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
             columns.append(self.ball.radius_mm * (away - self.ball.roller))
         return np.minimum(np.column_stack(columns), near)
-
-    def repeats(self, count: int) -> bool:
-        """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
-        first, step = self.sectors[:1], 2.0 * np.pi / count
-        return len(self.sectors) in (0, count) and all(
-            np.abs(about(one.middle, np.full(len(one), -k * step)) - sector.middle).max()
-            < SAME_ANGLE
-            and np.abs(one.sweep - sector.sweep).max() < SAME_ANGLE
-            for one in first
-            for k, sector in enumerate(self.sectors)
-        )
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and on, as ``Clearances`` describes."""

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.gear_teeth import Writer
 from geneva_cli.geometry.measure import turned_pieces
-from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.plates import Member, Plate, plate_wall
 from geneva_cli.geometry.shapes import (
     ORIGIN,
     Circle,
@@ -24,7 +24,6 @@ from geneva_cli.geometry.shapes import (
     about,
     closed,
 )
-from geneva_cli.geometry.stacks import plate_wall
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.gears.gear_mesh import ToothedGear
