@@ -11,10 +11,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Self
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
 from geneva_cli.geometry.shapes import Point
 from geneva_cli.geometry.sheet import rectangle
-from geneva_cli.geometry.stacks import least_wall
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear.frame import bar_bolts, guide, rack_frame, shafts_and_frame
 from geneva_cli.kinds.linear.outlines import RackOutlines, turned_rack
