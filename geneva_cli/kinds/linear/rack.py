@@ -147,7 +147,9 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
         between = places[0] - sizes.arm, *(y + sizes.arm for y in places)
         beyond = math.asin((sizes.edge - sizes.arm) / sizes.recess)
         start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
-        recesses = [[about((sizes.arm, y), sizes.recess, start, sweep)] for y in between]
+        recesses: list[list[Segment]] = [
+            [about((sizes.arm, y), sizes.recess, start, sweep)] for y in between
+        ]
         pairs = zip(recesses, [*cuts, []], strict=True)
         cuts = [cut for pair in pairs for cut in pair if cut]
     edge: list[Segment] = []

@@ -152,14 +152,14 @@ def _starts(
     for side in (-sense, sense):  # an arc: its angles, and their slopes; its offsets and theirs
         off = (p - origin) * (tangent * np.exp(1j * side * lean)).conj()
         slope = -np.abs(v) * np.sin(side * lean) - turn * off.real
-        arcs = []
+        rows: list[Array] = []
         for value, by_phi in ((angle, -sense * turn), (off.imag, slope)):
-            arcs += [value[:, :-1], value[:, 1:], width * by_phi[:, :-1], width * by_phi[:, 1:]]
-        sides.append(np.stack([part.ravel() for part in arcs]))
+            rows += [value[:, :-1], value[:, 1:], width * by_phi[:, :-1], width * by_phi[:, 1:]]
+        sides.append(np.stack([part.ravel() for part in rows]))
     # Entries and exits after them whose lines have an angle in common, in this turn or the next.
     rising = np.diff(angle) > 0.0
-    arcs = np.argsort(~rising, axis=1, kind="stable")[:, : rising.sum(axis=1).max(initial=0)]
-    low, high = (np.take_along_axis(ends, arcs, 1) for ends in (angle[:, :-1], angle[:, 1:]))
+    usable = np.argsort(~rising, axis=1, kind="stable")[:, : rising.sum(axis=1).max(initial=0)]
+    low, high = (np.take_along_axis(ends, usable, 1) for ends in (angle[:, :-1], angle[:, 1:]))
     low[high <= low] = np.nan
     later = np.tri(low.shape[1], k=-1) * (angle[:, -1:] - angle[:, :1])[:, None]
     later -= 2.0 * lean[:, None]
@@ -167,7 +167,7 @@ def _starts(
     high += SAME_ENTRY
     may = (low[:, None] + later < high[:, :, None]) & (high[:, None] + later > low[:, :, None])
     row, i, j = np.nonzero(may)
-    first, last = (row * width.shape[1] + arcs[row, k] for k in (i, j))
+    first, last = (row * width.shape[1] + usable[row, k] for k in (i, j))
     entry, exit_ = sides[0].take(first, axis=1), sides[1].take(last, axis=1)
     exit_[:2] += later[row, i, j]
     # both ends of the angles that they have in common: the difference of offsets, and its slope
@@ -197,8 +197,8 @@ def _starts(
     cells = np.concatenate([np.flatnonzero(where) for where, _ in starts])
     angles = np.concatenate([common[where] for where, common in starts])
     place = np.stack([_inverse(arcs[:4, cells], angles) for arcs in (entry, exit_)], axis=1)
-    arcs = np.stack((first[cells], last[cells]), axis=1)
-    begins, wide = phi[:, :-1].ravel()[arcs], width.ravel()[arcs]
+    pairs_of = np.stack((first[cells], last[cells]), axis=1)
+    begins, wide = phi[:, :-1].ravel()[pairs_of], width.ravel()[pairs_of]
     return row[cells], np.full(len(cells), sense), begins + place * wide, begins, wide
 
 
