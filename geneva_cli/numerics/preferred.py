@@ -1,7 +1,4 @@
-"""Preferred numbers: bores of standard bearings, and rounded numbers for other sizes.
-
-Default sizes are taken from them, so that the bearings, reamers and plates of the trade fit.
-"""
+"""Preferred numbers for default sizes: bores of standard bearings, and rounded numbers."""
 
 from __future__ import annotations
 
@@ -36,13 +33,6 @@ def _from(numbers: tuple[float, ...], least: float, most: float) -> list[float]:
         return [least]
     first, end = (bisect_right(numbers, x * (1.0 + ROUNDED)) for x in (least, most))
     return [least, *numbers[first:end]]
-
-
-def gear_modules() -> list[float]:
-    """Return the modules of gears in mm, of the first series of ISO 54, from the top."""
-    series = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50)
-    small = [0.1 * m for m in series if m < 10]
-    return [*map(float, reversed(series)), *reversed(small)]
 
 
 def rounded_radius(most: float) -> float:

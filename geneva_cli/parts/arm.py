@@ -44,11 +44,7 @@ class CrankArm(NamedTuple):
 
 
 def crank_arm(parts: Outlines) -> CrankArm:
-    """Return the arm of a machine.
-
-    Raises GenevaError, naming the key, where the rollers are on no crank, or the sizes leave no arm
-    around the holes.
-    """
+    """Return the arm of a machine."""
     assembly, sizes, drive = parts.assembly, parts.sizes, parts.assembly.full.spec.drive
     size, radius, wall = assembly.full.spec.size, sizes.arm_bore, sizes.wall_min
     if not drive.ONE_ARM:
@@ -89,8 +85,7 @@ def bolts(parts: Outlines) -> list[Circle]:
     """Return the holes of bolts that fix the locking disc to the arm, evenly in each sector.
 
     By default there are as many as leave walls in disc and arm, up to two in each sector, where the
-    arm passes the wheel's hub, unless a key, a flat or a hexagon holds both. Raises GenevaError
-    where there is no disc to fix.
+    arm passes the wheel's hub, unless a key, a flat or a hexagon holds both.
     """
     assembly, sizes = parts.assembly, parts.sizes
     size = assembly.mechanism.spec.size
@@ -134,10 +129,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
 
 
 def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
-    """Return the radius at which bolts in some directions leave the widest walls in the disc.
-
-    The second number is the least distance of their axes from the walls, 0 or more.
-    """
+    """Return the radius at which bolts leave the widest walls in the disc, and half of these."""
     own = parts.assembly.mechanism.spec.size.lock_bolt_circle_mm
     # 400 radii: their spacing is far below a wall
     radii = np.linspace(0.0, parts.sizes.lock, 400) if own is None else np.array([0.5 * own])
@@ -150,10 +142,7 @@ def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
 
 
 def walls(arm: CrankArm, parts: Outlines) -> float:
-    """Return the least wall around the arm's holes, and around the disc's bolts and keyway.
-
-    Sectors that do not reach the crank's axis have no wall around its bore.
-    """
+    """Return the least wall around the arm's holes, and around the disc's bolts and keyway."""
     in_disc: list[Shape] = [*bolts(parts)]
     if parts.sizes.crank_bore and is_whole(parts.assembly, parts.sizes):
         in_disc += [s for s in crank_circles(parts.assembly, parts.sizes) if s.layer == "BORE"]

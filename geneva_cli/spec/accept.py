@@ -34,7 +34,6 @@ class Accept(SpecTable):
     undercut: Reason = None
     friction_holds_the_wheel: Reason = None
     sharp_wall: Reason = None
-    no_speed: Reason = None
     drives_the_motor: Reason = None
     heavy_inertia: Reason = None
     tiny_machine: Reason = None

@@ -61,13 +61,6 @@ def test_a_law_is_searched_once_for_all_designs(law, drive):
         assert peak.at_deg == pytest.approx(searched[name].at_deg, abs=1e-6), name
 
 
-def test_of_designs_that_differ_in_nothing_the_motion_knows():
-    """The speed changes no invariant: one number stands for all."""
-    found = many(machine(6, "side-crank", A=0.6), {"drive.n_rpm": np.array([30.0, 60.0, 90.0])})
-    peaks = worst_peaks(found.machine, ["velocity"])["velocity"]
-    assert found.spread(peaks.max).tolist() == [0.625] * 3
-
-
 def test_a_pin_that_all_but_meets_the_wheels_centre():
     """The wheel turns 1980 times as fast as its input; sought by rough formulas, 7e-10 were lost.
 

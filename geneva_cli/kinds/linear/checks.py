@@ -16,7 +16,7 @@ from geneva_cli.kinds.linear.guide import RackGuide
 from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.kinds.linear.parts import RackParts
 from geneva_cli.kinds.linear.rack import rack_sizes
-from geneva_cli.loads.forces import QuantityValue
+from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.numerics.jet import Jet

@@ -15,8 +15,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kinds.linear.rack import RackSizes, crank_arm, rack_bore, rack_sizes, slot_places
-from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
-from geneva_cli.loads.strength.key_strength import NO_KEY
+from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.gears.gear_pair import gear_seats, gear_shafts
 from geneva_cli.parts.mounted_plate import (

@@ -18,7 +18,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.kinds.linear.motion import guided
-from geneva_cli.loads.forces import Contact, LoadCase, lesser
+from geneva_cli.loads.contact import Contact, LoadCase, lesser
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import choose, larger

@@ -144,7 +144,7 @@ class RackParts(EdgedParts):
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
-        """The noncircular gears that turn the crank, with teeth or up to their pitch curves."""
+        """The noncircular gears that turn the crank, up to their pitch curves."""
         return gear_pair(self.mechanism, None, self.writer, rack_bore(self.mechanism))
 
     @cached_property
@@ -180,7 +180,7 @@ class RackParts(EdgedParts):
             )
             if holes
         ]
-        return (*own, *(self.frame_screws if self.mechanism.spec.has_parts else ()))
+        return (*own, *(self._framed.screws if self.mechanism.spec.has_parts else ()))
 
     @property
     def standing(self) -> tuple[Member, ...]:

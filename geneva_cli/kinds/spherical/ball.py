@@ -20,9 +20,9 @@ from geneva_cli.parts.sizes import (
     drawn_thicknesses,
     hole_radius,
     pin_radius,
+    reach_and_hub,
     refuse_wide_pin,
     wheel_bore,
-    wheel_reach_and_hub,
 )
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import wall_min
@@ -250,7 +250,7 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends."""
     wall = wall_min(size, L)
-    bored, hub = wheel_reach_and_hub(size, bore, wall, end)
+    bored, hub = reach_and_hub(size, "wheel", bore, wall, end)
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
 
 

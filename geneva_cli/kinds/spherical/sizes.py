@@ -15,7 +15,7 @@ from geneva_cli.geometry.sphere import Region
 from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, hub_about, usual_ball
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
-from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
+from geneva_cli.loads.strength.arm_and_key import NO_ARM, ArmDimensions
 from geneva_cli.loads.strength.horn_search import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import single_loads

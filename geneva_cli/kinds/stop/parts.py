@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
+from geneva_cli.loads.load_case import contact_modulus_GPa, hertz_MPa
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH

@@ -35,7 +35,7 @@ from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.parts.sizes import Sizes, crank_reach_and_hub
+from geneva_cli.parts.sizes import Sizes, reach_and_hub
 from geneva_cli.parts.slots.roller_paths import horn_corners, roller_centres
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
@@ -230,7 +230,7 @@ def takes_arcs(assembly: Assembly, sizes: Sizes) -> bool:
     if not (is_whole(assembly, sizes) and dwells and has_arcs(assembly, sizes.lock)):
         return False
     bore = 0.5 * (size.crank_bore_mm or 0.0)
-    _, hub = crank_reach_and_hub(size, bore, sizes.wall_min)
+    _, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
     wall = size.allowances.around_shaft_mm + sizes.wall_min
     needed = max(bore + wall if bore else 0.0, hub if size.has_hub("crank") else 0.0)
     sector = assembly.L - sizes.rim - sizes.relief

@@ -9,9 +9,9 @@ from typing import Any
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
 from geneva_cli.errors import open_warnings
-from geneva_cli.loads.indexer_formula import recommended_motor
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import no_load
+from geneva_cli.loads.motor import RATED_kW, recommended_motor
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.table import Table
@@ -38,8 +38,19 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
         return
     yield motor_line(design)
     yield from cycle_lines(design)
-    if design.spec.drive.stop_s:
-        yield _brake_line(design)
+    if design.spec.drive.stop_s:  # what braking and starting the rotor in each dwell takes
+        names = ("brake_torque_Nm", "start_torque_Nm", "energy_J", "power_W", "inertia_kgm2")
+        values = design.report.table.to_dict()
+        brake, start, energy, power, inertia = (values[f"input_stop.{name}"] for name in names)
+        took = [f"{what} {measured(torque, 'N m')}"
+                for what, torque in (("stops with", brake), ("starts with", start))
+                if torque is not None]  # fmt: skip
+        text = "not known: set inertia_kgm2 in [motor]"
+        if inertia is not None:
+            took.append(f"{measured(energy, 'J')} each time, {measured(power, 'W')}")
+            text = ", ".join(took)
+            text += "; set brake_s and start_s in [drive] for both torques" * (len(took) < 3)
+        yield SummaryLine("brake", text)
     yield from flywheel_line(design)
     yield from chosen_lines(design.chosen_by_load, design.spec.path)
 
@@ -53,23 +64,6 @@ def flywheel_line(design: Design) -> Iterator[SummaryLine]:
         text = f"{measured(whole, 'kg m²')} on the input for a speed variation of {variation}"
         text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
         yield SummaryLine("flywheel", text)
-
-
-def _brake_line(design: Design) -> SummaryLine:
-    """What braking and starting the rotor in each dwell takes."""
-    names = ("brake_torque_Nm", "start_torque_Nm", "energy_J", "power_W", "inertia_kgm2")
-    values = design.report.table.to_dict()
-    brake, start, energy, power, inertia = (values[f"input_stop.{name}"] for name in names)
-    if inertia is None:
-        return SummaryLine("brake", "not known: set inertia_kgm2 in [motor]")
-    torques = [
-        f"{what} {measured(torque, 'N m')}"
-        for what, torque in (("stops with", brake), ("starts with", start))
-        if torque is not None
-    ]
-    abrupt = "" if len(torques) == 2 else "; set brake_s and start_s in [drive] for both torques"
-    took = f"{measured(energy, 'J')} each time, {measured(power, 'W')}"
-    return SummaryLine("brake", f"{', '.join([*torques, took])}{abrupt}")
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
@@ -148,9 +142,10 @@ def motor_line(design: Design) -> SummaryLine:
         text = f"{needed}: more than any standard motor has"
         return SummaryLine("motor", text, "geneva explain motor", WARNS)
     power, source = measured(motor.rated_kW, "kW"), "the next power of IEC 60072-1"
-    if motor.is_small:
+    if motor.needed_W < 1e3 * RATED_kW[0]:
         source = f"less than the smallest motor of IEC 60072-1, {power}"
-        power = f"{measured(motor.needed_W, 'W')}, {measured(motor.torque_Nm, 'N m')}"
+        torque_Nm = motor.needed_W * 60.0 / (motor.rpm * math.tau)
+        power = f"{measured(motor.needed_W, 'W')}, {measured(torque_Nm, 'N m')}"
     four_poles_rpm = 1400.0  # at full load, of small motors with four poles at 50 Hz
     geared = f"{measured(motor.rpm, 'rpm')}, gear ratio {measured(keys.ratio)}"
     if keys.gear_ratio is None and 2.0 * motor.rpm <= four_poles_rpm:  # a slow input
@@ -207,19 +202,11 @@ def summary_of(design: Design, lines: Iterable[SummaryLine], warnings: Sequence[
 
 
 def title_of(design: Design) -> str:
-    """The title of a design, or else its description.
-
-    >>> title_of(Design(External(6)))
-    'Geneva wheel of 6 slots'
-    """
+    """The title of a design, or else its description."""
     return design.spec.title or design.spec.wheel.title
 
 
 def counted(warnings: Sequence[str]) -> str:
-    """The number of warnings behind a headline; empty without any.
-
-    >>> counted(["a", "b"]), counted([])
-    (': 2 warnings', '')
-    """
+    """The number of warnings behind a headline; empty without any."""
     many = len(open_warnings(warnings))
     return f": {many} warning{'s' * (many != 1)}" if many else ""

@@ -10,6 +10,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from load_states import integrals
 
 from geneva_cli import Design, Linear, Load, Size
 
@@ -90,7 +91,7 @@ def test_greatest_force_on_the_guide_and_work(case):
     loads = loaded.loads_table.to_dict()
     assert loads["pin_force_N.max"] == pytest.approx(abs(forces).max(), rel=1e-6)
     assert loads["pin_force_N.min"] == pytest.approx(max(forces.min(), 0.0), rel=1e-6)
-    (work,) = loaded.cycle.integrals(lambda at: at.input_torque_Nm)
+    (work,) = integrals(loaded.cycle, lambda at: at.input_torque_Nm)
     step = math.pi / 9_999
     assert work == pytest.approx(np.trapezoid(torques, dx=step), rel=1e-5)  # jumps of one step
     mean = np.trapezoid(torques**2, dx=step) / (2.0 * math.pi)

@@ -9,6 +9,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from load_states import integrals
 
 from geneva_cli import Design, External, Linear, Load, SideCrank, Size
 
@@ -59,11 +60,11 @@ def test_timing_and_peaks():
 
 def test_the_input_does_the_work_of_force_and_friction():
     """The force does 2 R F in a step, and inertia none."""
-    (work,) = LOADED.cycle.integrals(lambda at: at.input_torque_Nm)
+    (work,) = integrals(LOADED.cycle, lambda at: at.input_torque_Nm)
     lost = LOADED.loads_table.to_dict()["life.friction_work_J"]
     assert work == pytest.approx(2.0 * 0.05 * 30.0 + lost, rel=1e-12)
     free = LOADED.with_("load.friction", 0.0)
-    assert free.cycle.integrals(lambda at: at.input_torque_Nm)[0] == pytest.approx(3.0, rel=1e-12)
+    assert integrals(free.cycle, lambda at: at.input_torque_Nm)[0] == pytest.approx(3.0, rel=1e-12)
 
 
 def test_greatest_loads():
