@@ -39,8 +39,7 @@ class GearSector(PinPath, kw_only=True):
     NAME: ClassVar[str] = "gear-sector"
     WORDS: ClassVar[str] = "a crank with gear sectors"
     EXAMPLE: ClassVar[Example] = Example(
-        "slot, gears at a constant ratio, slot",
-        {"wheel": {"z": 3}, "drive": {"sector_deg": 60.0}},
+        "slot, gears at a constant ratio, slot", {"wheel": {"z": 3}, "drive": {"sector_deg": 60.0}}
     )
     ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
     round_gears: ClassVar[tuple[str, ...]] = ("crank gear", "wheel gear")

@@ -14,13 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.geometry.sheet import rectangle
-from geneva_cli.kinds.linear.rack import (
-    RackSizes,
-    crank_arm,
-    rack_bore,
-    rack_sizes,
-    slot_places,
-)
+from geneva_cli.kinds.linear.rack import RackSizes, crank_arm, rack_bore, rack_sizes, slot_places
 from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.gears.gear_pair import gear_seats, gear_shafts
@@ -33,12 +27,7 @@ from geneva_cli.parts.mounted_plate import (
 )
 from geneva_cli.parts.shafts.bores import bore_of, reach_or_bore
 from geneva_cli.parts.shafts.screws import bolt_radius, tapped
-from geneva_cli.parts.shafts.shaft import (
-    Ends,
-    Seat,
-    Shaft,
-    shaft_ends,
-)
+from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.stressed import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.spec.default_sizes import value_or

@@ -1,9 +1,5 @@
 """The guide of a rack: its place, the forces at its ends, and the friction at which it locks.
 
-A bar under the rack's back slides between a rail and a wall. The rack lies on the rail, which the
-arm's eye passes a quarter of a bar away. The rack covers its guide in each of its steps: when the
-first one begins, it ends R - w past the crank's axis, w being half a slot.
-
 At the crank angle a the roller's centre is x = R (1 - cos a) from its deepest place and y = R sin a
 from the line of centres. It presses with F on a wall across x, and friction with mu F along x. With
 d = 1 where it drives the rack and -1 where it holds it back, s the sign of its sliding, and the
@@ -11,18 +7,10 @@ guide's middle at x0, they turn the rack about that middle by
 
     M = F (d (x - x0) - s mu (y + d r))
 
-The load and the mass are taken to act along the guide. A guide that is 2 h long bears on its bar at
-its two ends, with s mu F/2 + M/(2 h) and s mu F/2 - M/(2 h).
-
-Friction in the guide, nu times the sizes of both forces, holds the rack back by D = nu times the
-greater of |M|/h and mu F. The rack's balance along its travel is d F = T/R + D, and the input pays
-D y' on top. The friction is taken to act in the bar's middle: half a bar's width moves M by nu mu
-F/2 of it.
-
-Where D is F, no force moves the rack: its guide locks. While the roller drives, friction in the
-slot takes mu |y + r| from the lever |M|/F. It is longest at entry, R - x0 - mu (R - r); above the
-greatest real friction it is negative, and longest at exit. So the guide locks from nu = h over the
-greatest of R - x0 - mu (R - r), mu (R + r) - (R - x0) and mu h.
+A guide that is 2 h long bears on its bar at its two ends, with s mu F/2 + M/(2 h) and s mu F/2 -
+M/(2 h). Its friction nu holds the rack back by D = nu times the greater of |M|/h and mu F: d F =
+T/R + D. Where D is F, no force moves the rack: the guide locks from nu = h over the greatest of
+R - x0 - mu (R - r), mu (R + r) - (R - x0) and mu h.
 """
 
 from __future__ import annotations

@@ -1,18 +1,9 @@
 """The rack of a linear Geneva, and the locking sector of its crank.
 
-In the rack's frame its slots run along x, and the roller is at the origin at mid-motion. The rack's
-edge, by default x = R, passes through the crank's axis: there the roller enters. So the rack sweeps
-over the axis, and no disc can lock it. A ring does, half way round, opposite the roller.
-
-The recesses have the radius rho, and their axes are R from those of the slots. With the crank d
-radians after entry, one recess is y = R (1 - cos d) past the crank's axis, and the end of the ring
-that lies in it is d past the edge. A point of that end, q from the axis, is in the recess if
-
-    q² - 2 q y sin d + y² <= rho²
-
-At q = rho this holds until tan(d/2) = 2 rho/R, past mid-motion for rho > R/2. The least q rises
-with d, up to R - rho at mid-motion. There the ring's end lies along the edge, on which the rack
-covers all but R - rho to R + rho. After it the next recess mirrors the first.
+In the rack's frame its slots run along x, and the roller is at the origin at mid-motion. The edge,
+by default x = R, passes through the crank's axis. So no disc can lock the rack: a ring does, half
+way round, opposite the roller. The recesses have the radius rho, and are R from the slots. At
+mid-motion the rack covers the edge but for R - rho to R + rho, where the ring's end lies.
 """
 
 from __future__ import annotations
@@ -156,7 +147,9 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
         between = places[0] - sizes.arm, *(y + sizes.arm for y in places)
         beyond = math.asin((sizes.edge - sizes.arm) / sizes.recess)
         start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
-        recesses = [[about((sizes.arm, y), sizes.recess, start, sweep)] for y in between]
+        recesses: list[list[Segment]] = [
+            [about((sizes.arm, y), sizes.recess, start, sweep)] for y in between
+        ]
         pairs = zip(recesses, [*cuts, []], strict=True)
         cuts = [cut for pair in pairs for cut in pair if cut]
     edge: list[Segment] = []

@@ -48,10 +48,7 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
     for table in ("tolerance", "product"):
         yield Conflict(is_set(getattr(spec, table)), (table,), f"[{table}] {not_its}")
     shaft = "stiffness_Nm_rad damping_ratio wheel_diameter_mm wheel_overhang_mm wheel_span_mm"
-    for table, keys in (
-        ("limits", "index_play_max_deg dwell_play_max_deg"),
-        ("shaft", shaft),
-    ):
+    for table, keys in (("limits", "index_play_max_deg dwell_play_max_deg"), ("shaft", shaft)):
         values = getattr(spec, table)
         for key in keys.split():
             own = getattr(values, key)

@@ -1,18 +1,13 @@
 """The search of four-bars: proportions, the crank's angle at entry and, in a range, the motion.
 
-A four-bar, the crank's angles at entry and exit, and the wheel's index angle 2b determine the
-roller's place w on the coupler: a complex number, along it and across. With the crank's pin A and
-the coupler's unit vector e, the roller is at P = A + w e, and its velocity is V = A' + w e'.
-Between entry and exit of slots of a wheel of sense s, the tangent has turned by pi - 2b relative to
-the wheel. The chord is half-way between both tangents:
+With the crank's pin A and the coupler's unit vector e, the roller is at P = A + w e. Between entry
+and exit of slots of a wheel of sense s, the tangent V has turned by pi - 2b relative to the wheel,
+and the chord is half-way between both tangents:
 
     Im(V2 V1* exp(i s (pi - 2b))) = 0 ,    Im((P2 - P1) V1* exp(i s (pi - 2b)/2)) = 0 .
 
-In the plane of w both are circles. One intersection is where the roller rests at entry, V1 = 0,
-which is no solution; the other one is the solution.
-
-All wheels of a requirement are searched as a batch. The first samples are spread evenly in a unit
-cube, equal in every run. The next ones are ever closer to the best.
+In the plane of w both are circles. At one intersection the roller rests at entry; the other one is
+the solution.
 """
 
 from __future__ import annotations

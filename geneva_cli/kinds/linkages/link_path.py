@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import copy
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, Self, TypeAlias, cast
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol, Self, cast
 
 from geneva_cli.motion.engagement import Vector, cross
 from geneva_cli.numerics.angles import radians, sin_cos_deg
@@ -13,8 +13,12 @@ from geneva_cli.numerics.arrays import Array, Batchable, Which
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.spec.rules import is_array
 
-# the pin's displacement (x, y) from sin d and 1 - cos d of the crank's rotation d since a moment
-PointDisplacement: TypeAlias = Callable[[Jet, Jet], tuple[Jet, Jet]]
+
+class PointDisplacement(Protocol):
+    """The pin's displacement since a moment, as a function of the crank's rotation d since then."""
+
+    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
+        """Displacement (x, y), from sin d and 1 - cos d."""
 
 
 class LinkPath(Batchable, ABC):

@@ -1,21 +1,14 @@
 """Pairs of entry and exit on a roller's closed path that a wheel's straight slots can use.
 
-A wheel with straight radial slots takes a roller without shock if the path enters along one slot
-and leaves along the next. Both points are equally far from the wheel's centre O. With the unit
-tangents t1 and t2 there,
+A wheel takes a roller without shock if the path enters along one slot and leaves along the next.
+With the unit tangents t1 and t2 there, its centre is
 
     O = P1 + rho t1 = P2 - rho t2 ,    the angle from -t1 to t2 = the index angle 2b ,
 
 so that the chord P2 - P1 is parallel to t1 + t2. Draw the line of the chord through each point of
-the path: as an entry at the angle pi/2 - b from the tangent to one side, as an exit to the other
-side. A line is a point in a plane of its angle and its offset from an origin. So entries and exits
-are two curves in that plane, and the pairs are the crossings of the curves.
-
-Each path is sampled until its direction is known between the samples, and at its inflections. So an
-arc between two samples is a cubic in that plane, and angles rise or fall along it. Where an arc of
-the entries and one of the exits have angles in common, the difference of their offsets changes its
-sign at a pair. If it does not, but falls from an end, it may do so twice. From there Newton's
-method leads to the pairs.
+the path, as an entry and as an exit. By its angle and its offset from an origin it is a point in
+a plane. So entries and exits are two curves, cubics between samples, and the pairs are their
+crossings. From there Newton's method leads to the pairs.
 """
 
 from __future__ import annotations
@@ -159,14 +152,14 @@ def _starts(
     for side in (-sense, sense):  # an arc: its angles, and their slopes; its offsets and theirs
         off = (p - origin) * (tangent * np.exp(1j * side * lean)).conj()
         slope = -np.abs(v) * np.sin(side * lean) - turn * off.real
-        arcs = []
+        rows: list[Array] = []
         for value, by_phi in ((angle, -sense * turn), (off.imag, slope)):
-            arcs += [value[:, :-1], value[:, 1:], width * by_phi[:, :-1], width * by_phi[:, 1:]]
-        sides.append(np.stack([part.ravel() for part in arcs]))
+            rows += [value[:, :-1], value[:, 1:], width * by_phi[:, :-1], width * by_phi[:, 1:]]
+        sides.append(np.stack([part.ravel() for part in rows]))
     # Entries and exits after them whose lines have an angle in common, in this turn or the next.
     rising = np.diff(angle) > 0.0
-    arcs = np.argsort(~rising, axis=1, kind="stable")[:, : rising.sum(axis=1).max(initial=0)]
-    low, high = (np.take_along_axis(ends, arcs, 1) for ends in (angle[:, :-1], angle[:, 1:]))
+    usable = np.argsort(~rising, axis=1, kind="stable")[:, : rising.sum(axis=1).max(initial=0)]
+    low, high = (np.take_along_axis(ends, usable, 1) for ends in (angle[:, :-1], angle[:, 1:]))
     low[high <= low] = np.nan
     later = np.tri(low.shape[1], k=-1) * (angle[:, -1:] - angle[:, :1])[:, None]
     later -= 2.0 * lean[:, None]
@@ -174,7 +167,7 @@ def _starts(
     high += SAME_ENTRY
     may = (low[:, None] + later < high[:, :, None]) & (high[:, None] + later > low[:, :, None])
     row, i, j = np.nonzero(may)
-    first, last = (row * width.shape[1] + arcs[row, k] for k in (i, j))
+    first, last = (row * width.shape[1] + usable[row, k] for k in (i, j))
     entry, exit_ = sides[0].take(first, axis=1), sides[1].take(last, axis=1)
     exit_[:2] += later[row, i, j]
     # both ends of the angles that they have in common: the difference of offsets, and its slope
@@ -204,8 +197,8 @@ def _starts(
     cells = np.concatenate([np.flatnonzero(where) for where, _ in starts])
     angles = np.concatenate([common[where] for where, common in starts])
     place = np.stack([_inverse(arcs[:4, cells], angles) for arcs in (entry, exit_)], axis=1)
-    arcs = np.stack((first[cells], last[cells]), axis=1)
-    begins, wide = phi[:, :-1].ravel()[arcs], width.ravel()[arcs]
+    pairs_of = np.stack((first[cells], last[cells]), axis=1)
+    begins, wide = phi[:, :-1].ravel()[pairs_of], width.ravel()[pairs_of]
     return row[cells], np.full(len(cells), sense), begins + place * wide, begins, wide
 
 

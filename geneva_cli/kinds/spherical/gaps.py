@@ -17,13 +17,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from geneva_cli.geometry.sphere import POLE, Region, opposite, place
-from geneva_cli.geometry.sphere_arcs import (
-    Circle,
-    SphereArcs,
-    farthest,
-    from_circle,
-    short_arcs,
-)
+from geneva_cli.geometry.sphere_arcs import Circle, SphereArcs, farthest, from_circle, short_arcs
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import QUARTER, at_mid_motion, edge
 from geneva_cli.kinds.spherical.stops import SphereStops, about, polar

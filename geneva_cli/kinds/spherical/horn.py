@@ -1,7 +1,6 @@
 """The horn of a spherical wheel: the wall between a slot and a recess, as a tapered cantilever.
 
-Directions are from the sphere's centre. A point of the wheel is at the angle t from the wheel's
-axis along the slot, and at the angle x from the slot's middle, across it:
+A point at the angle t from the wheel's axis along the slot, and x across it from its middle, is
 
     p = (cos x sin t, sin x, cos x cos t)
 
@@ -10,19 +9,9 @@ angle k from the crank's axis c, so that a section ends at
 
     x_k = d - acos(cos k / K),    K (cos d, sin d) = (p_0 . c, c_y),  p_0 = (sin t, 0, cos t)
 
-and is L (x_k - w) thick. The shell is b thick, half of it inside the sphere of radius L.
-
-The roller presses on the wall at t0, along x, and evenly over b, so that its force F acts at L. A
-section farther inwards bears the moment L (p(t0, w) - q) x F, q being its middle. About q this
-bends the horn in its own surface, by nearly F L sin(t0 - t), and twists it, by F L (1 - cos(t0 -
-t)). About the section's direction it bends the shell. F along the beam presses evenly. Bending and
-pressure are greatest at the section's corners, twist in the middle of its sides: von Mises of both
-is an upper bound.
-
-Friction f F along the wall adds its own moment and tension.
-
-The body that carries the horn is rigid, and notches are neglected, as on a plane. A section is
-taken as even through the shell, at L. On a large sphere the stress is that of the flat horn.
+and is L (x_k - w) thick. The roller presses at t0 along x, with friction along the wall, and bends,
+twists and pulls a section farther inwards by L (p(t0, w) - q) x F, q being its middle. Von Mises of
+corners and sides together is an upper bound. The body is rigid, and notches are neglected.
 """
 
 from __future__ import annotations

@@ -1,25 +1,14 @@
 """The play of a spherical wheel in its lock during the dwell, for any deviations.
 
-Angles are at the sphere's centre. A recess is cut into the wheel at an angle rho from the crank's
-axis, which is at S from the wheel's. The locking sector reaches to k. The wheel can turn by d until
-one of two contacts stops it.
+A recess is cut into the wheel at an angle rho from the crank's axis, which is at S from the
+wheel's. The locking sector reaches to k. With the azimuth chi(p, a) about the wheel's axis of a
+point at p from it and at a from the crank's axis,
 
-A corner of a recess, at p from the wheel's axis, meets the sector:
+    cos a = cos S cos p + sin S sin p cos chi ,
 
-    d = chi(p, rho) - chi(p, k) ,    cos a = cos S cos p + sin S sin p cos chi .
-
-Here chi(p, a) is an azimuth about the wheel's axis, from the crank's axis. It is that of a point at
-p from the wheel's axis and at a from the crank's.
-
-An end of the sector, at q from the wheel's axis, meets the recess, if the recess reaches farther
-round. Then d is chi(q, rho) minus the azimuth of the end.
-
-The two never reach farther round than 90 degrees together, so they do not touch between their ends.
-The recess reaches so far only with shafts beyond 90 degrees. The sector does so only with shafts
-below that, since it is what a motion of 2 acos(tan th / tan S) leaves of a turn.
-
-The radii of ``[tolerance]`` are from the crank's axis, L times the sine of the angle from there.
-The play is computed in the middle of a dwell, as on a plane.
+the wheel turns by d = chi(p, rho) - chi(p, k) until a corner of the recess, at p, meets the sector.
+If the recess reaches farther round, an end of the sector, at q, meets it: then d is chi(q, rho)
+minus the azimuth of the end. The radii of ``[tolerance]`` are L times the sine of an angle.
 """
 
 from __future__ import annotations

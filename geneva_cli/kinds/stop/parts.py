@@ -1,18 +1,12 @@
 """A Geneva stop: where the convex face in place of a recess blocks the locking disc.
 
-The face is an arc about the wheel's axis, so its place does not depend on the wheel's angle. The
-end of the disc, at radius rk from the crank's axis, reaches the face, at radius ra from the
-wheel's axis, where the triangle of the two axes and the end has the sides L, rk and ra. Its angle
-at the crank's axis is gamma:
+The end of the disc, at rk from the crank's axis, meets the face, at ra from the wheel's, where
 
     cos gamma = (L² + rk² - ra²) / (2 L rk)
 
-The disc begins at the angle c from the roller. At the crank's angle a from mid-motion, its end is
-c - a from the line of centres. It approaches, and meets the face at a = c - gamma. The way back is
-the mirror image. So from stop to stop the crank turns by 360° (z - 1) + 2 (c - gamma).
-
-The relief is hollow with a smaller radius than the face's, or straight towards the crank's axis. So
-no other point of the disc comes as near to the wheel's axis as its end.
+gamma being its angle at the crank's axis. The disc begins at the angle c from the roller: it meets
+the face at a = c - gamma past mid-motion, and mirrored on the way back. So from stop to stop the
+crank turns by 360° (z - 1) + 2 (c - gamma).
 """
 
 from __future__ import annotations

@@ -17,10 +17,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.tables import Load, Shaft, Size
 from geneva_cli.verdict.quantities.batch_designs import Designs
-from geneva_cli.verdict.quantities.part_strength import (
-    crank_shaft,
-    wheel_shaft,
-)
+from geneva_cli.verdict.quantities.part_strength import crank_shaft, wheel_shaft
 
 
 def rotated(v, axis, angles):
