@@ -97,8 +97,16 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
     if names & {*CYCLE_SUMS, "motor_torque_max_Nm"}:
         torque = load_summaries(mechanism, [TORQUE], bool(names & set(CYCLE_SUMS)))[TORQUE]
         values |= _exact(whole, torque)
-    if "inertia_ratio" in names:
-        values["inertia_ratio"] = _inertia_ratio(whole)
+    if "inertia_ratio" in names:  # the wheel's inertia at its fastest over the motor's
+        own, frame = inertia_kgm2(spec), whole.frame
+        motor = spec.motor.inertia_kgm2 * spec.motor.ratio**2
+        others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
+        velocities = [_peaks(engagement, "velocity")[0] for engagement in whole.engagements]
+        fastest = np.max(np.broadcast_arrays(*velocities), axis=0) + frame
+        with np.errstate(all="ignore"):
+            ratios = [np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest)]
+        known = np.asarray(spec.motor.inertia_kgm2) > 0.0
+        values["inertia_ratio"] = np.where(known, np.maximum(*ratios), np.nan)
     return {
         name: np.ravel(row) if name in KNOWN_UNLOADED else np.where(loaded, np.ravel(row), np.nan)
         for name, row in values.items()
@@ -166,6 +174,7 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
         best = choose_record(more, (line, factors), best)
     assert best is not None  # a machine has an engagement
     line, factors = best
+    losses = spec.load.efficiency * spec.motor.gear_efficiency
     return {
         "acceleration_rad_s2": line.alpha,
         **factors._asdict(),
@@ -174,9 +183,7 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
         "total_torque_Nm": line.Tt,
         "design_torque_Nm": line.Te,
         "input_torque_Nm": line.Tc,
-        "power_W": omega(spec.drive.n_rpm)
-        * line.Tc
-        / (spec.load.efficiency * spec.motor.gear_efficiency),
+        "power_W": omega(spec.drive.n_rpm) * line.Tc / losses,
     }
 
 
@@ -208,18 +215,6 @@ def _exact(mechanism: Mechanism, torque: LoadSummary[Array]) -> dict[str, Number
         # the motor has some inertia of its own, at the input shaft
         out["flywheel_to_add_kgm2"] = np.maximum(whole - motor.inertia_kgm2 * motor.ratio**2, 0.0)
     return out
-
-
-def _inertia_ratio(mechanism: Mechanism) -> Number:
-    """The wheel's inertia at its fastest over the motor's; NaN where that is not known."""
-    spec, frame = mechanism.spec, mechanism.frame
-    own, motor = inertia_kgm2(spec), spec.motor.inertia_kgm2 * spec.motor.ratio**2
-    others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
-    velocities = [_peaks(engagement, "velocity")[0] for engagement in mechanism.engagements]
-    fastest = np.max(np.broadcast_arrays(*velocities), axis=0) + frame
-    with np.errstate(all="ignore"):
-        ratios = [np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest)]
-    return np.where(np.asarray(spec.motor.inertia_kgm2) > 0.0, np.maximum(*ratios), np.nan)
 
 
 class Unevenness(NamedTuple):
@@ -283,7 +278,7 @@ def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
     spec, w = mechanism.spec, omega(mechanism.spec.drive.n_rpm)
     if not mechanism.frame:
         return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
-    case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0).frictionless
+    case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0, friction=0.0, guide=None)
     torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
     one = isinstance(power_invariant, float)
     return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency

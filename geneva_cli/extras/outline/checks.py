@@ -77,7 +77,18 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
     machine, z = result.machine, float(mechanism.spec.wheel.z)
     worst = min(result.senses, key=lambda sense: sense.passed)
     if not result.rest.is_free:
-        why = _overlap_text(machine, mechanism)
+        why = "parts overlap in the middle of the dwell"
+        pieces = [piece for shape in machine.crank for piece in shape.segments]
+        places = np.linspace(0.0, 1.0, POINTS).tolist()
+        depth, where = machine.deepest([at(piece, t) for piece in pieces for t in places])
+        if depth > 0.0:
+            why += f": the crank is {depth:.3g} mm inside the wheel at {shown(where)} in its frame"
+        why += "; check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
+        if mechanism.spec.outline.crank is None:
+            why += (
+                "; the crank is our own: give its drawing with --crank, or set lock_radius_mm = 0 "
+                "in [size] if it has no locking disc"
+            )
         return Check("turns", 0.0, "at least", z, False, why)
     if worst.jam is not None:
         at_deg = _shown_deg(machine, worst.jam.crank)
@@ -127,23 +138,6 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
     return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} in its own frame"
 
 
-def _overlap_text(machine: DrawnMachine, mechanism: Mechanism) -> str:
-    """Where the crank lies deepest in the wheel, in the middle of the dwell."""
-    text = "parts overlap in the middle of the dwell"
-    fractions = np.linspace(0.0, 1.0, POINTS)
-    points = [at(p, float(t)) for shape in machine.crank for p in shape.segments for t in fractions]
-    depth, where = machine.deepest(points)
-    if depth > 0.0:
-        text += f": the crank is {depth:.3g} mm inside the wheel at {shown(where)} in its frame"
-    text += "; check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
-    if mechanism.spec.outline.crank is None:
-        text += (
-            "; the crank is our own: give its drawing with --crank, or set lock_radius_mm = 0 in "
-            "[size] if it has no locking disc"
-        )
-    return text
-
-
 def _from_rest(machine: DrawnMachine, wheel: float) -> float:
     """A wheel's angle in its own step, degrees from the middle of it."""
     step = machine.step / len(machine.assembly.motions)
@@ -155,7 +149,6 @@ def _shown_deg(machine: DrawnMachine, crank: float) -> float:
 
 
 def _summary(result: Turned) -> str:
-    """What the turn gives, in words."""
     machine, turn = result.machine, result.senses[0].first
     index = math.degrees(turn.gained) / len(machine.assembly.motions)
     is_moving = turn.is_moving
