@@ -258,13 +258,6 @@ class Design:
         [0.5342, 0.6281]
         """
         spec, plan = self.spec, self.mechanism.plan
-        on_crank = spec.drive.ONE_ARM and spec.drive.round_gears  # and so in sectors
-        if on_crank and spec.size.gear_module_mm is not None:
-            raise GenevaError(
-                "the last tooth of a sector is lower, so that it drives one way only: leave out "
-                "gear_module_mm or --reverse",
-                ("size", "gear_module_mm"),
-            )
         loaded = {}
         with suppress(GenevaError):  # sizes that leave no parts: the checks say why
             loaded = {k.partition(".")[2]: c.value for k, c in self.chosen_by_load.sizes.items()}
@@ -563,7 +556,7 @@ class Design:
 
     @answer
     def life(self) -> dict[str, float | None]:
-        """Stresses of pin and horn, the roller's life and the slots' wear; None if unknown.
+        """Stresses of pin and horn, and the roller's life; None if unknown.
 
         >>> held = Design(External(6), size=Size(200, 8), load=Load(inertia_kgm2=0.4, torque_Nm=15))
         >>> round(held.life["roller_turns_per_motion"], 12)
@@ -698,13 +691,12 @@ class Design:
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
         kerf_mm: float | None = None,
-        centre_marks: bool = False,
     ) -> Drawing:
         """A part as lines and arcs, or (``spline``) cubics, for DXF or SVG.
 
         Parts are ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove``,
         ``gears`` or ``plate``; lengths in millimetres. ``kerf_mm`` gives the paths of a cut of that
-        width, ``centre_marks`` crosses in circles. Raises GenevaError if the kerf does not fit.
+        width. Raises GenevaError if the kerf does not fit.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
@@ -712,10 +704,6 @@ class Design:
         from geneva_cli.drawings.catalogue import part_drawing
 
         picture = part_drawing(self.parts, part, tolerance_mm, _form(curves))
-        if centre_marks:
-            from geneva_cli.parts.projection import with_centre_marks
-
-            picture = with_centre_marks(picture)
         if kerf_mm is None:
             return picture
         from geneva_cli.drawings.catalogue import require_cut
@@ -734,7 +722,7 @@ class Design:
         'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
         """
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.geometry.cutter import judged
+        from geneva_cli.geometry.offsets import judged
 
         require_cut(part, "--cutter")
         return judged(self.drawing(part), cutter_mm)

@@ -100,10 +100,6 @@ MACHINES = {
         machine(3, "gear-sector", sector_deg=60.0),
         [("drive.sector_deg", 0.0, 300.0), ("wheel.z", 3, 6)],
     ),
-    "gear sector, any ratio": (
-        machine(3, "gear-sector", sector_deg=60.0, gear_ratio=0.8),
-        [("drive.sector_deg", 0.0, 130.0), ("drive.gear_ratio", 0.1, 3.0)],
-    ),
     "four-bar": (
         machine(
             4,

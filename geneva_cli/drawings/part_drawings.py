@@ -121,9 +121,8 @@ def gears(parts: EdgedParts) -> Drawing:
     round_only = mechanism.spec.drive.round_gears and not mechanism.spec.gears
     if not round_only:
         pair = required_gears(mechanism)
-        if mechanism.spec.size.gear_module_mm is None:
-            name = "pitch curves of the gears"
-            parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
+        name = "pitch curves of the gears"
+        parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
     members = *parts.round_gears, *parts.gear_pair
     L = mechanism.center_distance_mm
     about_crank = [one._replace(at=(one.at[0] - L, one.at[1])) for one in members]

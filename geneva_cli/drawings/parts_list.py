@@ -187,8 +187,6 @@ def _dimensions(parts: Parts) -> Iterator[Row | Missing]:
             entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     entries += _motions(mechanism)
     entries += [d for d in mechanism.layout if isinstance(d, Dimension)]
-    if spec.size.gear_module_mm is not None:
-        entries += or_missing("teeth of the gears", lambda: parts.flat.tooth_dimensions)
     for entry in entries:
         yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
 

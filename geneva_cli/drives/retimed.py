@@ -195,9 +195,5 @@ class Engagement(base.Engagement):
         return tuple(out)
 
     @property
-    def overtaking(self) -> float:
-        return self._own.overtaking
-
-    @property
     def own(self) -> base.Engagement:
         return self._own

@@ -98,14 +98,8 @@ def _of_drive_before(spec: Spec) -> Iterator[Conflict]:
 
 
 def _of_sizes(spec: Spec) -> Iterator[Conflict]:
-    """Rules on the keys of gears, of the slots' mouths and of the horns, and on a limit."""
+    """Rules on the keys of the slots' mouths and of the horns, and on a limit."""
     size, wheel = spec.size, spec.wheel
-    text = 'gear_module_mm cuts the teeth of gears, and kind = "{spec.drive.NAME}" has none: '
-    toothed = size.gear_module_mm is not None
-    yield Conflict(toothed and not is_geared(spec), ("size", "gear_module_mm"), text + "remove it")
-    for key, does in (("gear_shift", "moves"), ("gear_teeth", "counts")):
-        text = f"{key} {does} the teeth of gears: set gear_module_mm, or remove {key}"
-        yield Conflict(not toothed and getattr(size, key) is not None, ("size", key), text)
     for key in ("mouth_radius_mm", "horn_tip_mm"):
         is_cut = getattr(size, key) > 0.0
         text = f"{key} is for external and internal wheels, not gearing = "

@@ -413,11 +413,6 @@ class Engagement(Batchable):
         """Half the angle between the slots of those rollers in the wheel, radians."""
         return self.half_step - self.through.half_step
 
-    @property
-    def overtaking(self) -> float:
-        """Angle by which a roller would lead its slot while something else drives, radians."""
-        return 0.0
-
 
 class Anchor(NamedTuple):
     """An input angle about which the pin's path is written without cancellation."""

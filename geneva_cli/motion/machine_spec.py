@@ -43,7 +43,6 @@ LOADED = (
     "contact_stress_max_MPa",
     "pv_max_W_m2",
     "roller_life_min_h",
-    "slot_wear_max_mm_per_million",
 )
 # limits that need another key, with its table and its meaning
 NEEDED = {
@@ -57,7 +56,6 @@ NEEDED = {
         ),
         ("face_width_mm", "size", "the length of the line of contact"),
     ),
-    "slot_wear_max_mm_per_million": ("wear_mm3_Nm", "material.wheel", "its material's wear"),
     "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
 }
 

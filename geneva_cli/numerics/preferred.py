@@ -38,13 +38,6 @@ def _from(numbers: tuple[float, ...], least: float, most: float) -> list[float]:
     return [least, *numbers[first:end]]
 
 
-def gear_modules() -> list[float]:
-    """Return the modules of gears in mm, of the first series of ISO 54, from the top."""
-    series = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50)
-    small = [0.1 * m for m in series if m < 10]
-    return [*map(float, reversed(series)), *reversed(small)]
-
-
 def rounded_radius(most: float) -> float:
     """Return the radius up to ``most`` whose diameter is a rounded number; or 0."""
     return 0.5 * rounded_below(2.0 * most)

@@ -14,9 +14,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.plates import Plate, least_wall
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape, convex_hull
-from geneva_cli.geometry.stacks import least_wall
 from geneva_cli.parts.outlines.crank_outline import (
     crank_circles,
     is_whole,
@@ -45,11 +44,7 @@ class CrankArm(NamedTuple):
 
 
 def crank_arm(parts: Outlines) -> CrankArm:
-    """Return the arm of a machine.
-
-    Raises GenevaError, naming the key, where the rollers are on no crank, or the sizes leave no arm
-    around the holes.
-    """
+    """Return the arm of a machine."""
     assembly, sizes, drive = parts.assembly, parts.sizes, parts.assembly.full.spec.drive
     size, radius, wall = assembly.full.spec.size, sizes.arm_bore, sizes.wall_min
     if not drive.ONE_ARM:
@@ -90,8 +85,7 @@ def bolts(parts: Outlines) -> list[Circle]:
     """Return the holes of bolts that fix the locking disc to the arm, evenly in each sector.
 
     By default there are as many as leave walls in disc and arm, up to two in each sector, where the
-    arm passes the wheel's hub, unless a key, a flat or a hexagon holds both. Raises GenevaError
-    where there is no disc to fix.
+    arm passes the wheel's hub, unless a key, a flat or a hexagon holds both.
     """
     assembly, sizes = parts.assembly, parts.sizes
     size = assembly.mechanism.spec.size
@@ -135,10 +129,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
 
 
 def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
-    """Return the radius at which bolts in some directions leave the widest walls in the disc.
-
-    The second number is the least distance of their axes from the walls, 0 or more.
-    """
+    """Return the radius at which bolts leave the widest walls in the disc, and half of these."""
     own = parts.assembly.mechanism.spec.size.lock_bolt_circle_mm
     # 400 radii: their spacing is far below a wall
     radii = np.linspace(0.0, parts.sizes.lock, 400) if own is None else np.array([0.5 * own])
@@ -151,10 +142,7 @@ def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
 
 
 def walls(arm: CrankArm, parts: Outlines) -> float:
-    """Return the least wall around the arm's holes, and around the disc's bolts and keyway.
-
-    Sectors that do not reach the crank's axis have no wall around its bore.
-    """
+    """Return the least wall around the arm's holes, and around the disc's bolts and keyway."""
     in_disc: list[Shape] = [*bolts(parts)]
     if parts.sizes.crank_bore and is_whole(parts.assembly, parts.sizes):
         in_disc += [s for s in crank_circles(parts.assembly, parts.sizes) if s.layer == "BORE"]

@@ -48,18 +48,16 @@ class Passage(NamedTuple):
 class Assembly(NamedTuple):
     """Positions of a machine's parts by the input angle, in degrees: mostly of a plain crank.
 
-    ``motions`` are those of a turn, and ``rollers`` has the passage of each roller. There is one
-    roller for each motion, but two where gears drive between them. ``slots`` has engagement and
-    direction of each slot of the wheel, or of each pair of slots, counterclockwise from the first.
-    ``rests`` are the directions of the crank's axis, seen from the wheel, while the wheel rests.
-    Each lies half-way between two slots.
+    ``motions`` are those of a turn, and ``rollers`` has the passage of each roller: one for each
+    motion, but two where gears drive between them. ``slots`` has engagement and direction of each
+    slot of the wheel, or of each pair of slots, counterclockwise from the first. ``rests`` are the
+    directions of the crank's axis, seen from the resting wheel, half-way between two slots.
     """
 
     mechanism: Mechanism
     L: float
     sign: float  # +1 external, -1 internal
     turn_deg: float  # input angle in a whole turn of the crank
-    span_deg: float  # input angle over which the parts are checked: a whole turn, or one motion
     motions: tuple[Passage, ...]
     rollers: tuple[Passage, ...]
     slots: tuple[tuple[Engagement, float], ...]
@@ -90,17 +88,11 @@ class Assembly(NamedTuple):
         return self._path(*self.rollers[number], input_deg)
 
     def driving(self, number: int, input_deg: Array) -> Array:
-        """Return the centre of the roller that drives a motion, mm, (n, 2).
-
-        While gears drive the wheel, it is the roller that drove it before or will drive it after.
-        """
+        """Return the centre of a roller that drives, or beside gears will drive, mm, (n, 2)."""
         return self._path(*self.motions[number], input_deg)
 
     def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 2).
-
-        The wheel is turned on by ``lead`` radians.
-        """
+        """Return it in the frame of the wheel, which is turned on by ``lead`` radians."""
         turn = self.wheel(input_deg) + lead
         return self.plane_motion.into(self.driving(motion, input_deg), turn)
 
@@ -176,10 +168,7 @@ class Assembly(NamedTuple):
 
 @lru_cache(maxsize=16)
 def assembly(mechanism: Mechanism) -> Assembly:
-    """Return the assembly of a mechanism with flat parts, cached for its sizes and its parts.
-
-    Raises GenevaError for a machine whose parts are not flat outlines.
-    """
+    """Return the assembly of a mechanism with flat parts, cached for its sizes and its parts."""
     spec = mechanism.spec
     if not spec.wheel.FLAT:
         raise GenevaError(
@@ -205,11 +194,10 @@ def input_of(mechanism: Mechanism) -> Callable[[float], float]:
 def assembled(mechanism: Mechanism) -> Assembly:
     """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
     spec, plain = mechanism.spec, mechanism.spec
-    no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
     if mechanism.law is None and (crank := spec.drive.crank):
-        plain = spec.replace(drive=crank, drive_before=None, size=no_gears)
+        plain = spec.replace(drive=crank, drive_before=None)
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
-        plain = spec.replace(drive_before=None, size=no_gears)
+        plain = spec.replace(drive_before=None)
     turned = mechanism if plain == spec else build(plain)
     return assembled_by_input(turned)._replace(full=mechanism, to_input=input_of(mechanism))
 
@@ -245,7 +233,6 @@ def assembled_by_input(mechanism: Mechanism) -> Assembly:
         L,
         wheel.SIGN,
         turn,
-        turn,
         motions,
         rollers,
         tuple(sorted(slots, key=lambda slot: slot[1])),
@@ -269,9 +256,8 @@ def turn_deg(mechanism: Mechanism) -> Array:
 def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
     """Return a machine's links at input angles (n,), in degrees within half a period of mid-motion.
 
-    They are the links of the drive and of the one before it and, for a cam-Geneva, the crank along
-    which its rollers slide. The drive cannot describe that crank: in the dwell the rollers follow
-    the groove as it is cut.
+    They are those of the drive and of the one before it and, for a cam-Geneva, the crank along
+    which its rollers slide.
     """
     own, spec = _own_links(mechanism, input_deg), mechanism.spec
     if spec.drive_before is None:

@@ -19,7 +19,6 @@ from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pivots import Dimension
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.arm import (
@@ -37,17 +36,15 @@ from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.slot_ends import wall_lost
 from geneva_cli.parts.outlines.wheel_circles import dial_bolts, wheel_part, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, NamedBuilds
-from geneva_cli.parts.shafts.hub_and_shafts import crank_hub
 from geneva_cli.parts.shafts.screws import Screws
+from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.sizes import Sizes, drawn_thicknesses, pin_radius
-from geneva_cli.parts.slots.roller_paths import roller_centres
+from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.gears.gear_blanks import Gear
     from geneva_cli.parts.mounted_plate import FrameAndShafts
     from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.turn.bounds import FlatPairs
@@ -199,15 +196,11 @@ class FlatParts(EdgedParts):
         """Thickness of the horns between slots and recesses; None without a lock."""
         return self.sizes.horn if self.outlines.crank else None
 
-    def hub_radii(self, part: str) -> tuple[float, float]:
-        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
-        sizes = self.sizes
-        wheel, crank = (sizes.wheel_bore, sizes.wheel_hub), (sizes.crank_bore, sizes.crank_hub)
-        return wheel if part == "wheel" else crank
-
     def axle_radius(self, part: str) -> float:
         """Return the radius of a part's shaft, or of its hub if the spec has one, mm; 0 if none."""
-        bore, hub = self.hub_radii(part)
+        sizes = self.sizes
+        bore = sizes.wheel_bore if part == "wheel" else sizes.crank_bore
+        hub = sizes.wheel_hub if part == "wheel" else sizes.crank_hub
         return max(bore, hub) if self.mechanism.spec.size.has_hub(part) else bore
 
     @cached_property
@@ -271,28 +264,14 @@ class FlatParts(EdgedParts):
             for plate, x, turn in (wheel, *discs)
         )
 
-    @cached_property
-    def toothed(self) -> tuple[Gear, ...]:
-        """Gears with round pitch circles, with teeth if they have a module; no first wheel."""
-        if self.first or not self.links.gears:
-            return ()
-        from geneva_cli.parts.gears.gear_pair import FINE
-
-        write = self.writer(FINE["cubics"] * self.mechanism.center_distance_mm)
-        return tuple(gear.with_teeth(write) for gear in self.links.gears)
-
     @property
-    def tooth_dimensions(self) -> tuple[Dimension, ...]:
-        """Dimensions of the gears' teeth; none without teeth."""
-        from geneva_cli.parts.gears.gear_curves import pair_teeth
-
-        teeth = pair_teeth(self.mechanism.spec.gears, self.mechanism.spec.size)
-        meshes = (teeth, self.links.mesh)
-        return tuple(one for mesh in meshes if mesh for one in mesh.layout)
+    def round_gears(self) -> tuple[Member, ...]:
+        """Gears with round pitch circles; a first wheel is none."""
+        return () if self.first else tuple(gear.member for gear in self.links.gears)
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
-        """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
+        """The noncircular gears in front of a crank, up to their pitch curves."""
         if self.mechanism.spec.gears is None:
             return ()
         from geneva_cli.parts.gears.gear_pair import gear_pair
@@ -353,7 +332,7 @@ class FlatParts(EdgedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of dial, locking disc, and what is fixed to the frame."""
-        framed, drawn = self.frame_screws, self.drawn
+        framed, drawn = self._framed.screws, self.drawn
         if not drawn:
             return framed
         holes = {"dial": (dial_bolts(drawn.assembly, drawn.sizes), "the dial")}
@@ -371,14 +350,6 @@ class FlatParts(EdgedParts):
         """Wheel, crank, links and frame, whose curves need not be fitted."""
         turning = (self.wheel, self.crank) if self.drawn else ()
         return (*turning, *self.links.cut, self.frame)
-
-    def require(self) -> None:
-        """Raise GenevaError for a part that cannot be built."""
-        super().require()
-        if self.mechanism.spec.gears is not None:
-            from geneva_cli.parts.gears.gear_pair import pair_with_teeth
-
-            pair_with_teeth(self.mechanism)
 
     @property
     def to_fix(self) -> tuple[str, ...]:

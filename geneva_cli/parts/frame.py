@@ -33,9 +33,15 @@ from geneva_cli.parts.mounted_plate import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub
-from geneva_cli.parts.shafts.hub_and_shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, tapped
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft
+from geneva_cli.parts.shafts.shaft import (
+    Ends,
+    Seat,
+    Shaft,
+    crank_shaft_radius,
+    shafts,
+    wheel_shaft_radius,
+)
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.least_wall import wall_min
 
@@ -50,8 +56,7 @@ def framed(
     """Return the frame and the shafts of a machine with its ``outlines``, if it has any.
 
     ``bars`` are the links, ``base`` is the lowest plate with a cam's groove, ``first`` are the
-    first wheel and its locking disc of two in series. Raises GenevaError where a shaft's lower end
-    is not below its upper one.
+    first wheel and its locking disc of two in series.
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     moving = [one.part for one in (*bars.cut, *bars.joined, *first)]
@@ -92,7 +97,7 @@ def framed(
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             fixed += [(hole, member.part) for hole in placed_holes(member)]
     for gear in bars.gears:
-        for hole in gear.bolts:
+        for hole in gear.screws.holes if gear.screws else ():
             (x, y), (u, v) = gear.at, hole.centre
             fixed.append((Circle("BORE", (x + u, y + v), hole.radius), gear.plate))
     for plate in (base, bridge):

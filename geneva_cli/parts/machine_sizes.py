@@ -13,7 +13,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.preferred import bore_radius
@@ -22,19 +21,17 @@ from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.outlines.crank_outline import arc_floor, has_arcs
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.sizes import (
-    NO_SIZES,
     KeySizes,
     Sizes,
     arm_bore,
-    crank_reach_and_hub,
     drawn_thicknesses,
     hole_radius,
     pin_radius,
+    reach_and_hub,
     refuse_stepped_shaft,
     refuse_thin_hub,
     refuse_wide_pin,
     wheel_bore,
-    wheel_reach_and_hub,
     within_hub,
 )
 from geneva_cli.parts.slots.roller_paths import RollerPaths, mouth, roller_paths, roller_reaches
@@ -50,10 +47,7 @@ Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
 
 
 def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None:
-    """Return a machine's assembly and sizes; None where no flat parts can be cut.
-
-    ``loads`` are those on its parts, if computed already.
-    """
+    """Return ``machine_sizes``, for known loads; None where no flat parts can be cut."""
     if not mechanism.spec.is_flat:
         return None
     try:
@@ -67,10 +61,7 @@ def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None
 
 @lru_cache(maxsize=16)
 def machine_sizes(mechanism: Mechanism) -> Layout:
-    """Return a machine's assembly and sizes, cached for its strength, checks and parts.
-
-    Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
-    """
+    """Return a machine's assembly and sizes; raises GenevaError where these leave no parts."""
     where = assembly(mechanism)
     if not mechanism.spec.is_loaded:
         return where, sizes(where)
@@ -80,26 +71,20 @@ def machine_sizes(mechanism: Mechanism) -> Layout:
 
 
 def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
-    """Return the sizes of a machine's parts without a load; ``known`` are its roller paths.
-
-    Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
-    """
+    """Return the sizes without a load; raises GenevaError where they leave no wheel or no lock."""
     usual, _ = _usual_sizes(assembly, known or roller_paths(assembly))
     _refuse(assembly, usual)
     return usual
 
 
 def unloaded(assembly: Assembly) -> Unloaded:
-    """Return the parts of a machine without its load; raises GenevaError as ``sizes`` does."""
+    """Return the parts of a machine without its load; raises as ``sizes`` does."""
     usual, space = _usual_sizes(assembly, roller_paths(assembly))
     return Unloaded(assembly, usual, space, cut_lock(assembly, usual) if usual.lock else None)
 
 
 def loaded(of: Unloaded, loads: PartLoads, horn_MPa: float | None = None) -> Sizes:
-    """Return the sizes of a machine under its loads; raises GenevaError as ``sizes`` does.
-
-    ``horn_MPa`` is that of ``load_sizes``.
-    """
+    """Return the sizes of a machine under its loads, as ``load_sizes``; raises as ``sizes``."""
     from geneva_cli.parts.sized_by_load import first_sizes, load_sizes
 
     first = first_sizes(of.assembly.full, sized) if of.assembly.full.first_wheel else None
@@ -122,28 +107,16 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     }
     of_kind: Callable[[Mechanism], KeySizes] | None
     of_kind = thing(mechanism.spec.wheel.NAME, "sizes") if mechanism.spec.has_parts else None
-    own = of_kind(mechanism) if of_kind else _flat_sizes(mechanism)
-    return own._replace(values=known | own.values)
-
-
-def built(mechanism: Mechanism) -> Size:
-    """Return the spec's sizes with the machine's values for the keys left out, mm and diameters.
-
-    Without parts only centre distance, roller and clearances are added.
-    """
-    known, values = key_sizes(mechanism).values, mechanism.spec.size.as_dict()
-    return mechanism.spec.size.replace(**{k: x for k, x in known.items() if values[k] is None})
-
-
-def _flat_sizes(mechanism: Mechanism) -> KeySizes:
-    """Return the sizes of flat parts; none where they cannot be cut."""
+    if of_kind:
+        values, by_load = of_kind(mechanism)
+        return KeySizes(known | values, by_load)
     flat = sized(mechanism)
     if not flat:
-        return NO_SIZES
+        return KeySizes(known, ())
     own = flat[1]
     radii = ("wheel_bore", "wheel_hub", "crank_bore", "crank_hub", "pin")
     thick = ("wheel_thickness", "lock_thickness", "arm_thickness", "link_thickness")
-    known = {
+    known |= {
         "wheel_radius_mm": own.rim,
         "slot_bottom_clearance_mm": own.slot_bottom,
         "lock_radius_mm": own.lock,
@@ -156,13 +129,38 @@ def _flat_sizes(mechanism: Mechanism) -> KeySizes:
     return KeySizes(known, keys_by_load(mechanism, bool(own.lock)))
 
 
-def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
-    """Return the keys of sizes that the load of a machine chooses; ``locked`` if it has a lock."""
-    if not mechanism.spec.is_loaded:
-        return ()
-    from geneva_cli.parts.sized_by_load import chosen_keys
+def built(mechanism: Mechanism) -> Size:
+    """Return the spec's sizes with the machine's values for the keys left out, mm and diameters.
 
-    return chosen_keys(mechanism, locked)
+    Without parts only centre distance, roller and clearances are added.
+    """
+    known, values = key_sizes(mechanism).values, mechanism.spec.size.as_dict()
+    return mechanism.spec.size.replace(**{k: x for k, x in known.items() if values[k] is None})
+
+
+def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
+    """Return the keys of sizes that the load of a machine chooses, which the spec leaves out.
+
+    ``locked`` is True for a wheel with recesses for a lock. A load without a bound chooses none.
+    """
+    spec, size = mechanism.spec, mechanism.spec.size
+    if not spec.is_loaded:
+        return ()
+    from geneva_cli.loads.strength.part_loads import single_loads
+
+    if not all(map(math.isfinite, single_loads(mechanism))):
+        return ()
+    on_crank = size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm
+    rubbed = spec.load.friction and not spec.load.rubs_in_slot  # loads depend on the usual pin
+    free = {
+        "crank_bore_mm arm_bore_mm": not any(own is not None for own in on_crank),
+        "wheel_bore_mm": size.wheel_bore_mm is None and spec.shaft.wheel_diameter_mm is None,
+        "pin_mm": size.pin_mm is None and not rubbed,
+        "arm_thickness_mm": size.arm_thickness_mm is None,
+        "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
+        "link_thickness_mm": bool(mechanism.first_wheel) and size.link_thickness_mm is None,
+    }
+    return tuple(key for keys, chosen in free.items() if chosen for key in keys.split())
 
 
 def drawn_pin_radius(mechanism: Mechanism) -> float:
@@ -195,11 +193,21 @@ def _usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
     if any(s.apart for s in kinds):  # gears between rollers widen the relief
         space = min(space, arc_floor(assembly, lock)) if has_arcs(assembly, lock) else math.inf
     within = min(space, depth - relief)
-    bore = _crank_bore(full, within, L) if spec.drive.LOCKS else 0.0
-    wall = wall_min(size, L)
+    wall, bore = wall_min(size, L), 0.0
+    if spec.drive.LOCKS:
+        # that of the arm, which has the same shaft, or half of the space inside the relief
+        shaft = full.size.arm_bore_mm if full.drive.ONE_ARM else None
+        shaft = full.shaft.crank_diameter_mm if shaft is None else shaft
+        if full.size.crank_bore_mm is not None:
+            bore = 0.5 * full.size.crank_bore_mm
+        elif shaft is not None:
+            # a larger bore leaves no space for its default hub, of 1.5 bores
+            bore = 0.5 * shaft if 0.5 * shaft <= 0.6 * within else 0.0
+        elif 0.45 * within >= L / 40.0:
+            bore = bore_radius(min(0.45 * within, within_hub(full.size, "crank")))
     axle = wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
-    wheel_reach, wheel_hub = wheel_reach_and_hub(size, axle, wall, end)
-    crank_reach, crank_hub = crank_reach_and_hub(size, bore, wall)
+    wheel_reach, wheel_hub = reach_and_hub(size, "wheel", axle, wall, end)
+    crank_reach, crank_hub = reach_and_hub(size, "crank", bore, wall)
     thick, pin, reaches = drawn_thicknesses(size, L), pin_radius(size, r), roller_reaches(assembly)
     armed = 0.0
     if full.drive.ONE_ARM and pin:  # without pins there is no arm
@@ -233,21 +241,6 @@ def _usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
         link_thickness=thick.link,
     )
     return usual, within
-
-
-def _crank_bore(spec: Spec, space: float, L: float) -> float:
-    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``space``."""
-    size = spec.size
-    if size.crank_bore_mm is not None:
-        return 0.5 * size.crank_bore_mm
-    own = size.arm_bore_mm if spec.drive.ONE_ARM else None
-    if own is None:
-        own = spec.shaft.crank_diameter_mm
-    if own is not None:
-        # a larger bore leaves no space for its default hub, of 1.5 bores
-        return 0.5 * own if 0.5 * own <= 0.6 * space else 0.0
-    within = within_hub(size, "crank")
-    return bore_radius(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
 
 
 def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:

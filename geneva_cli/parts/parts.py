@@ -7,7 +7,7 @@ its first use: most runs need few of the parts.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, ClassVar, Self, TypeAlias
 
 from geneva_cli.geometry.plates import Member
@@ -18,16 +18,15 @@ from geneva_cli.parts.assembly import input_of
 from geneva_cli.parts.turn.pairs import TurnedParts, WorkLimit
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.gear_teeth import Writer
-    from geneva_cli.geometry.shapes import Circle
-    from geneva_cli.motion.pivots import Dimension
-    from geneva_cli.parts.gears.gear_blanks import Gear
+    from geneva_cli.geometry.fit.path import Curve
+    from geneva_cli.geometry.shapes import Circle, Segment
     from geneva_cli.parts.mounted_plate import FrameAndShafts
     from geneva_cli.parts.outlines.outlines import Outlines
     from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.shafts.screws import Screws
     from geneva_cli.parts.turn.full_turn import FullTurn
 
+Writer: TypeAlias = "Callable[[Curve, float, float], Sequence[Segment]]"  # fits a curve
 NamedBuilds: TypeAlias = "list[tuple[str, Callable[[], Parts]]]"
 
 
@@ -43,8 +42,8 @@ class Parts(TurnedParts):
         return ()
 
     @property
-    def toothed(self) -> tuple[Gear, ...]:
-        """Gears with round pitch circles, with teeth if they have a module; none without."""
+    def round_gears(self) -> tuple[Member, ...]:
+        """Gears with round pitch circles, as blanks up to these; none without."""
         return ()
 
     @property
@@ -71,11 +70,6 @@ class Parts(TurnedParts):
     def horn_mm(self) -> float | None:
         """Thickness of the horns between slots and recesses; None without a lock."""
         return None
-
-    @property
-    def tooth_dimensions(self) -> tuple[Dimension, ...]:
-        """Dimensions of the gears' teeth; none without teeth."""
-        return ()
 
     @property
     def outlines(self) -> Outlines:
@@ -174,11 +168,6 @@ class Parts(TurnedParts):
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""
 
-    @cached_property
-    def round_gears(self) -> tuple[Member, ...]:
-        """The ``toothed`` gears in the machine."""
-        return tuple(gear.member for gear in self.toothed)
-
 
 class EdgedParts(Parts):
     """Parts of wheels and racks: plates, frame and shafts."""
@@ -223,11 +212,6 @@ class EdgedParts(Parts):
         return self._framed.threads
 
     @property
-    def frame_screws(self) -> tuple[Screws, ...]:
-        """The screws that fix parts to the frame, and those of its mounting holes."""
-        return self._framed.screws
-
-    @property
     def to_fix(self) -> tuple[str, ...]:
         """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
         return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
@@ -241,10 +225,6 @@ class EdgedParts(Parts):
     def required(self) -> tuple[Member, ...]:
         """The parts without which the machine is not built."""
         return self.members
-
-    def require(self) -> None:
-        """Raise GenevaError for a part that cannot be built."""
-        _ = self.required
 
 
 def parts_of(mechanism: Mechanism, advice: bool = True) -> Parts:

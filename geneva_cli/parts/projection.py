@@ -7,7 +7,7 @@ from typing import NamedTuple, TypeAlias, TypeVar
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Part, Plate, Shell, Solid, in_place, solids
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Point, Shape
+from geneva_cli.geometry.shapes import Circle, Shape
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.mechanism import Mechanism
 
@@ -139,34 +139,3 @@ def _key(shape: Shape) -> Shape | tuple[float, ...]:
     if not isinstance(shape, Circle):
         return shape
     return tuple(round(value, 6) for value in (*shape.centre, shape.radius))
-
-
-def with_centre_marks(drawing: Drawing) -> Drawing:
-    """Return a drawing with marks in circles and keyed bores, one for concentric ones.
-
-    >>> bore, roller = Circle("BORE", (0.0, 0.0), 4.0), Circle("ROLLER", (0.0, 0.0), 8.0)
-    >>> marked = with_centre_marks(Drawing("disc", (roller, bore)))
-    >>> [mark.segments[0].end for mark in marked.shapes[2:]]
-    [(5.0, 0.0), (0.0, 5.0)]
-    """
-    least: dict[Point, float] = {}
-    for shape in drawing.shapes:
-        if shape.layer == "PITCH":  # lines that are not cut
-            continue
-        if isinstance(shape, Circle):
-            at, radius = shape.centre, shape.radius
-        else:
-            arcs = [piece for piece in shape.segments if isinstance(piece, Arc)]
-            if shape.layer != "BORE" or not arcs:
-                continue
-            widest = max(arcs, key=lambda arc: arc.radius)
-            x, y = (round(v, 9) + 0.0 for v in widest.centre)  # mm; removes rounding errors
-            at, radius = (x, y), widest.radius
-        least[at] = min(least.get(at, radius), radius)
-    marks = []
-    for (x, y), radius in least.items():
-        reach = 1.25 * radius  # half the length of a cross
-        for dx, dy in ((reach, 0.0), (0.0, reach)):
-            line = Line((x - dx, y - dy), (x + dx, y + dy))
-            marks.append(Contour("CENTER", (line,), closed=False))
-    return drawing._replace(shapes=(*drawing.shapes, *marks))

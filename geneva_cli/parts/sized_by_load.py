@@ -24,10 +24,14 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.loads.impacts.shock_force import forces_N
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import lock
-from geneva_cli.loads.strength.arm_strength import arm_stress_MPa
+from geneva_cli.loads.strength.arm_and_key import (
+    KeyDimensions,
+    arm_stress_MPa,
+    key_stress,
+    shear_allowed_MPa,
+)
 from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import HornStress, greatest_stress, single_stress
-from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.pin import PinSize, pin
 from geneva_cli.loads.strength.shaft_stress import shear_MPa
@@ -43,11 +47,10 @@ from geneva_cli.parts.assembly import Assembly, links_at
 from geneva_cli.parts.sizes import (
     FirstSizes,
     Sizes,
-    crank_reach_and_hub,
     drawn_thicknesses,
     hole_radius,
     largest_hub,
-    wheel_reach_and_hub,
+    reach_and_hub,
     within_hub,
 )
 from geneva_cli.parts.stressed import ShaftSize, Stressed, Unloaded, stressed
@@ -115,32 +118,6 @@ def load_sizes(
     return arm_that_holds(spec, wide, trial, lambda one: stressed(assembly, one), loads)
 
 
-def chosen_keys(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
-    """Return the keys of the sizes that the load chooses, which the spec leaves out.
-
-    ``locked`` is True for a wheel with recesses for a lock. A load without a bound chooses none.
-    """
-    spec, size = mechanism.spec, mechanism.spec.size
-    if not all(map(math.isfinite, single_loads(mechanism))):
-        return ()
-    diameters = spec.shaft.wheel_diameter_mm, spec.shaft.crank_diameter_mm
-    on_crank = size.crank_bore_mm, size.arm_bore_mm, diameters[1]
-    free = {
-        "crank_bore_mm arm_bore_mm": not any(own is not None for own in on_crank),
-        "wheel_bore_mm": size.wheel_bore_mm is None and diameters[0] is None,
-        "pin_mm": size.pin_mm is None and not _rubs_on_pin(spec),
-        "arm_thickness_mm": size.arm_thickness_mm is None,
-        "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
-        "link_thickness_mm": bool(mechanism.first_wheel) and size.link_thickness_mm is None,
-    }
-    return tuple(key for keys, chosen in free.items() if chosen for key in keys.split())
-
-
-def _rubs_on_pin(spec: Spec) -> bool:
-    """Return True with friction on the pin: the loads depend on the pin, which stays the usual."""
-    return bool(spec.load.friction) and not spec.load.rubs_in_slot
-
-
 def arm_that_holds(
     spec: Spec,
     wheel: float,
@@ -151,8 +128,7 @@ def arm_that_holds(
     """Return the first trial whose arm and its key hold, from an arm as thick as the wheel on.
 
     A trial is asked whether the crank's bore is sized by its key, and for the arm's thickness: a
-    thicker arm, up to twice the wheel, is better for a key than a thicker shaft. A shaft that does
-    not hold needs no thicker arm.
+    thicker arm, up to twice the wheel, is better for a key than a thicker shaft.
     """
 
     def holds(one: T) -> bool:
@@ -205,7 +181,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
         return sizes
 
     def bored(d: float) -> Sizes:
-        reach, hub = wheel_reach_and_hub(spec.size, 0.5 * d, wall, end)
+        reach, hub = reach_and_hub(spec.size, "wheel", 0.5 * d, wall, end)
         return sizes._replace(wheel_bore=0.5 * d, wheel_reach=reach, wheel_hub=hub)
 
     def holds(trial: Sizes) -> bool:
@@ -233,7 +209,7 @@ def _crank_bored(
         return sizes
 
     def bored(bore: float) -> Sizes:
-        reach, hub = crank_reach_and_hub(size, bore, sizes.wall_min)
+        reach, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
         arm = bore if sizes.arm_bore else 0.0
         return sizes._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
 
@@ -269,7 +245,8 @@ def pin_that_holds(
     usual one, on which the loads depend.
     """
     spec, size = mechanism.spec, mechanism.spec.size
-    if size.pin_mm is not None or _rubs_on_pin(spec) or not usual:
+    on_pin = spec.load.friction and not spec.load.rubs_in_slot
+    if size.pin_mm is not None or on_pin or not usual:
         return usual
     contact = value_or(size.face_width_mm, wide)
     # the roller keeps three tenths of its radius as a wall about the hole for its pin
@@ -306,8 +283,8 @@ def shaft_holds(spec: Spec, part: str, diameter: float, moment_Nm: float) -> boo
 def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
     """Return True if a key holds a torque, or where there is none."""
     sides, shear = wheel_material(spec).allowed_MPa, shear_allowed_MPa(spec.shaft)
-    stress = key_stress(key, spec.shaft.torsion_factor * torque_Nm, sides, shear)
-    least = float(stress.least_length_mm)
+    torque = spec.shaft.torsion_factor * torque_Nm
+    least = float(key_stress(key, torque, sides, shear)[2])
     return math.isnan(least) or keeps(float(key.length), "at least", least)
 
 

@@ -122,7 +122,7 @@ def hub_and_eye(
     """Return the radii of an arm about the ``bore`` of its shaft and about the ``hole`` of a pin.
 
     ``passing`` is the largest eye that passes the wheel, ``standing`` the radius of a disc on the
-    hub. Raises GenevaError, naming the key, where hub or eye leave nothing around a hole.
+    hub.
     """
     deep = bore_of(size, "crank", bore).reach
     hub = arm_hub(size, deep, bore, wall, standing)
@@ -164,10 +164,7 @@ def pin_hole(size: Size, pin: float) -> float:
 
 
 def refuse_wide_pin(size: Size, pin: float, roller: float) -> None:
-    """Raise GenevaError, naming the key, for a pin whose hole leaves nothing of the roller.
-
-    ``roller`` is the roller's radius, of a cone where it is thinnest.
-    """
+    """Raise GenevaError for a pin whose hole leaves nothing of a roller with its least radius."""
     loose = size.allowances.shaft_fit_mm
     if pin and 2.0 * pin + loose >= 2.0 * roller:
         raise GenevaError(
@@ -180,17 +177,14 @@ def refuse_wide_pin(size: Size, pin: float, roller: float) -> None:
 def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
     """Return the radius of the arm's bore: of the spec, of the ``disc`` on it, or of the shaft.
 
-    By default it leaves most of the space up to the nearest pin's hole, ``space``.
+    By default it leaves most of the ``space`` up to the nearest pin's hole.
     """
     diameter = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
     return half_or(diameter, bore_radius(min(L / 20.0, 0.35 * space)))
 
 
 def refuse_stepped_shaft(size: Size, crank_bore: float, L: float) -> None:
-    """Raise GenevaError, naming the key, where the arm's bore is not as wide as the crank's.
-
-    One shaft runs through both. A ``crank_bore`` of 0 ends it in the arm.
-    """
+    """Raise GenevaError where the arm's bore is not as wide as the crank's: they have one shaft."""
     own = size.arm_bore_mm
     if own and crank_bore and abs(0.5 * own - crank_bore) > SAME_LENGTH * L:
         raise GenevaError(
@@ -210,8 +204,8 @@ def within_hub(size: Size, part: str) -> float:
 def wheel_bore(spec: Spec, end: float, wall: float, L: float) -> float:
     """Return the radius of the wheel's bore: of the spec, of its shaft, or the default.
 
-    ``end`` is the distance of the slots' ends from the axis. Shaft and default leave a wall to
-    them, and the default one in the hub.
+    Shaft and default leave a wall to the slots' ends, ``end`` from the axis, and the default one in
+    the hub.
     """
     size, shaft = spec.size, spec.shaft.wheel_diameter_mm
     if size.wheel_bore_mm is None and shaft is not None and 0.5 * shaft <= end - wall:
@@ -221,10 +215,7 @@ def wheel_bore(spec: Spec, end: float, wall: float, L: float) -> float:
 
 
 def refuse_thin_hub(part: str, hub: float, bored: float, bore: float) -> None:
-    """Raise GenevaError, naming the key, for a hub that its bore with its shape cuts through.
-
-    The bore reaches to ``bored`` with its keyway. A hub no wider than the round bore is none.
-    """
+    """Raise GenevaError for a hub that its bore, which reaches to ``bored``, cuts through."""
     if bore < hub <= bored:
         raise GenevaError(
             f"{part}_hub_mm = {2.0 * hub:g}: it must be above {2.0 * bored:.6g}, the diameter "
@@ -234,30 +225,19 @@ def refuse_thin_hub(part: str, hub: float, bored: float, bore: float) -> None:
 
 
 def largest_hub(end: float) -> float:
-    """Return the radius of a wheel's largest default hub, for slots that end at the radius ``end``.
-
-    A quarter of the wheel up to its slots stays free.
-    """
-    return 0.75 * end
+    """Return the radius of a wheel's largest default hub, for slots that end at ``end``, mm."""
+    return 0.75 * end  # a quarter of the wheel up to its slots stays free
 
 
-def wheel_reach_and_hub(size: Size, bore: float, wall: float, end: float) -> tuple[float, float]:
-    """Return how far the wheel's bore reaches with its shape, and the radius of its hub.
-
-    ``end`` is the distance of the slots' ends from the axis.
-    """
-    return _reach_and_hub(size, "wheel", bore, wall, min(HUB * bore, largest_hub(end)))
-
-
-def crank_reach_and_hub(size: Size, bore: float, wall: float) -> tuple[float, float]:
-    """Return how far the crank's bore reaches with its shape, and the radius of its hub."""
-    return _reach_and_hub(size, "crank", bore, wall, 1.5 * bore)
-
-
-def _reach_and_hub(
-    size: Size, part: str, bore: float, wall: float, usual: float
+def reach_and_hub(
+    size: Size, part: str, bore: float, wall: float, end: float = 0.0
 ) -> tuple[float, float]:
-    """Return reach and hub; by default the usual radius, or a wall around the bore's keyway."""
+    """Return how far a part's bore reaches with its shape, and the radius of its hub.
+
+    ``end`` is the distance of a wheel's slots' ends from the axis. By default the hub has the usual
+    radius, or a wall around the bore's keyway.
+    """
+    usual = min(HUB * bore, largest_hub(end)) if part == "wheel" else 1.5 * bore
     reach, usual = reach_or_bore(size, part, bore), rounded_radius(usual)
     default = max(usual, reach + wall) if reach > bore else usual
     return reach, half_or(vars(size)[f"{part}_hub_mm"], default)
@@ -271,8 +251,7 @@ def wall_of_bolts(size: Size, wall: float) -> float:
 def lock_bolt_directions(sectors: Iterable[tuple[float, float]], count: int) -> list[list[float]]:
     """Return the directions of the bolts that fix locking sectors to the arm.
 
-    Each sector is its start and width, radians; its ``count`` bolts are evenly spaced. Raises
-    GenevaError where there are bolts and no sectors.
+    Each sector is its start and width, radians; its ``count`` bolts are evenly spaced.
     """
     directions = [
         [start + width * (k + 0.5) / count for k in range(count)] for start, width in sectors

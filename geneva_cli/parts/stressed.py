@@ -13,8 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
-from geneva_cli.loads.strength.key_strength import NO_KEY, KeyDimensions
+from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions, KeyDimensions
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
@@ -62,13 +61,22 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     hub_mm = 0.0  # length of the wheel's hub
     if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
         hub_mm = value_or(size.wheel_hub_length_mm, size.allowances.pin_gap_mm + thick)
-    end = _to_frame(assembly, sizes, hub_mm), thick
-    crank = sizes.arm_bore or sizes.crank_bore
-    crank_shaft = shaft_of(spec, "crank", crank, *end)
-    if sizes.crank_bore and is_bridged(assembly.full):
-        middle = bridge_low(size, sizes) + 0.5 * (thick - wide)
-        own = spec.shaft.crank_diameter_mm, spec.shaft.crank_overhang_mm
-        crank_shaft = ShaftSize(value_or(own[0], 2.0 * crank), value_or(own[1], middle))
+    gap, washer, machine = size.allowances.pin_gap_mm, size.washer_mm, assembly.full
+    first = thick if spec.drive.ONE_ARM else sizes.link_thickness
+
+    def low(plane: int) -> float:
+        return plane_span(plane, gap, first, sizes.link_thickness, washer)[0]
+
+    lows = [-hub_mm, -gap - (thick if sizes.arm_bore else 0.0)]
+    lows += [low(link.plane) for link in links_at(machine, np.zeros(1))]
+    if spec.gears:
+        lows.append(low(gear_plane(machine)))
+    if machine.engagements[0].groove is not None:  # as ``groove_plate`` has its base
+        lows.append(low(3) if spec.drive_before else low(2) - thick)
+    # from the middle of the wheel's thickness to the frame's upper face
+    on_wheel = on_crank = 0.5 * wide - min(lows) + washer, thick
+    if sizes.crank_bore and is_bridged(machine):
+        on_crank = bridge_low(size, sizes) - 0.5 * wide, thick
     arm = NO_ARM
     if sizes.arm_bore and sizes.pin:
         _, long = sizes.reaches
@@ -78,13 +86,13 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
         hub = arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
         passing = sizes.passing_eye(L - long)
         eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
-        offset = 0.5 * (contact + thick) + size.allowances.pin_gap_mm
+        offset = 0.5 * (contact + thick) + gap
         arm = ArmDimensions(long, hub, eye, bored, hole, thick, offset)
     return Stressed(
         contact,
         2.0 * sizes.pin,
-        shaft_of(spec, "wheel", sizes.wheel_bore, *end),
-        crank_shaft,
+        shaft_of(spec, "wheel", sizes.wheel_bore, *on_wheel),
+        shaft_of(spec, "crank", sizes.arm_bore or sizes.crank_bore, *on_crank),
         arm,
         key_of(size.wheel_keyway, sizes.wheel_bore, wide + hub_mm),
         key_of(size.crank_keyway, sizes.arm_bore, thick),
@@ -101,24 +109,6 @@ def shaft_of(spec: Spec, part: str, bore: float, to_frame: float, thick: float) 
     diameter, overhang = 2.0 * bore or math.nan, to_frame + 0.5 * thick
     own = table[f"{part}_diameter_mm"], table[f"{part}_overhang_mm"]
     return ShaftSize(value_or(own[0], diameter), value_or(own[1], overhang))
-
-
-def _to_frame(assembly: Assembly, sizes: Sizes, hub_mm: float) -> float:
-    """Return the distance of the frame's upper face from the middle of the wheel's thickness."""
-    machine, spec = assembly.full, assembly.full.spec
-    gap, arm, washer = spec.size.allowances.pin_gap_mm, sizes.arm_thickness, spec.size.washer_mm
-    first = arm if spec.drive.ONE_ARM else sizes.link_thickness
-
-    def low(plane: int) -> float:
-        return plane_span(plane, gap, first, sizes.link_thickness, washer)[0]
-
-    lows = [-hub_mm, -gap - (arm if sizes.arm_bore else 0.0)]
-    lows += [low(link.plane) for link in links_at(machine, np.zeros(1))]
-    if spec.gears:
-        lows.append(low(gear_plane(machine)))
-    if machine.engagements[0].groove is not None:  # as ``groove_plate`` has its base
-        lows.append(low(3) if spec.drive_before else low(2) - arm)
-    return 0.5 * sizes.wheel_thickness - min(lows) + washer
 
 
 def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:

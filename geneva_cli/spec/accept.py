@@ -44,7 +44,6 @@ class Accept(SpecTable):
     nothing_to_act_on: Reason = None
     driven_by_one_wall: Reason = None
     lags_behind: Reason = None
-    roller_overtakes: Reason = None
     short_motion: Reason = None
     stout_horns: Reason = None
     tolerance_left_out: Reason = None

@@ -14,7 +14,6 @@ LIMITED = {
     "input_torque_max_Nm": "loads.input_torque_Nm.max",
     "contact_stress_max_MPa": "loads.contact_stress_MPa.max",
     "pv_max_W_m2": "life.pv_max_W_m2",
-    "slot_wear_max_mm_per_million": "life.slot_wear_mm_per_million",
     "roller_life_min_h": "life.roller_life_h",
     "dwell_min_s": "timing.dwell_s",
     "motion_max_s": "timing.motion_s",

@@ -168,20 +168,6 @@ class Size(SpecTable):
     dial_bolt_circle_mm: Annotated[
         Positive, "dial's bolt circle: diameter; default: amid bore and slots"
     ] = None
-    gear_module_mm: Annotated[
-        Positive, "module of gear teeth; default: pitch curves without teeth"
-    ] = None
-    gear_teeth: Annotated[
-        int | None, Range(3, 1000), "teeth of the smaller gear; default: nearest by module"
-    ] = None
-    gear_shift: Annotated[
-        float | None,
-        Range(-1.0, 0.86),
-        "smaller gear's profile shift, in modules; default: half of the sum, without undercut",
-    ] = None
-    gear_backlash_mm: Annotated[
-        NotNegative, "backlash of gear teeth along their pitch circles; default 0, or by process"
-    ] = None
     gear_bolts: Annotated[
         int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
     ] = 4
@@ -297,9 +283,6 @@ class Size(SpecTable):
         usual = Allowances() if self.process is None else PROCESSES[self.process]
         if cut_mm := workshop(self.process).cut_mm:
             usual = self._cut(usual, cut_mm)
-        # a tooth in its gap has the clearance of a roller in its slot, on both sides
-        backlash = usual.gear_backlash_mm or 2.0 * usual.slot_clearance_mm
-        usual = usual._replace(gear_backlash_mm=backlash)
         own = {key: vars(self).get(key) for key in usual._fields}
         return usual._replace(**{key: v for key, v in own.items() if v is not None})
 
@@ -530,10 +513,6 @@ class WheelMaterial(Material):
 
     TABLE: ClassVar[str] = "material.wheel"
 
-    wear_mm3_Nm: Annotated[
-        Positive, "Archard: volume worn per force and distance, against the roller"
-    ] = None
-
 
 class RollerMaterial(Material):
     """``[material.roller]``: material of rollers, their pins, and shafts.
@@ -698,9 +677,6 @@ class Limits(SpecTable):
     contact_stress_max_MPa: Annotated[Positive, "Hertz stress, roller on slot"] = None
     pv_max_W_m2: Annotated[Positive, "contact stress times sliding speed"] = None
     roller_life_min_h: Annotated[Positive, "least L10 life of the roller"] = None
-    slot_wear_max_mm_per_million: Annotated[
-        Positive, "greatest wear depth of a slot's walls in a million passages"
-    ] = None
     lock_stress_max_MPa: Annotated[Positive, "Hertz stress, disc on wheel"] = None
     stop_stress_max_MPa: Annotated[Positive, "Hertz stress at a stop"] = None
     lock_deflection_max_deg: Annotated[

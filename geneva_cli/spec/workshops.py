@@ -135,7 +135,6 @@ class Allowances(NamedTuple):
     shaft_fit_mm: float = 0.0  # difference of diameters, bore minus shaft or pin in it
     pin_gap_mm: float = 0.0  # along the axis, between wheel and crank arm
     source: str | None = None
-    gear_backlash_mm: float = 0.0  # of teeth; twice the clearance a side of roller and slot
 
     @property
     def around_shaft_mm(self) -> float:
@@ -149,10 +148,7 @@ PROCESSES = {
         pin_gap_mm=0.5, source="ISO 9013:2017, class 1, at the thickness of each plate"
     ),
     # It keeps the fits of a sheet. All sizes stay nominal, for which there are reamers and bars.
-    # A roller g6 in its slot H7 has 6 to 35 um at 10 to 18 mm, and so have teeth: the middle.
-    "mill": Allowances(
-        pin_gap_mm=0.2, source="the fits of ISO 286 on the drawing sheet", gear_backlash_mm=0.02
-    ),
+    "mill": Allowances(pin_gap_mm=0.2, source="the fits of ISO 286 on the drawing sheet"),
     # A hole is printed slightly too narrow, and holds its pin without a press fit. A printed shaft
     # and its bore may both be off by 0.2 mm.
     "print": Allowances(

@@ -71,7 +71,6 @@ reversal_shock_N: TIGHTER SLOWER
 reversal_stress_MPa: TIGHTER SLOWER WIDER LARGER
 pv_max_W_m2: SLOWER WIDER LARGER
 roller_life_min_h: material.roller.dynamic_capacity_N*10 SLOWER LARGER
-slot_wear_max_mm_per_million: WIDER SLOWER LARGER
 pin_stress_MPa: pin_mm*1.9 roller_radius_mm*3 pin_held=fixed pin_mm= TIGHTER LARGER SLOWER
 horn_stress_MPa lock_horn_stress_MPa: WIDER lock_radius_mm*0.5 LARGER SLOWER
 lock_stress_max_MPa: BLUNTER
@@ -116,7 +115,7 @@ outer_wall_mm: wheel_outer_radius_mm?
 cut_plate_mm: THICK
 cut_slot_mm: roller_radius_mm? THICK
 branches_apart_mm branches_crossed_mm: roller_radius_mm*3 LONGER
-OTHERS: drive.gear_ratio=shockless lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4
+OTHERS: lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4
   wheel.offset_mm:0
 """
 Value: TypeAlias = float | int | str | None  # None: the key is left out

@@ -25,7 +25,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     return [
         *_of_sizes(mechanism),
         *_fits(mechanism),
-        *_of_gears_and_points(mechanism),
+        *_of_rounded_points(mechanism),
         *(_of_law(mechanism, mechanism.law) if mechanism.law else ()),
     ]
 
@@ -125,8 +125,8 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
             )
 
 
-def _of_gears_and_points(mechanism: Mechanism) -> Iterator[Notice]:
-    """Warnings about points of a file that round the jerk, and a roller that overtakes."""
+def _of_rounded_points(mechanism: Mechanism) -> Iterator[Notice]:
+    """A warning about the uncertainty of the jerk from the rounding of a file's points."""
     spec, engagement, law = mechanism.spec, mechanism.engagements[0], mechanism.law
     # the place where the jerk of a ratio has the greatest effect
     top = peak(engagement.motion, "velocity")
@@ -143,14 +143,6 @@ def _of_gears_and_points(mechanism: Mechanism) -> Iterator[Notice]:
             "rounded-points",
             f"the points have {decimals} decimals, so the jerk is known only to about "
             f"{float(f'{100.0 * fraction:.2g}'):g} %: use more decimals, or fewer points",
-        )
-    lead = mechanism.engagements[0].overtaking / DEGREE
-    if lead > 1e-6:  # degrees: less is rounding
-        yield Notice(
-            "roller-overtakes",
-            f"the roller overtakes the wheel by {lead:.4g}° while the gears drive. Near the "
-            "line of centres its slot would turn the wheel faster than the gears do. It presses "
-            'into the wall that it drove: gear_ratio = "shockless" keeps it behind',
         )
 
 

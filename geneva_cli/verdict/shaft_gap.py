@@ -23,8 +23,8 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.gears.gear_curves import pair_teeth
-from geneva_cli.parts.gears.gear_pair import gear_seats, pitch_radii
+from geneva_cli.parts.gears.gear_curves import pitch_radii
+from geneva_cli.parts.gears.gear_pair import gear_seats
 from geneva_cli.parts.outlines.outlines import Outlines
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
@@ -94,11 +94,10 @@ def gear_rings(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:
     pair, x = mechanism.spec.gears, mechanism.gear_shaft.x_mm
     if pair is None:
         return
-    teeth, places = pair_teeth(pair, mechanism.spec.size), (x, x + pair.distance_mm)
-    tips = teeth.tips if teeth else (0.0, 0.0)
-    gears = zip(gear_seats(mechanism, drawn), places, pitch_radii(pair), tips, strict=True)
-    for seat, place, (_, pitch), tip in gears:
-        yield Ring("PITCH", (place, 0.0), 0.0, pitch + tip, seat.low, seat.high)
+    places = x, x + pair.distance_mm
+    gears = zip(gear_seats(mechanism, drawn), places, pitch_radii(pair), strict=True)
+    for seat, place, (_, pitch) in gears:
+        yield Ring("PITCH", (place, 0.0), 0.0, pitch, seat.low, seat.high)
 
 
 def rings_of(members: Iterable[Member]) -> list[Ring]:

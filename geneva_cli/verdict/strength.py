@@ -25,7 +25,6 @@ REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *grou
 OF_LIFE = (
     *("roller_life_turns", "roller_life_motions", "roller_life_h", "equivalent_force_N"),
     *("horn_stress_MPa", "friction_work_J", "pv_max_W_m2", "pin_stress_MPa"),
-    "slot_wear_mm_per_million",
 )
 # All values whose needs a report lists, by their names in checks and in ``life``.
 NEEDY = (
@@ -34,7 +33,6 @@ NEEDY = (
     *("arm_stress_MPa", "wheel_key_pressure_MPa", "crank_key_pressure_MPa"),
     *("roller_life_min_h", "roller_life_turns", "roller_life_motions", "roller_life_h"),
     *("equivalent_force_N", "friction_work_J", "pv_max_W_m2"),
-    *("slot_wear_mm_per_million", "slot_wear_max_mm_per_million"),
 )
 BOUND = "a force with a bound: see the warnings"
 _FLAT = "a wheel that is drawn as a flat outline"
@@ -134,11 +132,7 @@ class Strength:
         elif part.endswith("_shaft"):
             yield from self._shaft_needs(part.removesuffix("_shaft"))
         else:
-            if name.startswith("slot_wear"):
-                worn = spec.material_wheel.wear_mm3_Nm is not None
-                rubs = spec.load.rubs_in_slot, 'friction_at = "slot" in [load]'
-                yield [(worn, "wear_mm3_Nm in [material.wheel]"), rubs, face, loaded]
-            elif name == "horn_stress_MPa":
+            if name == "horn_stress_MPa":
                 drawn = bool(load.horn_sizes)
                 yield [(spec.is_flat or drawn, _FLAT)]
                 yield [(drawn or bool(sized(self.mechanism)), _CUT)]

@@ -73,11 +73,11 @@ def _process_warnings(parts: Parts) -> Iterator[Notice]:
 
 def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
     """A warning about gears that end at their pitch curves; for machines that go to a shop."""
-    if is_geared(spec) and spec.size.gear_module_mm is None:
+    if is_geared(spec):
         yield Notice(
             "gears-without-teeth",
             "the gears have no teeth. Their solids end at the pitch curves, and files to cut leave "
-            "them out: set gear_module_mm in [size]",
+            "them out: have them made for these curves",
         )
 
 

@@ -43,7 +43,7 @@ LOADS = {
     "shaft.stiffness_Nm_rad=2000 shaft.damping_ratio=0.02 shaft.wheel_diameter_mm=20 "
     "shaft.crank_diameter_mm=18 shaft.wheel_overhang_mm=30 shaft.wheel_span_mm=40 "
     "shaft.crank_overhang_mm=25 shaft.crank_span_mm=45 shaft.shear_stress_max_MPa=50 "
-    "material.wheel.stress_max_MPa=300 material.wheel.wear_mm3_Nm=1e-8 "
+    "material.wheel.stress_max_MPa=300 "
     "material.roller.stress_max_MPa=300 material.roller.dynamic_capacity_N=9000 "
     "tolerance.center_distance_mm=0.02 tolerance.slot_angle_deg=0.05 product.radius_mm=300 ",
 }

@@ -68,11 +68,3 @@ def test_the_cycle_is_that_of_less_friction():
 def test_a_roller_that_is_its_own_pin():
     own = design(0.1, SIZE.replace(pin_mm=0.0))
     assert own.loads == design(0.1, at="slot").loads
-
-
-def test_slot_wear_needs_a_roller_that_rubs():
-    worn = design(0.1).with_("material.wheel.wear_mm3_Nm", 1e-6)
-    assert worn.life["slot_wear_mm_per_million"] is None
-    (said,) = worn.strength.missing(["slot_wear_mm_per_million"])
-    assert 'friction_at = "slot" in [load]' in said
-    assert worn.with_("load.friction_at", "slot").life["slot_wear_mm_per_million"] > 0.0

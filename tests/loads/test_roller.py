@@ -19,11 +19,10 @@ from geneva_cli.loads.strength.roller import (
     lives,
     passage,
     passages,
-    wears_mm,
 )
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.arrays import only_of
-from geneva_cli.spec.tables import Load, RollerMaterial, Size, WheelMaterial
+from geneva_cli.spec.tables import Load, RollerMaterial, Size
 
 DESIGNS = repo.DESIGNS
 CASE = Spec(Wheel(6), size=Size(200.0, 8.0, face_width_mm=20.0, pin_mm=8.0), load=Load(0.4, 15.0))
@@ -175,49 +174,3 @@ def test_passages_of_one_roller_in_an_hour(design, a_turn):
     own = life(mechanism._replace(spec=spec))
     an_hour = 60.0 * spec.drive.n_rpm * a_turn
     assert own.motions / own.hours == pytest.approx(an_hour, rel=1e-12)
-
-
-WORN = WheelMaterial(wear_mm3_Nm=1e-6)
-
-
-def worn_mm(spec):
-    machine = build(spec)
-    return wears_mm(machine, [one.rubbing_N for one in passages(machine)])
-
-
-def test_wear_of_both_walls():
-    """Per wall: k 1e6 ∫ N |v_s| dt over 20 mm times the length from its deepest to its outermost.
-
-    CASE's torque reverses at 10.34 and 43.03 degrees. So the driving wall is swept by the whole
-    entry, and the other one between the two places only. The quadrature uses no code of the
-    package.
-    """
-    l, L, r, w = 0.5, 0.2, 0.008, 2.0 * math.pi
-    first, second = np.radians((10.3447585591609, 43.0339138141048))
-    D = lambda x: 1.0 + l * l - 2.0 * l * np.cos(x)  # noqa: E731
-    rho = lambda x: L * np.sqrt(D(x))  # noqa: E731
-
-    def force(x):
-        inertia = 0.4 * w * w * l * (1.0 - l * l) * np.sin(x) / D(x) ** 2
-        return abs(15.0 - inertia) / rho(x)
-
-    def work(a, b, d):  # the rubbing speed changes its sign: a dense midpoint rule
-        x = a + (b - a) * (np.arange(400_000) + 0.5) / 400_000
-        v = L * l * np.sin(x) / np.sqrt(D(x)) + d * (1.0 + l * (np.cos(x) - l) / D(x)) * r
-        return (force(x) * abs(v)).mean() * (b - a)
-
-    end = math.pi / 3.0
-    driving = work(-end, first, 1.0) + work(second, end, 1.0)
-    walls = driving / (rho(end) - rho(0.0)), work(first, second, -1.0) / (rho(second) - rho(first))
-    expected = max(walls) * 1e-6 * 1e6 / (20.0 * 1000.0)
-    assert walls[0] > walls[1]
-    assert worn_mm(CASE) is None
-    assert worn_mm(CASE.replace(material_wheel=WORN)) == pytest.approx([expected], rel=1e-9)
-
-
-def test_one_wall_takes_all_the_wear_of_a_torque_that_never_reverses():
-    """It is swept in and out, so the length is half the travel, and no wall shares the work."""
-    spec = CASE.replace(material_wheel=WORN, load=Load(0.0, 15.0))
-    (way,) = passages(build(spec))
-    expected = way.work / (0.5 * way.travel_m) / (20.0 * 1000.0)
-    assert worn_mm(spec) == pytest.approx(expected, rel=1e-12)

@@ -78,19 +78,3 @@ def test_a_pin_that_all_but_meets_the_wheels_centre():
     varied = {key: np.array([value]) for key, value in keys.items()}
     found = worst_peaks(many(spec, varied).machine, ["velocity"])["velocity"].max[0]
     assert found == pytest.approx(worst(alone(spec, varied, 0)).velocity.max, rel=1e-10)
-
-
-def test_what_comes_up_to_a_level_and_stays_there():
-    """A gear sector's ratio is the greatest speed, though its slot ends a rounding below.
-
-    Or above: by what the acceleration there makes of two ulps of the slot's half angle.
-    """
-    spec, rules = MACHINES["gear sector, any ratio"]
-    varied = drawn(rules, 400, 17)
-    found = many(spec, varied)
-    peaks = worst_peaks(found.machine, ["velocity", "acceleration"])
-    speed, acceleration = (peak.max for peak in peaks.values())
-    ratio = varied["drive.gear_ratio"][found.which]
-    assert len(speed) > 50
-    assert np.all(speed >= ratio)
-    assert np.all(speed <= ratio * (1.0 + 4e-15) + 4e-16 * acceleration)

@@ -83,10 +83,6 @@ def test_a_hole_for_every_shaft_that_reaches_it(name):
     for pivot, hole in zip(STANDING[name], holes, strict=False):
         at = pivots[pivot]["x_mm"], pivots[pivot]["y_mm"]
         assert hole.centre == pytest.approx(at, abs=1e-9)
-    marked = design.drawing("frame", centre_marks=True)
-    marks = [shape.segments[0] for shape in marked.shapes if shape.layer == "CENTER"]
-    middles = [(0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])) for a, b in marks[::2]]
-    assert middles == [pytest.approx(hole.centre) for hole in holes]
 
 
 def outline_at(link, plate, index):

@@ -9,9 +9,9 @@ import pytest
 import repo
 
 from geneva_cli import load
-from geneva_cli.drawings.catalogue import CUT, DRAWINGS
+from geneva_cli.drawings.catalogue import DRAWINGS
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.dxf import chunks, sheet_chunks
+from geneva_cli.output.dxf import sheet_chunks
 
 pytestmark = pytest.mark.usefixtures("made_once")
 TOLERANCE = 0.05  # mm: coarse walls are quick, and have the same layers
@@ -34,23 +34,6 @@ def drawings(path):
             yield part, design.drawing(part, TOLERANCE)
         except GenevaError:  # a part that this machine does not have
             continue
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("name", ["turret", "epicyclic-z4", "cam-geneva"])
-def test_requested_crosses_are_on_a_layer_of_their_own(name):
-    """Nothing else changes; read by another reader of DXF, too."""
-    design = load(str(repo.DESIGNS / f"{name}.toml"))
-    for part, plain in drawings(repo.DESIGNS / f"{name}.toml"):
-        if part not in CUT:
-            continue
-        marked = design.drawing(part, TOLERANCE, centre_marks=True)
-        assert marked.shapes[: len(plain.shapes)] == plain.shapes
-        assert {shape.layer for shape in marked.shapes[len(plain.shapes) :]} <= {"CENTER"}
-    texts = ["".join(chunks(design.drawing("frame", TOLERANCE, centre_marks=on)))
-             for on in (False, True)]  # fmt: skip
-    layers = [{e.dxf.layer for e in ezdxf.read(io.StringIO(text)).modelspace()} for text in texts]
-    assert layers[1] - layers[0] == {"CENTER"}
 
 
 @pytest.mark.long

@@ -41,7 +41,7 @@ def least_gap(design, name, where, radius, turn):
 @pytest.mark.parametrize("hub", [2.0, 4.0])
 def test_a_coupler_over_the_wheels_hub(hub):
     design = of("four-bar-z4", f"size.wheel_hub_mm={hub}")
-    found = planes(design.parts.outlines, design.parts.flat.links).nearest
+    found = planes(design.parts.outlines, design.parts.flat.links)[0]
     turn = np.linspace(-180.0, 180.0, 721)
     least = least_gap(design, "coupler", lambda _: (0.0, 0.0), 0.5 * hub, turn)
     # 721 angles and chords of arcs, against twice as many angles and the arcs themselves
@@ -61,7 +61,7 @@ def test_a_crank_past_the_guides_pin():
     x, y = guide.joints[2]
     sizes = drawn_links(design.mechanism, design.parts.outlines).sizes
     least = least_gap(design, "crank", lambda i: (x[i], y[i]), sizes.ring, turn)
-    found = planes(design.parts.outlines, design.parts.flat.links).nearest
+    found = planes(design.parts.outlines, design.parts.flat.links)[0]
     assert found.gap == pytest.approx(least, abs=0.02)
     assert found.passing == "the pin of rod and guide"
     # a long slider crank comes no nearer than rod less crank, less the eyes

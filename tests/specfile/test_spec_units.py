@@ -70,7 +70,6 @@ PRODUCTS = [
     ("density_kgm3", "g/cm³", si.gram / si.centi**3),
     ("stress_max_MPa", "lbf/in2", si.psi / si.mega),
     ("stiffness_Nm_rad", "lbf in/rad", si.pound_force * si.inch),
-    ("wear_mm3_Nm", "in3/(lbf in)", si.inch**3 / si.milli**3 / (si.pound_force * si.inch)),
     ("pv_max_W_m2", "kW/m2", si.kilo),
     ("n_rpm", "rad/s", si.minute / (2.0 * math.pi)),
     ("n_rpm", "deg/s", si.minute / 360.0),
@@ -222,6 +221,6 @@ def test_ranges_with_units(text, values):
 
 
 def test_every_key_with_a_unit_takes_others_but_for_counts():
-    """Wear per million passages and hardness are of no unit of the table."""
+    """Hardness is of no unit of the table."""
     left = {k.key for k in all_keys() if k.unit and not unit_key(k.key)}
-    assert left == {"slot_wear_max_mm_per_million", "flank_hardness_HRC"}
+    assert left == {"flank_hardness_HRC"}

@@ -8,14 +8,13 @@ from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 
 LOADS = {"inertia_kgm2": 0.05, "torque_Nm": 3.0, "dwell_torque_Nm": 3.0, "friction": 0.1}
-WEARS = {"wear_mm3_Nm": 1e-6}  # of [material.wheel]
 BEARS = {"dynamic_capacity_N": 5e3, "stress_max_MPa": 150.0}  # of [material.roller]
 LIMITS = {
     "velocity_max": 2.0, "acceleration_max": 4.0, "acceleration_entry_max": 1.0, "jerk_max": 30.0,
     "pin_force_max_N": 100.0, "input_torque_max_Nm": 5.0, "pressure_angle_max_deg": 25.0,
     "contact_stress_max_MPa": 300.0, "pv_max_W_m2": 1e8, "roller_life_min_h": 2e4,
     "lock_stress_max_MPa": 800.0, "lock_deflection_max_deg": 0.05,
-    "slot_wear_max_mm_per_million": 0.1, "product_acceleration_max_m_s2": 10.0,
+    "product_acceleration_max_m_s2": 10.0,
     "entry_velocity_max": 0.02, "dwell_min_s": 0.3, "motion_max_s": 0.5, "cycle_max_s": 1.0,
     "index_play_max_deg": 0.1, "dwell_play_max_deg": 0.1,
 }  # fmt: skip
@@ -82,8 +81,6 @@ def usual(rng, key, L, R, r, outside):
         return rng.choice(WORDED[key])
     if key in ("lock_bolts", "dial_bolts", "gear_bolts"):
         return rng.choice([0, 1, 2, 3])
-    if key == "gear_teeth":
-        return rng.choice([12, 17, 20, 30])
     of = {
         "mouth_radius_mm": 0.1 * r,
         "horn_tip_mm": 0.2 * r,
@@ -124,9 +121,6 @@ def usual(rng, key, L, R, r, outside):
         "dial_bolt_mm": L / 40.0,
         "gear_bolt_mm": L / 40.0,
         "gear_bolt_circle_mm": 0.8 * L,
-        "gear_module_mm": L / 60.0,
-        "gear_shift": 0.2,
-        "gear_backlash_mm": 0.001 * L,
         "dial_bolt_circle_mm": L / 2.0,
         "wheel_flat_mm": 0.02 * L,
         "crank_flat_mm": 0.02 * R,
@@ -197,8 +191,7 @@ def own_keys(rng, kind):
         way = rng.choice(['ratio_file = "ratio.csv"', f"A = {rng.uniform(-0.95, 0.95)!r}"])
         return [way, f"gear_distance_mm = {near(rng, 100.0)!r}"]
     if kind == "gear-sector":
-        ratio = rng.choice(['"shockless"', repr(near(rng, 0.7))])
-        return [f"sector_deg = {rng.uniform(1, 200)!r}", f"gear_ratio = {ratio}"]
+        return [f"sector_deg = {rng.uniform(1, 200)!r}"]
     if kind == "carousel":
         return [f"wheels = {rng.choice([1, 1, 2, 3, 5])}"]
     if kind == "geneva-pair":
@@ -249,20 +242,17 @@ def sized(rng, L, R, r, outside):
 def loaded(rng):
     """The lines of loads, materials, product and limits."""
     text, given = [], {}
-    for about in (LOADS, WEARS, BEARS, LIMITS, PRODUCT):
+    for about in (LOADS, BEARS, LIMITS, PRODUCT):
         often = rng.choice([0.0, 0.3, 0.8])
         given |= {k: near(rng, v, 0.5) for k, v in about.items() if rng.random() < often}
     if given.keys() & set(LOADED) and rng.random() < 0.95:  # which limit nothing without a load
         given.setdefault("inertia_kgm2", near(rng, LOADS["inertia_kgm2"], 0.5))
     if "roller_life_min_h" in given:
         given.setdefault("dynamic_capacity_N", near(rng, BEARS["dynamic_capacity_N"]))
-    if "slot_wear_max_mm_per_million" in given:
-        given.setdefault("wear_mm3_Nm", near(rng, WEARS["wear_mm3_Nm"]))
     if given.keys() & {"product_acceleration_max_m_s2", *PRODUCT}:
         given.setdefault("radius_mm", near(rng, PRODUCT["radius_mm"]))
     tables = (
         ("load", LOADS),
-        ("material.wheel", WEARS),
         ("material.roller", BEARS),
         ("product", PRODUCT),
         ("limits", LIMITS),
@@ -331,7 +321,7 @@ def machine_text(rng, kind=None):
     text = with_radius(rng, text, L, R, flat and not curved)
     if curved or not flat or "stop = true" in text:
         text = [line for line in text if not line.startswith(("mouth_radius", "horn_tip"))]
-    return "\n".join(fitting(text)) + "\n"
+    return "\n".join(text) + "\n"
 
 
 def with_radius(rng, text, L, R, straight):
@@ -341,16 +331,6 @@ def with_radius(rng, text, L, R, straight):
         radius = f"crank_radius_mm = {near(rng, R, 1e-3)!r}"
         text[text.index(distance)] = rng.choice([radius, f"{distance}\n{radius}"])
     return text
-
-
-def fitting(text):
-    """The lines without those of teeth, where the machine has none or they have no module."""
-    kinds = [line[8:-1] for line in text if line.startswith("kind = ")]
-    toothed = any({"gears", "round_gears"} & {*vars(drive(kind))} for kind in kinds)
-    if toothed and any(line.startswith("gear_module_mm") for line in text):
-        return text
-    teeth = ("gear_module", "gear_teeth", "gear_shift", "gear_backlash")
-    return [line for line in text if not line.startswith(teeth)]
 
 
 def bodies(rng, L, orbits):
@@ -396,4 +376,4 @@ def rack_text(rng):
     if rng.random() < 0.2:
         keys = {"crank_diameter_mm": 0.2 * R, "crank_overhang_mm": 0.4 * R, "crank_span_mm": R}
         text += ["[shaft]", *(f"{key} = {near(rng, size)!r}" for key, size in keys.items())]
-    return "\n".join(fitting(text)) + "\n"
+    return "\n".join(text) + "\n"

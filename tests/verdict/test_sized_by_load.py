@@ -15,13 +15,15 @@ from strength_checks import HORNS, PARTS, rows
 
 from geneva_cli import Crank, Design, External, Internal, NoncircularGears, SideCrank
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.strength.arm_strength import (
+from geneva_cli.loads.strength.arm_and_key import (
     ArmDimensions,
+    KeyDimensions,
     arm_stress_MPa,
+    key_stress,
     least_thickness_mm,
+    shear_allowed_MPa,
     torsion_MPa,
 )
-from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import part_loads
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -172,10 +174,10 @@ def test_the_least_thickness_of_an_arm_has_the_allowed_stress():
 def test_a_key_by_hand():
     """50 N m on a shaft of 20 mm, key 6 x 6 x 25: 5 kN on 2.5 x 25 mm² and 6 x 25 mm²."""
     key = KeyDimensions(20.0, 6.0, 6.0 - 3.5, 25.0)
-    stress = key_stress(key, np.asarray(50.0), np.asarray(165.0), np.asarray(82.5))
-    assert float(stress.pressure_MPa) == pytest.approx(80.0, rel=1e-15)
-    assert float(stress.shear_MPa) == pytest.approx(100.0 / 3.0, rel=1e-15)
-    assert float(stress.least_length_mm) == pytest.approx(80.0 / 165.0 * 25.0, rel=1e-15)
+    pressed, sheared, least = key_stress(key, np.asarray(50.0), np.asarray(165.0), np.asarray(82.5))
+    assert float(pressed) == pytest.approx(80.0, rel=1e-15)
+    assert float(sheared) == pytest.approx(100.0 / 3.0, rel=1e-15)
+    assert float(least) == pytest.approx(80.0 / 165.0 * 25.0, rel=1e-15)
     # of all keys of the standard the pressure is at least twice the shear, so it governs
     assert all(row.width >= 2.0 * (row.height - row.in_shaft) for row in DIN_6885_1)
 

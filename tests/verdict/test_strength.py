@@ -28,7 +28,7 @@ WHOLE = Spec(
     ),
     load=Load(1.2, 20.0, friction=0.05),
     material_roller=RollerMaterial(stress_max_MPa=60.0, dynamic_capacity_N=8000.0),
-    material_wheel=WheelMaterial(stress_max_MPa=30.0, wear_mm3_Nm=1e-7),
+    material_wheel=WheelMaterial(stress_max_MPa=30.0),
     shaft=Shaft(
         wheel_overhang_mm=40.0,
         wheel_diameter_mm=20.0,
@@ -40,7 +40,6 @@ WHOLE = Spec(
     limits=Limits(
         pv_max_W_m2=1e8,
         roller_life_min_h=2e4,
-        slot_wear_max_mm_per_million=2e-3,
         lock_stress_max_MPa=800.0,
         lock_deflection_max_deg=0.01,
     ),
@@ -51,7 +50,6 @@ ROWS = {
     "pin_stress_MPa": ("material.roller.stress_max_MPa", 6.0),
     "horn_stress_MPa": ("material.wheel.stress_max_MPa", 3.0),
     "lock_horn_stress_MPa": ("material.wheel.stress_max_MPa", 2.0),
-    "slot_wear_max_mm_per_million": ("limits.slot_wear_max_mm_per_million", 2e-4),
     "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", 400.0),
     "lock_deflection_max_deg": ("limits.lock_deflection_max_deg", 0.002),
     "wheel_shaft_stress_MPa": ("shaft.shear_stress_max_MPa", 15.0),

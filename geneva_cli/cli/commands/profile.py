@@ -55,9 +55,6 @@ def run(
     cutter: Annotated[
         float | None, option("MM", "Diameter of a milling cutter that must fit.", CUT)
     ] = None,
-    center_marks: Annotated[
-        bool, flag("--center-marks", "A cross in every circle, on layer CENTER.", DRAWING)
-    ] = False,
     dxf_version: Annotated[
         str | None,
         option("VERSION", "Version of .dxf, R12 to R2018.  [default: R2000]", DRAWING),
@@ -83,7 +80,7 @@ def run(
     design = load(spec, settings or ())
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
-        _refuse(kerf, cutter, center_marks)
+        _refuse(kerf, cutter)
         if dxf_version is not None:
             raise GenevaError("--dxf-version is for drawings; this is a table of points")
         show(design.part_table(part, tolerance, samples), output, format, files)
@@ -95,23 +92,22 @@ def run(
     if design.spec.is_turned:
         require_written(design, design.judge(part), force)
     if sheet:
-        _refuse(kerf, cutter, center_marks)
+        _refuse(kerf, cutter)
         draw_sheet(design.sheet(tolerance, curves, part), output, format, files, dxf_version or "")
     else:
         if cutter is not None:
             require_written(design, design.cutter(part, cutter), force)
-        drawing = design.drawing(part, tolerance, curves, kerf, center_marks)
+        drawing = design.drawing(part, tolerance, curves, kerf)
         shown = drawing if kerf is not None else design.drawing_over(drawing)
         draw(shown, output, format, files, dxf_version or "")
     warn(design)
 
 
-def _refuse(kerf: float | None, cutter: float | None, marks: bool) -> None:
+def _refuse(kerf: float | None, cutter: float | None) -> None:
     """Raise GenevaError for options of parts to cut, if none is written."""
     for name, given, of in (
         ("--kerf", kerf is not None, "parts to cut"),
         ("--cutter", cutter is not None, "parts to cut"),
-        ("--center-marks", marks, "drawings"),
     ):
         if given:
             raise GenevaError(f"{name} is for {of}; this one is a table, or a sheet")

@@ -31,8 +31,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.strength.arm_strength import torsion_MPa
-from geneva_cli.loads.strength.horn_search import SlotEnd, UnitStress, slot_ends, squeezed
+from geneva_cli.loads.strength.arm_and_key import torsion_MPa
+from geneva_cli.loads.strength.horn_search import SlotEnd, slot_ends, squeezed
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Number, parameter
 from geneva_cli.numerics.jet import Array
@@ -60,8 +60,8 @@ class SphereHorn(NamedTuple):
 
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
-    ) -> UnitStress:
-        """Von Mises stress at sections under 1 N, as ``HornSide`` describes."""
+    ) -> tuple[Array, Array, Array]:
+        """Von Mises stress at sections under 1 N, as ``horn_search.Sides`` describes."""
         t0, t = self.polar(roller)[..., None], self.polar(sections)
         thick = self.thickness(t)
         every = self.radius_mm, self.half_width, width_mm
@@ -85,7 +85,7 @@ class SphereHorn(NamedTuple):
             mouth = self.polar(self.at.mouth_deg)
             inwards = self.radius_mm * np.cos(self.half_width) * (mouth - t)
             stress = np.where((t[:, None] < t0) & np.isfinite(stress), stress, 0.0)
-        return UnitStress(stress, inwards, thick)
+        return stress, inwards, thick
 
     def thickness(self, t: Array) -> Array:
         """Thickness of the sections at polar angles, mm; infinite where another horn begins."""

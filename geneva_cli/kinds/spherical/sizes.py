@@ -15,7 +15,7 @@ from geneva_cli.geometry.sphere import Region
 from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, hub_about, usual_ball
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
-from geneva_cli.loads.strength.arm_strength import NO_ARM, ArmDimensions
+from geneva_cli.loads.strength.arm_and_key import NO_ARM, ArmDimensions
 from geneva_cli.loads.strength.horn_search import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import single_loads
@@ -56,11 +56,7 @@ from geneva_cli.spec.materials import wheel_material
 
 
 def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:
-    """Return the sizes of a spherical machine, and its locking sectors.
-
-    Raises GenevaError, naming the key, where they leave no wheel or no lock. With ``advice`` the
-    message names the largest roller that fits, if there is one.
-    """
+    """Return the sizes of a spherical machine, and its locking sectors."""
 
     def fits(roller_mm: float) -> bool:
         spec = mechanism.spec.with_("size.roller_radius_mm", roller_mm)
@@ -244,10 +240,7 @@ def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) ->
 
 
 def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
-    """Return the dimensions of a spherical machine's parts.
-
-    A flat arm stands for the bent one.
-    """
+    """Return the dimensions of a spherical machine's parts."""
     size, L, (under, over) = spec.size, ball.radius_mm, ball.arm_span_mm
     thick, arm, bore = over - under, NO_ARM, ball.arm_bore_mm
     end = ball.shafts_end_mm(size) - L, thick

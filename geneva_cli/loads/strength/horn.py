@@ -1,24 +1,16 @@
 """The horn, the wall between a slot and the recess of the lock, as a tapered cantilever.
 
-Its sections are perpendicular to the slot's wall, from there to the recess. h is the thickness at
-the mouth, and R the recess's radius. A rack's horns are those of a wheel of very many slots. At a
-distance s inwards from the mouth, a straight slot's section is t(s) = h + R - sqrt(R² - s²) thick.
-The roller presses on the wall with N at s0. The section at s then carries, over the face width b,
-the bending stress 6 N (s - s0)/(b t²), a tension at the slot's wall. On a curved wall N also has a
-part along the section's beam, which pushes or pulls evenly. So does the friction f N along the
-wall, which also bends the section with the lever t/2: towards the mouth it adds 4 f N/(b t).
+Sections are perpendicular to the slot's wall, from there to the recess of radius R, at a distance s
+inwards from the mouth; a straight slot's is t = h + R - sqrt(R² - s²) thick, h at the mouth. The
+roller presses with N at s0. Over the face width b the section bears the bending stress
+6 N (s - s0)/(b t²), a tension at the slot's wall. On a curved wall N also pushes or pulls along the
+section's beam; so does friction f N along the wall, whose lever is t/2: towards the mouth it adds
+4 f N/(b t). On a tip that is cut back to a flat the roller does not press.
 
-A tip that is cut back to a flat has no wall before it. There the roller does not press on the horn.
-
-The result is the greatest stress at the wall, over all places of the roller and all sections.
-Sections end half-way along the recess, where another horn begins. In the middle of a section shear
-adds 3/2 N/(b t), at its faces nothing. The body that carries the horn is rigid, and notches are
-neglected.
-
-The tests compare it with plane stress by finite elements. For external and internal wheels with
-straight slots, the stress is 0.7 % lower to 2 % higher if h < R/6. It is 4 % higher at h = 2 R/7
-and 7 % higher at R/2; beyond that a horn is not a beam. For curved slots it is 3 % lower to 2 %
-higher if h < R/6, and 5 % lower to 7 % higher at R/2.
+The result is the greatest stress over all places of the roller and all sections, which end half-way
+along the recess. The body that carries the horn is rigid; notches and the shear in the middle of
+sections are neglected. Against plane stress by finite elements straight slots are 0.7 % lower to
+2 % higher if h < R/6, 4 % higher at 2 R/7 and 7 % at R/2; curved ones -3 to 2 %, -5 to 7 % at R/2.
 """
 
 from __future__ import annotations
@@ -27,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.strength.horn_search import SlotEnd, UnitStress, slot_ends, squeezed
+from geneva_cli.loads.strength.horn_search import SlotEnd, slot_ends, squeezed
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import pitch
 from geneva_cli.numerics.arrays import Number, parameter
@@ -58,15 +50,16 @@ class Horn(NamedTuple):
 
         At angles (m, k) both are (2, m, k). The origin is the recess's centre.
         """
+
+        def turned(of: Array) -> Array:
+            axes = product(of, self.inwards), product(of, self.across)
+            return np.stack(np.broadcast_arrays(*axes))
+
         x, y = self.at.engagement.slot(squeezed(input_deg), 1)
-        place = self._turned(self.L * vector(x.c[0], y.c[0]) - self.centre)
-        normal = self._turned(vector(-np.asarray(y.c[1]), x.c[1]))
+        place = turned(self.L * vector(x.c[0], y.c[0]) - self.centre)
+        normal = turned(vector(-np.asarray(y.c[1]), x.c[1]))
         normal *= np.where(normal[1] > 0.0, -1.0, 1.0) / np.hypot(*normal)
         return place + self.half_width * normal, normal
-
-    def _turned(self, of: Array) -> Array:
-        """Transform a vector to the horn's frame."""
-        return np.stack(np.broadcast_arrays(product(of, self.inwards), product(of, self.across)))
 
     def thickness(self, wall: Array, normal: Array) -> Array:
         """Thickness at points of the wall, mm; infinite where another horn begins."""
@@ -93,14 +86,18 @@ class Horn(NamedTuple):
 
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
-    ) -> UnitStress:
-        """Bending and tension at sections under 1 N, as ``HornSide`` describes."""
+    ) -> tuple[Array, Array, Array]:
+        """Bending and tension at sections under 1 N, as ``horn_search.Sides`` describes."""
         places, normals = self.wall(np.hstack((roller, sections)))
         count = roller.shape[1]
         (contact, wall), (push, normal) = (
             np.split(of, [count], axis=2) for of in (places, normals)
         )
         thick = self.thickness(wall, normal)
+        # places of the wall that a tip which is cut back has left
+        depth = contact[1] - self.tip_mm
+        inner = np.sqrt(np.maximum(np.square(self.recess_mm) - depth * depth, 0.0))
+        left = (depth >= self.recess_mm) | (contact[0] >= inner) | np.equal(self.tip_mm, 0.0)
         contact, push = contact[..., None], push[..., None]
         # friction along the wall towards the mouth, where the first axis is negative
         push = push + rub[..., None] * np.stack((push[1], -push[0]))
@@ -111,18 +108,9 @@ class Horn(NamedTuple):
             along, deep = normal[:, :, None], thick[:, None]
             pull = push[1] * along[0] - push[0] * along[1]  # along the beam
             bent = (moment * (6.0 / deep**2) - pull / deep) / np.asarray(width_mm)[..., None]
-            further = (wall[0][:, None] > contact[0]) & self.is_left(contact[:, :, :, 0])[
-                :, :, None
-            ]
+            further = (wall[0][:, None] > contact[0]) & left[:, :, None]
             stress = np.where(further & np.isfinite(bent), bent, 0.0)
-        return UnitStress(stress, wall[0], thick)
-
-    def is_left(self, wall: Array) -> Array:
-        """True for points (2, m, k) of the wall that a tip cut back has left."""
-        depth = wall[1] - self.tip_mm
-        inwards = np.sqrt(np.maximum(np.square(self.recess_mm) - depth * depth, 0.0))
-        left: Array = (depth >= self.recess_mm) | (wall[0] >= inwards) | np.equal(self.tip_mm, 0.0)
-        return left
+        return stress, wall[0], thick
 
     @property
     def stoutness(self) -> Array:

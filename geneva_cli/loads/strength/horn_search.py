@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
-from typing import NamedTuple, Protocol, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -38,14 +38,6 @@ class HornStress(NamedTuple):
         return None if math.isnan(one.stress_MPa) else one
 
 
-class UnitStress(NamedTuple):
-    """Stresses under a force of 1 N, a row per place of the roller and a column per section."""
-
-    stress: Array  # MPa, (m, places, sections)
-    inwards: Array  # mm from the mouth, (m, sections)
-    thickness: Array  # mm, (m, sections); infinite beyond the horn
-
-
 class SlotEnd(NamedTuple):
     """An end of a slot, entry or exit, and so the horn beside it that bears on that side.
 
@@ -63,16 +55,6 @@ class SlotEnd(NamedTuple):
         """Input angle at which the roller is at this end's mouth."""
         return self.engagement.end_deg(self.end)
 
-    @property
-    def runs_from_deg(self) -> Sequence[float]:
-        """Input angles of the ends from which the roller runs along the wall of this end's horn.
-
-        It is this end alone for curved slots. Else both.
-        """
-        if not self.whole.slot.walls_flat:
-            return [self.mouth_deg]
-        return [self.engagement.entry_deg, self.engagement.exit_deg]
-
 
 def slot_ends(mechanism: Mechanism) -> Iterator[SlotEnd]:
     """Yield both ends of each kind of slot under its load."""
@@ -81,32 +63,15 @@ def slot_ends(mechanism: Mechanism) -> Iterator[SlotEnd]:
             yield SlotEnd(engagement, end, whole, ahead)
 
 
-class HornSide(Protocol):
-    """A horn: the wall on one side of a slot."""
-
-    @property
-    def at(self) -> SlotEnd:
-        """The end of the slot where this horn bears."""
-
-    @property
-    def recess_mm(self) -> Number:
-        """The recess's radius, (m, 1) of a batch."""
-
-    @property
-    def stoutness(self) -> Array:
-        """Thickness at the mouth over the recess's radius, (m,)."""
-
-    def unit_stress(
-        self, roller: Array, rub: Array, sections: Array, width_mm: float
-    ) -> UnitStress:
-        """Stresses at sections with the roller at some places, both as its input angles (m, k).
-
-        ``rub`` is the friction on the wall under 1 N across it, positive towards the mouth.
-        """
-
-
+# Horns of a mechanism and its sizes. Each has the end ``at`` of its slot, ``recess_mm``,
+# ``stoutness`` (thickness at the mouth over the recess's radius) and ``unit_stress(roller, rub,
+# sections, width_mm)``: the stresses under 1 N, MPa (m, places, sections), with the roller at some
+# places and for some sections, both as its input angles (m, k); the sections' distances from the
+# mouth, and their thicknesses, mm, infinite beyond the horn. ``rub`` is the friction on the wall
+# under 1 N across it, positive towards the mouth.
+HornSide: TypeAlias = Any
+Sides: TypeAlias = Callable[..., Sequence[HornSide]]
 Sizes: TypeAlias = "tuple[float, ...]"  # half the slot's width, the recess, and what else differs
-Sides: TypeAlias = Callable[..., Sequence[HornSide]]  # of a mechanism and those sizes
 
 
 def squeezed(input_deg: Number) -> Array:
@@ -141,7 +106,10 @@ def _greatest(sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float) ->
     """Greatest stress of designs that are searched together."""
     best = np.full((4, mechanism.designs), np.nan)
     for side in sides(mechanism, *sizes):
-        for start in side.at.runs_from_deg:
+        # the roller runs along this horn's wall from its own end; in a straight slot from both
+        slot = side.at.engagement
+        flat = side.at.whole.slot.walls_flat
+        for start in (slot.entry_deg, slot.exit_deg) if flat else (side.at.mouth_deg,):
             own = _over_a_half(mechanism, side, start, width)
             own[1] += np.ravel(side.at.whole.mid_deg - side.at.ahead_deg)
             better = ~(own[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(own[0])
@@ -169,11 +137,11 @@ def _over_a_half(mechanism: Mechanism, side: HornSide, start: float, width: floa
         )
         rows = (stress[every, first], roller[every, i], inwards[every, j], thick[every, j])
         best = np.where(most > 0.0, rows, best)
-        roller, section = _around(roller, i), _around(section, j)
+        roller, section = (_refined(*of) for of in ((roller, i), (section, j)))
     return best
 
 
-def _around(places: Array, i: Whole) -> Array:
+def _refined(places: Array, i: Whole) -> Array:
     """Places between the neighbours of one of them, in each row."""
     every, last = np.arange(len(places)), places.shape[1] - 1
     before = places[every, np.maximum(i - 1, 0), None]
@@ -184,7 +152,7 @@ def _around(places: Array, i: Whole) -> Array:
 
 def _stress(
     mechanism: Mechanism, side: HornSide, width: float, x: Array, sections: Array
-) -> UnitStress:
+) -> tuple[Array, Array, Array]:
     """Stresses under the machine's load: 0 where the other horn bears."""
     at = contact_values(contact(side.at.whole, squeezed(x - side.at.ahead_deg), reactions=False))
     case = load_case(mechanism)
@@ -196,10 +164,10 @@ def _stress(
     rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
     # the force may be the same for all designs where they rub in different ways, and the reverse
     force, rub = map(np.atleast_2d, np.broadcast_arrays(force, rub))
-    unit = side.unit_stress(x[:, own], rub[:, own], sections, width)
-    m = max(len(force), len(unit.stress))
+    unit, inwards, thick = side.unit_stress(x[:, own], rub[:, own], sections, width)
+    m = max(len(force), len(unit))
     stress = np.zeros((m, x.shape[1], sections.shape[1]))
     with np.errstate(invalid="ignore"):  # of a force without a bound
-        loaded = force[:, own, None] * unit.stress
+        loaded = force[:, own, None] * unit
     stress[:, own] = np.where(np.isfinite(loaded), loaded, 0.0)
-    return unit._replace(stress=stress)
+    return stress, inwards, thick

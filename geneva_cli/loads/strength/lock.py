@@ -1,26 +1,19 @@
 """The lock under a torque in the dwell, and the contact at a stop of the crank.
 
-The wheel turns through its play until disc and recess touch, at an end of either or on their arcs
-(``locking``). The force passes through the axis of the disc or of the recess, at an angle phi to
-the line of centres. A torque M needs F = M / (L sin phi). The wheel's deflection has three parts.
-
-The play is exact: the rotation that uses up the clearance.
-
-The approach of the two bodies (Johnson, Contact Mechanics, 5.6: a cylinder of radius R1, and a body
-as thick as the horn) is
+The wheel turns through its play until disc and recess touch (``locking``). The force passes through
+the axis of disc or recess, at an angle phi to the line of centres: a torque M needs
+F = M/(L sin phi). The wheel's deflection is the play, which is exact; the approach of a cylinder of
+radius R1 and a body as thick as the horn (Johnson, Contact Mechanics, 5.6), a being Hertz's half
+width,
 
     F (1 - nu²)/(pi b E) [2 ln(4 R1/a) - 1 + 2 ln(2 h/a) - nu/(1 - nu)]
 
-with Hertz's half width a. If a is more than a quarter of the horn, both yield as columns under the
-pressure below.
+or, if a is more than a quarter of the horn, of two columns under the pressure below; and the
+bending of the horn (``horn``) under a force at its end, 6 to 30 % less than in plane stress.
 
-The bending of the horn (see ``horn``) is that of a force at its end, in the sections farther
-inwards. Plane stress gives 6 to 30 % more, as the body that carries the horn yields too.
-
-A sharp end has no finite contact stress: the recess's end needs a radius, and an end of the disc
-has none. Without clearance the arcs lie on each other, as they do after wear. The pressure is then
-proportional to the sine of the angle from the line of centres, like the wear of a wheel that turns
-slightly. The greatest is 2 M sin phi/(b R L (phi - sin phi cos phi)).
+A sharp end has no finite contact stress. Without clearance the arcs lie on each other, as they do
+after wear, and the pressure is as the sine of the angle from the line of centres: at most
+2 M sin phi/(b R L (phi - sin phi cos phi)).
 """
 
 from __future__ import annotations
@@ -35,7 +28,7 @@ from geneva_cli.loads.load_case import contact_modulus_GPa, hertz_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import all_true, blocks, choose_record, parameter
+from geneva_cli.numerics.arrays import all_true, blocks, parameter
 from geneva_cli.numerics.jet import Array, Number
 from geneva_cli.spec.materials import wheel_material
 
@@ -57,14 +50,6 @@ class LockUnderTorque(NamedTuple):
     def deflection_deg(self) -> float:
         """Sum of all three parts; NaN if the approach is not known."""
         return self.play_deg + self.approach_deg + self.bending_deg
-
-
-class HornBending(NamedTuple):
-    """Horns under 1 N per mm, (m, 1): an end's deflection, mm, stress, MPa, and thickness, mm."""
-
-    deflection: Array
-    stress: Array
-    thickness: Array
 
 
 def held_torque_Nm(mechanism: Mechanism) -> float:
@@ -103,7 +88,7 @@ def loaded_locks(
     lever, worn = by.L * sine, touch.phi - sine * np.cos(touch.phi)
     pressure = 2e3 * known * sine / (width * by.lock * by.L * worn)
     arcs = np.equal(touch.on, "recess")  # no horn is bent
-    give, stress, thick = still = HornBending(*map(np.atleast_2d, (0.0, 0.0, by.recess)))
+    give, stress, thick = still = list(map(np.atleast_2d, (0.0, 0.0, by.recess)))
     if not arcs.all():
         bent = bending(mechanism, half_width_mm, by.recess, touch.phi)
         give, stress, thick = (np.where(arcs, *both) for both in zip(still, bent, strict=True))
@@ -135,30 +120,31 @@ def _contact(
     return np.where(loose & ~sharp, stress, np.nan), np.where(sharp, np.nan, approach)
 
 
-def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> HornBending:
-    """The weakest horn of each of m designs."""
+def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Array:
+    """The weakest horn of each of m designs under 1 N per mm, (3, m, 1).
+
+    The rows are the deflection of its end, mm, its stress, MPa, and its thickness, mm.
+    """
     every = (mechanism, half_width, recess, phi)
     groups = []
     for block in blocks(mechanism.designs, 8):  # the sections of 8 designs stay in the cache
         own = _weakest(*(taken(every, block) if mechanism.designs > 1 else every))
         # what does not differ, as where loads alone do, is one row for all of them
-        size = block.stop - block.start, 1
-        groups.append([np.broadcast_to(row, size) for row in own])
-    return HornBending(*(np.concatenate(row) for row in zip(*groups, strict=True)))
+        groups.append(np.broadcast_to(own, (3, block.stop - block.start, 1)))
+    return np.concatenate(groups, axis=1)
 
 
-def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> HornBending:
-    """The weakest horn of designs that are computed together."""
+def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Array:
+    """The weakest horn of designs that are computed together, as ``bending``."""
     from geneva_cli.loads.strength.horn import SHEAR, horns, product
 
     material = wheel_material(mechanism.spec)
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))
-    every = []
+    weakest: Array | None = None
     for side in horns(mechanism, half_width, recess):
         # sums by trapezoids over 2001 sections have an error of a ten-thousandth at worst
-        inwards = np.linspace(1.0, NEAR_CUSP, 2001)
-        wall, normal = side.wall(side.at.mouth_deg * inwards)
+        wall, normal = side.wall(side.at.mouth_deg * np.linspace(1.0, NEAR_CUSP, 2001))
         thick, turned = side.feet(wall, normal)
         middle = wall + 0.5 * thick * normal
         towards = abs(product(side.centre, side.across)) / np.hypot(*side.centre)
@@ -179,15 +165,15 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
             [of[:, :-1] + np.diff(of) * part for part in (begins, ends)]
             for of in (np.where(np.isfinite(row), row, 0.0) for row in (give, stress))
         )
-        rows = (
+        rows = np.broadcast_arrays(
             np.where(length > 0.0, 0.5 * (low + high) * length, 0.0).sum(axis=1),
             np.where(length > 0.0, np.fmax(*stresses), 0.0).max(axis=1),
             np.where(own > 0.0, thick, np.inf).min(axis=1),
         )
-        every.append(HornBending(*(row[:, None] for row in rows)))
-    weakest, *others = every
-    for other in others:  # the greater deflection counts
-        weakest = choose_record(other.deflection > weakest.deflection, other, weakest)
+        horn = np.stack(rows)[:, :, None]
+        # the greater deflection counts
+        weakest = horn if weakest is None else np.where(horn[0] > weakest[0], horn, weakest)
+    assert weakest is not None
     return weakest
 
 

@@ -27,7 +27,7 @@ from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Number, Whole, array, parameter
+from geneva_cli.numerics.arrays import Array, Whole, array, parameter
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
 LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
@@ -43,7 +43,6 @@ class SlotPassage(NamedTuple):
     rolled_m: float  # ∫ |v_s| dt
     work: float  # ∫ N |v_s| dt, joules: friction work for a coefficient of 1
     load: float  # ∫ N^p |v_s| dt
-    rubbing_N: float  # work over the swept length of the wall that has the most of it
 
 
 class Life(NamedTuple):
@@ -103,39 +102,8 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     with np.errstate(all="ignore"):
         each = Integrands(rows, a, b, ends=True)
         moved, *others = span_integrals(each, design, requested, apart=True) * DEGREE
-    wall = signs["drives"][:, 0] if "drives" in signs else 1.0 + 0.0 * a
-    # of the slot: 0 of a straight one; -1 entry, 1 exit of a curved one
-    branch = np.sign(a + b) * curved
-    pressed = _greatest_rubbing_N(design, np.array([moved, others[1], wall, branch]), n)
     total = [np.bincount(design, row, n) for row in (abs(moved), *others)]
-    rows_of = np.where((*requested, bounded), (*total, pressed), np.inf)
-    return SlotPassage(*map(parameter, rows_of))
-
-
-def _greatest_rubbing_N(design: Whole, pieces: Array, n: int) -> Array:
-    """The work over the swept length of the wall that has the most of it: (n,), J/m or N.
-
-    In each of the pieces of designs' motions, in order, one wall is rubbed one way: the distance
-    moved along the slot, the work, the wall that bears and its branch are the rows of ``pieces``.
-    NaN for a design whose contact sweeps no wall.
-    """
-    number = np.arange(len(design)) - np.searchsorted(design, design)
-    padded = np.zeros((len(pieces), n, int(number.max()) + 1))  # a row for each design
-    padded[:, design, number] = pieces
-    moved, work, wall, branch = padded
-    after = np.cumsum(moved, axis=1)
-    low, high = np.minimum(after, after - moved), np.maximum(after, after - moved)
-    most: Array = np.full(n, np.nan)
-    for own in ((wall == d) & (branch == b) for d in (1.0, -1.0) for b in (0.0, -1.0, 1.0)):
-        # the length of the union of intervals
-        begins, ends = np.where(own, low, np.inf), np.where(own, high, -np.inf)
-        order = np.argsort(begins, axis=1)
-        begins, ends = (np.take_along_axis(row, order, axis=1) for row in (begins, ends))
-        begins[:, 1:] = np.maximum(begins[:, 1:], np.maximum.accumulate(ends, axis=1)[:, :-1])
-        covered = np.maximum(ends - begins, 0.0).sum(axis=1)
-        with np.errstate(invalid="ignore"):  # no contact on this wall
-            most = np.fmax(most, np.where(own, work, 0.0).sum(axis=1) / covered)
-    return most
+    return SlotPassage(*map(parameter, np.where(requested, total, np.inf)))
 
 
 def passages(mechanism: Mechanism) -> list[SlotPassage]:
@@ -156,7 +124,7 @@ def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> SlotP
     """Passage of a machine's engagement; raises GenevaError where a single design's is rounding."""
     found = passage(engagement, load_case(mechanism), half)
     if isinstance(mechanism.design, int):
-        refuse_noise([array(row) for row in found[:-1]])  # where nothing is rubbed, NaN
+        refuse_noise([array(row) for row in found])
     return found
 
 
@@ -185,18 +153,3 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
             rated = 1e6 * (np.ravel(capacity) / force) ** LIFE_EXPONENT
             lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
     return Life(parameter(force), parameter(turns), *lasts)
-
-
-def wears_mm(mechanism: Mechanism, rubbing_N: Sequence[Number]) -> Array | None:
-    """Mean wear depths in a million passages of the wall that wears most: mm, (m,).
-
-    ``rubbing_N`` are those of the engagements' passages; the slot with the most counts. None
-    without ``wear_mm3_Nm`` or ``face_width_mm``.
-    """
-    spec = mechanism.spec
-    k, width = spec.material_wheel.wear_mm3_Nm, spec.size.face_width_mm
-    if k is None or width is None:
-        return None
-    rate = np.ravel(1e6 * k / (width * 1000.0))
-    worn: Array = np.max([rate * np.ravel(one) for one in rubbing_N], axis=0)
-    return worn

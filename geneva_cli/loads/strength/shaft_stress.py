@@ -1,29 +1,19 @@
-"""The shafts of wheel and crank, in torsion and bending, by the ASME code.
+"""The shafts of wheel and crank, in torsion and bending, by the ASME code (B17c-1927).
 
-The Code for Design of Transmission Shafting (ASME, later ASA B17c-1927) limits the greatest shear
-stress, with factors for shock and fatigue on both moments:
-
-    tau = 16/(pi d³) sqrt((Kb M)² + (Kt T)²)
-
-For rotating shafts with load applied gradually, Kb = 1.5 and Kt = 1. With sudden loads and minor
-shocks they are 1.5 to 2 and 1 to 1.5, with heavy shocks 2 to 3 and 1.5 to 3. Allowable is the lower
-of 0.3 of the yield strength and 0.18 of the tensile strength, and three quarters of that at a
-keyway. Without a limit in the spec it is that of the default steel (``keys``). M is the force on
-the shaft times its overhang and T the torque at the same moment. Their greatest combination over
-the cycle is exact.
+It limits tau = 16/(pi d³) sqrt((Kb M)² + (Kt T)²): Kb = 1.5 and Kt = 1 for rotating shafts with
+load applied gradually, 1.5 to 2 and 1 to 1.5 with sudden loads, 2 to 3 and 1.5 to 3 with heavy
+shocks. M is the force on the shaft times its overhang and T the torque at the same moment; their
+greatest combination over the cycle is exact.
 
 The axes of a spherical machine meet at the sphere's centre. Let u point at the roller, m along the
-slot away from the wheel's axis, and y across it, so that u, m, y are right-handed. The force is
-F (d y + f m) at L u: F on the wall of the side d, and the friction f along it. The bearing is at
-b e, on an axis of direction e at a distance b from the centre. There the moment is
-(L u - b e) x F (d y + f m). Less its part along e, which is the torque, the square of what bends
-the shaft is
+slot away from the wheel's axis, and y across it. The force is F (d y + f m) at L u: F on the wall
+of the side d, and the friction f along it. About a bearing at the distance b on an axis e, less the
+part along e, which is the torque, the square of the moment is
 
     F² [(L - b e.u)² (1 + f²) + (b² - L²) (e.m - d f e.y)²]
 
-On the wheel e is u cos t - m sin t at the polar angle t, so that without friction the moment is
-F (b - L cos t). On the crank e follows from the roller's velocity, -c e x u at the crank's rate c.
-The roller is taken to be thin: its cone presses on the wall beside u.
+On the wheel e is u cos t - m sin t at the polar angle t. On the crank it follows from the roller's
+velocity, -c e x u at the crank's rate c. The roller is thin: its cone presses on the wall beside u.
 """
 
 from __future__ import annotations

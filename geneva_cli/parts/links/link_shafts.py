@@ -3,11 +3,9 @@
 Fixed shafts end in the frame's lower face. A planet's shaft moves, and joins the parts on it. A
 link without a bore is one piece with its shaft, which ends at the link's faces.
 
-Each plane below the wheel's has one link, or gears. Four kinds of round parts pass through: the
-wheel's hub and shaft; the spacer on a pin that joins links of distant planes; pivots and spacers on
-the frame, where another drive is below; the crank's shaft between the planes in which it carries
-something. That leaves the machine below all links, or above through the locking disc; else it has
-no bearing.
+Each plane below the wheel's has one link, or gears. Through it pass the wheel's hub and shaft,
+spacers on pins that join links of distant planes, pivots and spacers on the frame where another
+drive is below, and the crank's shaft, which leaves the machine below all links, or above.
 """
 
 from __future__ import annotations
@@ -30,8 +28,16 @@ from geneva_cli.parts.links.link_sizes import LinkSizes, places
 from geneva_cli.parts.links.links import Links, joined, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
-from geneva_cli.parts.shafts.hub_and_shafts import bore_at, wheel_shaft_ends, wheel_shaft_radius
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, seat_of, shaft_ends
+from geneva_cli.parts.shafts.shaft import (
+    Ends,
+    Seat,
+    Shaft,
+    bore_at,
+    seat_of,
+    shaft_ends,
+    wheel_shaft_ends,
+    wheel_shaft_radius,
+)
 
 if TYPE_CHECKING:
     from geneva_cli.parts.links.links import LinkAxis
@@ -129,37 +135,36 @@ class Round(NamedTuple):
     radius: float
 
 
-class Planes(NamedTuple):
-    """The least gap of all in a whole turn, and that of the crank's shaft to its bearings."""
-
-    nearest: Meeting | None
-    blocked: Meeting | None  # None where the shaft is free
-
-
-def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Planes:
-    """Return the least gaps between links and the parts that pass through their planes.
+def planes(
+    parts: Outlines, bars: Links, spacers: Iterable[Member] = ()
+) -> tuple[Meeting | None, Meeting | None]:
+    """Return the least gap in a whole turn between links and what passes through their planes.
 
     ``bars`` are the links of the machine with the outlines ``parts``, and ``spacers`` the rings on
-    its frame.
+    its frame. The second gap is that of the crank's shaft to its bearings, None where it is free.
     """
     mechanism, L = parts.assembly.full, parts.assembly.L
     turn = turn_deg(mechanism)  # the error of a gap is quadratic in their distance
     every = links_at(mechanism, turn)
     if bars.sizes is None:
-        return Planes(None, None)
+        return None, None
     met = list(_gears(parts, bars, [link for link in every if link.radius_mm], turn))
     links = [link for link in every if not link.radius_mm]
     if not links:
-        return Planes(min(met, default=None), None)
+        return min(met, default=None), None
     carries, shaft = _crank_shaft(parts, links, bars)
     low = mechanism.spec.size.crank_shaft_low_mm
     ends = math.inf if low is None else low + SAME_LENGTH * L
     reached = {link.plane for link in links if bars.sizes.span(link.plane)[1] > ends}
     rounds = [
         *_on_wheel(parts, links, bars.sizes, 0.0 * turn),
-        *_on_pins(links, bars.sizes, SAME_LENGTH * L),
         *_standing(parts, bars, spacers, turn),
     ]
+    for path, both in joined(links, SAME_LENGTH * L):  # spacers on pins
+        name = f"the pin of {' and '.join(link.name for link in both)}"
+        own = [link.plane for link in both]
+        between = (plane for plane in range(min(own) + 1, max(own)) if plane not in own)
+        rounds += [Round(name, plane, path, bars.sizes.ring) for plane in between]
     if carries:  # the shaft in the planes that it must cross, or that the spec extends it to
         crossed = range(min(carries) + 1, max(carries | reached) + 1)
         rounds += [shaft._replace(plane=plane) for plane in crossed if plane not in carries]
@@ -167,7 +172,7 @@ def planes(parts: Outlines, bars: Links, spacers: Iterable[Member] = ()) -> Plan
         met += [_meeting(bars, link, one, turn) for one in rounds if one.plane == link.plane]
     through = parts.sizes.crank_bore > 0.0  # the locking disc
     blocked = None if through else _blocked(bars, links, carries, shaft, turn)
-    return Planes(min(met, default=None), blocked)
+    return min(met, default=None), blocked
 
 
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
@@ -229,16 +234,6 @@ def _gears(parts: Outlines, bars: Links, gears: list[Link], turn: Array) -> Iter
             gaps = away + (wide - one.radius) if on_shaft else away - gear.outer - one.radius
             least = int(np.argmin(gaps))
             yield Meeting(float(gaps[least]), float(turn[least]), gear.name, one.name)
-
-
-def _on_pins(links: list[Link], sizes: LinkSizes, near: float) -> Iterator[Round]:
-    """Yield the spacers on pins that join links of distant planes."""
-    for path, both in joined(links, near):
-        name = f"the pin of {' and '.join(link.name for link in both)}"
-        own = [link.plane for link in both]
-        for plane in range(min(own) + 1, max(own)):
-            if plane not in own:
-                yield Round(name, plane, path, sizes.ring)
 
 
 def _standing(

@@ -81,8 +81,7 @@ def link_sizes(
 ) -> LinkSizes:
     """Return the sizes of links, whose joints are known at many input angles.
 
-    ``parts`` are the machine's outlines, if it has any. Raises GenevaError, naming the key, where
-    no hole is left for the roller's pin, or no plate around a pin.
+    ``parts`` are the machine's outlines, if it has any.
     """
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, bars = spec.size, [link for link in links if not link.radius_mm]

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Plate, placed
+from geneva_cli.geometry.plates import Member, Plate, apart, placed, plate_wall
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Point, Shape, convex_hull
-from geneva_cli.geometry.stacks import apart, plate_wall
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
@@ -32,12 +31,11 @@ from geneva_cli.parts.links.link_sizes import (
 )
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import round_bore
-from geneva_cli.parts.shafts.hub_and_shafts import ShaftBore, bore_at
 from geneva_cli.parts.shafts.screws import screw_through
+from geneva_cli.parts.shafts.shaft import ShaftBore, bore_at
 
 if TYPE_CHECKING:
     from geneva_cli.parts.gears.gear_blanks import Gear
-    from geneva_cli.parts.gears.gear_mesh import GearMesh
 
 SHAFT = Joint.SHAFT
 
@@ -49,7 +47,7 @@ class LinkAxis(NamedTuple):
     kinds: tuple[Joint, ...]
     at: Point
     stands: bool  # it does not move with the input angle
-    bore: ShaftBore = ShaftBore()  # for its shaft or pivot; of radius 0 until that is known
+    bore: ShaftBore = ShaftBore()  # for its shaft or pivot
     one_piece: frozenset[str] = frozenset()  # names of the links that have no bore for it
 
     @property
@@ -73,7 +71,6 @@ class Links(NamedTuple):
     standing: frozenset[str] = frozenset()  # names of the links that are fixed to the frame
     blocks: frozenset[str] = frozenset()  # names of the blocks that slide in a link
     axes: tuple[LinkAxis, ...] = ()  # axes that links and gears turn about
-    mesh: GearMesh | None = None  # the teeth of round gears
 
     @property
     def plates(self) -> list[Plate]:
@@ -90,7 +87,7 @@ class Links(NamedTuple):
         return [plate for plate in self.plates if plate.name in names]
 
 
-class _Unbored(NamedTuple):
+class _Bar(NamedTuple):
     """A link before it is bored for its shafts; complex points in its own frame."""
 
     link: Link
@@ -101,55 +98,54 @@ class _Unbored(NamedTuple):
     holes: list[Shape]
     blocks: list[Member]
 
-    def clearance(self, z: complex) -> float:
-        """Return the distance from a point to the nearest hole, or half-way to another shaft."""
-        away = [apart(_circle("BORE", z, 0.0), hole) for hole in self.holes]
-        others = (o for o, kind in zip(self.own, self.link.kinds, strict=True) if kind is SHAFT)
-        return max(0.0, min([*away, *(0.5 * abs(o - z) for o in others if o != z)]))
-
 
 def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
-    """Return the links of a machine as plates; ``parts`` are its outlines, if it has any.
-
-    Raises GenevaError, naming the key, for sizes that leave no plate around a hole.
-    """
+    """Return the links of a machine as plates; ``parts`` are its outlines, if it has any."""
     links = links_at(mechanism, turn_deg(mechanism))
     if not links:
         return Links()
     sizes, L = link_sizes(mechanism, links, parts), mechanism.center_distance_mm
-    bars = [link for link in links if not link.radius_mm]
-    unbored = [_bar(link, sizes, L) for link in bars]
-    turning = []
+    linked = [link for link in links if not link.radius_mm]
+    bars = [_bar(link, sizes, L) for link in linked]
+    axes, free = [], False
     for axis in _axes(links, SAME_LENGTH * L):
         # the shaft of wheel or crank is as wide as their own bores
         on_crank, on_wheel = (same(axis.at, at, L) for at in ((L, 0.0), ORIGIN))
         known = (sizes.crank_shaft or 0.0) if on_crank else 0.0
         if on_wheel and parts and not on_crank:
             known = parts.sizes.wheel_bore
-        bored = _with_shaft(axis, unbored, links, sizes, known, mechanism)
-        turning.append((bored, known))
-    if sizes.shaft is not None and all(known or SHAFT not in a.kinds for a, known in turning):
+        free = free or (SHAFT in axis.kinds and not known)
+        axes.append(_with_shaft(axis, bars, links, sizes, known, mechanism))
+    if sizes.shaft is not None and not free:
         raise GenevaError(
             f"link_bore_mm = {2.0 * sizes.shaft:g}: it applies to no link: all are on the shafts "
             "of wheel and crank; set crank_bore_mm, arm_bore_mm or wheel_bore_mm instead",
             ("size", "link_bore_mm"),
         )
-    bored_axes = tuple(axis for axis, _ in turning)
-    mesh, gears = _gears([link for link in links if link.radius_mm], bored_axes, sizes, mechanism)
-    kinds = {kind for link in bars if link.plane == 1 for kind in link.kinds}
+    gears = []
+    for link in (one for one in links if one.radius_mm):
+        from geneva_cli.parts.gears.gear_blanks import link_gear
+
+        at = point_at_zero(*places(link))
+        bore = next(axis.bore for axis in axes if same(axis.at, at, L))
+        gears.append(link_gear(link, at, bore, sizes, mechanism))
+    kinds = {kind for link in linked if link.plane == 1 for kind in link.kinds}
     pin_low = None
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
         pin_low = sizes.span(2 if Joint.CARRIED in kinds else 1)[0]
+    cut = []
+    for bar in bars:
+        cut += [_bored(bar, axes, sizes, L), *bar.blocks]
+    roller = mechanism.roller_radius_mm
     return Links(
         sizes,
-        tuple(member for bar in unbored for member in _members(bar, bored_axes, sizes, L)),
-        (*_pins(bars, sizes, SAME_LENGTH * L), *_rollers(bars, sizes, mechanism.roller_radius_mm)),
+        tuple(cut),
+        (*_pins(linked, sizes, SAME_LENGTH * L), *_rollers(linked, sizes, roller)),
         tuple(gears),
         pin_low,
-        standing=frozenset(link.name for link in bars if link.kinds[0] is Joint.NONE),
-        blocks=frozenset(block.part.name for bar in unbored for block in bar.blocks),
-        axes=bored_axes,
-        mesh=mesh,
+        standing=frozenset(link.name for link in linked if link.kinds[0] is Joint.NONE),
+        blocks=frozenset(block.part.name for bar in bars for block in bar.blocks),
+        axes=tuple(axes),
     )
 
 
@@ -163,9 +159,9 @@ def _axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
     ]
     while left:
         path = left[0][2]
-        apart = [bool(np.abs(at - path).max() >= near) for _, _, at in left]
-        here = [one for one, away in zip(left, apart, strict=True) if not away]
-        left = [one for one, away in zip(left, apart, strict=True) if away]
+        met = [bool(np.abs(at - path).max() < near) for _, _, at in left]
+        here = [one for one, is_here in zip(left, met, strict=True) if is_here]
+        left = [one for one, is_here in zip(left, met, strict=True) if not is_here]
         at = point_at_zero(path)
         names, kinds, _ = zip(*here, strict=True)
         yield LinkAxis(names, kinds, at, bool(np.abs(path - complex(*at)).max() < near))
@@ -173,7 +169,7 @@ def _axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
 
 def _with_shaft(
     axis: LinkAxis,
-    bars: list[_Unbored],
+    bars: list[_Bar],
     links: Iterable[Link],
     sizes: LinkSizes,
     known: float,
@@ -182,12 +178,15 @@ def _with_shaft(
     """Return an axis with its shaft's bore, and the links that are too small to be bored."""
     if SHAFT not in axis.kinds:
         return axis._replace(bore=ShaftBore(round_bore(mechanism.spec.size, sizes.pin)))
-    z, L = complex(*axis.at), mechanism.center_distance_mm
-    distances = {
-        bar.link.name: bar.clearance((z - bar.at) / bar.unit)
-        for bar in bars
-        if bar.link.name in axis.names
-    }
+    there, L = complex(*axis.at), mechanism.center_distance_mm
+    distances = {}  # to the nearest hole of each link, or half-way to another shaft
+    for bar in bars:
+        if bar.link.name in axis.names:
+            z = (there - bar.at) / bar.unit
+            away = [apart(_circle("BORE", z, 0.0), hole) for hole in bar.holes]
+            for other, kind in zip(bar.own, bar.link.kinds, strict=True):
+                away += [0.5 * abs(other - z)] if kind is SHAFT and other != z else []
+            distances[bar.link.name] = max(0.0, min(away))
     limits = [*distances.values()]
     limits += [g.radius_mm for g in links if g.radius_mm and g.name in axis.names]
     own = [radius for limit in limits if (radius := sizes.bore(limit, L)) > 0.0]
@@ -199,75 +198,43 @@ def _with_shaft(
     return axis._replace(bore=bore, one_piece=tight)
 
 
-def _gears(
-    links: list[Link], turning: Iterable[LinkAxis], sizes: LinkSizes, mechanism: Mechanism
-) -> tuple[GearMesh | None, list[Gear]]:
-    """Return the teeth of gears, if they have some, and the gears, bored for their shafts.
-
-    Raises GenevaError, naming the key, for teeth that do not mesh.
-    """
-    from geneva_cli.parts.gears.gear_blanks import link_gear
-    from geneva_cli.parts.gears.gear_mesh import gear_mesh
-
-    L, size = mechanism.center_distance_mm, mechanism.spec.size
-    at = [point_at_zero(*places(link)) for link in links]
-    mesh = None
-    if mechanism.spec.drive.round_gears and size.gear_module_mm is not None:
-        driver, driven = links
-        mesh = gear_mesh(driver, driven, (at[0], at[1]), size)
-    cut = mesh.gears if mesh else {}
-    bores = [next(axis.bore for axis in turning if same(axis.at, p, L)) for p in at]
-    return mesh, [
-        link_gear(link, p, bore, sizes, mechanism, cut.get(link.name))
-        for link, p, bore in zip(links, at, bores, strict=True)
-    ]
-
-
-def _bar(link: Link, sizes: LinkSizes, L: float) -> _Unbored:
+def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
     """Return a link without bores for shafts, and the blocks that slide along it."""
     joints = places(link)
     at = [complex(*point_at_zero(joint)) for joint in joints]
     ahead = at[1] - at[0]
     unit = ahead / abs(ahead) if abs(ahead) > SAME_LENGTH * L else 1.0
-    bar = _Unbored(link, at[0], unit, tuple((z - at[0]) / unit for z in at), [], [], [])
+    bar = _Bar(link, at[0], unit, tuple((z - at[0]) / unit for z in at), [], [], [])
     for joint, z, kind in zip(joints, bar.own, link.kinds, strict=True):
+        hole = sizes.hole(kind)
         if kind in (Joint.PIN, Joint.ROLLER):
             eye = sizes.roller_eye if kind is Joint.ROLLER else sizes.eye
-            bar.holes.append(_circle("BORE", z, sizes.hole(kind)))
+            bar.holes.append(_circle("BORE", z, hole))
             bar.eyes.append(_circle("LINK", z, eye))
         elif kind in (Joint.SLIDE, Joint.CARRIED):
             along, distances = z / abs(z), np.abs(joint - joints[0])
-            travel = float(distances.min()), float(distances.max())
-            _add_slot(bar, sizes, sizes.hole(kind), along, travel)
-            half, long = sizes.block(sizes.hole(kind))
+            half, long = sizes.block(hole)
+            spare = long + SLOT_MARGIN * hole
+            ends = float(distances.min()) - spare, float(distances.max()) + spare
+            bar.holes.append(convex_hull("LINK", [_circle("LINK", r * along, half) for r in ends]))
+            bar.eyes.extend(_circle("LINK", r * along, half + hole) for r in ends)
+            if link.kinds[0] is Joint.NONE:  # screws beyond the slot fix it to the frame
+                beyond = half + 2.0 * sizes.pin
+                screw = screw_through(2.0 * sizes.pin)
+                through = 0.5 * screw.through if screw else sizes.pin
+                through = 0.5 * screw.through if screw else sizes.pin
+                for f in ((ends[0] - beyond) * along, (ends[1] + beyond) * along):
+                    bar.holes.append(_circle("BORE", f, through))
+                    bar.eyes.append(_circle("LINK", f, sizes.eye))
             outline = convex_hull("LINK", [Circle("LINK", (x, 0.0), half) for x in (-long, long)])
-            hole = (Circle("BORE", ORIGIN, sizes.hole(kind)),)
-            block = Plate(f"{link.name}'s block", "LINK", outline, hole, *sizes.span(link.plane))
+            bored = (Circle("BORE", ORIGIN, hole),)
+            block = Plate(f"{link.name}'s block", "LINK", outline, bored, *sizes.span(link.plane))
             bar.blocks.append(_placed(block, at[0] + z * unit, along * unit))
     return bar
 
 
-def _add_slot(
-    bar: _Unbored, sizes: LinkSizes, hole: float, along: complex, travel: tuple[float, float]
-) -> None:
-    """Add the slot of a block to a link, and screws beyond it if the link stands still."""
-    half, long = sizes.block(hole)
-    spare = long + SLOT_MARGIN * hole
-    ends = travel[0] - spare, travel[1] + spare
-    bar.holes.append(convex_hull("LINK", [_circle("LINK", r * along, half) for r in ends]))
-    bar.eyes.extend(_circle("LINK", r * along, half + hole) for r in ends)
-    if bar.link.kinds[0] is Joint.NONE:  # it is fixed to the frame
-        beyond = half + 2.0 * sizes.pin
-        screw = screw_through(2.0 * sizes.pin)
-        for f in ((ends[0] - beyond) * along, (ends[1] + beyond) * along):
-            bar.holes.append(_circle("BORE", f, 0.5 * screw.through if screw else sizes.pin))
-            bar.eyes.append(_circle("LINK", f, sizes.eye))
-
-
-def _members(
-    bar: _Unbored, turning: Iterable[LinkAxis], sizes: LinkSizes, L: float
-) -> Iterator[Member]:
-    """Yield a link as a plate with the bores for its shafts, and its blocks."""
+def _bored(bar: _Bar, turning: Iterable[LinkAxis], sizes: LinkSizes, L: float) -> Member:
+    """Return a link as a plate with the bores for its shafts."""
     eyes, holes, name = [*bar.eyes], [*bar.holes], bar.link.name
     for z, kind in zip(bar.own, bar.link.kinds, strict=True):
         if kind is SHAFT:
@@ -275,10 +242,10 @@ def _members(
             axis = next(one for one in turning if same(one.at, (there.real, there.imag), L))
             eyes.append(_circle("LINK", z, sizes.hub(axis.bore.bore)))
             if name not in axis.one_piece:
-                bored = axis.bore.hole(cmath.phase(bar.unit))
-                holes.append(placed(bored, (z.real, z.imag), 0.0))
-    low, high = sizes.span(bar.link.plane)
-    plate = Plate(name, "LINK", convex_hull("LINK", eyes), tuple(holes), low, high)
+                hole = axis.bore.hole(cmath.phase(bar.unit))
+                holes.append(placed(hole, (z.real, z.imag), 0.0))
+    span = sizes.span(bar.link.plane)
+    plate = Plate(name, "LINK", convex_hull("LINK", eyes), tuple(holes), *span)
     wall = plate_wall(plate)
     if wall <= 0.0:
         raise GenevaError(
@@ -286,8 +253,7 @@ def _members(
             f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart",
             ("size", "link_pin_mm"),
         )
-    yield _placed(plate, bar.at, bar.unit)
-    yield from bar.blocks
+    return _placed(plate, bar.at, bar.unit)
 
 
 def _placed(plate: Plate, where: complex, direction: complex) -> Member:

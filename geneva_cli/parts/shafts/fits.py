@@ -11,24 +11,11 @@ from typing import NamedTuple
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.spec.written import signed
 
-
-class SizeRange(NamedTuple):
-    """A range of nominal sizes, mm, with its grades and deviations in micrometres."""
-
-    up_to: float
-    it6: int
-    it7: int
-    g: int  # of the upper limit of a shaft g, below the nominal size
-    f: int  # of the upper limit of a shaft f, below it; of the lower limit of a hole F, above
-    p: int  # of the lower limit of a shaft p, above the nominal size
-    it11: int | None = None
-    c: int | None = None  # of a shaft c, below it, for the range's larger sizes; None above 500 mm
-
-
-# ISO 286-1:2010: grades IT6, IT7 and IT11 by its table 1, the fundamental deviations g, f, p and c
-# by its tables 4 and 5.
+# ISO 286-1:2010, micrometres for sizes up to a number of mm: grades IT6 and IT7 by its table 1, the
+# fundamental deviations g, f and p by its tables 4 and 5; up to 500 mm also IT11, and c for the
+# range's larger sizes. g, f and c are below the nominal size, p above it.
 # fmt: off
-ISO_286 = [SizeRange(*row) for row in (
+ISO_286 = [
     (3, 6, 10, 2, 6, 6, 60, 60), (6, 8, 12, 4, 10, 12, 75, 70), (10, 9, 15, 5, 13, 15, 90, 80),
     (18, 11, 18, 6, 16, 18, 110, 95), (30, 13, 21, 7, 20, 22, 130, 110),
     (50, 16, 25, 9, 25, 26, 160, 130), (80, 19, 30, 10, 30, 32, 190, 150),
@@ -38,8 +25,13 @@ ISO_286 = [SizeRange(*row) for row in (
     (630, 44, 70, 22, 76, 78), (800, 50, 80, 24, 80, 88), (1000, 56, 90, 26, 86, 100),
     (1250, 66, 105, 28, 98, 120), (1600, 78, 125, 30, 110, 140), (2000, 92, 150, 32, 120, 170),
     (2500, 110, 175, 34, 130, 195), (3150, 135, 210, 38, 145, 240),
-)]
+]
 # fmt: on
+
+
+def _range_of(nominal_mm: float) -> tuple[int, ...]:
+    """Return the standard's numbers for a size; empty beyond its 3150 mm."""
+    return next((row[1:] for row in ISO_286 if 0.0 < nominal_mm <= row[0]), ())
 
 
 def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
@@ -49,49 +41,40 @@ def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
     ((21, 0), (-7, -20), (0, -13))
     """
     row = _range_of(nominal_mm)
-    if row is None:
+    if not row:
         return None
+    it6, it7, g, f, p = row[:5]
     # up to 500 mm a hole P7 has as much interference as a shaft p6 (ISO 286-1, 4.3.2.5)
-    top = -row.p + (row.it7 - row.it6 if 3.0 < nominal_mm <= 500.0 else 0)
+    top = -p + (it7 - it6 if 3.0 < nominal_mm <= 500.0 else 0)
     return {
-        "H7": (row.it7, 0),
-        "F7": (row.f + row.it7, row.f),
-        "P7": (top, top - row.it7),
-        "g6": (-row.g, -row.g - row.it6),
-        "h6": (0, -row.it6),
+        "H7": (it7, 0),
+        "F7": (f + it7, f),
+        "P7": (top, top - it7),
+        "g6": (-g, -g - it6),
+        "h6": (0, -it6),
     }[fit]
 
 
 def loosest_mm(nominal_mm: float) -> float | None:
-    """Return the greatest clearance of H11/c11, mm of the diameter; None beyond 500 mm.
+    """Return the greatest clearance of H11/c11, ISO 286's loosest preferred fit, mm of diameter.
 
-    It is ISO 286's loosest preferred fit. Both limits add up: the hole is wider by IT11, the shaft
-    narrower by c and IT11.
+    The hole is wider by IT11, the shaft narrower by c and IT11. None beyond 500 mm.
 
     >>> loosest_mm(24.0)
     0.37
     """
     row = _range_of(nominal_mm)
-    if row is None or row.it11 is None or row.c is None:
-        return None
-    return (2 * row.it11 + row.c) / 1000.0
+    return (2 * row[5] + row[6]) / 1000.0 if len(row) > 5 else None
 
 
 def closest_mm(nominal_mm: float) -> float | None:
-    """Return the least clearance of H7/h6, on average, with which all parts go together, mm.
-
-    It is of the diameter: half of both grades, for the widest shaft in the narrowest hole. None
-    beyond the standard's 3150 mm.
+    """Return the mean clearance of H7/h6, mm of the diameter: half of both grades.
 
     >>> closest_mm(24.0)
     0.017
     """
     row = _range_of(nominal_mm)
-    return None if row is None else (row.it6 + row.it7) / 2000.0
-
-
-def _range_of(nominal_mm: float) -> SizeRange | None:
-    return next((row for row in ISO_286 if 0.0 < nominal_mm <= row.up_to), None)
+    return (row[0] + row[1]) / 2000.0 if row else None
 
 
 def toleranced(nominal_mm: float, shown: str, fit: str) -> str:

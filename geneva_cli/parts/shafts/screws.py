@@ -16,12 +16,11 @@ from geneva_cli.spec.tables import Size
 
 
 class Screw(NamedTuple):
-    """A metric screw: thread, pitch, hole that it passes, and its head's diameter, mm."""
+    """A metric screw: thread, pitch, and hole that it passes, mm."""
 
     thread: float
     pitch: float
     through: float
-    head: float
 
     @property
     def core(self) -> float:
@@ -29,15 +28,13 @@ class Screw(NamedTuple):
         return self.thread - self.pitch
 
 
-# Sizes by ISO 262, coarse pitches by ISO 261, clearance holes by ISO 273 (medium), cylindrical
-# heads by ISO 4762.
+# Sizes by ISO 262, coarse pitches by ISO 261, clearance holes by ISO 273 (medium).
 # fmt: off
 SCREWS = [Screw(*row) for row in (
-    (1.6, 0.35, 1.8, 3.0), (2, 0.4, 2.4, 3.8), (2.5, 0.45, 2.9, 4.5), (3, 0.5, 3.4, 5.5),
-    (4, 0.7, 4.5, 7.0), (5, 0.8, 5.5, 8.5), (6, 1.0, 6.6, 10.0), (8, 1.25, 9.0, 13.0),
-    (10, 1.5, 11.0, 16.0), (12, 1.75, 13.5, 18.0), (16, 2.0, 17.5, 24.0), (20, 2.5, 22.0, 30.0),
-    (24, 3.0, 26.0, 36.0), (30, 3.5, 33.0, 45.0), (36, 4.0, 39.0, 54.0), (42, 4.5, 45.0, 63.0),
-    (48, 5.0, 52.0, 72.0), (56, 5.5, 62.0, 84.0), (64, 6.0, 70.0, 96.0),
+    (1.6, 0.35, 1.8), (2, 0.4, 2.4), (2.5, 0.45, 2.9), (3, 0.5, 3.4), (4, 0.7, 4.5), (5, 0.8, 5.5),
+    (6, 1.0, 6.6), (8, 1.25, 9.0), (10, 1.5, 11.0), (12, 1.75, 13.5), (16, 2.0, 17.5),
+    (20, 2.5, 22.0), (24, 3.0, 26.0), (30, 3.5, 33.0), (36, 4.0, 39.0), (42, 4.5, 45.0),
+    (48, 5.0, 52.0), (56, 5.5, 62.0), (64, 6.0, 70.0),
 )]
 # fmt: on
 
@@ -107,10 +104,9 @@ def tapped(hole: Circle) -> Circle:
 
 
 def bolt_radius(diameter_mm: float | None, L: float, half_width: float) -> float:
-    """Return the radius of a screw's hole in the middle of a ring, twice ``half_width`` wide; or 0.
+    """Return the radius of a screw's hole in the middle of a ring, twice ``half_width`` wide.
 
-    By default the hole takes at most half of the ring, and its diameter is at most L/40. It is 0
-    where that leaves no screw.
+    By default it takes at most half of the ring, and L/40; it is 0 where that leaves no screw.
 
     >>> bolt_radius(None, 100.0, 10.0), bolt_radius(None, 60.0, 10.0)
     (1.2, 0.0)
@@ -134,9 +130,8 @@ def bolt_circle(
 ) -> BoltCircle:
     """Return the bolts of a part, "dial" or "gear"; by default in the middle of a ring.
 
-    ``ring`` has its inner and outer radius, and ``start`` is the first hole's direction.
-
-    There are none where no screw is thin enough. Raises GenevaError, naming the key, for a dial's.
+    ``ring`` has its inner and outer radius, and ``start`` is the first hole's direction. Where no
+    screw is thin enough there are none; for a dial that is an error.
 
     >>> bolt_circle(Size(dial_bolts=4), "dial", 100.0, (20.0, 40.0), 0.0)[:2]
     (30.0, 1.2)

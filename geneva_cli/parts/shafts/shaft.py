@@ -1,13 +1,28 @@
-"""Shafts and pivots, and what sits on them."""
+"""Shafts and pivots with what sits on them, the crank's hub, and bores of parts on a shaft.
+
+The crank's hub is drawn if the spec has one of its sizes. Shafts end in the frame's lower face, and
+above with the part that they carry. A wheel with ``wheel_hub_mm = 0`` has its shaft only above it,
+unless that carries a gear below.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Part, Plate
-from geneva_cli.geometry.shapes import Point
-from geneva_cli.parts.shafts.bores import Bore
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, Shape
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.assembly import assembled, links_at, same
+from geneva_cli.parts.outlines.crank_outline import crank_circles, is_whole, keyway_direction
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.wheel_circles import about_axis, wheel_hub
+from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape, round_bore
 from geneva_cli.spec.tables import Size
 
 # what the sheet and the list of parts say of a part in a round bore that turns with its shaft
@@ -50,10 +65,7 @@ class Shaft(NamedTuple):
 
     @property
     def member(self) -> Member:
-        """The shaft in the machine.
-
-        Raises GenevaError, naming the key, where its lower end is not below its upper one.
-        """
+        """The shaft in the machine."""
         if not self.low < self.high:
             key = f"{self.part}_shaft_low_mm"
             raise GenevaError(
@@ -82,3 +94,110 @@ def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, f
     values = vars(size)
     ends = values.get(f"{part}_shaft_low_mm"), values.get(f"{part}_shaft_high_mm")
     return low if ends[0] is None else ends[0], high if ends[1] is None else ends[1]
+
+
+def crank_hub(parts: Outlines) -> Plate | None:
+    """Return the crank's hub above the locking disc or the arm; None if omitted or not higher."""
+    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
+    if not (size.has_hub("crank") and sizes.crank_hub > sizes.crank_bore):
+        return None
+    low = 0.0 - size.allowances.pin_gap_mm  # no -0.0
+    high = sizes.wheel_thickness
+    if size.crank_hub_length_mm is not None:
+        high = low + size.crank_hub_length_mm
+    if parts.crank and is_whole(parts.assembly, sizes):
+        low += sizes.lock_thickness
+    elif not parts.has_arm:
+        key = "crank_hub_length_mm" if size.crank_hub_mm is None else "crank_hub_mm"
+        raise GenevaError(
+            f"{key}: a hub needs the locking disc or the crank arm to stand on, and there is "
+            "neither; remove it",
+            ("size", key),
+        )
+    if high <= low:
+        return None
+    bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
+    outline = Circle("HUB", ORIGIN, sizes.crank_hub)
+    return Plate("crank's hub", "HUB", outline, bores, low, high)
+
+
+def shafts(
+    parts: Outlines, lowest: float, stop: float | None, carried: Callable[[Point], tuple[Seat, ...]]
+) -> Iterator[Shaft]:
+    """Yield the shafts of wheel and crank.
+
+    ``lowest`` is the frame's lower face, and ``carried`` returns what sits on a shaft below wheel
+    or crank. The crank's shaft ends at ``stop`` if links block it.
+    """
+    assembly, sizes, still = parts.assembly, parts.sizes, np.zeros(1)
+    size = assembly.mechanism.spec.size
+    if sizes.wheel_bore:
+        bore, at = bore_of(size, "wheel", sizes.wheel_bore), ORIGIN
+        low, high = wheel_shaft_ends(parts, lowest)
+        turn = 0.0 if bore.is_plain else float(assembly.wheel(still)[0])
+        hub = wheel_hub(assembly, sizes)
+        seat = Seat("wheel", hub.low if hub else 0.0, sizes.wheel_thickness)
+        seats, direction = (*carried(at), seat), assembly.rests[0]
+        yield Shaft("wheel's shaft", "wheel", bore, seats, low, high, at, direction, turn)
+    radius = crank_shaft_radius(parts)
+    if radius:
+        bore, at = bore_of(size, "crank", radius), (assembly.L, 0.0)
+        # what it carries ends in the arm, or in a bored locking disc or its hub
+        face = top = 0.0 - size.allowances.pin_gap_mm  # no -0.0
+        if sizes.crank_bore:
+            on_disc = crank_hub(parts)
+            top = on_disc.high if on_disc else face + sizes.lock_thickness
+        seat = Seat("crank", face - (sizes.arm_thickness if parts.has_arm else 0.0), top)
+        low, high = shaft_ends(size, "crank", lowest if stop is None else stop, top)
+        turn = 0.0 if bore.is_plain else float(assembly.crank(still)[0])
+        seats, direction = (*carried(at), seat), keyway_direction(assembly)
+        yield Shaft("crank's shaft", "crank", bore, seats, low, high, at, direction, turn)
+
+
+def wheel_shaft_radius(parts: Outlines) -> float:
+    """Return the radius around the wheel's shaft; 0 without one."""
+    bore = parts.sizes.wheel_bore
+    return bore_of(parts.assembly.mechanism.spec.size, "wheel", bore).around if bore else 0.0
+
+
+def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
+    """Return the ends of the wheel's shaft along the axis."""
+    sizes, near = parts.sizes, SAME_LENGTH * parts.assembly.L
+    geared = any(
+        link.radius_mm and math.hypot(float(x[0]), float(y[0])) < near
+        for link in links_at(parts.assembly.full, np.zeros(1))
+        for x, y in link.joints
+    )
+    low = lowest if sizes.wheel_hub or geared else 0.0
+    return shaft_ends(parts.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
+
+
+def crank_shaft_radius(parts: Outlines) -> float:
+    """Return the radius of the shaft of arm and locking disc; 0 if it carries only links."""
+    return parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
+
+
+class ShaftBore(NamedTuple):
+    """A bore, and the direction of its keyway, flat or side at input angle 0, radians."""
+
+    bore: Bore = Bore(0.0)
+    direction: float = 0.0
+    part: str = ""  # "wheel" or "crank", whose keys of [size] give its shape; "" for neither
+
+    def hole(self, turn: float = 0.0) -> Shape:
+        """Return the hole about the origin of a part that stands turned by an angle."""
+        return self.bore.shape("BORE", self.direction - turn)
+
+
+def bore_at(mechanism: Mechanism, at: Point, radius: float) -> ShaftBore:
+    """Return the bore of what is on the shaft at a point: as in wheel or crank, or a round one."""
+    size, L = mechanism.spec.size, mechanism.center_distance_mm
+    part = "crank" if same(at, (L, 0.0), L) else "wheel" if same(at, ORIGIN, L) else ""
+    if not (part and has_shape(size, part)):
+        return ShaftBore(round_bore(size, radius), 0.0, part)
+    own, still = assembled(mechanism), np.zeros(1)
+    if part == "wheel":
+        direction, turn = own.rests[0], own.wheel(still)
+    else:
+        direction, turn = keyway_direction(own), own.crank(still)
+    return ShaftBore(bore_of(size, part, radius), direction + float(turn[0]), part)

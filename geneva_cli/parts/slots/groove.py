@@ -25,8 +25,8 @@ from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import about_axis
-from geneva_cli.parts.shafts.hub_and_shafts import bore_at
 from geneva_cli.parts.shafts.screws import screw_through
+from geneva_cli.parts.shafts.shaft import bore_at
 from geneva_cli.table import Table
 
 NAMES = ("input_deg", "radius_mm", *WALLED)

@@ -8,8 +8,6 @@ import math
 from collections.abc import Iterator
 from contextlib import suppress
 
-import numpy as np
-
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import at, bounds
@@ -20,7 +18,6 @@ from geneva_cli.output.scene import (
     Bar,
     Body,
     Box,
-    CarriedShapes,
     Phase,
     Place,
     Rotation,
@@ -28,15 +25,10 @@ from geneva_cli.output.scene import (
     Track,
     pose,
 )
-from geneva_cli.parts.assembly import links_at
-from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.animated_turn import MachineTurn, pushes
 from geneva_cli.study.animation.bodies import (
-    DrawnTeeth,
     bodies,
-    carried_gear,
-    drawn_teeth,
     wheels_of,
 )
 from geneva_cli.study.summary.load_lines import title_of
@@ -55,12 +47,11 @@ def scene(design: Design) -> Scene:
     """
     mechanism = design.mechanism
     turn = MachineTurn(mechanism)
-    teeth = drawn_teeth(design)
-    parts = tuple(body for body in bodies(design, turn, teeth) if body.shapes)
+    parts = tuple(body for body in bodies(design, turn) if body.shapes)
     outlines = None
     with suppress(GenevaError):  # no flat parts
         outlines = design.parts.outlines
-    bars, rollers = _bars(turn, outlines, teeth), turn.rollers()
+    bars, rollers = tuple(turn.bars(outlines)), turn.rollers()
     spec, title = design.spec, title_of(design)
     frame = _frame_rotation(mechanism, turn.start, turn.turn_deg)
     wheels = wheels_of(spec)
@@ -73,7 +64,7 @@ def scene(design: Design) -> Scene:
         box = x - reach, y - reach, x + reach, y + reach
     return Scene(
         title=title,
-        caption=words(mechanism) + _remark(design, bars, teeth),
+        caption=words(mechanism) + _remark(design, bars),
         spec="\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
         start_deg=mechanism.shown_deg(turn.start),
         turn_deg=turn.turn_deg,
@@ -100,19 +91,7 @@ def _pauses(turn: MachineTurn) -> Iterator[float]:
         yield 0.5 * (one.exit + after) - turn.start
 
 
-def _bars(turn: MachineTurn, outlines: Outlines | None, teeth: DrawnTeeth) -> tuple[Bar, ...]:
-    """The links; a gear with teeth that turns with one of them is on that link."""
-    links = links_at(turn.mechanism, np.zeros(1))
-    out = []
-    for bar, link in zip(turn.bars(outlines), links, strict=True):
-        if gear := carried_gear(turn, teeth, link):
-            bar = bar._replace(plates=(*bar.plates, CarriedShapes(0, gear)))
-        if link.name not in teeth.round:
-            out.append(bar)
-    return tuple(out)
-
-
-def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
+def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
     stop_s, out = design.spec.drive.stop_s, ""
     if stop_s:
         out = f" The input stands still for {stop_s:g} s in the middle of each dwell."
@@ -120,8 +99,6 @@ def _remark(design: Design, bars: tuple[Bar, ...], teeth: DrawnTeeth) -> str:
         return f"{out} Seen along the wheel's shaft."
     if any(bar.radius for bar in bars):
         out += " Gears are shown by their pitch circles."
-    if teeth.why:
-        out += f" Their teeth are not drawn: {teeth.why}."
     if design.cycle.mechanism.period_deg > 360.0 * design.spec.turns:
         out += (
             " The forces are those of the first turn. A body off the wheel's axis makes them "

@@ -65,7 +65,7 @@ LIMITS: Checks = {
         "load_checks",
         limited_load="contact_stress_max_MPa",
         strength_limit=(
-            "pv_max_W_m2 roller_life_min_h slot_wear_max_mm_per_million pin_stress_MPa "
+            "pv_max_W_m2 roller_life_min_h pin_stress_MPa "
             "horn_stress_MPa lock_horn_stress_MPa lock_stress_max_MPa lock_deflection_max_deg "
             "wheel_shaft_stress_MPa crank_shaft_stress_MPa arm_stress_MPa "
             "wheel_key_pressure_MPa crank_key_pressure_MPa"

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.stacks import plate_wall
+from geneva_cli.geometry.plates import plate_wall
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.arm import CrankArm, walls
 from geneva_cli.parts.flat_parts import FlatParts
@@ -111,17 +111,17 @@ def links_gap(name: str, parts: FlatParts) -> Check | None:
     mechanism = parts.mechanism
     try:
         spacers = parts.spacers if mechanism.spec.drive_before else ()
-        clearance = planes(parts.outlines, parts.links, spacers)
+        near, blocked = planes(parts.outlines, parts.links, spacers)
     except GenevaError as error:
         return Check(name, None, "at least", 0.0, False, str(error))
-    if one := clearance.blocked:
-        at_deg = mechanism.shown_deg(one.input_deg)
+    if blocked:
+        at_deg = mechanism.shown_deg(blocked.input_deg)
         why = (
-            f"{one.passing} meets the {one.link}: it needs an eccentric in a hollow input shaft, "
-            "or another path to its bearings"
+            f"{blocked.passing} meets the {blocked.link}: it needs an eccentric in a hollow input "
+            "shaft, or another path to its bearings"
         )
-        return Check(name, one.gap, "at least", 0.0, False, why, at_deg)
-    if near := clearance.nearest:
+        return Check(name, blocked.gap, "at least", 0.0, False, why, at_deg)
+    if near:
         return compared(name, near.gap, "at least", 0.0, mechanism.shown_deg(near.input_deg))
     return None
 
@@ -153,7 +153,7 @@ def cut_width(name: str, mechanism: Mechanism, wide: float, thick: float) -> Che
 
 def plates_built(name: str, parts: EdgedParts) -> Check | None:
     """The check that fails if a plate of a machine cannot be built; else None."""
-    return built(name, parts.require)
+    return built(name, lambda: parts.required)
 
 
 def built(name: str, build: Callable[[], object]) -> Check | None:

@@ -207,7 +207,7 @@ _WHEEL, _SHAFT = "material.wheel.stress_max_MPa", "shaft.shear_stress_max_MPa"
 BOUNDS = {
     **{
         name: Bound(f"limits.{name}", LIMITED[name])
-        for name in ("pv_max_W_m2", "roller_life_min_h", "slot_wear_max_mm_per_million")
+        for name in ("pv_max_W_m2", "roller_life_min_h")
     },
     "pin_stress_MPa": Bound(
         "material.roller.stress_max_MPa", "pin.stress_MPa", "pin", "diameter_mm", "pin_mm"

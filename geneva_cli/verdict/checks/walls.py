@@ -14,9 +14,8 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import turned
-from geneva_cli.geometry.plates import Member
+from geneva_cli.geometry.plates import Member, apart, beyond
 from geneva_cli.geometry.shapes import Arc, Circle, Line, Point, Segment, backwards, closed
-from geneva_cli.geometry.stacks import apart, beyond
 from geneva_cli.loads.carried import farthest_mm
 from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.numerics.arrays import Array

@@ -306,7 +306,7 @@ _REPORT = (
     _batch("life", "pin_stress_MPa horn_stress_MPa", "part_strength:bending"),
     _batch(
         "life",
-        "roller_life_turns roller_life_motions roller_life_h slot_wear_mm_per_million",
+        "roller_life_turns roller_life_motions roller_life_h",
         "part_strength:wear",
     ),
     _alone("strength", "", "needs"),

@@ -1,4 +1,4 @@
-"""Strength and life of designs: pin, horn, lock, shafts, arm, keys, and the roller's wear."""
+"""Strength and life of designs: pin, horn, lock, shafts, arm, keys, and the roller's life."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ import numpy as np
 
 from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N
-from geneva_cli.loads.strength import arm_strength as arms
+from geneva_cli.loads.strength import arm_and_key as arms
 from geneva_cli.loads.strength import pin as pins
 from geneva_cli.loads.strength import roller, shaft_stress
-from geneva_cli.loads.strength.key_strength import KeyDimensions, key_stress, shear_allowed_MPa
-from geneva_cli.loads.strength.roller import wears_mm
+from geneva_cli.loads.strength.arm_and_key import KeyDimensions, key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.shaft_stress import LoadedShaft, ShaftForces
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
@@ -220,16 +219,16 @@ def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
     most = most * np.ravel(of.spec.shaft.torsion_factor)
     sides = np.ravel(wheel_material(of.spec).allowed_MPa)
     shear = np.ravel(shear_allowed_MPa(of.spec.shaft))
-    stress = key_stress(key, most, sides, shear)
+    pressed, sheared, least = key_stress(key, most, sides, shear)
     allowed = np.minimum(sides, shear * key.width / key.bearing)
-    pressure = _known(stress.pressure_MPa)
+    pressure = _known(pressed)
     return {
         "length_mm": _known(key.length),
         "pressure_MPa": pressure,
-        "shear_MPa": _known(stress.shear_MPa),
+        "shear_MPa": _known(sheared),
         "allowed_MPa": _known(allowed),
         "margin": margin(pressure, _known(allowed)),
-        "least_length_mm": _known(stress.least_length_mm),
+        "least_length_mm": _known(least),
     }
 
 
@@ -245,7 +244,7 @@ def bending(of: Designs) -> Columns:
 
 
 def wear(of: Designs) -> Columns:
-    """The roller as a bearing, the work of friction, and the slot's walls."""
+    """The roller as a bearing, and the work of friction."""
     friction = np.ravel(of.load_case.friction)
     passages = roller.passages(of.machine)
     paired = any(one.paired for one in of.machine.engagements)
@@ -262,12 +261,6 @@ def wear(of: Designs) -> Columns:
         "roller_life_turns": lasts.turns,
         "roller_life_motions": lasts.motions,
         "roller_life_h": lasts.hours,
-        # a roller that turns on its pin does not rub in the slot
-        "slot_wear_mm_per_million": (
-            wears_mm(of.machine, [passage.rubbing_N for passage in passages])
-            if of.spec.load.rubs_in_slot
-            else None
-        ),
     }
     bound = np.where(np.isfinite(force), of.loaded, np.inf * of.loaded)
     out: dict[str, Number | None] = {

@@ -1,18 +1,14 @@
-"""The crank arm as a beam between shaft and pin, under the force on the roller.
+"""The crank arm as a beam between shaft and pin, under the force on the roller; and keys.
 
-The force F acts at a distance c from the arm's mid-plane, in any direction. Across the arm it
-bends it in its plane, by F x at a distance x from the pin, and twists it by F c. Along the arm it
-pulls, and bends it out of its plane by F c. Let A be the bending stress of the first, tau its
-torsion, B the stress of the second. At an angle beta to the arm's normal, the von Mises stress
-squared is (A cos beta + B sin beta)² + 3 tau² cos² beta. Its greatest value over beta is
-(S + sqrt(S² - 12 tau² B²))/2 with S = A² + B² + 3 tau².
+The force F acts at a distance c from the arm's mid-plane, in any direction. Across the arm it bends
+it in its plane, by F x at a distance x from the pin (stress A), and twists it by F c (tau). Along
+the arm it pulls, and bends it out of its plane by F c (B). The greatest von Mises stress squared,
+over the direction of F, is (S + sqrt(S² - 12 tau² B²))/2 with S = A² + B² + 3 tau²: an upper bound,
+as bending is greatest at corners and torsion in the middle of a side.
 
-Bending is greatest at corners, torsion in the middle of a side, so their sum is an upper bound.
-The arm's width changes evenly between eye and hub. Sections through the pin's hole and the shaft's
-bore, beside these, and where the arm is twice as wide as its eye can be the weakest: 6 F x/(h w²)
-is greatest there. A section through a hole carries half the twist, since the near half of the hole
-passes its share to the arm beside it. Its two walls bear it as a couple of shear forces. Notches
-are neglected.
+The arm's width changes evenly between eye and hub. Weakest are sections through the pin's hole and
+the shaft's bore, beside these, or where the arm is twice as wide as its eye. A section through a
+hole carries half the twist, as a couple of shear forces in its two walls. Notches are neglected.
 """
 
 from __future__ import annotations
@@ -22,9 +18,10 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Number, Truth, parameter
+from geneva_cli.numerics.arrays import Number, Truth, choose, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.spec.tables import Shaft
 
 
 class ArmDimensions(NamedTuple):
@@ -101,3 +98,50 @@ def least_thickness_mm(arm: ArmDimensions, force_N: Array, allowed_MPa: Array) -
     most = parameter(32.0 * arm.thickness)
     least = boundary(holds, most, 0.0 * most, 50)  # halvings: to 1e-13 of the thickness
     return np.where(holds(most), least, np.inf)
+
+
+# Parallel keys (DIN 6892, method C): the torque T acts on the shaft's circle of diameter d, so that
+# the side in the hub bears 2 T/(d (h - t1) l), and the section 2 T/(d b l) of shear. Rounded ends
+# and the fit between hub and shaft are neglected.
+
+
+class KeyDimensions(NamedTuple):
+    """A parallel key as long as its bore, mm; (m,) for m designs, NaN for those without."""
+
+    shaft: Number  # diameter
+    width: Number
+    bearing: Number  # height that stands in the hub, h - t1
+    length: Number
+
+
+NO_KEY = KeyDimensions(*[math.nan] * 4)
+
+
+def key_stress(
+    key: KeyDimensions, torque_Nm: Number, pressure: Number, shear: Number
+) -> tuple[Number, Number, Number]:
+    """The pressure on keys and their shear under a torque, MPa, and the least length, mm.
+
+    That length keeps the allowable ``pressure`` and ``shear``.
+    """
+    force = 2e3 * torque_Nm / key.shaft
+    sides, section = key.bearing * key.length, key.width * key.length
+    least = np.maximum(force / (key.bearing * pressure), force / (key.width * shear))
+    return force / sides, force / section, least
+
+
+def shear_allowed_MPa(shaft: Shaft, keyway: bool = False) -> Number:
+    """The shear stress that shafts and keys allow: that of the spec, or of the default steel.
+
+    The ASME code of ``shafts`` allows 0.3 of the yield strength of the default steel (see
+    ``Stock``). Its other bound, 0.18 of the tensile strength, is higher. A keyway leaves three
+    quarters for the shaft. Another steel, known by its modulus, has no default: it is infinite.
+
+    >>> round(shear_allowed_MPa(Shaft()), 6), round(shear_allowed_MPa(Shaft(), keyway=True), 6)
+    (82.5, 61.875)
+    """
+    if shaft.shear_stress_max_MPa is not None:
+        return shaft.shear_stress_max_MPa
+    is_steel = shaft.shear_modulus_GPa == Shaft().shear_modulus_GPa
+    # 0.3 of 275 MPa, and three quarters of that
+    return choose(is_steel, 61.875 if keyway else 82.5, math.inf)
