@@ -186,11 +186,7 @@ def _reactions(
     tx, ty = (px * lever - py * offset) / square, (py * lever + px * offset) / square
     none = px * 0.0
     normal, tangent = (ty * -1.0, tx), (tx, ty)
-    loads: tuple[tuple[Vector, Jet], ...] = (
-        (normal, none),
-        (tangent, none),
-        ((none, none), none + 1.0),
-    )
+    loads = (normal, none), (tangent, none), ((none, none), none + 1.0)
     return tuple(engagement.reactions(x, path, loads))
 
 

@@ -30,17 +30,14 @@ if TYPE_CHECKING:
 
 CARRIED = ("inertia_kgm2", "motor_rpm")
 KNOWN_UNLOADED = (*CARRIED, "acceleration_rad_s2", "Am", "Vm", "Qm")  # known without a load
-CYCLE_SUMS = (
-    *("energy_fluctuation_J", "flywheel_kgm2"),
-    *("flywheel_to_add_kgm2", "motor_torque_rms_Nm"),
-)
+SUMS = ("energy_fluctuation_J", "flywheel_kgm2", "flywheel_to_add_kgm2", "motor_torque_rms_Nm")
 WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizings``
 # In the order shown: the inertia at the wheel's shaft, and the wheel's own; the cam-indexer
 # formula, for the engagement with the greatest torque at the input; the exact cycle.
 SHOWN_SIZING = (
-    *("inertia_kgm2", WHEEL_INERTIA, "acceleration_rad_s2"),
-    *("inertia_torque_Nm", "friction_torque_Nm"),
-    *("total_torque_Nm", "design_torque_Nm", "input_torque_Nm", "power_W", "Am", "Vm", "Qm"),
+    *("inertia_kgm2", WHEEL_INERTIA, "acceleration_rad_s2", "inertia_torque_Nm"),
+    *("friction_torque_Nm", "total_torque_Nm", "design_torque_Nm", "input_torque_Nm"),
+    *("power_W", "Am", "Vm", "Qm"),
     *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
     *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2"),
 )
@@ -92,10 +89,10 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
         "inertia_kgm2": _some(inertia_kgm2(spec)),
         "motor_rpm": spec.drive.n_rpm * spec.motor.ratio,
     }
-    if names - {*CARRIED, *CYCLE_SUMS, "inertia_ratio", "motor_torque_max_Nm"}:
+    if names - {*CARRIED, *SUMS, "inertia_ratio", "motor_torque_max_Nm"}:
         values |= _by_formula(whole)
-    if names & {*CYCLE_SUMS, "motor_torque_max_Nm"}:
-        torque = load_summaries(mechanism, [TORQUE], bool(names & set(CYCLE_SUMS)))[TORQUE]
+    if names & {*SUMS, "motor_torque_max_Nm"}:
+        torque = load_summaries(mechanism, [TORQUE], bool(names & set(SUMS)))[TORQUE]
         values |= _exact(whole, torque)
     if "inertia_ratio" in names:  # the wheel's inertia at its fastest over the motor's
         own, frame = inertia_kgm2(spec), whole.frame
