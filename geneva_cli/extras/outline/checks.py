@@ -44,11 +44,21 @@ TURNED_WRONG = 0.25  # of the index: no slot is so loose
 def checks(mechanism: Mechanism) -> list[Check]:
     """The checks of a machine with drawn outlines, one after the other."""
     result = turned(mechanism)
-    rows = [_turns(result, mechanism), *_slack(result)]
+    machine, rows = result.machine, [_turns(result, mechanism)]
+    is_missed = result.rest.is_free and not any(sense.jam for sense in result.senses)
+    if result.has_indexed or not is_missed:  # a wheel that finds no slot has no slack
+        least, given, why = least_slack_mm(result), machine.free.slack, ""
+        if least is None:
+            most = most_slack_mm(machine)
+            why = f"it would not turn with {most:.3g} mm less on every face either"
+        elif least > given:
+            less = f"{least:.2g} mm less on every face"
+            why = f"it would turn with {less} of the wheel or of the crank"
+        rows.append(Check("turning_slack_mm", least, "at most", given, not why, why))
     holds = result.is_held or mechanism.spec.wheel.held_by is not None
     rows.append(Check("dwell_hold", float(holds), "at least", 1.0, holds))
-    rows += [*_rests(result), *_walls(result.machine), *_entry(result, mechanism)]
-    if result.turns and not put_back(result.machine, result.rest):
+    rows += [*_rests(result), *_walls(machine), *_entry(result, mechanism)]
+    if result.turns and not put_back(machine, result.rest):
         # a wheel that keeps its place rests at the same place after each index
         play, drift = result.rest.high - result.rest.low, max(abs(s.drift) for s in result.senses)
         value, limit = math.degrees(drift), math.degrees(play)
@@ -102,21 +112,6 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
         )
         return Check("turns", 0.0, "at least", z, False, why)
     return Check("turns", z, "at least", z, True, _summary(result))
-
-
-def _slack(result: Turned) -> Iterator[Check]:
-    """Check the least slack with which the wheel turns; a wheel that finds no slot has none."""
-    machine = result.machine
-    is_missed = result.rest.is_free and not any(sense.jam for sense in result.senses)
-    if is_missed and not result.has_indexed:
-        return
-    value, given, why = least_slack_mm(result), machine.free.slack, ""
-    if value is None:
-        most = most_slack_mm(machine)
-        why = f"it would not turn with {most:.3g} mm less on every face either"
-    elif value > given:
-        why = f"it would turn with {value:.2g} mm less on every face of the wheel or of the crank"
-    yield Check("turning_slack_mm", value, "at most", given, not why, why)
 
 
 def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:

@@ -220,8 +220,7 @@ def _reversal(
     return out
 
 
-# degrees: the greatest lag, its place, and where the wheel meets the wall again
-Lag: TypeAlias = tuple[float, float, float]
+Lag: TypeAlias = tuple[float, float, float]  # degrees: greatest, its place, where the wall meets
 
 
 def arrival(mechanism: Mechanism) -> tuple[float, float, Lag | None] | None:
