@@ -30,16 +30,12 @@ def _face_m(mass: Mass) -> list[float]:
     return [(size or 0.0) * MM for size in sizes]
 
 
-def body_inertia_kgm2(mass: Mass) -> float:
-    """Inertia of one body about its own axis: m (D² + d²)/8; of a block m (a² + c²)/12."""
-    D, d, a, c = _face_m(mass)
-    return weight_kg(mass) * ((D * D + d * d) / 8.0 + (a * a + c * c) / 12.0)
-
-
 def mass_inertia_kgm2(mass: Mass) -> float:
     """Inertia of all bodies of a ``[[mass]]`` about the table's axis, by Steiner's theorem."""
-    e = mass.radius_mm * MM
-    return mass.count * (body_inertia_kgm2(mass) + weight_kg(mass) * e * e)
+    (D, d, a, c), e, weight = _face_m(mass), mass.radius_mm * MM, weight_kg(mass)
+    # about its own axis: m (D² + d²)/8, of a block m (a² + c²)/12
+    own = weight * ((D * D + d * d) / 8.0 + (a * a + c * c) / 12.0)
+    return mass.count * (own + weight * e * e)
 
 
 def inertia_kgm2(spec: Spec) -> float:

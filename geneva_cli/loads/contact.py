@@ -78,11 +78,6 @@ class LoadCase(NamedTuple):
         return loaded
 
     @property
-    def frictionless(self) -> LoadCase:
-        """The case without friction."""
-        return self._replace(friction=0.0, guide=None)
-
-    @property
     def guided(self) -> bool:
         """True if there is friction in the output's guide in any of the designs."""
         return self.guide is not None and not all_true(self.guide.friction == 0.0)
@@ -191,11 +186,7 @@ def _reactions(
     tx, ty = (px * lever - py * offset) / square, (py * lever + px * offset) / square
     none = px * 0.0
     normal, tangent = (ty * -1.0, tx), (tx, ty)
-    loads: tuple[tuple[Vector, Jet], ...] = (
-        (normal, none),
-        (tangent, none),
-        ((none, none), none + 1.0),
-    )
+    loads = (normal, none), (tangent, none), ((none, none), none + 1.0)
     return tuple(engagement.reactions(x, path, loads))
 
 
@@ -221,13 +212,8 @@ def _crossing(engagement: Engagement) -> list[Number]:
         for x in (0.0, NEAR_CUSP * engagement.entry_deg)
     )
     sense = choose(here.along * before.along < 0.0, -1.0, 1.0)
-    same = here._replace(
-        lever=0.0 * here.lever,
-        offset=here.offset * sense,
-        along=here.along * sense,
-        curvature=here.curvature * sense,
-    )
-    return list(same[:-1])
+    v, a, lever, offset, along, curvature, *rest, _ = here
+    return [v, a, 0.0 * lever, offset * sense, along * sense, curvature * sense, *rest]
 
 
 def _cusp(engagement: Engagement) -> list[Number]:

@@ -54,8 +54,8 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
         rise = [step if n == column else 0.0 for n in moves]
         curves = _pieces(stages, machine.period_deg, window, rise)
         for i, (name, pieces) in enumerate(zip(moves, curves, strict=True)):
-            marks = () if name == column else (_peak(machine, name, i, stages, window),)
-            out[name] = pieces, marks, None
+            peak = () if name == column else (_peak(machine, name, i, stages, window),)
+            out[name] = pieces, peak, None
     if loads:
         ends = {name: cycle.extremes[name] for name in loads}
         if FORCE in ends:  # drawn with the sign of the wall that bears
@@ -68,7 +68,16 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
             own = bounds.get(name)
             if own:
                 pieces = [part for piece in pieces for part in _within(piece, own)]
-            out[name] = pieces, tuple(_ends(machine, ends[name], window)), own
+            one, marks = ends[name], tuple[Mark, ...]()
+            size = max(abs(one.max), abs(one.min))
+            for word, value, at_deg, shown in (
+                ("max", one.max, one.max_at_deg, one.max > ROUNDED * size),
+                ("min", one.min, one.min_at_deg, one.min < -ROUNDED * size),  # only below 0
+            ):
+                if shown or math.isinf(value):
+                    y = value if math.isfinite(value) else None
+                    marks += (Mark(word, _placed(machine, at_deg, window), y),)
+            out[name] = pieces, marks, own
     return out
 
 
@@ -136,7 +145,6 @@ def _loaded(
 
 
 def _dwell(mechanism: Mechanism, i: int, values: Sequence[float]) -> Iterator[Stage]:
-    """The dwell after an engagement, if there is one."""
     here, dwell = mechanism.engagements[i], mechanism.dwell_deg(i)
     end, column = here.mid_deg + here.exit_deg, np.array(values)[:, None]
     if dwell:
@@ -194,18 +202,6 @@ def _peak(machine: Mechanism, name: str, row: int, stages: Sequence[Stage], wind
     ]
     nearest_to = min(values, key=lambda value: abs(abs(value) - peak.max))
     return Mark("peak", _placed(machine, peak.at_deg, window), math.copysign(peak.max, nearest_to))
-
-
-def _ends(machine: Mechanism, ends: LoadSummary[float], window: Ends) -> Iterator[Mark]:
-    """The greatest value of a load and, if it goes below 0, the least."""
-    size = max(abs(ends.max), abs(ends.min))
-    for word, value, at_deg, shown in (
-        ("max", ends.max, ends.max_at_deg, ends.max > ROUNDED * size),
-        ("min", ends.min, ends.min_at_deg, ends.min < -ROUNDED * size),
-    ):
-        if shown or math.isinf(value):
-            y = value if math.isfinite(value) else None
-            yield Mark(word, _placed(machine, at_deg, window), y)
 
 
 def _placed(machine: Mechanism, at_deg: float, window: Ends) -> float:

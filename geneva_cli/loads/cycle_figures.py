@@ -44,14 +44,8 @@ AXES = (
     Axis("crank_far_bearing_N", "Crank's farther bearing", "N"),
 )
 AXIS_BY_NAME = {axis.name: axis for axis in AXES}
-USUAL_QUANTITIES = (  # besides the wheel's angle or the rack's travel
-    "velocity",
-    "acceleration",
-    "jerk",
-    "pin_force_N",
-    "input_torque_Nm",
-    "power_W",
-)
+# besides the wheel's angle or the rack's travel
+USUAL_QUANTITIES = ("velocity", "acceleration", "jerk", "pin_force_N", "input_torque_Nm", "power_W")
 
 LeftOut: TypeAlias = tuple[str, str]  # a machine's name, and a sentence on what it lacks
 
@@ -61,11 +55,6 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
 
     ``pick`` are names of quantities; by default the known ones of ``USUAL_QUANTITIES``. Raises
     GenevaError for an unknown name, and for a requested quantity that no machine has.
-
-    >>> from geneva_cli import Design, External
-    >>> velocities, left_out = figure({"six": Design(External(6)).cycle}, ["velocity"])
-    >>> velocities.panels[0].curves[0].marks
-    (Mark(word='peak', x=0.0, y=1.0),)
     """
     if len(cycles) > MACHINES_MAX:
         raise GenevaError(

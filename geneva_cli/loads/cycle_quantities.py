@@ -57,7 +57,6 @@ def _pressure_speed(i: Instant[V]) -> QuantityValue[V]:
 
 
 def _guide(i: Instant[V]) -> QuantityValue[V]:
-    """The square of the guide's force, N²."""
     assert i.guide_squared is not None  # there is a guide
     return QuantityValue(i.guide_squared, i.grip)
 

@@ -203,13 +203,6 @@ class Instant(Generic[V]):
         slot = self.wheel_torque_Nm * self.at.velocity
         return slot + self.rubbed_Nm if self.case.rubs or self.case.guided else slot
 
-    @cached_property
-    def lossless_torque_Nm(self) -> V:
-        """Torque of the input shaft before the efficiency, N m."""
-        if all_true(self.case.frame == 0.0):
-            return self.slot_torque_Nm
-        return self.slot_torque_Nm + self.frame_torque_Nm
-
     @property
     def _losses(self) -> Number:
         """Ratio of the input's torque to that without losses: 1 where the wheel drives."""
@@ -218,7 +211,10 @@ class Instant(Generic[V]):
     @cached_property
     def input_torque_Nm(self) -> V:
         """Torque of the input shaft, N m, losses included."""
-        return self.lossless_torque_Nm * self._losses
+        lossless = self.slot_torque_Nm
+        if not all_true(self.case.frame == 0.0):
+            lossless = lossless + self.frame_torque_Nm
+        return lossless * self._losses
 
     @property
     def crank_torque_Nm(self) -> V:

@@ -89,8 +89,7 @@ def loads_table(
 
 def no_load(cycle: Cycle) -> str:
     """What a cycle without a load needs."""
-    keys = cycle.mechanism.spec.load_keys
-    return f"no force is known: set {keys}"
+    return f"no force is known: set {cycle.mechanism.spec.load_keys}"
 
 
 def missing(cycle: Cycle) -> list[Notice]:

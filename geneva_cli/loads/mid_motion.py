@@ -6,7 +6,6 @@ There the pin reverses in a cusp of its pitch curve, or crosses the radius.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TypeAlias
 
 import numpy as np
 
@@ -17,21 +16,20 @@ from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.arrays import Mask, Number, array
 from geneva_cli.numerics.jet import Array, Jet
 
-# Number of a quantity, and for n designs its place and value, (n,); NaN where undefined.
-Known: TypeAlias = "tuple[int, Array, Array]"
-
 
 def at_mid_motion(
     engagement: Engagement, case: LoadCase, quantities: Sequence[LoadQuantity], n: int
-) -> list[Known]:
+) -> list[tuple[int, Array, Array]]:
     """The quantities of n designs at mid-motion, and nearer to it than any stretch.
+
+    They are numbers of quantities, with places and values (n,); NaN where undefined.
 
     Where the pin crosses the radius, its lever is 0 and a torque takes an unbounded force; instead
     of 0/0 the limits from both sides are returned. At a cusp the wall turns away from the roller on
     one side. A law that jumps at its middle has another acceleration after it: the slot then has a
     corner there, whose two sides are mirror images.
     """
-    out: list[Known] = []
+    out: list[tuple[int, Array, Array]] = []
 
     def add(number: int, x: Array, known: Number, where: Mask) -> None:
         out.append((number, x[:, 0], np.where(where, known, np.full((n, 1), np.nan))[:, 0]))

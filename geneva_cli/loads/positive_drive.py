@@ -59,11 +59,5 @@ def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
     played = gap > 0.01 + 2.0 * mechanism.spec.size.allowances.slot_clearance_mm
     loose, gap, x = np.broadcast_arrays(played & (lead * torque < 0.0), gap, x)
     every, worst = np.arange(len(gap)), np.argmax(np.where(x < 0.0, gap, 0.0), axis=1)
-    return PositiveDrives(
-        loose.mean(axis=1),
-        gap[every, worst],
-        x[every, worst],
-        np.where(loose, gap, 0.0).max(axis=1),
-        x,
-        loose,
-    )
+    widest, loosest = (every, worst), np.where(loose, gap, 0.0).max(axis=1)
+    return PositiveDrives(loose.mean(axis=1), gap[widest], x[widest], loosest, x, loose)

@@ -30,17 +30,14 @@ if TYPE_CHECKING:
 
 CARRIED = ("inertia_kgm2", "motor_rpm")
 KNOWN_UNLOADED = (*CARRIED, "acceleration_rad_s2", "Am", "Vm", "Qm")  # known without a load
-CYCLE_SUMS = (
-    *("energy_fluctuation_J", "flywheel_kgm2"),
-    *("flywheel_to_add_kgm2", "motor_torque_rms_Nm"),
-)
+SUMS = ("energy_fluctuation_J", "flywheel_kgm2", "flywheel_to_add_kgm2", "motor_torque_rms_Nm")
 WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizings``
 # In the order shown: the inertia at the wheel's shaft, and the wheel's own; the cam-indexer
 # formula, for the engagement with the greatest torque at the input; the exact cycle.
 SHOWN_SIZING = (
-    *("inertia_kgm2", WHEEL_INERTIA, "acceleration_rad_s2"),
-    *("inertia_torque_Nm", "friction_torque_Nm"),
-    *("total_torque_Nm", "design_torque_Nm", "input_torque_Nm", "power_W", "Am", "Vm", "Qm"),
+    *("inertia_kgm2", WHEEL_INERTIA, "acceleration_rad_s2", "inertia_torque_Nm"),
+    *("friction_torque_Nm", "total_torque_Nm", "design_torque_Nm", "input_torque_Nm"),
+    *("power_W", "Am", "Vm", "Qm"),
     *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
     *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2"),
 )
@@ -92,13 +89,21 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
         "inertia_kgm2": _some(inertia_kgm2(spec)),
         "motor_rpm": spec.drive.n_rpm * spec.motor.ratio,
     }
-    if names - {*CARRIED, *CYCLE_SUMS, "inertia_ratio", "motor_torque_max_Nm"}:
+    if names - {*CARRIED, *SUMS, "inertia_ratio", "motor_torque_max_Nm"}:
         values |= _by_formula(whole)
-    if names & {*CYCLE_SUMS, "motor_torque_max_Nm"}:
-        torque = load_summaries(mechanism, [TORQUE], bool(names & set(CYCLE_SUMS)))[TORQUE]
+    if names & {*SUMS, "motor_torque_max_Nm"}:
+        torque = load_summaries(mechanism, [TORQUE], bool(names & set(SUMS)))[TORQUE]
         values |= _exact(whole, torque)
-    if "inertia_ratio" in names:
-        values["inertia_ratio"] = _inertia_ratio(whole)
+    if "inertia_ratio" in names:  # the wheel's inertia at its fastest over the motor's
+        own, frame = inertia_kgm2(spec), whole.frame
+        motor = spec.motor.inertia_kgm2 * spec.motor.ratio**2
+        others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
+        velocities = [_peaks(engagement, "velocity")[0] for engagement in whole.engagements]
+        fastest = np.max(np.broadcast_arrays(*velocities), axis=0) + frame
+        with np.errstate(all="ignore"):
+            ratios = [np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest)]
+        known = np.asarray(spec.motor.inertia_kgm2) > 0.0
+        values["inertia_ratio"] = np.where(known, np.maximum(*ratios), np.nan)
     return {
         name: np.ravel(row) if name in KNOWN_UNLOADED else np.where(loaded, np.ravel(row), np.nan)
         for name, row in values.items()
@@ -166,6 +171,7 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
         best = choose_record(more, (line, factors), best)
     assert best is not None  # a machine has an engagement
     line, factors = best
+    losses = spec.load.efficiency * spec.motor.gear_efficiency
     return {
         "acceleration_rad_s2": line.alpha,
         **factors._asdict(),
@@ -174,9 +180,7 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
         "total_torque_Nm": line.Tt,
         "design_torque_Nm": line.Te,
         "input_torque_Nm": line.Tc,
-        "power_W": omega(spec.drive.n_rpm)
-        * line.Tc
-        / (spec.load.efficiency * spec.motor.gear_efficiency),
+        "power_W": omega(spec.drive.n_rpm) * line.Tc / losses,
     }
 
 
@@ -208,18 +212,6 @@ def _exact(mechanism: Mechanism, torque: LoadSummary[Array]) -> dict[str, Number
         # the motor has some inertia of its own, at the input shaft
         out["flywheel_to_add_kgm2"] = np.maximum(whole - motor.inertia_kgm2 * motor.ratio**2, 0.0)
     return out
-
-
-def _inertia_ratio(mechanism: Mechanism) -> Number:
-    """The wheel's inertia at its fastest over the motor's; NaN where that is not known."""
-    spec, frame = mechanism.spec, mechanism.frame
-    own, motor = inertia_kgm2(spec), spec.motor.inertia_kgm2 * spec.motor.ratio**2
-    others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
-    velocities = [_peaks(engagement, "velocity")[0] for engagement in mechanism.engagements]
-    fastest = np.max(np.broadcast_arrays(*velocities), axis=0) + frame
-    with np.errstate(all="ignore"):
-        ratios = [np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest)]
-    return np.where(np.asarray(spec.motor.inertia_kgm2) > 0.0, np.maximum(*ratios), np.nan)
 
 
 class Unevenness(NamedTuple):
@@ -283,7 +275,7 @@ def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
     spec, w = mechanism.spec, omega(mechanism.spec.drive.n_rpm)
     if not mechanism.frame:
         return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
-    case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0).frictionless
+    case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0, friction=0.0, guide=None)
     torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
     one = isinstance(power_invariant, float)
     return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency

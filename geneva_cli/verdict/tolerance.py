@@ -209,11 +209,11 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
         text = "dwell_position is not known: no drawn locking disc holds the wheel at rest"
         warnings.append(Notice("not-known", text))
     if errors:
-        one, farthest = max(errors, key=lambda error: float(error[1].error[0]))
-        shown = mechanism.shown_deg(one.engagement.mid_deg + float(farthest.at_deg[0]))
+        one, farthest = max(errors, key=lambda error: float(error[1][0, 0]))
+        shown = mechanism.shown_deg(one.engagement.mid_deg + float(farthest[1, 0]))
         values["motion_play.at_deg"] = shown
-        other, root = max(roots, key=lambda root: float(root[1].error[0]))
-        place, side, worst = (float(a[0]) for a in (root.at_deg, root.side, farthest.error))
+        other, root = max(roots, key=lambda root: float(root[1][0, 0]))
+        place, side, worst = float(root[1, 0]), float(root[2, 0]), float(farthest[0, 0])
         motion = spread(lambda by: other(by, place, side) * side, sizes, worst, drawn.motion)
     else:
         text = "motion_play is not known: curved slots are computed for a path without errors"

@@ -6,7 +6,7 @@ import pytest
 from geneva_cli import External, Mass, Support
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.carried import body_inertia_kgm2, inertia_kgm2, support_torque_Nm, weight_kg
+from geneva_cli.loads.carried import inertia_kgm2, mass_inertia_kgm2, support_torque_Nm, weight_kg
 from geneva_cli.motion.machine_spec import Spec
 
 
@@ -38,14 +38,14 @@ def test_a_round_body_is_its_integral(mass):
     weight = mpmath.quad(lambda r: 2 * mpmath.pi * r * per, [low, high])
     inertia = mpmath.quad(lambda r: 2 * mpmath.pi * r**3 * per, [low, high])
     assert weight_kg(mass) == pytest.approx(float(weight), rel=1e-14)
-    assert body_inertia_kgm2(mass) == pytest.approx(float(inertia), rel=1e-14)
+    assert mass_inertia_kgm2(mass) == pytest.approx(float(inertia), rel=1e-14)
 
 
 def test_a_block_is_its_integral():
     mass = Mass("block", density_kgm3=7850.0, length_mm=40.0, width_mm=30.0, thickness_mm=20.0)
     per = mass.density_kgm3 * 0.020
     inertia = mpmath.quad(lambda x, y: per * (x * x + y * y), [-0.02, 0.02], [-0.015, 0.015])
-    assert body_inertia_kgm2(mass) == pytest.approx(float(inertia), rel=1e-14)
+    assert mass_inertia_kgm2(mass) == pytest.approx(float(inertia), rel=1e-14)
 
 
 def test_gears_to_the_table_count_twice_for_inertia_and_once_for_friction():

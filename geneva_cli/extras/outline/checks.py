@@ -44,11 +44,21 @@ TURNED_WRONG = 0.25  # of the index: no slot is so loose
 def checks(mechanism: Mechanism) -> list[Check]:
     """The checks of a machine with drawn outlines, one after the other."""
     result = turned(mechanism)
-    rows = [_turns(result, mechanism), *_slack(result)]
+    machine, rows = result.machine, [_turns(result, mechanism)]
+    is_missed = result.rest.is_free and not any(sense.jam for sense in result.senses)
+    if result.has_indexed or not is_missed:  # a wheel that finds no slot has no slack
+        least, given, why = least_slack_mm(result), machine.free.slack, ""
+        if least is None:
+            most = most_slack_mm(machine)
+            why = f"it would not turn with {most:.3g} mm less on every face either"
+        elif least > given:
+            less = f"{least:.2g} mm less on every face"
+            why = f"it would turn with {less} of the wheel or of the crank"
+        rows.append(Check("turning_slack_mm", least, "at most", given, not why, why))
     holds = result.is_held or mechanism.spec.wheel.held_by is not None
     rows.append(Check("dwell_hold", float(holds), "at least", 1.0, holds))
-    rows += [*_rests(result), *_walls(result.machine), *_entry(result, mechanism)]
-    if result.turns and not put_back(result.machine, result.rest):
+    rows += [*_rests(result), *_walls(machine), *_entry(result, mechanism)]
+    if result.turns and not put_back(machine, result.rest):
         # a wheel that keeps its place rests at the same place after each index
         play, drift = result.rest.high - result.rest.low, max(abs(s.drift) for s in result.senses)
         value, limit = math.degrees(drift), math.degrees(play)
@@ -77,7 +87,18 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
     machine, z = result.machine, float(mechanism.spec.wheel.z)
     worst = min(result.senses, key=lambda sense: sense.passed)
     if not result.rest.is_free:
-        why = _overlap_text(machine, mechanism)
+        why = "parts overlap in the middle of the dwell"
+        pieces = [piece for shape in machine.crank for piece in shape.segments]
+        places = np.linspace(0.0, 1.0, POINTS).tolist()
+        depth, where = machine.deepest([at(piece, t) for piece in pieces for t in places])
+        if depth > 0.0:
+            why += f": the crank is {depth:.3g} mm inside the wheel at {shown(where)} in its frame"
+        why += "; check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
+        if mechanism.spec.outline.crank is None:
+            why += (
+                "; the crank is our own: give its drawing with --crank, or set lock_radius_mm = 0 "
+                "in [size] if it has no locking disc"
+            )
         return Check("turns", 0.0, "at least", z, False, why)
     if worst.jam is not None:
         at_deg = _shown_deg(machine, worst.jam.crank)
@@ -91,21 +112,6 @@ def _turns(result: Turned, mechanism: Mechanism) -> Check:
         )
         return Check("turns", 0.0, "at least", z, False, why)
     return Check("turns", z, "at least", z, True, _summary(result))
-
-
-def _slack(result: Turned) -> Iterator[Check]:
-    """Check the least slack with which the wheel turns; a wheel that finds no slot has none."""
-    machine = result.machine
-    is_missed = result.rest.is_free and not any(sense.jam for sense in result.senses)
-    if is_missed and not result.has_indexed:
-        return
-    value, given, why = least_slack_mm(result), machine.free.slack, ""
-    if value is None:
-        most = most_slack_mm(machine)
-        why = f"it would not turn with {most:.3g} mm less on every face either"
-    elif value > given:
-        why = f"it would turn with {value:.2g} mm less on every face of the wheel or of the crank"
-    yield Check("turning_slack_mm", value, "at most", given, not why, why)
 
 
 def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
@@ -127,23 +133,6 @@ def _jam_text(machine: DrawnMachine, sense: SenseResult) -> str:
     return f"{text}: {theirs} of the crank meets {own} of the wheel at {where} in its own frame"
 
 
-def _overlap_text(machine: DrawnMachine, mechanism: Mechanism) -> str:
-    """Where the crank lies deepest in the wheel, in the middle of the dwell."""
-    text = "parts overlap in the middle of the dwell"
-    fractions = np.linspace(0.0, 1.0, POINTS)
-    points = [at(p, float(t)) for shape in machine.crank for p in shape.segments for t in fractions]
-    depth, where = machine.deepest(points)
-    if depth > 0.0:
-        text += f": the crank is {depth:.3g} mm inside the wheel at {shown(where)} in its frame"
-    text += "; check wheel_turn_deg, crank_turn_deg and mirror in [outline]"
-    if mechanism.spec.outline.crank is None:
-        text += (
-            "; the crank is our own: give its drawing with --crank, or set lock_radius_mm = 0 in "
-            "[size] if it has no locking disc"
-        )
-    return text
-
-
 def _from_rest(machine: DrawnMachine, wheel: float) -> float:
     """A wheel's angle in its own step, degrees from the middle of it."""
     step = machine.step / len(machine.assembly.motions)
@@ -155,7 +144,6 @@ def _shown_deg(machine: DrawnMachine, crank: float) -> float:
 
 
 def _summary(result: Turned) -> str:
-    """What the turn gives, in words."""
     machine, turn = result.machine, result.senses[0].first
     index = math.degrees(turn.gained) / len(machine.assembly.motions)
     is_moving = turn.is_moving

@@ -30,10 +30,8 @@ def drawn_scene(design: Design) -> Scene:
     """The scene of a design with its drawings in place of the computed outlines."""
     result, shown = turned(design.mechanism), scene(design)
     turn, machine = steady_turn(result), result.machine
-    start, entry = (
-        first_entry_deg(design.mechanism),
-        math.radians(machine.assembly.motions[0].entry),
-    )
+    start = first_entry_deg(design.mechanism)
+    entry = math.radians(machine.assembly.motions[0].entry)
 
     def time(crank: float) -> float:
         """Input degrees from the start; angles before the first entry come a turn later."""

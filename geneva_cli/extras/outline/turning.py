@@ -8,12 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.extras.outline.contact import contacts
+from geneva_cli.extras.outline.contact import Contact, contacts
 from geneva_cli.extras.outline.machine import DrawnMachine, crank_jet, drawn_machine
 from geneva_cli.loads.impacts.shock_force import forces_N, impulse_Nms
 from geneva_cli.loads.strength.pin import PinSize, pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.parts.turn.free_ranges import Range
 from geneva_cli.parts.turn.lazy_turn import STEPS, Jam, LazyTurn, Push, Turner
@@ -196,6 +195,7 @@ class Impact(NamedTuple):
     crank: float  # radians
     wheel: float
     way: int
+    touching: Contact
 
 
 class Struck(NamedTuple):
@@ -221,28 +221,17 @@ def moving(turn: LazyTurn) -> list[Push]:
     return [push for push in turn.pushes if push.moved > LATE]
 
 
-def impacts(result: Turned) -> list[Impact]:
-    """The impacts of both senses: the velocities at which pushes begin."""
-    out: list[Impact] = []
-    for sense in result.senses:
-        for turn in sense.turns:
-            for push in moving(turn):
-                one = Impact(math.nan, push.begin, push.begin_wheel, sense.way)
-                crank, wheel = _after(one)
-                velocity = contacts(result.machine.free, crank, wheel).motion(crank)[1]
-                out.append(one._replace(velocity=float(velocity[0])))
-    return out
-
-
 def hardest_impact(result: Turned) -> Impact | None:
     """The hardest impact, the one forwards of two that are equal; None without any."""
-    every = impacts(result)
+    every: list[Impact] = []
+    for sense in result.senses:
+        for push in [push for turn in sense.turns for push in moving(turn)]:
+            crank, wheel = push.begin, push.begin_wheel
+            after = np.array([crank + sense.way * JUST])
+            touching = contacts(result.machine.free, after, np.array([wheel]))
+            velocity = float(touching.motion(after)[1][0])
+            every.append(Impact(velocity, crank, wheel, sense.way, touching))
     return max(every, key=lambda one: (round(abs(one.velocity), 4), one.way), default=None)
-
-
-def _after(impact: Impact) -> tuple[Array, Array]:
-    """Crank and wheel angles just after an impact, radians, (1,) each."""
-    return np.array([impact.crank + impact.way * JUST]), np.array([impact.wheel])
 
 
 def struck_by(mechanism: Mechanism, result: Turned, impact: Impact) -> Struck:
@@ -257,10 +246,9 @@ def struck_by(mechanism: Mechanism, result: Turned, impact: Impact) -> Struck:
         return Struck(jump, shown_deg, None, None)
     sizes, force = built(mechanism), None
     width, radius = sizes.face_width_mm or sizes.wheel_thickness_mm, machine.roller.radius
-    touching = contacts(machine.free, *_after(impact))
     # whether the roller strikes, and not the disc
-    off = abs(float(touching.crank.radius[0]) - radius)
-    is_roller = bool(touching.is_known[0]) and off < SAME * radius + machine.free.slack
+    off = abs(float(impact.touching.crank.radius[0]) - radius)
+    is_roller = bool(impact.touching.is_known[0]) and off < SAME * radius + machine.free.slack
     if width is not None and is_roller:
         pin = PinSize(sizes.pin_mm or pin_diameter_mm(mechanism), width)
         force = float(forces_N(mechanism, np.array([[abs(jump)]]), pin)[0])

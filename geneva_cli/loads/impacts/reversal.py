@@ -83,19 +83,12 @@ def impacts_of(
         return start, start
     follows = np.append(which[1:] == which[:-1], False)
     until = np.where(follows, np.append(start[1:], 0.0), np.nan)
-    x, speed, crosses = joined(
-        # the integrals of so many fit in the cache
-        [
-            _coasts(
-                taken(engagement.motion, which[part]),
-                start[part, None],
-                until[part],
-                play[part],
-                drag[which[part]],
-            )
-            for part in blocks(len(start), 256)
-        ]
-    )
+    parts = []
+    for part in blocks(len(start), 256):  # the integrals of so many fit in the cache
+        of = which[part]
+        motions = taken(engagement.motion, of)
+        parts.append(_coasts(motions, start[part, None], until[part], play[part], drag[of]))
+    x, speed, crosses = joined(parts)
     # a wheel that has not crossed its play leaves no other wall at the next change
     speed[1:][follows[:-1] & ~crosses[:-1]] = np.nan
     return start + x / DEGREE, speed
@@ -227,23 +220,19 @@ def _reversal(
     return out
 
 
-Lag: TypeAlias = tuple[float, float, float]  # degrees: the greatest, its place, the end
+Lag: TypeAlias = tuple[float, float, float]  # degrees: greatest, its place, where the wall meets
 
 
 def arrival(mechanism: Mechanism) -> tuple[float, float, Lag | None] | None:
-    """Whether the wheel follows a roller that stops it with one wall only; None if there are two.
+    """The resisting torque where one wall alone stops the wheel; None if a slot has two.
 
-    The resisting torque, the greatest with which the wheel reaches its dwell, and its greatest lag
-    with its place and where the wheel meets the wall again, degrees; None if it does not lag.
+    Also the greatest with which the wheel reaches its dwell, and its greatest lag.
 
     If gears drive between two rollers, the slot of the second has a wall behind its roller only.
     From the handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²), and lags by
-
-        d(x) = psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2
-
-    until d is 0 again. -psi'' of a straight slot has one peak, and is not 0 at the exit e. So the
-    wheel reaches its dwell if m <= -psi''(e) and m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e
-    - s)².
+    psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2 until that is 0 again. -psi'' of a straight
+    slot has one peak, and is not 0 at the exit e. So the wheel reaches its dwell if m <= -psi''(e)
+    and m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
     """
     (engagement, *_), spec = mechanism.engagements, mechanism.spec
     if not engagement.paired or not spec.is_loaded:

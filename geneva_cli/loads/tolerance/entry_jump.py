@@ -18,17 +18,7 @@ from geneva_cli.motion.engagement import AsBuilt
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.wheels.as_built import RestingSlot
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, Mask, array, parameter
-
-
-class Branch(NamedTuple):
-    """The true path on one side of its entry, for crossings of the axis by paths with errors."""
-
-    side: float
-    root: Array  # square root of its distance from the axis, over L
-    # Speed of its approach to the axis over that root, nearly constant, and as imaginary part the
-    # wheel's lever to the roller: one search interpolates both.
-    speed_and_lever: Array
+from geneva_cli.numerics.arrays import Array, Complex, Mask, array, parameter
 
 
 class TrueJump(NamedTuple):
@@ -37,7 +27,10 @@ class TrueJump(NamedTuple):
     axis: RestingAxis
     L: float
     arm: float
-    branches: tuple[Branch, ...]
+    # The true path on each side of its entry: the side, the root of its distance from the axis
+    # (over L), and over that root its speed towards the axis, nearly constant, with the wheel's
+    # lever to the roller as imaginary part: one search interpolates both.
+    branches: tuple[tuple[float, Array, Complex], ...]
 
     def __call__(self, by: Deviations) -> tuple[Array, Mask]:
         """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis."""
@@ -45,10 +38,10 @@ class TrueJump(NamedTuple):
         offset = np.atleast_1d(self.axis.offset(array(crank), array(center)))
         moved = np.broadcast_to((center - crank) / (1.0 + crank) * self.axis.along, offset.shape)
         jump, missed = np.zeros(len(offset)), offset != 0.0
-        for branch in self.branches:
-            here = np.flatnonzero(offset * branch.side > 0.0)
+        for side, root, speed_and_lever in self.branches:
+            here = np.flatnonzero(offset * side > 0.0)
             at = np.sqrt(abs(offset[here]))
-            both = np.interp(at, branch.root, branch.speed_and_lever, right=np.nan)
+            both = np.interp(at, root, speed_and_lever, right=np.nan)
             speed, lever = at * both.real, both.imag + moved[here]
             jump[here] = np.nan_to_num(speed / lever)
             missed[here] = np.isnan(speed)
@@ -103,13 +96,13 @@ def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
         if axis is not None:
             # the path after the true entry counts if it is on the other side
             before, after = _branch(axis, -1.0), _branch(axis, 1.0)
-            branches = (before,) if before.side == after.side else (before, after)
+            branches = (before,) if before[0] == after[0] else (before, after)
             arm = arm_mm(mechanism, engagement)
             out.append(TrueJump(axis, mechanism.center_distance_mm, arm, branches))
     return out
 
 
-def _branch(axis: RestingAxis, sense: float) -> Branch:
+def _branch(axis: RestingAxis, sense: float) -> tuple[float, Array, Complex]:
     # In geometric progression from next to the true entry to half-way through the motion: between
     # two places, interpolation has a relative error of 1e-6 at most.
     span = 0.5 * axis.engagement.motion_deg * DEGREE
@@ -120,7 +113,7 @@ def _branch(axis: RestingAxis, sense: float) -> Branch:
     leaves = np.append(np.diff(root[first:]) > 0.0, False)
     part = slice(first, first + int(np.argmin(leaves)) + 1)  # as far as it leaves the axis
     root, lever = root[part], axis.anchor.along + along.arrays()[0][part]
-    return Branch(float(np.sign(off[first])), root, abs(slope)[part] / root + 1j * lever)
+    return float(np.sign(off[first])), root, abs(slope)[part] / root + 1j * lever
 
 
 def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array | None:

@@ -97,14 +97,7 @@ class Lock(NamedTuple):
         return LockPlay(_chosen(jams, angle * 0.0, angle), jams)
 
     def contact(self) -> LockContact:
-        """Contact of disc and recess after the play is used up, without deviations.
-
-        >>> touch = Lock(100.0, 1.0, 40.0, 40.5, 86.8, 2.0).contact()
-        >>> round(math.degrees(touch.phi), 3), round(math.degrees(touch.play), 4)
-        (59.455, 0.3325)
-        >>> str(Lock(100.0, -1.0, 30.0, 30.5, 86.8, 2.0).contact().on)  # an internal wheel
-        'recess'
-        """
+        """Contact of disc and recess after the play is used up, without deviations."""
         L, clearance = self.L, self.recess - self.lock
         # a corner meets the disc if the disc reaches as far round as the recess
         corner, loose = _truth(self.reach <= self.half), _truth(clearance > 0.0)

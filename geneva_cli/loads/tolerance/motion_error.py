@@ -30,7 +30,6 @@ from geneva_cli.numerics.arrays import (
     array,
     blocks,
     choose,
-    choose_record,
     joined,
     parameter,
     size,
@@ -38,18 +37,6 @@ from geneva_cli.numerics.arrays import (
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 
 MOTION_SAMPLES = 361  # input angles at which a motion is sampled
-
-
-class WorstErrors(NamedTuple):
-    """Greatest errors of n designs, radians, with their input angles and sides: (n,) each."""
-
-    error: Array
-    at_deg: Array
-    side: Array
-
-    def beyond(self, other: WorstErrors) -> WorstErrors:
-        """The greater error of this and another result, in each design."""
-        return choose_record(self.error > other.error, self, other)
 
 
 class MotionError(NamedTuple):
@@ -95,16 +82,22 @@ class MotionError(NamedTuple):
         margin = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
         return parameter(margin if margin.size > 1 else float(margin[0, 0]))
 
-    def greatest(self, by: Deviations) -> WorstErrors:
-        """Greatest error of any of the machines, the first axis of ``by``: (n,) for n designs."""
+    def greatest(self, by: Deviations) -> Array:
+        """Greatest error of any of the machines, the first axis of ``by``, of n designs: (3, n).
+
+        The rows are the error in radians, the input angle, and the side.
+        """
         values = [np.atleast_1d(jet.c[0]) for jet in by]
         each = deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
         return self._greatest(
             lambda at, side: np.asarray((array(self(each, at, side).c[0]) * side).max(axis=0))
         )
 
-    def greatest_rss(self, sizes: Sequence[float]) -> WorstErrors:
-        """The nominal error and the root of the squared effects of dimensions of these sizes."""
+    def greatest_rss(self, sizes: Sequence[float]) -> Array:
+        """The nominal error and the root of the squared effects of dimensions of these sizes.
+
+        It is at its greatest, with the rows of ``greatest``.
+        """
         none, which = deviations([0.0] * len(sizes)), [i for i, x in enumerate(sizes) if np.any(x)]
 
         def root(at: Array, side: float) -> Array:
@@ -116,10 +109,10 @@ class MotionError(NamedTuple):
 
         return self._greatest(root)
 
-    def _greatest(self, of: Callable[[Array, float], Array]) -> WorstErrors:
+    def _greatest(self, of: Callable[[Array, float], Array]) -> Array:
         """Greatest of a function of input angles (n, k) and a side, in each design."""
         entry, exit_ = np.ravel(self.engagement.entry_deg), np.ravel(self.engagement.exit_deg)
-        best: WorstErrors | None = None
+        best: Array | None = None
         for side in (1.0, -1.0):
             low, high = entry, exit_
             # eleven more samplings, each about the greatest of the last and a tenth as wide
@@ -128,11 +121,10 @@ class MotionError(NamedTuple):
                 off = of(at, side)
                 at, every = np.broadcast_to(at, off.shape), np.arange(len(off))
                 i = np.argmax(off, axis=1)
-                here = WorstErrors(off[every, i], at[every, i], np.full(len(off), side))
-                best = here if best is None else here.beyond(best)
+                here = np.array((off[every, i], at[every, i], np.full(len(off), side)))
+                best = here if best is None else np.where(here[0] > best[0], here, best)
                 step = (at[:, 1] - at[:, 0]) * count / 20.0
-                low = np.maximum(entry, here.at_deg - step)
-                high = np.minimum(exit_, here.at_deg + step)
+                low, high = np.maximum(entry, here[1] - step), np.minimum(exit_, here[1] + step)
         assert best is not None
         return best
 
@@ -174,17 +166,14 @@ def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
 def _plays(mechanism: Mechanism, n: int) -> MotionPlays:
     use = used(mechanism)
     sizes = list(use.values())
-    best = WorstErrors(*np.full((3, n), -1.0))
-    rss, shown = np.zeros((2, n))
+    best, (rss, shown) = np.full(n, -1.0), np.zeros((2, n))
     known = sum(sizes) > np.zeros((n, 1))
     both = use["center_distance_mm"] + use["crank_radius_mm"]
     for engagement, error in zip(mechanism.engagements, motion_errors(mechanism), strict=True):
-        worst = WorstErrors(*(np.resize(row, n) for row in error.greatest(corners(sizes))))
-        more = worst.error > best.error
-        best = worst.beyond(best)
-        rss = np.maximum(rss, error.greatest_rss(sizes).error)
-        at_deg = mechanism.shown_deg(parameter(engagement.mid_deg + worst.at_deg[:, None]))
-        shown = np.where(more, np.ravel(at_deg), shown)
+        worst, place, _ = (np.resize(row, n) for row in error.greatest(corners(sizes)))
+        at_deg = mechanism.shown_deg(parameter(engagement.mid_deg + place[:, None]))
+        shown = np.where(worst > best, np.ravel(at_deg), shown)
+        best, rss = np.maximum(best, worst), np.maximum(rss, error.greatest_rss(sizes)[0])
         known = known & (both < error.margin_mm(mechanism.spec, use))
-    rows = (np.degrees(best.error), np.degrees(rss), shown)
-    return MotionPlays(*(np.where(known[:, 0], row, np.nan) for row in rows))
+    rows = np.where(known[:, 0], (np.degrees(best), np.degrees(rss), shown), np.nan)
+    return MotionPlays(*rows)

@@ -40,8 +40,7 @@ class Draws(NamedTuple):
                 if self.normal:
                     from scipy.special import ndtri
 
-                    # The plus or minus is three standard deviations; a quantile of 0 would be
-                    # infinite.
+                    # the plus or minus is three standard deviations; 0 would be infinite
                     spread = ndtri(np.maximum(quantile, 2.0**-53)) / 3.0
                 columns[i] = spread * self.sizes[i]
             yield deviations(columns)
