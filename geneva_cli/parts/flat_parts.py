@@ -29,11 +29,9 @@ from geneva_cli.parts.arm import (
     locking_plates,
     roller_plates,
 )
-from geneva_cli.parts.links.link_shafts import links_to_fix
 from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.slot_ends import wall_lost
@@ -353,19 +351,6 @@ class FlatParts(EdgedParts):
         return (*turning, *self.links.cut, self.frame)
 
     @property
-    def to_fix(self) -> tuple[str, ...]:
-        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        named = {plate.name: [plate.name] for plate in self.links.plates}
-        on_crank = named.setdefault("crank", [])
-        if self.drawn and self.arm:
-            on_crank.append("arm")
-        bolted = bool(self.drawn and self.arm and self.arm.bolts)  # the disc to the arm
-        bored = self.drawn and self.sizes.crank_bore > 0.0 and is_whole(self.assembly, self.sizes)
-        if bored and self.locking and not bolted:
-            on_crank.append("locking disc")
-        return tuple(one for name in self._framed.to_fix for one in named.get(name, [name]))
-
-    @property
     def linked(self) -> tuple[Member, ...]:
         """The links, with the pins and rollers between and on them."""
         own = *self.links.cut, *self.links.joined
@@ -420,11 +405,6 @@ class FrontParts(FlatParts):
     def screws(self) -> tuple[Screws, ...]:
         """The screws between the parts; none."""
         return ()
-
-    @property
-    def to_fix(self) -> tuple[str, ...]:
-        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        return tuple(links_to_fix(self.links, self.mechanism))
 
     @property
     def members(self) -> tuple[Member, ...]:

@@ -21,7 +21,7 @@ from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
-from geneva_cli.parts.links.link_shafts import carried, crank_stop, link_shafts, outside_links
+from geneva_cli.parts.links.link_shafts import Span, carried, crank_stop, link_shafts, outside_links
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
@@ -36,7 +36,6 @@ from geneva_cli.parts.outlines.wheel_circles import wheel_hub
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, tapped
 from geneva_cli.parts.shafts.shaft import (
     Ends,
-    Seat,
     Shaft,
     crank_shaft_radius,
     shafts,
@@ -64,9 +63,9 @@ def framed(
     lows += [gear.plate.low for gear in bars.gears]
     lows += [base.low] if base else []
     if mechanism.spec.gears:
-        from geneva_cli.parts.gears.gear_pair import gear_seats
+        from geneva_cli.parts.gears.gear_pair import gear_span
 
-        lows += [seat.low for seat in gear_seats(mechanism, outlines)]
+        lows.append(gear_span(mechanism, outlines)[0])
     arm = outlines.sizes.arm_thickness if outlines and outlines.has_arm else 0.0
     lows.append(-size.allowances.pin_gap_mm - arm)
     hub = wheel_hub(outlines.assembly, outlines.sizes) if outlines else None
@@ -121,14 +120,11 @@ def framed(
         # a frame contains every axis, drilled or not
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
         plate = mounted_plate(holes, within, eye, (top - thick, top))
-    whole = {name for axis in bars.axes for name in axis.one_piece}
-    to_fix = [name for one in own for name in one.to_fix if name not in whole]
     return FrameAndShafts(
         plate,
         tuple(outside_links(axles, bars, L)),
         tuple(spacers),
         tuple((hole, part.name) for hole, part in fixed),
-        tuple(dict.fromkeys(to_fix)),
         Member(bridge, (L, 0.0)) if bridge else None,
         tuple((one.name, _why_above(one, mechanism, bars, top)) for one in hanging),
     )
@@ -207,15 +203,15 @@ def _all_shafts(
     stop, has_one = None, (False, False)
     L = mechanism.center_distance_mm
 
-    def on(at: Point) -> tuple[Seat, ...]:
-        """Return what a shaft carries, from the lowest up, but for wheel and crank."""
+    def on(at: Point) -> list[Span]:
+        """Return the faces of what a shaft carries, but for wheel and crank."""
         here = (axis for axis in bars.axes if same(axis.at, at, L))
-        seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
+        spans = [span for axis in here for span in carried(bars, axis, first, L)]
         if mechanism.spec.gears and same(at, mechanism.gear_shaft.at, L):
-            from geneva_cli.parts.gears.gear_pair import gear_seats
+            from geneva_cli.parts.gears.gear_pair import gear_span
 
-            seats += gear_seats(mechanism, outlines)[:1]
-        return tuple(sorted(seats, key=lambda seat: seat.low))
+            spans.append(gear_span(mechanism, outlines))
+        return spans
 
     if outlines:
         stop = crank_stop(outlines, bars)
@@ -223,7 +219,7 @@ def _all_shafts(
         _, *wheels = mechanism.wheel_places
         _, *cranks = mechanism.crank_places
         half = mechanism.engagements[0].half_step
-        for one in shafts(outlines, lowest, stop, on):
+        for one in shafts(outlines, lowest, stop):
             yield one
             if same(one.at, ORIGIN, L):
                 yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in wheels)

@@ -78,7 +78,6 @@ class FrameAndShafts(NamedTuple):
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
     screwed: tuple[tuple[Circle, str], ...] = ()  # clearance holes of screws, and what they fix
-    to_fix: tuple[str, ...] = ()  # names of what the shafts turn, and nothing holds on them
     bridge: Member | None = None  # bears the crank's shaft from above
     unborne: tuple[tuple[str, str], ...] = ()  # shafts that do not reach it, and why
 

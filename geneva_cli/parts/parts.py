@@ -52,11 +52,6 @@ class Parts(TurnedParts):
         return ()
 
     @property
-    def to_fix(self) -> tuple[str, ...]:
-        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        return ()
-
-    @property
     def unborne(self) -> tuple[tuple[str, str], ...]:
         """The shafts that turn and have no bearing, each with the reason."""
         return ()
@@ -210,11 +205,6 @@ class EdgedParts(Parts):
     def frame_threads(self) -> tuple[Circle, ...]:
         """The tapped holes of the frame."""
         return self._framed.threads
-
-    @property
-    def to_fix(self) -> tuple[str, ...]:
-        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
 
     @property
     def unborne(self) -> tuple[tuple[str, str], ...]:

@@ -120,7 +120,7 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: Parts) -> 
 
     Its fits are those of the process, for the thickness of the first part.
     """
-    process, to_fix = parts.mechanism.spec.size.process, parts.to_fix
+    process = parts.mechanism.spec.size.process
     unborne = {name for name, _ in parts.unborne}
 
     def begin(*names: str, thick: bool = True) -> View:
@@ -134,7 +134,6 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: Parts) -> 
                 titles.append(f"{i} {row['name']}" + f", t = {length(long)}" * thick)
         view = View("; ".join(titles) or names[0], scale, fits)
         for name in names:
-            view.to_fix(name, to_fix)
             if name in unborne:
                 view.remark("no bearing: hold it from above")
         return view

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from heapq import merge
 from typing import NamedTuple, TypeVar
 
@@ -19,7 +19,6 @@ from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Meas
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.fits import Fits
-from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.written import degrees, length
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
@@ -232,11 +231,6 @@ class View:
     def remark(self, text: str) -> None:
         """Add a text below the title."""
         self.notes.append(text)
-
-    def to_fix(self, name: str, names: Collection[str]) -> None:
-        """Add what to do with a part among ``names``, which a round bore does not hold."""
-        if name in names and FIX not in self.notes:
-            self.remark(FIX)
 
     def block(self) -> Block:
         """Return the view with its title below it."""

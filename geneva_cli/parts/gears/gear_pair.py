@@ -22,7 +22,7 @@ from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore, round_bore
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, ShaftBore, bore_at, shaft_ends
+from geneva_cli.parts.shafts.shaft import Ends, Shaft, ShaftBore, bore_at, shaft_ends
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Writer
@@ -32,10 +32,9 @@ if TYPE_CHECKING:
 FINE = {"arcs": 8e-9, "cubics": 2e-9}
 
 
-def gear_seats(mechanism: Mechanism, parts: Outlines | None) -> list[Seat]:
-    """Return where driven gear and driver sit on their shafts, in a plane below all links."""
-    ends = link_sizes(mechanism, [], parts).span(gear_plane(mechanism))
-    return [Seat(name, *ends) for name in GEARS]
+def gear_span(mechanism: Mechanism, parts: Outlines | None) -> tuple[float, float]:
+    """Return lower and upper face of both gears, in a plane below all links."""
+    return link_sizes(mechanism, [], parts).span(gear_plane(mechanism))
 
 
 def gear_pair(
@@ -55,11 +54,11 @@ def gear_pair(
         return ()
     write, members = writer(FINE["cubics"] * pair.distance_mm), []
     curves = pitch_curves(pair, mechanism.gear_shaft.sense)
-    seats, bores = gear_seats(mechanism, parts), _bores(mechanism, parts, on_crank)
-    for seat, curve, (at, on) in zip(seats, curves, bores, strict=True):
+    span, bores = gear_span(mechanism, parts), _bores(mechanism, parts, on_crank)
+    for name, curve, (at, on) in zip(GEARS, curves, bores, strict=True):
         holes = (on.hole(),) if on.bore.radius else ()
         outline = closed("PITCH", list(write(curve, -np.pi, np.pi)))
-        members.append(Member(Plate(seat.part, "PITCH", outline, holes, seat.low, seat.high), at))
+        members.append(Member(Plate(name, "PITCH", outline, holes, *span), at))
     return tuple(members)
 
 
@@ -74,15 +73,14 @@ def gear_shafts(
     if mechanism.spec.gears is None:
         return
     (first, wide), (at, radius), bored = _shafts(mechanism, parts, on_crank)
-    driven, driver = gear_seats(mechanism, parts)
+    under, over = gear_span(mechanism, parts)
     at_crank = same(first, mechanism.crank_shaft.at, mechanism.center_distance_mm)
     if at_crank and not (ends.crank_has_one or _on_links(mechanism, parts)):
-        reach = shaft_ends(mechanism.spec.size, "crank", ends.lowest, driven.high)
+        reach = shaft_ends(mechanism.spec.size, "crank", ends.lowest, over)
         on = bore_at(mechanism, first, wide)
-        yield Shaft("crank's shaft", "crank", on.bore, (driven,), *reach, first, on.direction)
-    name, bore = driver.part, Bore(radius)
-    seats, top = ((driver,), driver.high) if bored else ((), driver.low)  # or one piece with it
-    yield Shaft(f"{name}'s shaft", name, bore, seats, ends.lowest, top, at)
+        yield Shaft("crank's shaft", "crank", on.bore, *reach, first, on.direction)
+    top = over if bored else under  # or one piece with it
+    yield Shaft("driver gear's shaft", "driver gear", Bore(radius), ends.lowest, top, at)
 
 
 def _shafts(

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -30,10 +30,8 @@ from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
 from geneva_cli.parts.shafts.shaft import (
     Ends,
-    Seat,
     Shaft,
     bore_at,
-    seat_of,
     shaft_ends,
     wheel_shaft_ends,
     wheel_shaft_radius,
@@ -43,12 +41,15 @@ if TYPE_CHECKING:
     from geneva_cli.parts.links.links import LinkAxis
 
 
+Span: TypeAlias = tuple[float, float]  # lower and upper face, mm
+
+
 def link_shafts(
-    mechanism: Mechanism, bars: Links, ends: Ends, on: Callable[[Point], tuple[Seat, ...]]
+    mechanism: Mechanism, bars: Links, ends: Ends, on: Callable[[Point], list[Span]]
 ) -> Iterator[Shaft]:
     """Yield the shafts and pivots that carry only links, at input angle 0.
 
-    ``on`` returns the parts on the axis at a point.
+    ``on`` returns lower and upper faces of the parts on the axis at a point.
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     for axis in bars.axes:
@@ -56,8 +57,8 @@ def link_shafts(
         on_wheel = same(axis.at, (0.0, 0.0), L)
         if (on_crank and ends.crank_has_one) or (on_wheel and ends.wheel_has_one):
             continue
-        seats = on(axis.at)
-        low, high = seats[0].low, max(seat.high for seat in seats)
+        spans = on(axis.at)
+        low, high = min(low for low, _ in spans), max(high for _, high in spans)
         bore, direction = axis.bore.bore, axis.bore.direction
         if axis.stands:
             turns = Joint.SHAFT in axis.kinds
@@ -66,42 +67,29 @@ def link_shafts(
             high = ends.top if on_wheel else high
             low, high = shaft_ends(size, whose, low, high)
             name = f"{whose}'s {'shaft' if turns else 'pivot'}"
-            yield Shaft(name, whose, bore, seats, low, high, axis.at, direction, turns=turns)
+            yield Shaft(name, whose, bore, low, high, axis.at, direction, turns=turns)
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those are pins between links
             name = f"shaft of {', '.join(axis.names)}"
-            yield Shaft(name, axis.names[0], bore, seats, low, high, axis.at, turns=False)
+            yield Shaft(name, axis.names[0], bore, low, high, axis.at, turns=False)
 
 
-def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> Iterator[Seat]:
-    """Yield the links and gears on an axis, with or without a bore.
+def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> list[Span]:
+    """Return lower and upper faces of the links and gears on an axis, with or without a bore.
 
-    A link is fixed on the shaft of its first joint, and turns on others. ``others`` are plates
-    that turn with a link: a first wheel, whose gear is no part then, and the locking disc on a
-    first crank.
+    ``others`` are plates that turn with a link: a first wheel, whose gear is no part then, and the
+    locking disc on a first crank.
     """
-    yield from (
-        seat_of(bar.part, same(bar.at, axis.at, L) and Joint.SHAFT in axis.kinds)
-        for bar in bars.cut
-        if isinstance(bar.part, Plate) and bar.part.name in axis.names
-    )
-    on_axis = [
-        seat_of(member.part)
-        for member in others
-        if any(same(hole.centre, axis.at, L) for hole in placed_holes(member))
-    ]
-    yield from on_axis
-    names = {*axis.names} - {seat.part for seat in on_axis}
+    found = [plate for plate in bars.plates if plate.name in axis.names]
+    names = {*axis.names}
+    for member in others:
+        if any(same(hole.centre, axis.at, L) for hole in placed_holes(member)):
+            assert isinstance(member.part, Plate)
+            found.append(member.part)
+            names.discard(member.part.name)
     for gear in bars.gears:
         if gear.name in names and not gear.teeth.inside:
-            yield seat_of(gear.plate, not gear.teeth.fixed)
-
-
-def links_to_fix(bars: Links, mechanism: Mechanism) -> Iterator[str]:
-    """Yield the links and gears that turn with a shaft, but that nothing holds on it."""
-    for axis in bars.axes:
-        if axis.bore.bore.is_plain:
-            seats = carried(bars, axis, (), mechanism.center_distance_mm)
-            yield from (s.part for s in seats if s.held and s.part not in axis.one_piece)
+            found.append(gear.plate)
+    return [(plate.low, plate.high) for plate in found]
 
 
 def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[Member]:
