@@ -52,10 +52,21 @@ def gear_pair(
     pair = mechanism.spec.gears
     if pair is None:
         return ()
-    write, members = writer(FINE["cubics"] * pair.distance_mm), []
+    write, span = writer(FINE["cubics"] * pair.distance_mm), gear_span(mechanism, parts)
     curves = pitch_curves(pair, mechanism.gear_shaft.sense)
-    span, bores = gear_span(mechanism, parts), _bores(mechanism, parts, on_crank)
-    for name, curve, (at, on) in zip(GEARS, curves, bores, strict=True):
+    (axis, wide), (other, radius), bored = _shafts(mechanism, parts, on_crank)
+    own = round_bore(mechanism.spec.size, radius if bored else 0.0)
+    bores = (axis, bore_at(mechanism, axis, wide)), (other, ShaftBore(own))
+    keys, members = ("arm_bore_mm", "link_bore_mm"), []
+    for name, curve, (at, on), (least, _), key in zip(
+        GEARS, curves, bores, pitch_radii(pair), keys, strict=True
+    ):
+        if on.bore.reach >= least:
+            raise GenevaError(
+                f"no blank of the {name} is left: its bore of {2.0 * on.bore.reach:.6g} mm must be "
+                f"below {2.0 * least:.6g}, twice its least radius; reduce {key}",
+                ("size", key),
+            )
         holes = (on.hole(),) if on.bore.radius else ()
         outline = closed("PITCH", list(write(curve, -np.pi, np.pi)))
         members.append(Member(Plate(name, "PITCH", outline, holes, *span), at))
@@ -103,22 +114,3 @@ def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:
     """Return the radius of the driven gear's shaft where links are on it; 0 without links."""
     L = mechanism.center_distance_mm
     return drawn_links(mechanism, parts).shaft(mechanism.gear_shaft.at, L)
-
-
-def _bores(
-    mechanism: Mechanism, parts: Outlines | None, on_crank: float
-) -> list[tuple[Point, ShaftBore]]:
-    """Return position and bore of driven gear and driver; of radius 0 for none."""
-    pair, size = required_gears(mechanism), mechanism.spec.size
-    (axis, wide), (other, radius), bored = _shafts(mechanism, parts, on_crank)
-    bores = bore_at(mechanism, axis, wide), ShaftBore(round_bore(size, radius if bored else 0.0))
-    keys = "arm_bore_mm", "link_bore_mm"
-    for name, one, (least, _), key in zip(GEARS, bores, pitch_radii(pair), keys, strict=True):
-        reach = one.bore.reach
-        if reach >= least:
-            raise GenevaError(
-                f"no blank of the {name} is left: its bore of {2.0 * reach:.6g} mm must be below "
-                f"{2.0 * least:.6g}, twice its least radius; reduce {key}",
-                ("size", key),
-            )
-    return [(axis, bores[0]), (other, bores[1])]

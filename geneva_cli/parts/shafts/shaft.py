@@ -151,7 +151,6 @@ class ShaftBore(NamedTuple):
 
     bore: Bore = Bore(0.0)
     direction: float = 0.0
-    part: str = ""  # "wheel" or "crank", whose keys of [size] give its shape; "" for neither
 
     def hole(self, turn: float = 0.0) -> Shape:
         """Return the hole about the origin of a part that stands turned by an angle."""
@@ -163,10 +162,10 @@ def bore_at(mechanism: Mechanism, at: Point, radius: float) -> ShaftBore:
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     part = "crank" if same(at, (L, 0.0), L) else "wheel" if same(at, ORIGIN, L) else ""
     if not (part and has_shape(size, part)):
-        return ShaftBore(round_bore(size, radius), 0.0, part)
+        return ShaftBore(round_bore(size, radius))
     own, still = assembled(mechanism), np.zeros(1)
     if part == "wheel":
         direction, turn = own.rests[0], own.wheel(still)
     else:
         direction, turn = keyway_direction(own), own.crank(still)
-    return ShaftBore(bore_of(size, part, radius), direction + float(turn[0]), part)
+    return ShaftBore(bore_of(size, part, radius), direction + float(turn[0]))
