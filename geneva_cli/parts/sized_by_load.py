@@ -32,9 +32,8 @@ from geneva_cli.loads.strength.arm_and_key import (
 )
 from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import HornStress, greatest_stress, single_stress
-from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa, single_loads
 from geneva_cli.loads.strength.pin import PinSize, pin
-from geneva_cli.loads.strength.shaft_stress import shear_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
