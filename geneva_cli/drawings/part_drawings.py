@@ -122,7 +122,8 @@ def gears(parts: EdgedParts) -> Drawing:
     if not round_only:
         pair = required_gears(mechanism)
         name = "pitch curves of the gears"
-        parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
+        fine = FINE[parts.curves] * pair.distance_mm
+        parts = parts.within(min(parts.tolerance or fine, fine), parts.curves)
     members = *parts.round_gears, *parts.gear_pair
     L = mechanism.center_distance_mm
     about_crank = [one._replace(at=(one.at[0] - L, one.at[1])) for one in members]

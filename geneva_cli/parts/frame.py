@@ -17,11 +17,12 @@ from geneva_cli.geometry.distance import Polyarc, farthest
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
-from geneva_cli.parts.links.link_shafts import Span, carried, crank_stop, link_shafts, outside_links
+from geneva_cli.parts.links.link_shafts import carried, crank_stop, outside_links
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
@@ -35,9 +36,9 @@ from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, tapped
 from geneva_cli.parts.shafts.shaft import (
-    Ends,
     Shaft,
     crank_shaft_radius,
+    shaft_ends,
     shafts,
     wheel_shaft_radius,
 )
@@ -199,23 +200,16 @@ def _all_shafts(
     lowest: float,
     first: Sequence[Member],
 ) -> Iterator[Shaft]:
-    """Yield all shafts and pivots; ``lowest`` is the frame's lower face."""
-    stop, has_one = None, (False, False)
-    L = mechanism.center_distance_mm
+    """Yield all shafts and pivots; ``lowest`` is the frame's lower face.
 
-    def on(at: Point) -> list[Span]:
-        """Return the faces of what a shaft carries, but for wheel and crank."""
-        here = (axis for axis in bars.axes if same(axis.at, at, L))
-        spans = [span for axis in here for span in carried(bars, axis, first, L)]
-        if mechanism.spec.gears and same(at, mechanism.gear_shaft.at, L):
-            from geneva_cli.parts.gears.gear_pair import gear_span
-
-            spans.append(gear_span(mechanism, outlines))
-        return spans
-
+    ``first`` are plates of two wheels in series that turn with a link.
+    """
+    size, L, stop = mechanism.spec.size, mechanism.center_distance_mm, None
+    known: list[Point] = []  # axes whose shafts carry wheel or crank
     if outlines:
         stop = crank_stop(outlines, bars)
-        has_one = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
+        known += [(L, 0.0)] if crank_shaft_radius(outlines) > 0.0 else []
+        known += [ORIGIN] if wheel_shaft_radius(outlines) > 0.0 else []
         _, *wheels = mechanism.wheel_places
         _, *cranks = mechanism.crank_places
         half = mechanism.engagements[0].half_step
@@ -230,10 +224,30 @@ def _all_shafts(
                     crank = outlines.assembly.crank(np.array([-place.behind_deg, 0.0]))
                     turn = one.turn + place.turn + float(crank[0] - crank[1])
                 yield one._replace(at=place.at, turn=turn)
-    top = drawn_thicknesses(mechanism.spec.size, L, outlines.sizes if outlines else None).wheel
-    ends = Ends(lowest, top, stop, *has_one)
-    yield from link_shafts(mechanism, bars, ends, on)
+    wheel = drawn_thicknesses(size, L, outlines.sizes if outlines else None).wheel
+    for axis in bars.axes:
+        if any(same(axis.at, at, L) for at in known):
+            continue
+        here = (one for one in bars.axes if same(one.at, axis.at, L))
+        spans = [span for one in here for span in carried(bars, one, first, L)]
+        if mechanism.spec.gears and same(axis.at, mechanism.gear_shaft.at, L):
+            from geneva_cli.parts.gears.gear_pair import gear_span
+
+            spans.append(gear_span(mechanism, outlines))
+        low, high = min(low for low, _ in spans), max(high for _, high in spans)
+        bore, direction = axis.bore.bore, axis.bore.direction
+        if axis.stands:
+            turns, on_wheel = Joint.SHAFT in axis.kinds, same(axis.at, ORIGIN, L)
+            on_crank = same(axis.at, (L, 0.0), L)
+            whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
+            low = stop if on_crank and stop is not None else lowest
+            low, high = shaft_ends(size, whose, low, wheel if on_wheel else high)
+            name = f"{whose}'s {'shaft' if turns else 'pivot'}"
+            yield Shaft(name, whose, bore, low, high, axis.at, direction, turns=turns)
+        elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those are pins between links
+            name = f"shaft of {', '.join(axis.names)}"
+            yield Shaft(name, axis.names[0], bore, low, high, axis.at, turns=False)
     if mechanism.spec.gears:
         from geneva_cli.parts.gears.gear_pair import gear_shafts
 
-        yield from gear_shafts(mechanism, outlines, ends)
+        yield from gear_shafts(mechanism, outlines, lowest, (L, 0.0) in known)

@@ -149,11 +149,6 @@ class Parts(TurnedParts):
         vars(finer).update({k: v for k, v in vars(self).items() if k == "_shape"})
         return finer
 
-    def finer(self, tolerance: float) -> Self:
-        """Return these parts with curves that are at least so accurate, mm."""
-        own = self.tolerance
-        return self.within(tolerance if own is None else min(tolerance, own), self.curves)
-
     @property
     @abstractmethod
     def members(self) -> tuple[Member, ...]:

@@ -36,7 +36,6 @@ from geneva_cli.parts.mounted_plate import (
 from geneva_cli.parts.shafts.bores import bore_of, reach_or_bore
 from geneva_cli.parts.shafts.screws import bolt_radius, tapped
 from geneva_cli.parts.shafts.shaft import (
-    Ends,
     Shaft,
     shaft_ends,
 )
@@ -99,8 +98,7 @@ def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
         # the keyway is on the side of the locking sector, as in the arm
         yield Shaft("crank's shaft", "crank", bore, low, high, axis, math.pi, math.pi)
     if geared:
-        ends = Ends(heights.plain, heights.rack, crank_has_one=True)
-        yield from gear_shafts(mechanism, None, ends, radius)
+        yield from gear_shafts(mechanism, None, heights.plain, True, radius)
 
 
 def guide_bar(mechanism: Mechanism, count: int) -> Plate:

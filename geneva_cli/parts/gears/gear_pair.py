@@ -22,7 +22,7 @@ from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore, round_bore
-from geneva_cli.parts.shafts.shaft import Ends, Shaft, ShaftBore, bore_at, shaft_ends
+from geneva_cli.parts.shafts.shaft import Shaft, ShaftBore, bore_at, shaft_ends
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Writer
@@ -74,7 +74,11 @@ def gear_pair(
 
 
 def gear_shafts(
-    mechanism: Mechanism, parts: Outlines | None, ends: Ends, on_crank: float = 0.0
+    mechanism: Mechanism,
+    parts: Outlines | None,
+    lowest: float,
+    crank_has_one: bool,
+    on_crank: float = 0.0,
 ) -> Iterator[Shaft]:
     """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
@@ -86,12 +90,12 @@ def gear_shafts(
     (first, wide), (at, radius), bored = _shafts(mechanism, parts, on_crank)
     under, over = gear_span(mechanism, parts)
     at_crank = same(first, mechanism.crank_shaft.at, mechanism.center_distance_mm)
-    if at_crank and not (ends.crank_has_one or _on_links(mechanism, parts)):
-        reach = shaft_ends(mechanism.spec.size, "crank", ends.lowest, over)
+    if at_crank and not (crank_has_one or _on_links(mechanism, parts)):
+        reach = shaft_ends(mechanism.spec.size, "crank", lowest, over)
         on = bore_at(mechanism, first, wide)
         yield Shaft("crank's shaft", "crank", on.bore, *reach, first, on.direction)
     top = over if bored else under  # or one piece with it
-    yield Shaft("driver gear's shaft", "driver gear", Bore(radius), ends.lowest, top, at)
+    yield Shaft("driver gear's shaft", "driver gear", Bore(radius), lowest, top, at)
 
 
 def _shafts(

@@ -1,4 +1,4 @@
-"""Shafts and pivots that carry only links, and the gaps of round parts to the links that they pass.
+"""What shafts of links carry, and the gaps of round parts to the links that they pass.
 
 Fixed shafts end in the frame's lower face. A planet's shaft moves, and joins the parts on it. A
 link without a bore is one piece with its shaft, which ends at the link's faces.
@@ -11,15 +11,14 @@ drive is below, and the crank's shaft, which leaves the machine below all links,
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import Circle, Contour, Point
-from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.geometry.shapes import Circle, Contour
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -29,10 +28,7 @@ from geneva_cli.parts.links.links import Links, joined, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
 from geneva_cli.parts.shafts.shaft import (
-    Ends,
-    Shaft,
     bore_at,
-    shaft_ends,
     wheel_shaft_ends,
     wheel_shaft_radius,
 )
@@ -42,35 +38,6 @@ if TYPE_CHECKING:
 
 
 Span: TypeAlias = tuple[float, float]  # lower and upper face, mm
-
-
-def link_shafts(
-    mechanism: Mechanism, bars: Links, ends: Ends, on: Callable[[Point], list[Span]]
-) -> Iterator[Shaft]:
-    """Yield the shafts and pivots that carry only links, at input angle 0.
-
-    ``on`` returns lower and upper faces of the parts on the axis at a point.
-    """
-    size, L = mechanism.spec.size, mechanism.center_distance_mm
-    for axis in bars.axes:
-        on_crank = same(axis.at, (L, 0.0), L)
-        on_wheel = same(axis.at, (0.0, 0.0), L)
-        if (on_crank and ends.crank_has_one) or (on_wheel and ends.wheel_has_one):
-            continue
-        spans = on(axis.at)
-        low, high = min(low for low, _ in spans), max(high for _, high in spans)
-        bore, direction = axis.bore.bore, axis.bore.direction
-        if axis.stands:
-            turns = Joint.SHAFT in axis.kinds
-            whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
-            low = ends.stop if on_crank and ends.stop is not None else ends.lowest
-            high = ends.top if on_wheel else high
-            low, high = shaft_ends(size, whose, low, high)
-            name = f"{whose}'s {'shaft' if turns else 'pivot'}"
-            yield Shaft(name, whose, bore, low, high, axis.at, direction, turns=turns)
-        elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those are pins between links
-            name = f"shaft of {', '.join(axis.names)}"
-            yield Shaft(name, axis.names[0], bore, low, high, axis.at, turns=False)
 
 
 def carried(bars: Links, axis: LinkAxis, others: Iterable[Member], L: float) -> list[Span]:

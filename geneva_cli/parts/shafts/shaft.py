@@ -55,16 +55,6 @@ class Shaft(NamedTuple):
         return Member(plate, self.at, self.turn)
 
 
-class Ends(NamedTuple):
-    """Ends of the shafts of wheel and crank, as far as links share them."""
-
-    lowest: float  # the frame's lower face
-    top: float  # the wheel's upper face
-    stop: float | None = None  # height at which the crank's shaft ends above that face
-    crank_has_one: bool = False  # the crank's shaft carries more than links: another function's
-    wheel_has_one: bool = False
-
-
 def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:
     """Return the ends of a part's shaft: those of the spec, or else the heights low and high."""
     values = vars(size)
