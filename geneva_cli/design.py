@@ -228,15 +228,6 @@ class Design:
         return self._text.located() if self._text else nullcontext()
 
     @answer
-    def with_units(self) -> list[str]:
-        """The inputs that the spec's file has with a unit, each with the number that was read.
-
-        >>> load("designs/side-crank-z6.toml", ["size.center_distance_mm=8 in"]).with_units
-        ['size.center_distance_mm = 203.2, from "8 in"']
-        """
-        return self._text.with_units(self.spec) if self._text else []
-
-    @answer
     def mechanism(self) -> Mechanism:
         """The machine: its engagements over a period. Raises GenevaError if it cannot be built.
 
@@ -486,11 +477,11 @@ class Design:
 
     @answer
     def cycle(self) -> Cycle:
-        """The cycle under load: states at any input angles, exact extremes and integrals.
+        """The cycle under load: states at any input angles, and exact extremes.
 
         >>> cycle = Design(External(6), load=Load(torque_Nm=15)).cycle
-        >>> [round(work, 9) for work in cycle.integrals(lambda at: at.input_torque_Nm)]  # joules
-        [15.707963268]
+        >>> round(cycle.extremes["input_torque_Nm"].mean, 9)  # of 15 N m in a sixth of a turn
+        2.5
         """
         from geneva_cli.loads.cycle import cycle_of
 
@@ -722,7 +713,7 @@ class Design:
         'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
         """
         from geneva_cli.drawings.catalogue import require_cut
-        from geneva_cli.geometry.cutter import judged
+        from geneva_cli.geometry.offsets import judged
 
         require_cut(part, "--cutter")
         return judged(self.drawing(part), cutter_mm)

@@ -93,6 +93,11 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
     marks.append(where)
 
 
+def refuse_text(where: Any, key: tuple[str, str], text: str, /, **values: object) -> None:
+    """``refuse`` with a text of a key, in which ``values`` are put when it is raised."""
+    refuse(where, lambda: GenevaError(text.format(**values), key))
+
+
 @contextmanager
 def marking() -> Iterator[list[Any]]:
     """Collect the masks of designs that ``refuse`` marks within the block."""
@@ -152,20 +157,12 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def few(word: Any, known: Iterable[str]) -> str:
-    """The known words, for a message: at most the five most like ``word``.
+    """The known words, for a message: at most five, those that begin as ``word`` does first.
 
-    >>> few("cirle", ["arc", "line", "circle", "spline", "point", "ellipse", "text"])
-    'circle, line, spline, arc, text and 2 more'
+    >>> few("line", ["arc", "circle", "spline", "point", "ellipse", "text", "lines"])
+    'lines, arc, circle, spline, point and 2 more'
     """
-    words, most = list(known), 5  # words in a message: nobody reads more
-    if len(words) <= most:
-        return ", ".join(words)
-    from difflib import SequenceMatcher
-
-    matcher = SequenceMatcher(b=cut(word).casefold())
-    unlike: list[tuple[float, int, str]] = []
-    for one in words:
-        matcher.set_seq1(one.casefold())
-        unlike.append((-matcher.ratio(), len(unlike), one))
-    nearest_ones = ", ".join(one for *_, one in sorted(unlike)[:most])
-    return f"{nearest_ones} and {len(words) - most} more"
+    begins = cut(str(word))[:2].casefold()
+    words = sorted(known, key=lambda one: not one.casefold().startswith(begins))
+    more = len(words) - 5  # in a message: nobody reads more
+    return ", ".join(words[:5]) + (f" and {more} more" if more > 0 else "")

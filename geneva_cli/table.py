@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from itertools import accumulate, islice
+from itertools import islice
 from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
@@ -73,24 +73,16 @@ class Table(NamedTuple):
 
     def __repr__(self) -> str:
         """The title and the first rows, numbers to six digits; for a record the first values."""
+        rows = [map(_briefly, row) for row in islice(self.rows(), SHOWN_ROWS)]
         if self.record:
-            row = zip(self.names, next(self.rows()), strict=True)
-            known = [(name, _briefly(value)) for name, value in row if value not in (None, "", ())]
-            width = max((len(name) for name, _ in known[:SHOWN_ROWS]), default=0)
-            lines = [f"{name.ljust(width)}  {value}" for name, value in known[:SHOWN_ROWS]]
-            left = {"values": len(known) - len(lines)}
+            lines = [f"{name}  {value}" for name, value in zip(self.names, *rows, strict=True)]
+            count, what, lines = len(lines), "values", lines[:SHOWN_ROWS]
         else:
-            rows = [tuple(map(_briefly, row)) for row in islice(self.rows(), SHOWN_ROWS)]
-            columns = list(zip(self.names, *rows, strict=True))
-            widths = [max(map(len, column)) + 2 for column in columns]
-            # of 100 characters, without two spaces
-            fit = max(1, sum(end <= 102 for end in accumulate(widths)))
-            cells = zip(*columns[:fit], strict=True)
-            lines = ["".join(map(str.rjust, row, widths))[2:] for row in cells]
-            left = {"rows": len(self) - len(rows), "columns": len(columns) - fit}
-        more = " and ".join(f"{count} more {what}" for what, count in left.items() if count)
-        title, rest = [self.title] if self.title else [], [f"... {more}"] if more else []
-        return "\n".join([*title, *lines, *rest])
+            lines = ["  ".join(row) for row in (self.names, *rows)]
+            count, what = len(self) + 1, "rows"
+        left = count - len(lines)
+        more = [f"... {left} more {what}"] if left else []
+        return "\n".join([*([self.title] if self.title else []), *lines, *more])
 
     def to_pandas(self) -> Any:
         """A pandas DataFrame of the rows; a record is one row, with nested names joined by dots.
@@ -164,13 +156,11 @@ def _briefly(value: object) -> str:
         return f"a table of {len(value)} rows"
     if isinstance(value, tuple):
         return f"{len(value)} texts" if value else "none"
-    return in_digits(value, 6) if isinstance(value, float) else cut(_shown(value), 40)
-
-
-def _shown(value: object) -> str:
-    if value is None:
-        return ""
-    return in_digits(value, 7) if isinstance(value, float) else str(value)
+    return (
+        in_digits(value, 6)
+        if isinstance(value, float)
+        else cut("" if value is None else str(value), 40)
+    )
 
 
 def in_digits(value: float, digits: int) -> str:

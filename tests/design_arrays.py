@@ -23,7 +23,6 @@ def behind(spec, kind, **keys):
 
 
 POINTS = tuple((u / 11, (u / 11) ** 2 * (3.0 - 2.0 * u / 11)) for u in range(12))
-RATIO = tuple((10.0 * k, 1.0 - 0.2 * np.cos(np.pi * k / 18.0).item()) for k in range(37))
 SLOTS = ("wheel.z", 1, 16)  # whole numbers; the others are any
 # every kind of drive, gearing and law, with its varied keys: key, least, greatest; some values are
 # refused
@@ -67,10 +66,6 @@ MACHINES = {
         [("drive.eccentricity", -0.1, 0.9)],
     ),
     "noncircular gears": (machine(6, "noncircular-gears", A=0.4), [("drive.A", -0.95, 0.95)]),
-    "gears by points": (
-        machine(6, "noncircular-gears", ratio=RATIO),
-        [("size.roller_radius_mm", -1.0, 30.0), ("drive.n_rpm", 5.0, 100.0)],
-    ),
     "geneva pair": (
         machine(4, "geneva-pair", first_z=4),
         [("wheel.z", 2, 8), ("drive.first_z", 2, 6)],
@@ -99,10 +94,6 @@ MACHINES = {
     "gear sector": (
         machine(3, "gear-sector", sector_deg=60.0),
         [("drive.sector_deg", 0.0, 300.0), ("wheel.z", 3, 6)],
-    ),
-    "gear sector, any ratio": (
-        machine(3, "gear-sector", sector_deg=60.0, gear_ratio=0.8),
-        [("drive.sector_deg", 0.0, 130.0), ("drive.gear_ratio", 0.1, 3.0)],
     ),
     "four-bar": (
         machine(

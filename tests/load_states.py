@@ -6,13 +6,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.contact import contact
-from geneva_cli.loads.forces import contact_values
-from geneva_cli.loads.instant import bounded_loads
+from geneva_cli.loads.contact import contact, contact_values
+from geneva_cli.loads.instant import Instant, bounded_loads
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.motion.engagement import Peak
 from geneva_cli.numerics.arrays import Number
+from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
 
 class LoadState(NamedTuple):
@@ -45,3 +45,21 @@ def greatest(mechanism, name):
     """The greatest size of a quantity of one design, and its first input angle."""
     most, at_deg = load_peaks(mechanism, [name])[name]
     return Peak(most.item(), at_deg.item())
+
+
+def integrals(cycle, *of):
+    """The integral of functions of instants over a period by the input angle in radians."""
+    total = np.zeros((len(of), 1))
+    for engagement in cycle.mechanism.engagements:
+        pieces = [piece for owner, piece in cycle.stretches if owner is engagement]
+        start, end, *signs = np.array(pieces).T
+
+        def rows(x, which, engagement=engagement, signs=signs):
+            at = contact_values(contact(engagement, x))
+            here = Instant(cycle.case, at, *(sign[which, None] for sign in signs))
+            return np.stack([np.broadcast_to(f(here), x.shape) for f in of])
+
+        one, needed = np.zeros(len(pieces), dtype=int), np.full(total.shape, True)
+        with np.errstate(all="ignore"):
+            total += span_integrals(Integrands(rows, start, end, ends=True), one, needed)
+    return [float(x) for x in np.radians(total[:, 0])]

@@ -201,7 +201,6 @@ def sector(spec):
     Without a jump of speed u = l/(1 - l), and both halves of a step are b + u D/2.
     """
     D = to_radians(spec.drive.sector_deg)
-    assert spec.drive.gear_ratio == "shockless"
 
     def ratio(b):
         return mp.sin(b) / (1 - mp.sin(b))

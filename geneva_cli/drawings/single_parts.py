@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.drawings.sheet.composed import packed_apart
-from geneva_cli.drawings.sheet.view import Block
+from geneva_cli.drawings.sheet.packing import Block, packed_apart
 from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Group, Member, Plate, Shell, Solid, lowered, solids
 from geneva_cli.geometry.sheet import Drawing

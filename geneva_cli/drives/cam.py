@@ -1,8 +1,4 @@
-"""Cam-Geneva: a fixed groove guides the roller along the crank, and the slots stay straight.
-
-Every law whose velocity at mid-motion is positive can be made in this way. Straight slots then
-drive the wheel positively.
-"""
+"""Cam-Geneva: a fixed groove guides the roller along the crank, and the slots stay straight."""
 
 from __future__ import annotations
 
@@ -10,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.drive import PinPath, Plan
 from geneva_cli.motion.engagement import ConstantRate, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_motion import LawMotion, refuse_alpha0
@@ -82,22 +78,13 @@ def _slide(input_deg: Number, path: Vector, loads: Sequence[Load]) -> list[tuple
 def _refuse_unreachable(motion: LawMotion, sign: float) -> None:
     """Raise GenevaError if slot and crank become parallel, or the wheel stands at mid-motion."""
     V = motion(0.0, 1).c[1]
-    refuse(
-        (V <= 0.0) | ((V >= 1.0) & (sign < 0.0)),
-        lambda: GenevaError(
-            f"at mid-motion the law moves the wheel {V:.4g} times as fast as the crank: the "
-            "factor must be above 0" + (" and below 1" if sign < 0 else ""),
-            ("motion", "law"),
-        ),
-    )
+    text = "at mid-motion the law moves the wheel {V:.4g} times as fast as the crank: the factor "
+    text += "must be above 0" + (" and below 1" if sign < 0 else "")
+    refuse_text((V <= 0.0) | ((V >= 1.0) & (sign < 0.0)), ("motion", "law"), text, V=V)
     end = radians(motion.exit_deg) + sign * motion.half_step
     start = radians(-motion.entry_deg) + sign * motion.half_step
-    wide = larger(start, end)
-    refuse(
-        (wide <= 0.0) | (wide >= math.pi),
-        lambda: GenevaError(
-            f"in {motion.exit_deg - motion.entry_deg:.6g} deg of motion crank and slot become "
-            "parallel before the end: increase alpha0_deg to shorten it",
-            ("motion", "alpha0_deg"),
-        ),
-    )
+    wide, key = larger(start, end), ("motion", "alpha0_deg")
+    text = "in {deg:.6g} deg of motion crank and slot become parallel before the end: increase "
+    text += "alpha0_deg to shorten it"
+    motion_deg = motion.exit_deg - motion.entry_deg
+    refuse_text((wide <= 0.0) | (wide >= math.pi), key, text, deg=motion_deg)

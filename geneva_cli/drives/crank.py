@@ -1,8 +1,6 @@
 """A crank directly on the input shaft, or several equal ones geared to it about one wheel.
 
-From places that are whole steps apart the wheel looks alike. So a crank there moves it as the first
-one does. The cranks work in turn, crank j after the j-th part of a turn of the input: the wheel
-moves as by one crank with that many rollers, and so do the loads.
+Whole steps apart they move the wheel alike, in turn: as by one crank with that many rollers.
 """
 
 import math

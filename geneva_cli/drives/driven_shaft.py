@@ -1,9 +1,7 @@
 """The shaft between two drives: its rotation as a crank's, and the reactions of its bearings.
 
-The bodies of the second drive load a pin of this shaft, and the drive before pushes it round. A
-load on the roller gives the shaft the power F . p' + C w per radian of input, which is the shaft's
-torque times its speed. So the push follows from that torque and its own lever, whatever links are
-between.
+A load on the roller gives it the power F . p' + C w per radian of input, its torque times its
+speed. So the push of the drive before follows from that and its own lever, whatever the links.
 """
 
 from __future__ import annotations
@@ -14,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.motion.engagement import Displacement, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import cuts
-from geneva_cli.numerics.angles import DEGREE, radians
+from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, choose, library, narrowed
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise, sin_cos
 
@@ -45,13 +43,10 @@ class Timing(Batchable):
         local = [before.about(self.rest_deg + end) for end in self.ends_deg]
         self.within_deg = local[1].input_deg  # input angle of mid-motion in that turn
         self.mid_deg = 360.0 * before.turns * turns + self.within_deg
-        self.even = local[1].even
         self.at_deg = tuple(one.input_deg - self.within_deg for one in local)
         self.advances = tuple(one.advance for one in local)
-        # input angles at which the formula about another place takes over, or the gears' own
+        # input angles at which the formula about another place takes over
         self.cuts = cuts(self.at_deg)
-        places = zip(self.at_deg, local, strict=True)
-        self.changes_deg = tuple(at + cut / DEGREE for at, one in places for cut in one.cuts)
 
     def input_deg(self, own_deg: float) -> float:
         """Machine's input angle at an angle of the driven shaft, both from mid-motion, degrees."""

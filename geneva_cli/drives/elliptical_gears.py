@@ -1,17 +1,14 @@
 """Two equal elliptical gears, each turning about a focus, in front of the crank.
 
-With the driver at phi, the driven gear with the crank is at f: tan(f/2) = (1-e)/(1+e) tan(phi/2),
-slowest at 0. The directions of the half angles are (cos phi/2, sin phi/2) and ((1+e) cos phi/2,
-(1-e) sin phi/2).
-
-Source: the focal property of the ellipse; Kepler's true anomaly follows this law too.
+With the driver at phi the driven gear is at f: tan(f/2) = (1-e)/(1+e) tan(phi/2), as Kepler's true
+anomaly; the directions of the half angles are (cos phi/2, sin phi/2), ((1+e) cos .., (1-e) sin ..).
 """
 
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import Mesh, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion.drive import Gears, Plan
 from geneva_cli.motion.engagement import Path
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
@@ -45,14 +42,10 @@ class EllipticalGears(Transmission, kw_only=True):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        refuse(
-            self.eccentricity > 1.0 - 0.999e-12,  # 1 - 1e-12, as a double, passes
-            lambda: GenevaError(
-                f"eccentricity = {self.eccentricity!r}: too close to 1 to be computed; it "
-                "must be at most 1 - 1e-12",
-                ("drive", "eccentricity"),
-            ),
-        )
+        e, text = self.eccentricity, "eccentricity = {e!r}: too close to 1 to be computed; it must "
+        # 1 - 1e-12, as a double, passes
+        near, key = e > 1.0 - 0.999e-12, ("drive", "eccentricity")
+        refuse_text(near, key, text + "be at most 1 - 1e-12", e=e)
 
     @property
     def gears(self) -> Gears:
@@ -75,8 +68,14 @@ class EllipticalGears(Transmission, kw_only=True):
         return Mesh(path, self.gear_distance_mm / L)
 
     def about(self, crank_deg: float) -> LocalTransmission:
-        slow = self.phase == "slow"
-        return _about(self.eccentricity if slow else -self.eccentricity, crank_deg)
+        e = self.eccentricity if self.phase == "slow" else -self.eccentricity
+        sin_h, cos_h = sin_cos_deg(0.5 * crank_deg)
+        a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
+        m = library(e, crank_deg)
+        size, phi = m.hypot(a, b), 2.0 * m.degrees(m.atan2(a, b))
+        turns = (crank_deg - phi) / 720.0  # half angles repeat after two turns
+        phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
+        return LocalTransmission(phi, Focal(e, sin_h, cos_h, a / size, b / size, size))
 
 
 class Focal(NamedTuple):
@@ -109,20 +108,3 @@ class Focal(NamedTuple):
         cosines = cosines_after(sin_phi, cos_phi, max(order, 1) - 1)
         rate = least / Jet((W, *[2.0 * e * t for t in cosines[1:]]))
         return sine_versine_of(rate, y, x, order)
-
-
-def _focal(e: float, sin_h: float, cos_h: float) -> Focal:
-    """The gears about an angle of the driven one, from half that angle."""
-    a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
-    size = library(a, b).hypot(a, b)
-    return Focal(e, sin_h, cos_h, a / size, b / size, size)
-
-
-def _about(e: float, crank_deg: float) -> LocalTransmission:
-    m = library(e, crank_deg)
-    focal = _focal(e, *sin_cos_deg(0.5 * crank_deg))
-    a, b = (1.0 + e) * focal.sin_h, (1.0 - e) * focal.cos_h
-    phi = 2.0 * m.degrees(m.atan2(a, b))
-    turns = (crank_deg - phi) / 720.0  # half angles repeat after two turns
-    phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
-    return LocalTransmission(phi, focal)

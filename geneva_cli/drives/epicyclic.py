@@ -1,10 +1,8 @@
 """Gear-Geneva: the roller sits on a planet that rolls on a fixed sun, or in a fixed ring.
 
-With the carrier R0 at phi the roller is at R0 e^(i phi) + rp e^(i c phi). The rate c is 1 + u on a
-sun and 1 - u in a ring, with u = fixed teeth / planet teeth. At an extreme of this trochoid, where
-both arms are in line, the roller enters its slot without shock: u = 2z/(z-2), R0 - rp = L sin b.
-The jump at entry is (R0 - c² rp)/(L cos b), which is zero for rp = L sin b/(c² - 1). A negative rp
-lowers the peak instead.
+With the carrier R0 at phi it is at R0 e^(i phi) + rp e^(i c phi), c = 1 + u on a sun and 1 - u in a
+ring, u = fixed teeth / planet teeth. It enters without shock at an extreme, where both arms are in
+line: u = 2z/(z-2), R0 - rp = L sin b. The jump is (R0 - c² rp)/(L cos b).
 """
 
 from __future__ import annotations
@@ -12,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion.drive import PinPath, Plan
 from geneva_cli.motion.engagement import Anchor, ConstantRate, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
@@ -60,14 +58,9 @@ class Epicyclic(PinPath, kw_only=True):
     fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
-        refuse(
-            (wheel.z != 3) & (wheel.z != 4) & (wheel.z != 6),
-            lambda: GenevaError(
-                f"z = {wheel.z}: the planet's path closes only if 2z/(z-2) is a whole number: "
-                "z must be 3, 4 or 6",
-                ("wheel", "z"),
-            ),
-        )
+        text = "z = {z}: the planet's path closes only if 2z/(z-2) is a whole number: z must be "
+        odd = (wheel.z != 3) & (wheel.z != 4) & (wheel.z != 6)
+        refuse_text(odd, ("wheel", "z"), text + "3, 4 or 6", z=wheel.z)
         step = wheel.step
         teeth = 2 * wheel.z // (wheel.z - 2)
         c = 1.0 + teeth if self.fixed == "sun" else 1.0 - teeth
@@ -118,18 +111,12 @@ class Epicyclic(PinPath, kw_only=True):
         planet = L - R0 * m.cos(turn), R0 * m.sin(turn)
         roller = planet[0] - rp * m.cos(c * turn), planet[1] + rp * m.sin(c * turn)
         radius, shaft = R0 / abs(c), Joint.SHAFT
+        teeth, fixed = Teeth(inside=self.fixed == "ring", fixed=True), radius * abs(c - 1.0)
         return (
             Link("carrier", (axis, planet), (shaft, shaft), 2),
             Link("planet's arm", (planet, roller), (shaft, Joint.ROLLER), 1),
             Link("planet", (planet,), (shaft,), 3, radius),
-            Link(
-                "fixed gear",
-                (axis,),
-                (shaft,),
-                3,
-                radius * abs(c - 1.0),
-                Teeth(inside=self.fixed == "ring", fixed=True),
-            ),
+            Link("fixed gear", (axis,), (shaft,), 3, fixed, teeth),
         )
 
 
@@ -174,11 +161,7 @@ def _refuse_reach(l: float, rp: float, teeth: int, c: float) -> None:
     """Raise GenevaError if the wheel would start backwards or the roller would leave its slot."""
     most = l / (c * c - 1.0)
     least = -l / choose(c > 0.0, 1.0 + c, teeth)
-    refuse(
-        (rp <= least) | (rp > most),
-        lambda: GenevaError(
-            f"planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot: it "
-            f"must be above {least:.6g} and at most {most:.6g} (shockless)",
-            ("drive", "planet_ratio"),
-        ),
-    )
+    text = "planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot: it "
+    text += "must be above {least:.6g} and at most {most:.6g} (shockless)"
+    key, outside = ("drive", "planet_ratio"), (rp <= least) | (rp > most)
+    refuse_text(outside, key, text, rp=rp, least=least, most=most)

@@ -1,9 +1,7 @@
-"""A machine whose input shaft another drive turns: gears or a side-crank in front.
+"""A machine whose input shaft another drive turns, by theta = g(phi): gears or a side-crank.
 
-The drive of the spec has engagements by the angle theta of its own input shaft. The drive before it
-turns that shaft by theta = g(phi), where phi is the machine's input. So path, slot and motion are
-p(g(phi)), M(g(phi)) and psi(g(phi)), and their derivatives follow by the chain rule. A law holds by
-theta, for which slot or groove are cut: whatever turns the shaft, wheel and crank stay the same.
+Path, slot and motion are p(g(phi)), M(g(phi)) and psi(g(phi)), derived by the chain rule. A
+law holds by theta: whatever turns the shaft, wheel and crank stay the same.
 """
 
 from __future__ import annotations
@@ -81,7 +79,7 @@ class _Motion(base.WheelMotion):
 
     @property
     def symmetric(self) -> bool:
-        return self.timing.even and self.own.symmetric and super().symmetric
+        return self.own.symmetric and super().symmetric
 
     @property
     def entry(self) -> Anchor | None:
@@ -99,7 +97,7 @@ class _Motion(base.WheelMotion):
     @property
     def seams_deg(self) -> tuple[float, ...]:
         own = [self.timing.input_deg(at) for at in self.own.seams_deg[1:-1]]
-        places = {*own, *self.timing.cuts, *self.timing.changes_deg}
+        places = {*own, *self.timing.cuts}
         inside = sorted(at for at in places if self.entry_deg < at < self.exit_deg)
         return (self.entry_deg, *inside, self.exit_deg)
 
@@ -119,8 +117,7 @@ class _Slot(_Path, base.Slot):
 
     def __init__(self, own: base.Slot, timing: Timing) -> None:
         super().__init__(own, timing)
-        self.curved, self.mirrored = own.curved, own.mirrored
-        self.relieved, self.offset = own.relieved, own.offset
+        self.curved, self.relieved, self.offset = own.curved, own.relieved, own.offset
         if own.height is not None:
             turn = _Displacement(own.height.turn, timing.advances[1])
             self.height = own.height._replace(turn=turn)
@@ -177,7 +174,6 @@ class Engagement(base.Engagement):
         return array(self.timing.at(input_deg, 0)[0])
 
     def inputs_deg(self, own_deg: Array) -> Array:
-        # bisected, as the gears of a ratio file are known about one angle at a time
         first, last = (array(self.timing.at_deg[k]) + 0.0 * own_deg for k in (0, -1))
         return boundary(lambda x: array(self.timing.at(x, 0)[0]) <= own_deg, first, last)
 
@@ -193,10 +189,6 @@ class Engagement(base.Engagement):
                 timing = Timing(self.timing.before, own, late_deg)
                 out.append((Engagement(own, timing), self.mid_deg - timing.mid_deg))
         return tuple(out)
-
-    @property
-    def overtaking(self) -> float:
-        return self._own.overtaking
 
     @property
     def own(self) -> base.Engagement:

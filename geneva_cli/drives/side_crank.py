@@ -1,7 +1,6 @@
-"""Side-crank drive (Whitworth's crank and rotating coulisse) in front of the crank.
+"""Side-crank drive: Whitworth's crank and rotating coulisse, which carries the Geneva crank.
 
-The coulisse carries the Geneva crank. The symbols A and f follow Polyudov and Kandyak, "Kinematics
-of the Maltese cross mechanism with a side-crank drive".
+A and f follow Polyudov and Kandyak, "Kinematics of the Maltese cross mechanism with a side-crank".
 """
 
 from typing import Annotated, ClassVar
@@ -10,7 +9,7 @@ from geneva_cli.drives import whitworth
 from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.engagement import ClosedPeaks, Path
+from geneva_cli.motion.engagement import Path
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.rollers import alike
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
@@ -94,5 +93,6 @@ class SideCrank(Transmission, kw_only=True):
             return None
         return whitworth.SlidingBlock(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
 
-    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
-        return whitworth.closed_peaks(self.A, wheel, place)
+    @property
+    def side_crank(self) -> float:
+        return self.A

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
 from geneva_cli.motion.engagement import (
     Anchor,
-    ClosedPeaks,
     ConstantRate,
     Displacement,
     Engagement,
     Path,
     Vector,
 )
-from geneva_cli.motion.path_and_slot import AnchoredPath, ClassicMotion
+from geneva_cli.motion.path_and_slot import AnchoredPath, ClassicMotion, SideCrankMotion
 from geneva_cli.motion.rollers import places
 from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
@@ -39,15 +37,11 @@ class LocalTransmission(NamedTuple):
     input_deg: float  # input angle there
     # sin d and 1 - cos d of the crank's rotation d since then, by the input's rotation since then
     advance: Displacement
-    # True if the crank may turn alike before and after; False for an arbitrary ratio
-    even: bool = True
-    # input radians since then at which another formula of ``advance`` takes over
-    cuts: Sequence[float] = ()
 
     def anchor(self, pose: PinPose, middle_deg: float) -> Anchor:
         """A pose at this crank angle as an anchor; mid-motion is at the input ``middle_deg``."""
         travel = PinTravel(pose, self.advance)
-        return Anchor(self.input_deg - middle_deg, pose.wheel, pose.along, travel, self.cuts)
+        return Anchor(self.input_deg - middle_deg, pose.wheel, pose.along, travel)
 
 
 def same(tau: Number, order: int) -> Vector:
@@ -90,8 +84,9 @@ class Transmission(Drive, kw_only=True):
         """Greatest crank angle from mid-motion at which the crank may move the wheel, degrees."""
         return 180.0
 
-    def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
-        """Peaks behind this transmission that need no general search; None if there are none."""
+    @property
+    def side_crank(self) -> float | None:
+        """A of the side-crank whose ratio it has; None for another ratio."""
         return None
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
@@ -138,11 +133,11 @@ class Transmission(Drive, kw_only=True):
         )
         path = AnchoredPath(anchors)
         slot, motion = wheel.follow(path, place, here.advance)
+        first = isinstance(place.crank_deg, float) and place.crank_deg == 0.0 and not wheel.steps
         if place.closed and self.direct:
             motion = ClassicMotion(path, place.step.b, *place.closed)
-        else:
-            motion.closed_peaks = self.closed_peaks(wheel, place)
-            motion.mirrored = motion.mirrored and here.even
+        elif place.closed and self.side_crank is not None and first:
+            motion = SideCrankMotion(path, place.step.b, self.side_crank, *place.closed)
         rate = -wheel.SIGN * place.cone
         body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
         reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
@@ -161,17 +156,12 @@ class Transmission(Drive, kw_only=True):
         solved.refuse_alpha0(motion.alpha0_deg, natural)
         refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
         ratio = self._ratio(wheel, motion, motion_deg)
-        refuse(
-            ratio != ratio,
-            lambda: GenevaError(
-                'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
-                "below 1; set a number, or change alpha0_deg or the law",
-                ("motion", "ratio"),
-            ),
-        )
+        text = 'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
+        text += "below 1; set a number, or change alpha0_deg or the law"
+        refuse_text(ratio != ratio, ("motion", "ratio"), text)
         here = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
-        path = solved.MiddlePath(here.anchor(pose, here.input_deg), here.even)
+        path = solved.MiddlePath(here.anchor(pose, here.input_deg))
         end_deg, b = 0.5 * motion_deg, wheel.step.b
         turned = solved.LawMotion(-end_deg, end_deg, b, motion.law)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
@@ -193,14 +183,10 @@ class Transmission(Drive, kw_only=True):
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
         """Raise GenevaError if the transmission does not cover the whole motion."""
-        refuse(
-            farthest_deg > self.reach_deg * (1.0 + 1e-12),
-            lambda: GenevaError(
-                f"z = {wheel.z}: the crank must turn {farthest_deg:.6g} deg to either side, but "
-                f'kind = "{self.NAME}" turns it only {self.reach_deg:.6g}: reduce z or first_z',
-                ("wheel", "z"),
-            ),
-        )
+        text = "z = {z}: the crank must turn {far:.6g} deg to either side, but kind = "
+        text += '"{name}" turns it only {most:.6g}: reduce z or first_z'
+        values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": self.reach_deg}
+        refuse_text(farthest_deg > self.reach_deg * (1.0 + 1e-12), ("wheel", "z"), text, **values)
 
 
 class Direct(Transmission, kw_only=True):

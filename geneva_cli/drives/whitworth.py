@@ -1,65 +1,25 @@
 """Crank and rotating coulisse (Whitworth): the transmission of the side-crank drive.
 
-An input crank of length r turns about an axis at the base offset a from the coulisse's axis; A =
-a/r. With the input at phi the coulisse points along the vector (A + cos phi, sin phi), whose angle
-is f.
+With the input crank, of length 1 and at the offset A, at phi, the coulisse is at f, along
+(A + cos phi, sin phi).
 """
 
 from typing import NamedTuple
 
 from geneva_cli.drives.pushed import PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission
-from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.engagement import Peak, Vector
-from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.errors import refuse_text
+from geneva_cli.motion.engagement import Vector
 from geneva_cli.numerics.angles import radians, sin_cos_deg
-from geneva_cli.numerics.arrays import choose, enclosed, library, parameter
+from geneva_cli.numerics.arrays import choose, enclosed, library
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sin_cos, sine_versine_of
 
 
 def refuse_rounding(A: float) -> None:
     """Raise GenevaError for |A| too close to 1 to be computed."""
-    refuse(
-        abs(A) > 1.0 - 0.999e-12,  # 1 - 1e-12, as a double, passes
-        lambda: GenevaError(
-            f"A = {A!r}: too close to 1 to be computed; its size must be at most 1 - 1e-12",
-            ("drive", "A"),
-        ),
-    )
-
-
-class SideCrankPeak(NamedTuple):
-    """Peaks of a batch of plain wheels behind side-cranks, faster than by a general search."""
-
-    A: float
-    sign: float
-    l: float
-    rest: float  # 1 - l
-
-    def __call__(self, quantity: str) -> Peak[float] | None:
-        """Peak of the velocity or acceleration of a batch, NaN where unknown; else None."""
-        if isinstance(self.A, float) and isinstance(self.l, float):
-            return None
-        import numpy as np
-
-        from geneva_cli.motion.wheels import side_crank_arrays as arrays
-
-        peaks = {"velocity": arrays.velocity_peaks, "acceleration": arrays.acceleration_peaks}
-        if quantity not in peaks:
-            return None
-        w = arrays.wheels(self.sign, self.l, self.rest, self.A)
-        # nearer to 1 the search for arrays may miss a peak
-        sure = abs(w.A) <= 0.999
-        return Peak(*(parameter(np.where(sure, v, np.nan)[:, None]) for v in peaks[quantity](w)))
-
-
-def closed_peaks(A: float, wheel: Gearing, place: RollerPlace) -> SideCrankPeak | None:
-    """Peaks of a wheel with closed forms and equal steps, at its first roller; else None."""
-    closed = place.closed
-    plain = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
-    if closed is None or wheel.steps or not plain:
-        return None
-    return SideCrankPeak(A, *closed)
+    text = "A = {A!r}: too close to 1 to be computed; its size must be at most 1 - 1e-12"
+    # 1 - 1e-12, as a double, passes
+    refuse_text(abs(A) > 1.0 - 0.999e-12, ("drive", "A"), text, A=A)
 
 
 class Coulisse(NamedTuple):

@@ -7,14 +7,16 @@ millimetres, angles in radians.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import S, mapped, turned
-from geneva_cli.geometry.moments import Moments, moments, total
-from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point
+from geneva_cli.geometry.moments import Moments, moments, total, with_material_left
+from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point, Shape, as_contour
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.sphere import Region, Rotation, Vector
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 
 
 MM = 1e-3  # metres
+SAMPLED = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
 
 
 class Plate(NamedTuple):
@@ -179,3 +182,40 @@ def face(plate: Plate) -> Moments:
     out, *holes = (moments(shape) for shape in (plate.outline, *plate.holes))
     cut = (hole.times(-math.copysign(1.0, hole.area)) for hole in holes)
     return total((out.times(math.copysign(1.0, out.area)), *cut))
+
+
+def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
+    """Return the least wall between holes, and to an outline; negative where they overlap."""
+    least = [apart(one, two) for one, two in combinations(holes, 2)]
+    if outline:
+        whole = _boundary(outline)
+        least += [-beyond(whole, hole) for hole in holes]
+    return min(least, default=math.inf)
+
+
+def plate_wall(plate: Plate) -> float:
+    """Return the least wall between the holes of a plate, and around them."""
+    return least_wall(plate.holes, [plate.outline])
+
+
+def beyond(outline: Polyarc, hole: Shape) -> float:
+    """Return how far a hole's edge reaches past an outline, mm; negative inside."""
+    if isinstance(hole, Circle):
+        return float(outline.signed(np.array([hole.centre]))[0]) + hole.radius
+    return float(outline.signed(_boundary([hole]).samples(*SAMPLED)).max())
+
+
+def apart(one: Shape, two: Shape) -> float:
+    """Return the wall between two holes, mm; negative where they overlap."""
+    if isinstance(one, Circle) and isinstance(two, Circle):
+        return math.dist(one.centre, two.centre) - one.radius - two.radius
+    if isinstance(one, Circle):
+        one, two = two, one
+    away = _boundary([one])
+    if isinstance(two, Circle):
+        return float(away.signed(np.array([two.centre]))[0]) - two.radius
+    return float(away.signed(_boundary([two]).samples(*SAMPLED)).min())
+
+
+def _boundary(shapes: Iterable[Shape]) -> Polyarc:
+    return Polyarc([with_material_left(as_contour(shape), True) for shape in shapes])

@@ -60,21 +60,6 @@ class SphereArc(NamedTuple):
             return math.cos(self.angle) * dot(self.axis, direction) + math.hypot(along, sideways)
         return max(dot(self.start, direction), dot(self.end, direction))
 
-    def crossings(self, azimuth: float) -> list[float]:
-        """Angles from z at which it crosses the half-plane of an azimuth about z."""
-        a, b, c = self.axis
-        ahead = a * math.cos(azimuth) + b * math.sin(azimuth)
-        reach = math.cos(self.angle) / math.hypot(ahead, c)
-        if abs(reach) > 1.0:
-            return []
-        middle, off = math.atan2(ahead, c), math.acos(reach)
-        angles = []
-        for polar in {(middle - off) % math.tau, (middle + off) % math.tau}:
-            within = self.turn_to(place(polar, azimuth)) <= self.sweep
-            if 0.0 < polar < math.pi and within:
-                angles.append(polar)
-        return angles
-
     def travel(self, point: Vector) -> Vector:
         """Unit vector of the direction of travel at one of its points."""
         return unit(cross(self.axis, point))

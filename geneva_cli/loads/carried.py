@@ -43,11 +43,7 @@ def mass_inertia_kgm2(mass: Mass) -> float:
 
 
 def inertia_kgm2(spec: Spec) -> float:
-    """Inertia of everything the wheel turns, at the wheel's shaft.
-
-    It is ``inertia_kgm2`` of [load], plus the masses behind the support's gears. A rack has m R²,
-    as it is driven through a pinion of the crank's radius R.
-    """
+    """Inertia of everything the wheel turns, at the wheel's shaft."""
     ratio, lever = spec.support.gear_ratio, spec.given_distance_mm * MM
     own = spec.load.inertia_kgm2 + spec.load.mass_kg * (lever * lever)
     return own + ratio * ratio * sum(map(mass_inertia_kgm2, spec.mass))
@@ -75,10 +71,7 @@ def support_torque_Nm(spec: Spec) -> float:
 
 
 def working_torque_Nm(spec: Spec) -> float:
-    """Torque of the work at the wheel's shaft, N m.
-
-    A rack's force F has the torque F R about the pinion.
-    """
+    """Torque of the work at the wheel's shaft, N m."""
     return spec.load.torque_Nm + spec.load.force_N * (spec.given_distance_mm * MM)
 
 

@@ -1,21 +1,118 @@
-"""The roller in its slot at one or many input angles: levers, sliding speed, curvature.
+"""The roller in its slot at input angles, and what else the loads there depend on.
 
-Jets by the input angle in radians; lengths are in units of the centre distance L. The slot's
-tangent t points away from the wheel's axis: M . t > 0, M being the roller's centre in the wheel.
+Jets are by the input angle in radians, lengths over L.
+The slot's tangent t points away from the wheel's axis: M . t > 0, M being the roller's centre.
 """
 
 from __future__ import annotations
 
 import math
+from typing import Any, Generic, NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.forces import Contact
 from geneva_cli.motion.engagement import Engagement, Vector
-from geneva_cli.numerics.arrays import all_true, choose, library
-from geneva_cli.numerics.jet import Jet, Number, sqrt
+from geneva_cli.numerics.arrays import Mask, Whole, all_true, choose, library
+from geneva_cli.numerics.jet import Array, Jet, Number, V, sqrt
 
+NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
 NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
+
+
+class Contact(NamedTuple, Generic[V]):
+    """The state of roller and slot that the loads depend on: jets of one order, or values."""
+
+    velocity: V
+    acceleration: V
+    lever: V  # M . t: of the walls' normal about the wheel's axis
+    offset: V  # M x t: of the slot's tangent from the wheel's axis
+    along: V  # the roller centre's speed along t
+    curvature: V  # of the pitch curve, positive to the left of t: 0 in a straight slot
+    spin: V  # rate of the roller's body relative to the wheel
+    arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
+    touches: V  # 0 while gears drive and no roller does, else 1
+    crank: V  # rate of the shaft that carries the crank
+    # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
+    # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
+    reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
+
+
+def contact_values(at: Contact[Jet]) -> Contact[Array]:
+    """The values of a contact's jets."""
+    *jets, joints = at
+    reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
+    return Contact._make([*[jet.c[0] for jet in jets], reactions])
+
+
+class LoadCase(NamedTuple):
+    """The data that the loads depend on besides the motion; floats, or (m, 1) for m designs."""
+
+    speed_rad_s: float  # of the input
+    inertia_Nm: float  # inertia times the square of the input speed
+    resists_Nm: float  # torque at the wheel that resists its motion
+    L: float  # metres
+    radius: float  # of the roller, over L
+    friction: float  # ratio of the force along the wall to the force on it
+    efficiency: float
+    # square of the stress on a flat wall, MPa² per newton; None without a face width
+    hertz: float | None
+    # turns of the wheel's frame in one turn of the input, positive as the wheel turns in it
+    frame: float = 0.0
+    guide: Any = None  # in which the output slides: a rack's, with its friction and drag
+    design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
+
+    @property
+    def designs(self) -> int:
+        """The number of designs in the load case."""
+        return 1 if isinstance(self.design, int) else len(self.design)
+
+    @property
+    def rubs(self) -> bool:
+        """True if there is friction along the wall in any of the designs."""
+        return not all_true(self.friction == 0.0)
+
+    def is_loaded(self, engagement: Engagement, torque: Number) -> Mask:
+        """True where a torque at the wheel is more than rounding."""
+        usual = self.inertia_Nm * engagement.usual_acceleration + self.resists_Nm
+        loaded: Mask = np.abs(torque) > NEGLIGIBLE * usual
+        return loaded
+
+    @property
+    def frictionless(self) -> LoadCase:
+        """The case without friction."""
+        return self._replace(friction=0.0, guide=None)
+
+    @property
+    def guided(self) -> bool:
+        """True if there is friction in the output's guide in any of the designs."""
+        return self.guide is not None and not all_true(self.guide.friction == 0.0)
+
+    @property
+    def all_friction(self) -> float:
+        """A number that is above 0 for a design with any friction, which may hold the wheel."""
+        return self.friction + self.guide.friction if self.guide else self.friction
+
+
+class QuantityValue(NamedTuple, Generic[V]):
+    """A quantity, the margin that bounds it where above 0, and the sign of its infinity."""
+
+    value: V
+    margin: V | None = None
+    sign: Number = 1.0
+
+
+def value(quantity: V) -> Number:
+    """The value of a jet; a value unchanged."""
+    return quantity.c[0] if isinstance(quantity, Jet) else quantity
+
+
+def lesser(a: V, b: V) -> V:
+    """The lesser of two jets, or of their values, element by element."""
+    first = value(a) < value(b)
+    if not isinstance(a, Jet) or not isinstance(b, Jet):
+        out: V = choose(first, a, b)
+        return out
+    return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])
 
 
 def contact(
@@ -23,8 +120,7 @@ def contact(
 ) -> Contact[Jet]:
     """The contact at input angles, degrees from an engagement's mid-motion, one or an array.
 
-    Without ``reactions`` those of the joints are None. At mid-motion of a curved slot only the
-    values have a limit, that of entry: there ``order`` must be 0.
+    At mid-motion of a curved slot only the values have a limit, that of entry: ``order`` must be 0.
     """
     if not engagement.slot.curved or all_true(input_deg != 0.0):
         return _moving(engagement, input_deg, order, reactions)
@@ -62,8 +158,7 @@ def _moving(engagement: Engagement, x: Number, order: int, reactions: bool) -> C
 def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
     """Lever, offset, speed along and curvature of a curved slot, from the path p on the wheel.
 
-    The axes are the fixed ones at the instant. Each vector's rate is its own less the wheel's
-    rotation. Products of two vectors are equal in all axes, so the wheel's angle is not needed.
+    The axes are the fixed ones at the instant: each vector's rate is its own less the wheel's turn.
     """
     path = engagement.path(x, order + 2)
     dx, dy = (jet.derivative() for jet in path)
@@ -121,17 +216,18 @@ def _crossing(engagement: Engagement) -> list[Number]:
 
     The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
     """
-    values, before = (
-        [jet.c[0] for jet in _moving(engagement, x, 0, False)[:-1]]
+    here, before = (
+        contact_values(_moving(engagement, x, 0, False))
         for x in (0.0, NEAR_CUSP * engagement.entry_deg)
     )
-    lever, along = (Contact._fields.index(name) for name in ("lever", "along"))
-    turned = values[along] * before[along] < 0.0
-    for name in ("offset", "along", "curvature"):
-        i = Contact._fields.index(name)
-        values[i] = choose(turned, -values[i], values[i])
-    values[lever] = 0.0
-    return values
+    sense = choose(here.along * before.along < 0.0, -1.0, 1.0)
+    same = here._replace(
+        lever=0.0 * here.lever,
+        offset=here.offset * sense,
+        along=here.along * sense,
+        curvature=here.curvature * sense,
+    )
+    return list(same[:-1])
 
 
 def _cusp(engagement: Engagement) -> list[Number]:

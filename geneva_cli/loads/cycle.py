@@ -1,38 +1,31 @@
-"""The whole cycle under load: states at any input angle, extremes and integrals.
+"""The whole cycle under load: states at any input angle, and extremes.
 
-The cycle is a period of the machine from the first entry: every engagement, and the dwells between.
-With several wheels on a carrier it ends at the entry of the next wheel.
-All loads are 0 in a dwell: nothing moves, the lock holds the wheel, and resistance to motion does
-not act at rest.
+The cycle is a period of the machine from the first entry; with several wheels on a carrier it ends
+at the entry of the next wheel. All loads are 0 in a dwell.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from itertools import pairwise
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import contact
+from geneva_cli.loads.contact import LoadCase, contact, contact_values
 from geneva_cli.loads.cycle_quantities import FORCE, QUANTITIES, WALL_FORCE, multiples, plain_values
-from geneva_cli.loads.forces import LoadCase, contact_values
 from geneva_cli.loads.instant import INSTANT_QUANTITIES, Instant, bounded, bounded_loads
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import LoadFunctions, on_breaks, refuse_noise, refuse_rounding
+from geneva_cli.loads.load_functions import LoadFunctions, on_breaks, refuse_noise
 from geneva_cli.loads.load_peaks import LoadSummary, reported_peaks, single_summaries
 from geneva_cli.loads.mid_motion import at_crossing
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray
-from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Whole, array
+from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Array
-from geneva_cli.numerics.quadrature import Integrands, span_integrals
-
-Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
 
 
 class Stretch(NamedTuple):
@@ -46,11 +39,7 @@ class Stretch(NamedTuple):
 
 
 class Cycle:
-    """A machine under its load, over one period.
-
-    ``case`` are the data that the loads depend on besides the motion. All values are exact to some
-    units in the last place of a quantity's peak; none is taken from samples.
-    """
+    """A machine under its load, over one period, to some units in the last place of a peak."""
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.machine, self.mechanism = mechanism, mechanism.under_load
@@ -58,15 +47,11 @@ class Cycle:
 
     @property
     def is_loaded(self) -> bool:
-        """Return True if an inertia or a resisting torque is known."""
+        """True if an inertia or a resisting torque is known."""
         return self.mechanism.spec.is_loaded
 
     def states(self, input_deg: Array) -> Instant[Array]:
-        """Arrays at ascending input angles of a period from the first entry; 0 in the dwells.
-
-        A force without a bound is infinite. It is so where friction alone holds the wheel, and at
-        mid-motion of a curved slot that lies across the roller's path.
-        """
+        """Arrays at ascending input angles of a period from the first entry; 0 in the dwells."""
         from geneva_cli.motion.motion_table import spans
 
         out: dict[str, Array | None] = {
@@ -102,16 +87,13 @@ class Cycle:
         return out
 
     def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
-        """Arrays (n,) at input angles of a stretch, degrees from its engagement's mid-motion.
-
-        The signs are the stretch's, so that its ends have the limits from inside.
-        """
+        """Arrays (n,) at input angles of a stretch from mid-motion, with the stretch's signs."""
         with np.errstate(all="ignore"):
             at = contact_values(contact(engagement, input_deg))
         return bounded(Instant(self.case, at, stretch.drives, stretch.slides, stretch.feeds))
 
     def plain(self, states: Instant[Array], name: str) -> Array:
-        """Return a quantity of ``known``, or a multiple of one, at states of the cycle."""
+        """A quantity of ``known``, or a multiple of one, at states of the cycle."""
         source, factor, _ = multiples(self.mechanism).get(name, (name, 1.0, ""))
         assert factor is not None  # known quantities have a factor
         signed = WALL_FORCE if source == FORCE else source
@@ -120,7 +102,6 @@ class Cycle:
     @cached_property
     def known(self) -> Mapping[str, LoadSummary[Array]]:
         """The summaries of all quantities that have a value, (1,) each."""
-        refuse_rounding(self.mechanism.engagements)
         every = single_summaries(self.machine)
         refuse_noise([one.rms for one in every.values()])
         return every
@@ -138,36 +119,9 @@ class Cycle:
         """The greatest sizes of ``REPORTED_PEAKS``, (1,) each."""
         return reported_peaks(self.machine)
 
-    def integrals(self, *of: Integrand) -> list[float]:
-        """The integral of each function over a period by the input angle in radians.
-
-        For a torque it is work in joules. The integral of an unbounded function is infinite.
-        """
-        total = np.zeros((len(of), 1))
-        for engagement in self.mechanism.engagements:
-            pieces = [piece for owner, piece in self.stretches if owner is engagement]
-            start, end, *signs = np.array(pieces).T
-
-            def rows(
-                x: Array,
-                which: Whole,
-                engagement: Engagement = engagement,
-                signs: list[Array] = signs,
-            ) -> Array:
-                at = contact_values(contact(engagement, x))
-                here = Instant(self.case, at, *(sign[which, None] for sign in signs))
-                return np.stack([np.broadcast_to(f(here), x.shape) for f in of])
-
-            one, needed = np.zeros(len(pieces), dtype=int), np.full(total.shape, True)
-            with np.errstate(all="ignore"):
-                total += span_integrals(Integrands(rows, start, end, ends=True), one, needed)
-        refuse_noise([total])
-        return [float(x) for x in total[:, 0] * DEGREE]
-
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
         """The motions, divided at breaks and where torque, sliding or input torque change sign."""
-        refuse_rounding(self.mechanism.engagements)
         out = []
         for engagement in self.mechanism.engagements:
             load = LoadFunctions(engagement, self.case, (), more=("slides", "feeds"))

@@ -1,7 +1,6 @@
 """The curves of a machine over a cycle, in pieces, with their marks.
 
-Each smooth piece of a curve is sampled separately, with both ends from inside, so that a jump has
-both its values. Peaks are those of the analysis, never the highest of the samples.
+Each smooth piece is sampled with both ends from inside, so that a jump has both its values.
 """
 
 from __future__ import annotations
@@ -60,7 +59,7 @@ def drawn(cycle: Cycle, names: Sequence[str], window: Ends) -> dict[str, Drawn]:
     if loads:
         ends = {name: cycle.extremes[name] for name in loads}
         if FORCE in ends:  # drawn with the sign of the wall that bears
-            force = load_summaries(machine, [WALL_FORCE], ())[WALL_FORCE]
+            force = load_summaries(machine, [WALL_FORCE], means=False)[WALL_FORCE]
             ends[FORCE] = LoadSummary(*(float(row[0]) for row in force[:4]))
         bounds = _bounds(cycle, ends)
         stages = list(_load_stages(cycle, loads, bounds))
@@ -147,11 +146,7 @@ def _dwell(mechanism: Mechanism, i: int, values: Sequence[float]) -> Iterator[St
 def _pieces(
     stages: Sequence[Stage], period: float, window: Ends, rise: Sequence[float]
 ) -> list[list[Piece]]:
-    """The pieces of each curve over a window, with the period's stages repeated.
-
-    ``rise`` is the rise of each curve in a period. A stage that only touches the window is a
-    single point, at which the curve jumps.
-    """
+    """The pieces of each curve over a window, with the period's stages repeated."""
     start, end = window
     placed: list[tuple[Callable[[Array], Array], bool, float, float]] = []
     tiny, last = ROUNDED * period, -math.inf
@@ -169,10 +164,10 @@ def _pieces(
             else:
                 last = b
 
-            def of(x: Array, stage: Stage = stage, shift: float = shift, up: Array = up) -> Array:
+            def here(x: Array, stage: Stage = stage, shift: float = shift, up: Array = up) -> Array:
                 return stage.of(x - shift) + up
 
-            placed.append((of, stage.flat, a, b))
+            placed.append((here, stage.flat, a, b))
     rough = [of(places(a, b) if b > a else np.array([a])) for of, _, a, b in placed]
     heights = np.ptp(np.concatenate(rough, axis=1), axis=1)
     heights[heights == 0.0] = 1.0

@@ -95,7 +95,7 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         for design, cycle in cycles.items()
     }
     panels = tuple(_panel(name, machines, curves) for name in shown)
-    left = []
+    left = list[LeftOut]()
     for design, cycle in cycles.items():
         names = requested if cycle.is_loaded else shown  # forces are not expected without a load
         reasons: dict[str, list[str]] = {}
@@ -109,13 +109,8 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
     title = spec.title or spec.path or f"Geneva {noun} of {spec.wheel.z} slots"
     if len(machines) > 1:
         title = f"{len(machines)} designs over a cycle"
-    return Figure(
-        title,
-        Axis("input_deg", "Input angle", "deg"),
-        panels,
-        window,
-        tuple(rests(machines, window)),
-    ), left
+    axis, still = Axis("input_deg", "Input angle", "deg"), tuple(rests(machines, window))
+    return Figure(title, axis, panels, window, still), left
 
 
 def _why(cycle: Cycle, name: str) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from geneva_cli.loads.forces import QuantityValue, lesser
+from geneva_cli.loads.contact import QuantityValue, lesser
 from geneva_cli.loads.load_case import load_case
 
 if TYPE_CHECKING:
@@ -93,9 +93,8 @@ def known_quantities(mechanism: Mechanism) -> list[str]:
 def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
     """Quantities that are multiples of others: the other's name, the factor, and the keys it needs.
 
-    A shaft carries its load outside two bearings, with the overhang a from the nearer one and the
-    distance s between them. The nearer bears (a + s)/s of the load, the other a/s in the opposite
-    direction.
+    Of two bearings with the overhang a and the distance s, the nearer bears (a + s)/s, the other
+    a/s.
     """
     shaft, turns = mechanism.spec.shaft, mechanism.output.turns
     flat = mechanism.spec.wheel.FLAT or not turns

@@ -1,15 +1,12 @@
 """Motion and loads at an input angle while the wheel moves, with signs and in units.
 
 t is the unit tangent of the slot, away from the wheel's axis. The normal n = d i t points towards
-the wall that bears: d is 1 if the torque T drives the wheel, and -1 if it holds the wheel back. The
-contact point is C = M + r n. The wheel's balance about its axis is
+the wall that bears: d is the sign of the torque T. The wheel's balance about its axis is
 
-    |T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)]
+    |T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)],    C = M + r n
 
-with M x t = 0 in a radial slot. s is the sign of v, the speed at which the roller, fixed to its
-body, rubs along the wall:
-
-    v = M' . t - d r (rate of that body - rate of the wheel).
+s is the sign of v = M' . t - d r (rate of the roller's body - rate of the wheel), at which the
+roller, fixed to its body, rubs along the wall.
 """
 
 from __future__ import annotations
@@ -20,7 +17,7 @@ from typing import Generic, Protocol, Self
 import numpy as np
 
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.forces import Contact, LoadCase, QuantityValue, contact_values, value
+from geneva_cli.loads.contact import Contact, LoadCase, QuantityValue, contact_values, value
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Array, Jet, Number, V
 
@@ -35,13 +32,9 @@ INSTANT_QUANTITIES = (
 class Instant(Generic[V]):
     """Motion and loads for known signs of wheel torque, sliding and input torque.
 
-    Each quantity is a jet by the input angle in radians, or the jets' values (numbers or arrays).
-    It is computed at first use.
-
-    The wheel turns in the positive direction while it indexes, and a torque that drives it is
-    positive. A pin force is positive on the wall that drives the wheel, and negative on the wall
-    that holds it back. A sliding speed is positive away from the wheel's axis. The input's torque
-    and power are positive where the input drives the wheel, and negative where the wheel drives it.
+    Quantities are jets by the input angle in radians, or values; they are computed at first use. A
+    torque that drives the wheel, and a pin force on the wall that drives it, are positive; so is a
+    sliding speed away from the wheel's axis, and the input's torque where the input drives.
 
     Forces are unbounded where ``grip`` <= 0: there friction alone holds the wheel. Stresses are
     also unbounded where ``edge`` <= 0: there the wall is more sharply curved than the roller.
@@ -128,8 +121,8 @@ class Instant(Generic[V]):
     @cached_property
     def _drag(self) -> V:
         """Friction in the guide over the pin's force."""
-        assert self.case.guide is not None  # known to be there
-        return self.case.guide.drag(self.case, self.at, self.drives, self.slides)
+        drag: V = self.case.guide.drag(self.case, self.at, self.drives, self.slides)
+        return drag
 
     @cached_property
     def grip(self) -> V:
@@ -139,8 +132,10 @@ class Instant(Generic[V]):
     @property
     def leaning(self) -> V | None:
         """A value at whose changes of sign the friction in a guide has a corner."""
-        guide = self.case.guide
-        return guide and guide.leaning(self.case, self.at, self.drives, self.slides)
+        if self.case.guide is None:
+            return None
+        leaning: V = self.case.guide.leaning(self.case, self.at, self.drives, self.slides)
+        return leaning
 
     @cached_property
     def friction_margin(self) -> V | None:
@@ -174,11 +169,7 @@ class Instant(Generic[V]):
 
     @cached_property
     def edge(self) -> V | None:
-        """1 - curvature of the bearing wall's pitch curve times the roller's radius.
-
-        A wall at the roller's radius r from its pitch curve, of curvature k towards the wall, has
-        1/R_e = 1/r + k/(1 - k r) = 1/(r (1 - k r)). None without a face width.
-        """
+        """1 - curvature of the bearing wall's pitch curve times the roller's radius, or None."""
         if self.case.hertz is None:
             return None
         return 1.0 - self.at.curvature * (self.drives * self.case.radius)
@@ -221,11 +212,7 @@ class Instant(Generic[V]):
 
     @property
     def _losses(self) -> Number:
-        """Ratio of the input's torque to that without losses.
-
-        The efficiency counts where the input drives. Where the wheel drives, the losses are not
-        known to exist and reduce nothing: a brake must hold all of the torque.
-        """
+        """Ratio of the input's torque to that without losses: 1 where the wheel drives."""
         return 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
 
     @cached_property
@@ -235,11 +222,7 @@ class Instant(Generic[V]):
 
     @property
     def crank_torque_Nm(self) -> V:
-        """Torque of the shaft that carries the crank, N m, losses included.
-
-        It has the power that goes through the slot, at its own rate. On a carousel that is the
-        standing shaft of the finger, which does not speed the wheels up against the ground.
-        """
+        """Torque of the shaft that carries the crank, N m: that of the power through the slot."""
         return self.slot_torque_Nm * self._losses / self.at.crank
 
     @property
@@ -265,11 +248,7 @@ class Instant(Generic[V]):
         return None if self.at.reactions is None else self._reaction(1)
 
     def _reaction(self, joint: int) -> V:
-        """The square of the reaction of a joint that holds the roller's body.
-
-        The pin pushes the wall along d i t + f s t; about the pin's centre that force also has a
-        couple.
-        """
+        """The square of the reaction of a joint that holds the roller's body."""
         assert self.at.reactions is not None
         normal, tangent, couple = self.at.reactions
         rub = self._rub * self.slides
@@ -302,10 +281,7 @@ def bounded(here: Instant[Array]) -> Instant[Array]:
 def bounded_loads(
     case: LoadCase, at: Contact[Array], drives: Array | None = None
 ) -> Instant[Array]:
-    """The values at a contact with the signs that they have there, as ``bounded`` has them.
-
-    ``drives`` is the sign of the wheel's torque, if known.
-    """
+    """The values at a contact with the signs that they have there, as ``bounded`` has them."""
     with np.errstate(all="ignore"):
         return bounded(Instant(case, at).signed(drives))
 

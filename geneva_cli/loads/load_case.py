@@ -1,4 +1,4 @@
-"""The load case of a machine, from its spec."""
+"""The load case of a machine, from its spec; pressures of contacts."""
 
 from __future__ import annotations
 
@@ -8,13 +8,27 @@ from collections.abc import Callable
 import numpy as np
 
 from geneva_cli.loads.carried import carried_kg, inertia_kgm2, resisting_torque_Nm
-from geneva_cli.loads.forces import LoadCase, contact_modulus_GPa
+from geneva_cli.loads.contact import LoadCase
 from geneva_cli.loads.strength.pin import pin_diameter_mm
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import Array, all_true, choose, library
+from geneva_cli.numerics.arrays import Array, N, all_true, choose, library
 from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.workshops import Stock
+
+
+def contact_modulus_GPa(one: Stock, other: Stock) -> float:
+    """E* of two materials in contact, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2."""
+    each = ((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in (one, other))
+    return 1.0 / sum(each)
+
+
+def hertz_MPa(modulus_GPa: float, line_N_mm: N, radius_mm: float) -> N:
+    """Hertz stress on a line, from E*, the force per length and the effective radius."""
+    modulus = modulus_GPa * 1e3
+    out: N = library(line_N_mm, radius_mm).sqrt(line_N_mm * modulus / (math.pi * radius_mm))
+    return out
 
 
 def load_case(mechanism: Mechanism) -> LoadCase:
@@ -47,19 +61,11 @@ def load_case(mechanism: Mechanism) -> LoadCase:
 def rubbing(mechanism: Mechanism) -> float:
     """Ratio of the force along the wall to the force on it, for a roller that moves along it.
 
-    A roller fixed to its pin rubs in the slot, with the coefficient itself. A roller that turns on
-    its pin rolls, held back by the pin. The load passes a circle with the pin's radius times sin
-    rho, tan rho being the coefficient (the friction circle of a journal). So its angle to the
-    wall's normal has the sine: sin rho times pin over roller. The sliding speed on the pin is
-    smaller in the same ratio. In either case the friction work is N times the speed along the wall
-    times the value returned here.
-
-    >>> from geneva_cli import External, Load
-    >>> from geneva_cli.motion.mechanism import build
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> turning = Load(torque_Nm=1.0, friction=0.1, friction_at="pin")  # on a pin half as thick
-    >>> round(rubbing(build(Spec(External(6), load=turning))), 6)
-    0.049814
+    A roller fixed to its pin rubs in the slot, with the coefficient itself. One that turns on its
+    pin rolls, held back by the pin: the load passes a circle with the pin's radius times sin rho,
+    tan rho being the coefficient. So its angle to the wall's normal has the sine: sin rho times pin
+    over roller. In either case the friction work is N times the speed along the wall times this
+    ratio.
     """
     load = mechanism.spec.load
     if all_true(load.friction == 0.0) or load.rubs_in_slot:

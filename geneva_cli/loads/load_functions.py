@@ -1,32 +1,27 @@
 """Loads of a batch of one engagement, as functions for searches and sums.
 
-They have a kink or a jump where a sign changes, and at breaks of the motion itself: where the
-roller bears on the other wall, where friction reverses, where the wheel drives the input.
+They have a kink or a jump where a sign changes, and at breaks of the motion itself.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from functools import lru_cache
 from itertools import pairwise
-from types import MappingProxyType
-from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kept import cached_property
-from geneva_cli.loads.contact import NEAR_CUSP, contact
+from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, QuantityValue, contact
 from geneva_cli.loads.cycle_quantities import PV, QUANTITIES
-from geneva_cli.loads.forces import NEGLIGIBLE, LoadCase, QuantityValue
 from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.mid_motion import at_mid_motion
 from geneva_cli.motion.batch import selection
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.peak_search import breaks, motion_peaks, pole_deg, spans
+from geneva_cli.motion.peak_search import breaks, pole_deg, spans
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, Number, Which, all_true, array
+from geneva_cli.numerics.arrays import Mask, Which, all_true, array
 from geneva_cli.numerics.extremes import SearchResult, Stretches, cuts, search
 from geneva_cli.numerics.jet import Array, Jet
 
@@ -41,39 +36,22 @@ SIGN_FUNCTIONS: dict[str, Callable[[Instant[Jet]], Jet | None]] = {
     "along": lambda i: i.at.along,
 }
 MARGINS = ("grip", "edge")  # where one of them is not above 0, a quantity is unbounded
-# The greatest fraction of the step between two adjacent angles: the loads then keep six digits.
-FEWEST_DIGITS = 1e-10
-
-
-NO_MORE: Mapping[str, LoadQuantity] = MappingProxyType({})  # no quantities besides the named ones
-
-
-class SignedInstant(NamedTuple):
-    """An instant, the signs that matter, and the functions that have them."""
-
-    instant: Instant[Jet]
-    signs: list[Array]
-    jets: list[Jet]
 
 
 class LoadFunctions:
-    """Designs of one engagement under their load, with the functions that ``search`` takes.
-
-    Quantities are named: those in ``own``, or else of the cycle. ``kinds`` are the signs that
-    matter: those at which quantities jump, those in ``more``, and with ``wanted`` that of the first
-    quantity.
-    """
+    """Designs of one engagement under their load, with the functions that ``search`` takes."""
 
     def __init__(
         self,
         engagement: Engagement,
         case: LoadCase,
         names: Sequence[str],
-        own: Mapping[str, LoadQuantity] = NO_MORE,
+        own: Mapping[str, LoadQuantity] | None = None,
         more: Sequence[str] = (),
     ) -> None:
         self.engagement, self.case, self.names, self.n = engagement, case, names, case.designs
-        self.quantities: list[LoadQuantity] = [own.get(name) or QUANTITIES[name] for name in names]
+        each: Mapping[str, LoadQuantity] = {**QUANTITIES, **(own or {})}
+        self.quantities = [each[name] for name in names]
         matters = {
             "drives": not all_true(case.inertia_Nm == 0.0),
             # p v is 0 where the sliding is, in a notch that may be near a pole
@@ -95,9 +73,8 @@ class LoadFunctions:
     def spread(self) -> Array:
         """Approximate distance from mid-motion of the nearest pole of the loads, degrees: (n, 1).
 
-        It follows from their behaviour near mid-motion: a velocity as v / (1 + x²/w²), a wall's
-        lever as l sqrt(1 + x²/w²). Where friction holds a lever that vanishes there, w is the
-        distance from mid-motion at which it no longer does.
+        Near mid-motion a velocity is as v / (1 + x²/w²), a wall's lever as l sqrt(1 + x²/w²). Where
+        friction holds a lever that vanishes there, w is the distance at which it no longer does.
         """
         engagement = self.engagement
         # not at mid-motion itself, where a curved slot may have no slopes
@@ -124,35 +101,25 @@ class LoadFunctions:
             out.append((start, end))
         return out
 
-    @property
-    def repeats(self) -> bool:
-        """Return True if the second half of the motion has no greater sizes than the first.
-
-        It is so without friction, and without a torque or without an inertia. Forces are then equal
-        in both halves, and the input gives at least as much as it gets back. In a curved slot a
-        torque alone presses on one wall throughout, whose two halves differ in curvature.
-        """
-        case, engagement = self.case, self.engagement
-        radial = all_true(engagement.slot.offset == 0.0)
-        alone = all_true(case.inertia_Nm == 0.0) and not engagement.slot.curved
-        alone = alone or all_true(case.resists_Nm == 0.0)
-        alone = alone and not (case.rubs or case.guided or self.reactions)
-        return radial and engagement.mirrored and alone
-
     def search(self, sized: bool = False) -> SearchResult:
         """The extremes of the quantities over the motion, and its stretches."""
-        spans, known = self.spans, []
-        if sized and self.repeats:
+        spans, known, case, engagement = self.spans, [], self.case, self.engagement
+        is_curved = engagement.slot.curved
+        # Without friction, for an inertia or a torque alone, the second half of the motion has no
+        # greater sizes than the first. In a curved slot a torque alone presses on one wall
+        # throughout, whose two halves differ in curvature.
+        alone = all_true(case.inertia_Nm == 0.0) and not is_curved
+        alone = alone or all_true(case.resists_Nm == 0.0)
+        alone = alone and not (case.rubs or case.guided or self.reactions)
+        radial = all_true(engagement.slot.offset == 0.0)
+        if sized and alone and radial and engagement.mirrored:
             spans = spans[: len(spans) // 2]
-        if self.engagement.slot.curved:  # no span reaches mid-motion
-            known = at_mid_motion(self.engagement, self.case, self.quantities, self.n)
+        if is_curved:  # no span reaches mid-motion
+            known = at_mid_motion(engagement, case, self.quantities, self.n)
         return search(self, spans, sized, known, self.spread)
 
     def stretches(self, result: SearchResult | None = None) -> Stretches:
-        """The motion, divided where signs change: as in a search, or without one.
-
-        In curved slots, where searches stop short of mid-motion, they reach it.
-        """
+        """The motion, divided where signs change: as in a search, or without one."""
         pieces = result.stretches if result else cuts(self, self.spans)
         if not self.engagement.slot.curved:
             return pieces
@@ -164,14 +131,11 @@ class LoadFunctions:
 
     def at(
         self, x: Array, which: Which, order: int = 0, held: Array | None = None
-    ) -> tuple[SignedInstant, list[LoadQuantity]]:
-        """The instants of some designs at places (m, k), degrees, and the quantities there.
-
-        Signs are known where ``held`` is not NaN.
-        """
+    ) -> tuple[Instant[Jet], list[LoadQuantity], list[tuple[Array, Jet]]]:
+        """The instants of some designs at places (m, k), degrees, and the quantities there."""
         engagement, case, quantities = self._some(which)
         instant = Instant(case, contact(engagement, x, order, self.reactions))
-        out = SignedInstant(instant, [], [])
+        signs = []
         if "drives" not in self.kinds:
             instant.drives = np.copysign(1.0, instant.wheel_torque_Nm.c[0])
         for i, kind in enumerate(self.kinds):
@@ -183,9 +147,8 @@ class LoadFunctions:
                 sign = np.where(np.isnan(held[i]), sign, held[i])
             if kind in ("drives", "slides", "feeds"):
                 setattr(instant, kind, sign)
-            out.signs.append(sign)
-            out.jets.append(jet)
-        return out, quantities
+            signs.append((sign, jet))
+        return instant, quantities, signs
 
     def __call__(
         self,
@@ -196,40 +159,36 @@ class LoadFunctions:
         requested: Sequence[int] | None = None,
     ) -> tuple[Mask, list[Array]]:
         """Signs, and Taylor coefficients of the functions that have them and of the quantities."""
-        signed, every = self.at(x, which, order, held)
-        wanted = every if requested is None else [every[k] for k in requested]
-        rows = [QuantityValue(jet) for jet in signed.jets]
-        rows += [quantity(signed.instant) for quantity in wanted]
+        instant, every, signs = self.at(x, which, order, held)
+        rows = [QuantityValue(jet) for _, jet in signs]
+        rows += [every[k](instant) for k in (range(len(every)) if requested is None else requested)]
         # designs lie side by side in memory
         shape = (len(rows), *x.shape[::-1])
         values = [np.empty(shape).swapaxes(1, 2) for _ in range(order + 1)]
         for i, (jet, margin, sign) in enumerate(rows):
             for k, own in enumerate(values):
                 own[i] = jet.c[k] * DEGREE**k if k else jet.c[0]
-            unbounded = None if margin is None else self._lost(margin, signed)
-            if unbounded is not None and unbounded.any():
+            if margin is None:
+                continue
+            value = array(margin.c[0])
+            unbounded: Mask = value <= NEGLIGIBLE
+            if margin is instant.grip:
+                # without friction a lever has all its digits, however short
+                free = instant.case.all_friction == 0.0
+                unbounded = value <= np.where(free, 0.0, NEGLIGIBLE)
+            # a margin that is known to be negative may have a rounding error above 0
+            for kind, (known, other) in zip(self.kinds, signs, strict=True):
+                if kind in MARGINS:
+                    unbounded = unbounded | ((known < 0.0) & (value == other.c[0]))
+            if unbounded.any():
                 unbounded = np.broadcast_to(unbounded, x.shape)
                 values[0][i] = np.where(unbounded, np.inf * sign, values[0][i])
                 for own in values[1:]:
                     own[i][unbounded] = 0.0
         positive = np.empty((self.signs, *x.shape[::-1]), dtype=bool).swapaxes(1, 2)
-        for i, sign in enumerate(signed.signs):
-            positive[i] = sign > 0.0
+        for i, (known, _) in enumerate(signs):
+            positive[i] = known > 0.0
         return positive, values
-
-    def _lost(self, margin: Jet, signed: SignedInstant) -> Mask:
-        """Masks of the places where a quantity with this margin is unbounded."""
-        value = array(margin.c[0])
-        level: Number = NEGLIGIBLE
-        if margin is signed.instant.grip:
-            # without friction a lever has all its digits, however short
-            level = np.where(signed.instant.case.all_friction == 0.0, 0.0, NEGLIGIBLE)
-        lost: Mask = value <= level
-        # a margin that is known to be negative may have a rounding error above 0
-        for kind, sign, jet in zip(self.kinds, signed.signs, signed.jets, strict=True):
-            if kind in MARGINS:
-                lost = lost | ((sign < 0.0) & (value == jet.c[0]))
-        return lost
 
 
 def on_breaks(x: Array, engagement: Engagement) -> Array:
@@ -249,31 +208,3 @@ def refuse_noise(integrals: Sequence[Array | None]) -> None:
             "be rounding: make the drive more even",
             ("drive", "kind"),
         )
-
-
-@lru_cache(maxsize=16)  # the cycle, the strength and the checks of a design need the same answer
-def refuse_rounding(engagements: tuple[Engagement, ...]) -> None:
-    """Raise GenevaError for a design that is too fast for the digits of its angles."""
-    for engagement in engagements:
-        (fastest,), (fraction,) = _digits(engagement)
-        if fraction > FEWEST_DIGITS:
-            raise GenevaError(
-                f"the wheel moves {fastest:.2g} times as fast as the input. The last digit of the "
-                f"input angle is {fraction:.1g} of its step, so the loads would be rounding. Make "
-                "the drive more even (elliptical gears: an eccentricity up to 0.999999)",
-                ("drive", "kind"),
-            )
-
-
-def too_fast(engagements: Sequence[Engagement]) -> Mask:
-    """True for designs whose motion is too fast for the digits of its angles: (m,) or (1,)."""
-    fractions = [_digits(engagement)[1] for engagement in engagements]
-    return np.asarray(np.max(np.broadcast_arrays(*fractions), axis=0) > FEWEST_DIGITS)
-
-
-def _digits(engagement: Engagement) -> tuple[Array, Array]:
-    """The greatest velocity, and the step between two adjacent angles there over the whole step."""
-    fastest = motion_peaks(engagement.motion, ["velocity"])["velocity"].max
-    furthest = np.fmax(np.abs(engagement.entry_deg), np.abs(engagement.exit_deg))
-    step = np.ravel(np.spacing(furthest) * DEGREE / (2.0 * np.asarray(engagement.half_step)))
-    return fastest, fastest * step

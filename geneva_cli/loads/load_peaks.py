@@ -1,27 +1,14 @@
-"""The greatest, least and mean loads of designs; a single design is a batch of one.
-
-Every machine is supported: friction, curved slots, linkages, several rollers. All stretches of the
-designs are searched together, one block of designs after the other.
-
-    >>> import numpy as np
-    >>> from geneva_cli import External, Load, SideCrank
-    >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> spec = Spec(External(6), SideCrank(A=0.0), load=Load(inertia_kgm2=2.0, friction=0.1))
-    >>> batch = many(spec, {"drive.A": np.array([0.0, 0.6])})
-    >>> load_peaks(batch.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
-    array([1905.0702,  731.1404])
-"""
+"""The greatest, least and mean loads of designs; a single design is a batch of one."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Generic, NamedTuple, TypeVar, cast
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP
+from geneva_cli.loads.contact import NEAR_CUSP, LoadCase, QuantityValue
 from geneva_cli.loads.cycle_quantities import (
     FORCE,
     NEVER_NEGATIVE,
@@ -33,29 +20,25 @@ from geneva_cli.loads.cycle_quantities import (
     plain_values,
     sources,
 )
-from geneva_cli.loads.forces import LoadCase
-from geneva_cli.loads.instant import LoadQuantity
+from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import load_case
-from geneva_cli.loads.load_functions import NO_MORE, LoadFunctions, on_breaks
+from geneva_cli.loads.load_functions import LoadFunctions, on_breaks
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater
+from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Which, Whole, array, matrix_product
 from geneva_cli.numerics.cuts import gathered, spread
 from geneva_cli.numerics.extremes import SearchResult, first_greatest
-from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.jet import Array, Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
 S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of a batch
 
 
 class LoadSummary(NamedTuple, Generic[S]):
-    """Greatest and least over the motions, mean and root mean square over a period.
-
-    Input angles are as shown; values are infinite if unbounded. Each is (m,) for m designs, or a
-    number of one; as it is printed, None for a value that is not known.
-    """
+    """Greatest and least over the motions, mean and root mean square over a period: (m,) each."""
 
     max: S
     max_at_deg: S
@@ -68,13 +51,10 @@ class LoadSummary(NamedTuple, Generic[S]):
 def load_peaks(
     mechanism: Mechanism,
     names: Sequence[str],
-    own: Mapping[str, LoadQuantity] = NO_MORE,
+    own: Mapping[str, LoadQuantity] | None = None,
     case: LoadCase | None = None,
 ) -> dict[str, PeakArray]:
-    """The greatest sizes of quantities, and the first input angles that have them: (m,).
-
-    ``own`` are further quantities by name; ``case`` replaces the machine's own load case.
-    """
+    """The greatest sizes of quantities, and the first input angles that have them: (m,)."""
     mechanism = mechanism.under_load
     case, best = case or load_case(mechanism), dict[str, PeakArray]()
     flat = all(e.slot.walls_flat for e in mechanism.engagements)
@@ -96,13 +76,35 @@ def load_peaks(
     return out
 
 
+def _slope_squared(i: Instant[Jet]) -> QuantityValue[Jet]:
+    """The square of the pressure angle's tangent."""
+    slope = i.at.offset / i.at.lever
+    return QuantityValue(slope * slope)
+
+
+def greatest_pressure(mechanism: Mechanism) -> PeakArray:
+    """The greatest pressure angles of m designs, degrees, and their input angles: (m,).
+
+    It is 90 at mid-motion if the pin crosses the radius there; NaN for a batch whose designs
+    differ.
+    """
+    for engagement in mechanism.engagements:
+        crosses = np.logical_not(retraces(engagement)) & engagement.slot.curved
+        if np.any(crosses):
+            at_deg = np.ravel(mechanism.shown_deg(engagement.mid_deg))
+            known = np.full(mechanism.designs, 0.0 if np.all(crosses) else np.nan)
+            return PeakArray(90.0 + known, at_deg + known)
+    own: dict[str, LoadQuantity] = {"slope": _slope_squared}
+    case = load_case(mechanism)._replace(inertia_Nm=0.0, hertz=None, efficiency=1.0).frictionless
+    peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
+    angle = np.degrees(np.arctan(np.sqrt(peak.max)))
+    return PeakArray(angle, np.where(angle > 0.0, peak.at_deg, 0.0))  # 0 throughout a radial slot
+
+
 def reported_peaks(
     mechanism: Mechanism, names: Iterable[str] = REPORTED_PEAKS
 ) -> Mapping[str, PeakArray]:
-    """The greatest sizes of those of ``REPORTED_PEAKS`` that a machine has, by their names there.
-
-    Those of a single design are all computed together, so that digits do not depend on ``names``.
-    """
+    """The greatest sizes of those of ``REPORTED_PEAKS`` that a machine has, by their names."""
     single = isinstance(mechanism.design, int)
     return _single_peaks(mechanism) if single else _reported(mechanism, names)
 
@@ -124,40 +126,39 @@ def _reported(mechanism: Mechanism, names: Iterable[str]) -> dict[str, PeakArray
 
 
 def load_summaries(
-    mechanism: Mechanism, names: Sequence[str], requested: Collection[str] = ("mean", "rms")
+    mechanism: Mechanism, names: Sequence[str], means: bool = True
 ) -> Mapping[str, LoadSummary[Array]]:
     """The summaries of quantities over a period, by their names; signs kept.
 
-    Extremes are exact to some units in the last place of a quantity's greatest size. Means and root
-    mean squares are within 1e-12 of that size: quadrature errors of 2e-13 add up over stretches
-    that may cancel. ``requested`` selects mean and rms; the other is None.
+    Extremes are exact to some units in the last place of a quantity's greatest size, means and root
+    mean squares to 1e-12 of it.
     """
     if isinstance(mechanism.design, int) and set(names) <= sources(mechanism).keys():
         known_ones = single_summaries(mechanism)
         return {name: known_ones[name] for name in names}
-    return _summaries(mechanism.under_load, names, requested)
+    return _summaries(mechanism.under_load, names, means)
 
 
 @lru_cache(maxsize=16)
 def single_summaries(mechanism: Mechanism) -> Mapping[str, LoadSummary[Array]]:
     """The summaries of all quantities that a single design has, which are computed together."""
-    return _summaries(mechanism.under_load, [*sources(mechanism)], ("mean", "rms"))
+    return _summaries(mechanism.under_load, [*sources(mechanism)], means=True)
 
 
 def _summaries(
-    mechanism: Mechanism, names: Sequence[str], requested: Collection[str]
+    mechanism: Mechanism, names: Sequence[str], means: bool
 ) -> dict[str, LoadSummary[Array]]:
     known = multiples(mechanism)
     every = {name: known.get(name, (name, 1.0, ""))[:2] for name in names}
     sources = list(dict.fromkeys(source for source, _ in every.values()))
-    case, plain, ends, totals = load_case(mechanism), "mean" in requested, [], []
+    case, ends, totals = load_case(mechanism), [], []
     for engagement in mechanism.engagements:
         load = LoadFunctions(engagement, case, sources)
         result = load.search()
         ends.append(np.stack((result.most, shown_deg(mechanism, engagement, result.x))))
-        if requested:
-            totals.append(_sums_of(load, result, plain))
-    means = _means(mechanism, sources, totals, plain) if requested else {}
+        if means:
+            totals.append(_sums_of(load, result))
+    each = _means(mechanism, sources, totals) if means else {}
     best = {}
     for i, name in enumerate(sources):
         # the greatest values of the quantities' negatives follow
@@ -168,8 +169,15 @@ def _summaries(
         (most, most_at), (less, less_at) = (
             first_greatest(*side, size) for side in ((most, most_at), (less, less_at))
         )
-        most, least = _ends_of(name, most, -less)
-        best[name] = LoadSummary(most, most_at, least, less_at, *means.get(name, (None, None)))
+        pair = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else x for x in (most, -less)]
+        if name in SQUARED and name not in PRESSED:
+            pair = [np.sqrt(x) for x in pair]
+        # where the torque changes sign, rounding may leave a size of 1e-14 of the other
+        level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in pair])
+        most, least = (np.where(np.abs(x) > level, x, 0.0) for x in pair)
+        if name in PRESSED:  # the square of a stress goes with the force, and has its rounding
+            most, least = np.sqrt(most), np.sqrt(least)
+        best[name] = LoadSummary(most, most_at, least, less_at, *each.get(name, (None, None)))
     out = {}
     for name, (source, ratio) in every.items():
         if ratio is not None:
@@ -180,29 +188,13 @@ def _summaries(
     return out
 
 
-def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
-    """Greatest and least of a quantity, from those of its square or of itself.
-
-    Where the torque changes sign, rounding may leave a size below 0. Either value is replaced by 0
-    if it is below 1e-14 of the other.
-    """
-    ends = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else x for x in (most, least)]
-    if name in SQUARED and name not in PRESSED:
-        ends = [np.sqrt(x) for x in ends]
-    level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in ends])
-    ends = [np.where(np.abs(x) > level, x, 0.0) for x in ends]
-    # the square of a stress goes with the force, and has its rounding
-    return [np.sqrt(x) for x in ends] if name in PRESSED else ends
-
-
 def _means(
-    mechanism: Mechanism, names: Sequence[str], each: Sequence[Array], plain: bool
-) -> dict[str, tuple[Array | None, Array]]:
+    mechanism: Mechanism, names: Sequence[str], each: Sequence[Array]
+) -> dict[str, tuple[Array, Array]]:
     """Mean and root mean square of quantities over a period, dwells included: (m,) each.
 
-    ``each`` are the results of ``_sums_of`` over each engagement. Of bearings they are the greatest
-    crank's, of wheels one wheel's: the cranks work in turn, and so do the wheels on a carrier.
-    Without ``plain`` the mean is None.
+    ``each`` are the results of ``_sums_of``. Of bearings they are the greatest crank's, of wheels
+    one wheel's: the cranks work in turn, and so do the wheels on a carrier.
     """
     of_wheel = ("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N")
     drive = mechanism.spec.drive
@@ -215,15 +207,11 @@ def _means(
             own = [sum(one[i] for one in each[k::cranks]) for k in range(min(cranks, len(each)))]
             total[i] = np.max(own, axis=0) * min(1.0, len(each) / cranks)
     total /= np.ravel(mechanism.lasting_deg) * DEGREE
-    out: dict[str, tuple[Array | None, Array]] = {}
-    for i, name in enumerate(names):
-        square, mean = total[i], None
-        if plain:
-            mean = total[len(names) + i]
-            # a mean whose square is so small a fraction of the mean square is rounding
-            nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
-            mean = np.where(nought, 0.0, mean)
-        out[name] = mean, np.sqrt(square)
+    out = {}
+    for name, square, mean in zip(names, total, total[len(names) :], strict=False):
+        # a mean whose square is so small a fraction of the mean square is rounding
+        nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
+        out[name] = np.where(nought, 0.0, mean), np.sqrt(square)
     return out
 
 
@@ -234,12 +222,11 @@ def shown_deg(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
     return np.hstack([np.broadcast_to(row, (x.shape[1], 1)) for row in shown]).T
 
 
-def _sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
-    """The integrals by the angle in radians of the squares and, with ``plain``, of the quantities.
+def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
+    """The integrals by the angle in radians of the squares of the quantities, and of them.
 
-    They are over the stretches of a search, (names, n) for each, and infinite for quantities
-    without a bound. Only quantities that are searched by their squares behave as a root at the ends
-    of their stretches.
+    They are over the stretches of a search, (names, n), and infinite for quantities without a
+    bound. Those searched by their squares behave as a root at the ends of their stretches.
     """
     pieces, n = result.stretches, load.n
     bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
@@ -253,10 +240,10 @@ def _sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
         width = w[which, None]
         x, rate = gathered(u, width), np.hypot(1.0, np.sinh(u / width))
         x = np.clip(x, a[which, None], b[which, None])
-        return _powers(load, x, design[which], signs[:, which, None], plain) * rate
+        return _powers(load, x, design[which], signs[:, which, None]) * rate
 
-    rooted = plain and any(name in SQUARED for name in load.names)
-    needed = np.tile(bounded, (2 if plain else 1, 1))
+    rooted = any(name in SQUARED for name in load.names)
+    needed = np.tile(bounded, (2, 1))
     with np.errstate(all="ignore"):
         total = span_integrals(Integrands(rows, spread(a, w), spread(b, w), rooted), design, needed)
         if load.engagement.slot.curved:
@@ -265,20 +252,19 @@ def _sums_of(load: LoadFunctions, result: SearchResult, plain: bool) -> Array:
             places, weights = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
             for end in (load.engagement.entry_deg, load.engagement.exit_deg):
                 near = np.broadcast_to(np.reshape(NEAR_CUSP * end, (-1, 1)), (n, 1))
-                values = _powers(load, near * places, slice(0, n), None, plain)
+                values = _powers(load, near * places, slice(0, n), None)
                 total = total + matrix_product(values, weights) * np.abs(near[:, 0])
     total[~needed] = np.inf
     return total * DEGREE
 
 
-def _powers(load: LoadFunctions, x: Array, which: Which, signs: Array | None, plain: bool) -> Array:
-    """The squares of the quantities and, with ``plain``, the quantities themselves after them."""
-    (here, *_), wanted = load.at(x, which, 0, signs)
+def _powers(load: LoadFunctions, x: Array, which: Which, signs: Array | None) -> Array:
+    """The squares of the quantities, and the quantities themselves after them."""
+    here, wanted, _ = load.at(x, which, 0, signs)
     count = len(load.names)
-    out = np.empty((2 * count if plain else count, *x.shape[::-1])).swapaxes(1, 2)
+    out = np.empty((2 * count, *x.shape[::-1])).swapaxes(1, 2)
     for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
         value = array(quantity(here).value.c[0])
         out[i] = value if name in SQUARED else value * value
-        if plain:
-            out[count + i] = plain_values(value, name)
+        out[count + i] = plain_values(value, name)
     return out

@@ -33,11 +33,7 @@ SHOWN_QUANTITIES = (
 
 @lru_cache(maxsize=16)
 def summaries(cycle: Cycle) -> Mapping[str, LoadSummary[float | None]]:
-    """The summary of each quantity, by its name.
-
-    None for an unbounded value, or if its inputs are not known. ``max`` is the greatest size of
-    the quantities whose size is limited, as everywhere; ``cycle.extremes`` has their signs.
-    """
+    """The summary of each quantity, by its name; None for an unbounded or unknown value."""
     known, none = cycle.extremes, [None] * len(LoadSummary._fields)
     out = {name: LoadSummary(*map(_finite, known.get(name, none))) for name in SHOWN_QUANTITIES}
     for name, (most, at_deg) in cycle.peaks.items():
@@ -68,11 +64,7 @@ def loads_table(
     warnings: Sequence[str],
     for_people: bool = False,
 ) -> Table:
-    """The summary of the loads, with the impact of a reversal, sizing, life and warnings.
-
-    ``life``, ``reversal`` and some of ``sizing`` are known from the machine's parts. For people the
-    quantities that have a value are rows of a table.
-    """
+    """The summary of the loads, with the impact of a reversal, sizing, life and warnings."""
     spec = cycle.mechanism.spec
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}
     loads = summaries(cycle)
@@ -122,33 +114,25 @@ def missing(cycle: Cycle) -> list[Notice]:
 
 
 def cycle_table(cycle: Cycle, samples: int) -> Table:
-    """``samples`` rows, evenly spaced in the input angle over one period from the first entry.
-
-    A value that is unbounded or not known is None.
-    """
-    from geneva_cli.motion.motion_table import check_samples
+    """``samples`` rows, evenly spaced in the input angle over one period from the first entry."""
+    from geneva_cli.motion.motion_table import check_samples, derivatives, inputs, times_s
 
     check_samples(samples)
-    names = ("time_s", "input_deg", cycle.mechanism.output.column, *SHOWN_QUANTITIES)
-    return computed_table(names, samples, lambda i, j: _rows(cycle, samples, i, j))
+    machine, known = cycle.mechanism, sources(cycle.mechanism)
+    names = ("time_s", "input_deg", machine.output.column, *SHOWN_QUANTITIES)
 
+    def rows(begin: int, end: int) -> list[Any]:
+        input_deg = inputs(machine, samples, begin, end)
+        states = cycle.states(input_deg)
+        turned = derivatives(machine, input_deg, (0,))[0] * machine.output.per_radian
+        out = [times_s(machine, input_deg), input_deg, turned]
+        for name in SHOWN_QUANTITIES:
+            column: Any = [None] * len(input_deg)
+            if name in known:
+                column = cycle.plain(states, name)
+                if not np.isfinite(column).all():
+                    column = [x if math.isfinite(x) else None for x in column.tolist()]
+            out.append(column)
+        return out
 
-def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
-    from geneva_cli.motion.motion_table import derivatives, inputs, times_s
-
-    input_deg = inputs(cycle.mechanism, samples, begin, end)
-    states = cycle.states(input_deg)
-    known = sources(cycle.mechanism)
-    out = [
-        times_s(cycle.mechanism, input_deg),
-        input_deg,
-        derivatives(cycle.mechanism, input_deg, (0,))[0] * cycle.mechanism.output.per_radian,
-    ]
-    for name in SHOWN_QUANTITIES:
-        column: Any = [None] * len(input_deg)
-        if name in known:
-            column = cycle.plain(states, name)
-            if not np.isfinite(column).all():
-                column = [x if math.isfinite(x) else None for x in column.tolist()]
-        out.append(column)
-    return out
+    return computed_table(names, samples, rows)

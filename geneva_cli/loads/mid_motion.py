@@ -1,7 +1,6 @@
 """Loads at mid-motion of curved slots, where slopes nearby are lost to rounding.
 
-There the pin reverses in a cusp of its pitch curve, or crosses the radius. Stretches stop short of
-it.
+There the pin reverses in a cusp of its pitch curve, or crosses the radius.
 """
 
 from __future__ import annotations
@@ -11,12 +10,10 @@ from typing import TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP, contact
-from geneva_cli.loads.forces import NEGLIGIBLE, LoadCase, value
+from geneva_cli.loads.contact import NEAR_CUSP, NEGLIGIBLE, LoadCase, contact, value
 from geneva_cli.loads.instant import Instant, LoadQuantity, bounded
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pitch_curve import retraces
-from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Mask, Number, array
 from geneva_cli.numerics.jet import Array, Jet
 
@@ -29,13 +26,10 @@ def at_mid_motion(
 ) -> list[Known]:
     """The quantities of n designs at mid-motion, and nearer to it than any stretch.
 
-    Where the pin crosses the radius, its lever is 0 and a torque takes an unbounded force. Instead
+    Where the pin crosses the radius, its lever is 0 and a torque takes an unbounded force; instead
     of 0/0 the limits from both sides are returned. At a cusp the wall turns away from the roller on
-    one side. A quantity without margin on the other side goes to 0 there. So does a quantity of a
-    torque that changes sign nearer to mid-motion than the stretches.
-
-    A law that jumps at its middle, as ``s-curve`` without cruise and ramp, has another acceleration
-    after it. The slot then has a corner there, whose two sides are mirror images.
+    one side. A law that jumps at its middle has another acceleration after it: the slot then has a
+    corner there, whose two sides are mirror images.
     """
     out: list[Known] = []
 
@@ -78,48 +72,11 @@ def at_mid_motion(
                     none = np.where(loaded, np.inf * sign, none)
                     limited = np.where((bar > NEGLIGIBLE) & finite, known, none)
                     add(k, middle, limited, crosses | jumps | (sense > 0.0))
-            # where the torque changes sign between mid-motion and the nearest stretch
-            changes, x = _torque_free(engagement, case, torque, near * sense)
-            if not changes.any():
-                continue
-            at_x = contact(engagement, x)
-            signs = Instant(case, at_x).signed()
-            unforced = at_x._replace(lever=at_x.lever + np.inf)  # the rest takes no force
-            for drives in (1.0, -1.0):  # the torque is 0 on both sides
-                with_force, without = (
-                    Instant(case, one, drives, signs.slides, signs.feeds)
-                    for one in (at_x, unforced)
-                )
-                for k, of in enumerate(quantities):
-                    margin, known = of(with_force).margin, value(of(without).value)
-                    bar = np.inf if margin is None else value(margin)
-                    add(k, x, known, (bar > NEGLIGIBLE) & np.isfinite(known) & changes)
     return out
 
 
-def _torque_free(
-    engagement: Engagement, case: LoadCase, middle: Number, near: Array
-) -> tuple[Mask, Array]:
-    """Masks of designs whose torque is 0 between mid-motion and a place near it, and where."""
-
-    def torque(x: Array) -> tuple[Array, Array]:
-        _, _, acceleration, jerk = engagement.motion(x, 3).derivatives()
-        left = acceleration * case.inertia_Nm + case.resists_Nm
-        return array(left), array(jerk * (case.inertia_Nm * DEGREE))
-
-    end = torque(near)[0]
-    x = near * (middle / (middle - end))
-    for _ in range(2):  # Newton steps from a chord of 1e-4 of the motion: the rest is rounding
-        left, rise = torque(x)
-        x = np.clip(x - left / rise, np.minimum(near, 0.0), np.maximum(near, 0.0))
-    return np.asarray(middle * end < 0.0), x
-
-
 def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | None:
-    """The quantities of ``Instant`` at mid-motion, where the pin crosses the slot without a torque.
-
-    They are arrays of one, with the limits of entry. None in all other cases.
-    """
+    """The quantities of ``Instant`` where the pin crosses the slot without a torque; else None."""
     if not engagement.slot.curved or retraces(engagement):
         return None
     with np.errstate(all="ignore"):

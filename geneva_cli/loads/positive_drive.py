@@ -1,9 +1,7 @@
 """Positive drive: the input angles at which a curved slot lacks the wall that its load needs.
 
-The roller passes each radius of the wheel twice, in and out. Both tracks are equal only if the odd
-part of the motion is the straight slot's (the one-track theorem). Otherwise the slot has two
-branches, and each keeps only its outer wall. Where the other wall would have to carry the torque,
-only the play between the branches limits the wheel.
+The roller passes each radius of the wheel twice. Unless both tracks are equal, the slot has two
+branches, and each keeps only its outer wall.
 """
 
 from __future__ import annotations
@@ -19,10 +17,7 @@ from geneva_cli.numerics.arrays import Array, Mask
 
 
 class PositiveDrives(NamedTuple):
-    """Where m designs' slots lack the needed wall, and the distance of their branches, (m,) each.
-
-    ``loose`` (m, k) is a mask of the places ``input_deg`` without positive drive.
-    """
+    """Where m designs' slots lack the needed wall, and the distance of their branches."""
 
     fraction: Array  # of the motion without it
     gap_mm: Array  # greatest distance of the two branches, along the wheel's circumference
@@ -47,11 +42,7 @@ class PositiveDrives(NamedTuple):
 
 
 def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
-    """The positive drive of m designs; None for straight slots.
-
-    The torque is inertia plus resistance. The wall ahead is needed where the torque is positive. A
-    branch keeps that wall where its roller leads the other branch at the same radius.
-    """
+    """The positive drive of m designs; None for straight slots."""
     engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
     if not engagement.slot.curved:
         return None

@@ -1,20 +1,9 @@
 """What the product on the dial feels: travel, speed, acceleration and jerk in SI units.
 
-A product at the radius r on a dial that turns i times as far as the wheel has, with V = psi',
-A = psi'' and J = psi''' by the input's angle and the input's speed w,
-
-    speed        r w i V
-    acceleration r w² sqrt((i A)² + (i V)^4)     along its path, and towards the axis
-    jerk         r w³ i J                        along its path
-
-A chain, belt or film on a sprocket of N teeth of pitch p has r = N p / (2 pi), so that a step moves
-it by whole pitches, and has no acceleration towards an axis.
-
-A wheel on a carrier of the radius L turns at 1 + V from the ground, or at 1 - V inside. The product
-is taken where it feels most: there the speed is greater by w L, the acceleration by w² L.
-
-Source: circular motion. Between peaks of speed and of acceleration along the path, the resultant
-has peaks of its own, so that its square is searched.
+At the radius r on a dial that turns i times as far as the wheel its speed is r w i V, its jerk r w³
+i J along its path, and its acceleration r w² sqrt((i A)² + (i V)^4), along the path and towards the
+axis. A chain on a sprocket of N teeth of pitch p has r = N p / (2 pi) and no part towards an axis.
+On a carrier the wheel turns at 1 + V from the ground, and w L and w² L add to the greatest.
 """
 
 from __future__ import annotations
@@ -32,7 +21,6 @@ from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import PeakArray, greater, search_motion
-from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import Array, Which, parameter
 from geneva_cli.numerics.extremes import Smooth
@@ -49,20 +37,10 @@ class ProductMotion(NamedTuple):
     acceleration_m_s2: PeakArray  # of both together
     jerk_m_s3: PeakArray  # along the path
     friction_needed: Array  # friction coefficient at which the product just does not slip
-    swing_mm: Array  # amplitude that a step leaves of a product that hangs or sloshes
 
 
 def product_motion(mechanism: Mechanism) -> ProductMotion | None:
-    """The motion of the products of m designs; None if their place is not known.
-
-    Nothing is said of slipping on a dial that stands upright, where the product's weight acts along
-    its seat.
-
-    >>> from geneva_cli import Design, External, Product
-    >>> dial = Design(External(6), product=Product(radius_mm=300.0)).mechanism
-    >>> round(product_motion(dial).travel_mm.item(), 6)
-    314.159265
-    """
+    """The motion of the products of m designs; None if their place is not known."""
     spec, product, m = mechanism.spec, mechanism.spec.product, mechanism.designs
     if not product.lies:
         return None
@@ -102,15 +80,11 @@ def product_motion(mechanism: Mechanism) -> ProductMotion | None:
         acceleration,
         scaled(jerk, scale * w * w),
         acceleration.max / G if spec.support.axis == "vertical" else none,
-        r_mm * ratio * _swing(mechanism),
     )
 
 
 def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
-    """The peak of sqrt(A² + i² V^4) over all engagements, which is a fraction 1/i of the above.
-
-    On a carrier V is the velocity from the ground.
-    """
+    """The peak of sqrt(A² + i² V^4) over all engagements; on a carrier V is from the ground."""
 
     def greatest(engagement: Engagement) -> PeakArray:
         some = selection(engagement.motion)
@@ -126,22 +100,3 @@ def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
         return PeakArray(np.sqrt(most[0]), np.ravel(mechanism.shown_deg(place)))
 
     return reduce(greater, map(greatest, mechanism.engagements))
-
-
-def _swing(mechanism: Mechanism) -> Array:
-    """The amplitude that a step leaves, in radians of the dial; NaN without a swing_Hz.
-
-    It is NaN too where the motion's time over the natural period is out of the range computed.
-    """
-    from geneva_cli.loads.vibration.swing import Oscillator
-    from geneva_cli.loads.vibration.vibration import PERIOD_RATIO, Oscillators
-
-    product, m = mechanism.spec.product, mechanism.designs
-    if product.swing_Hz is None:
-        return np.full(m, np.nan)
-    periods = timings(mechanism)[0].motion_s * product.swing_Hz
-    ratio, zeta = (np.broadcast_to(np.ravel(x), m) for x in (periods, product.swing_damping))
-    known = (ratio >= PERIOD_RATIO.low) & (ratio <= PERIOD_RATIO.high)
-    swing = Oscillator(np.where(known, ratio, 1.0), zeta)
-    left_deg = Oscillators(mechanism, swing).residual_deg.max(axis=0)
-    return np.where(known, np.radians(left_deg), np.nan)

@@ -1,14 +1,4 @@
-"""Sizing of motor and flywheel: the cam-indexer formula, and the exact cycle.
-
->>> import numpy as np
->>> from geneva_cli import External, Load
->>> from geneva_cli.motion.many import many
->>> from geneva_cli.motion.machine_spec import Spec
->>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
->>> batch = many(spec, {"load.torque_Nm": np.array([0.0, 20.0])})
->>> sizings(batch.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
-array([26.8019, 28.3356])
-"""
+"""Sizing of motor and flywheel: the cam-indexer formula, and the exact cycle."""
 
 from __future__ import annotations
 
@@ -20,19 +10,17 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2, support_torque_Nm, working_torque_Nm
+from geneva_cli.loads.contact import QuantityValue
 from geneva_cli.loads.cycle_quantities import TORQUE
-from geneva_cli.loads.forces import QuantityValue
-from geneva_cli.loads.indexer_formula import ShaftLoad, indexer_formula
 from geneva_cli.loads.instant import Instant, LoadQuantity
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions
-from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
+from geneva_cli.loads.load_peaks import LoadSummary, load_peaks, load_summaries
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import motion_peaks
-from geneva_cli.motion.timing import cam_factors
-from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.motion.timing import CamFactors, cam_factors
+from geneva_cli.numerics.angles import DEGREE, omega, radians
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole, choose_record, parameter
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.quadrature import Integrands, span_integrals
@@ -46,8 +34,6 @@ CYCLE_SUMS = (
     *("energy_fluctuation_J", "flywheel_kgm2"),
     *("flywheel_to_add_kgm2", "motor_torque_rms_Nm"),
 )
-EXTREMES = ("motor_torque_max_Nm", "input_torque_ratio")
-ROTOR = ("inertia_ratio", "coasting_speed_share")
 WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizings``
 # In the order shown: the inertia at the wheel's shaft, and the wheel's own; the cam-indexer
 # formula, for the engagement with the greatest torque at the input; the exact cycle.
@@ -56,8 +42,7 @@ SHOWN_SIZING = (
     *("inertia_torque_Nm", "friction_torque_Nm"),
     *("total_torque_Nm", "design_torque_Nm", "input_torque_Nm", "power_W", "Am", "Vm", "Qm"),
     *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
-    *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2", "coasting_speed_share"),
-    "input_torque_ratio",
+    *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2"),
 )
 SIZING_NAMES = tuple(name for name in SHOWN_SIZING if name != WHEEL_INERTIA)
 
@@ -66,10 +51,7 @@ SIZING_NAMES = tuple(name for name in SHOWN_SIZING if name != WHEEL_INERTIA)
 def sizing(
     cycle: Cycle, wheel_inertia_kgm2: float | None = None
 ) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
-    """The values of one design in the order shown, and the keys that missing values need.
-
-    The wheel's own inertia is known from its parts.
-    """
+    """The values of one design in the order shown, and the keys that missing values need."""
     spec, lacks = cycle.mechanism.spec, cycle.mechanism.output.lacks
     torque = cycle.known[TORQUE] if cycle.is_loaded else None
     rows = sizings(cycle.machine, SIZING_NAMES if torque else KNOWN_UNLOADED)
@@ -90,26 +72,19 @@ def sizing(
     if spec.motor.speed_variation is None:
         needs.append("flywheel_kgm2, flywheel_to_add_kgm2: need speed_variation in [motor]")
     if not spec.motor.inertia_kgm2:
-        needs.append("inertia_ratio, coasting_speed_share: need inertia_kgm2 in [motor]")
+        needs.append("inertia_ratio: needs inertia_kgm2 in [motor]")
     if wheel_inertia_kgm2 is None:
-        needs.append(f"{WHEEL_INERTIA}: {_unweighed(spec)}")
+        why = "needs a wheel that can be cut; `geneva profile` shows why it cannot"
+        if not spec.is_flat:
+            why = "computed for flat wheels only"
+        elif spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
+            why = "needs face_width_mm in [size]"
+        needs.append(f"{WHEEL_INERTIA}: {why}")
     return out, tuple(needs)
 
 
-def _unweighed(spec: Spec) -> str:
-    """The reason why the wheel's own inertia is not known."""
-    if not spec.is_flat:
-        return "computed for flat wheels only"
-    if spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
-        return "needs face_width_mm in [size]"
-    return "needs a wheel that can be cut; `geneva profile` shows why it cannot"
-
-
 def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> dict[str, Array]:
-    """Values of ``SIZING_NAMES``: (m,), or (1,) for values equal in all designs; NaN if undefined.
-
-    Names that are not ``requested`` may be included.
-    """
+    """Values of ``SIZING_NAMES``, and perhaps more: (m,) or (1,); NaN if undefined."""
     whole, names = mechanism.under_load, set(requested)
     spec, case = whole.spec, load_case(whole)
     loaded = np.ravel(case.inertia_Nm + case.resists_Nm > 0.0)
@@ -117,14 +92,13 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
         "inertia_kgm2": _some(inertia_kgm2(spec)),
         "motor_rpm": spec.drive.n_rpm * spec.motor.ratio,
     }
-    if names - {*CARRIED, *CYCLE_SUMS, *ROTOR, "motor_torque_max_Nm"}:
+    if names - {*CARRIED, *CYCLE_SUMS, "inertia_ratio", "motor_torque_max_Nm"}:
         values |= _by_formula(whole)
-    if names & {*CYCLE_SUMS, *EXTREMES}:
-        means = ("mean", "rms") if names & set(CYCLE_SUMS) else ()
-        torque = load_summaries(mechanism, [TORQUE], means)[TORQUE]
-        values |= _exact(whole, torque, values.get("input_torque_Nm"))
-    if names & set(ROTOR):
-        values |= _rotor(whole)
+    if names & {*CYCLE_SUMS, "motor_torque_max_Nm"}:
+        torque = load_summaries(mechanism, [TORQUE], bool(names & set(CYCLE_SUMS)))[TORQUE]
+        values |= _exact(whole, torque)
+    if "inertia_ratio" in names:
+        values["inertia_ratio"] = _inertia_ratio(whole)
     return {
         name: np.ravel(row) if name in KNOWN_UNLOADED else np.where(loaded, np.ravel(row), np.nan)
         for name, row in values.items()
@@ -142,21 +116,48 @@ def _peaks(engagement: Engagement, *names: str) -> list[float]:
     return [parameter(peaks[name].max[:, None]) for name in names]
 
 
+class IndexerFormula(NamedTuple):
+    """The lines of the formula: rad/s², N m at the wheel, and Tc at the input."""
+
+    alpha: float
+    Ti: float
+    Tt: float
+    Te: float
+    Tc: float
+
+
+def indexer_formula(
+    factors: CamFactors,
+    step_deg: float,
+    motion_deg: float,
+    n_rpm: float,
+    load: tuple[float, float, float],
+    service_factor: float,
+) -> IndexerFormula:
+    """The formula of cam-indexer makers for a wheel's step in an input angle at a speed.
+
+    It assumes the greatest torque on the wheel during the whole motion, and the curve's factor Qm.
+    ``load`` are the inertia, kg m², and the torques of friction and work, N m.
+    """
+    t2, (inertia, friction, work) = motion_deg / (6.0 * n_rpm), load
+    alpha = factors.Am * radians(step_deg) / (t2 * t2)
+    Ti = inertia * alpha
+    Tt = Ti + friction + work
+    Te = service_factor * Tt
+    return IndexerFormula(alpha, Ti, Tt, Te, step_deg / motion_deg * factors.Qm * Te)
+
+
 def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     """The cam-indexer formula, for the engagement with the greatest torque at the input."""
-    spec, best = mechanism.spec, None
-    load = ShaftLoad(
-        inertia_kgm2(spec),
-        support_torque_Nm(spec),
-        working_torque_Nm(spec),
-        spec.motor.service_factor,
-        mechanism.frame,
-    )
+    spec, fc, best = mechanism.spec, mechanism.spec.motor.service_factor, None
+    load = inertia_kgm2(spec), support_torque_Nm(spec), working_torque_Nm(spec)
     for number, engagement in enumerate(mechanism.engagements):
         step, motion = mechanism.index_deg(number), engagement.motion_deg
         velocity, acceleration, power = _peaks(engagement, "velocity", "acceleration", "power")
         factors = cam_factors(velocity, acceleration, power, motion, step)
-        line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load)
+        line = indexer_formula(factors, step, motion, spec.drive.n_rpm, load, fc)
+        # a carrier also turns the wheel's frame, whose torque need not be greatest there
+        line = line._replace(Tc=line.Tc + abs(mechanism.frame) * fc * line.Ti)
         if best is None:
             best = line, factors
             continue
@@ -169,7 +170,7 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
         "acceleration_rad_s2": line.alpha,
         **factors._asdict(),
         "inertia_torque_Nm": _some(line.Ti),
-        "friction_torque_Nm": _some(load.friction),
+        "friction_torque_Nm": _some(load[1]),
         "total_torque_Nm": line.Tt,
         "design_torque_Nm": line.Te,
         "input_torque_Nm": line.Tc,
@@ -179,21 +180,13 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     }
 
 
-def _exact(
-    mechanism: Mechanism, torque: LoadSummary[Array], formula_torque: Number | None
-) -> dict[str, Number]:
-    """Motor and flywheel from the exact cycle; NaN if the torque is unbounded.
-
-    The reducer's losses count whether it drives or is driven. At constant speed the rotor's own
-    inertia takes no torque. A flywheel keeps the variation Cs of the mean speed: dE / (Cs w²).
-    """
+def _exact(mechanism: Mechanism, torque: LoadSummary[Array]) -> dict[str, Number]:
+    """Motor and flywheel from the exact cycle; NaN if the torque is unbounded."""
     motor, w = mechanism.spec.motor, omega(mechanism.spec.drive.n_rpm)
     eta, bounded = motor.gear_efficiency, np.isfinite(torque.max) & np.isfinite(torque.min)
     most, least = (np.where(bounded, x, np.nan)[:, None] for x in (torque.max, torque.min))
     driven = np.maximum(most / eta, -least * eta)
     out: dict[str, Number] = {"motor_torque_max_Nm": driven / motor.ratio}
-    if formula_torque is not None:
-        out["input_torque_ratio"] = formula_torque / _some(np.maximum(most, -least))
     if torque.mean is None or torque.rms is None:
         return out
     square = np.where(bounded, torque.rms, np.nan) ** 2
@@ -217,26 +210,16 @@ def _exact(
     return out
 
 
-def _rotor(mechanism: Mechanism) -> dict[str, Number]:
-    """The values of ``ROTOR``; NaN for designs whose motor's own inertia is not known.
-
-    They are the ratio of the wheel's inertia at its fastest to the motor's, and the coasting speed.
-    Let psi1 be the greatest velocity. While coasting without losses, I_input w²/2 + I psi1² w²/2 is
-    constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0. On a carrier all wheels have
-    the frame's speed, and psi1 is added to that of one.
-    """
+def _inertia_ratio(mechanism: Mechanism) -> Number:
+    """The wheel's inertia at its fastest over the motor's; NaN where that is not known."""
     spec, frame = mechanism.spec, mechanism.frame
     own, motor = inertia_kgm2(spec), spec.motor.inertia_kgm2 * spec.motor.ratio**2
     others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
     velocities = [_peaks(engagement, "velocity")[0] for engagement in mechanism.engagements]
-    fastest = np.max(np.broadcast_arrays(*velocities), axis=0)
+    fastest = np.max(np.broadcast_arrays(*velocities), axis=0) + frame
     with np.errstate(all="ignore"):
-        still, mu = (
-            np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest + frame)
-        )
-        ratio = np.maximum(mu, still), np.sqrt((1.0 + still) / (1.0 + mu))
-    known = np.asarray(spec.motor.inertia_kgm2) > 0.0
-    return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
+        ratios = [np.divide(own * (turn * turn + others), motor) for turn in (frame, fastest)]
+    return np.where(np.asarray(spec.motor.inertia_kgm2) > 0.0, np.maximum(*ratios), np.nan)
 
 
 class Unevenness(NamedTuple):
@@ -253,16 +236,8 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> tuple[Array, Array]:
     """The fluctuation of designs, from the means (m,) of their input torque: (m,) each.
 
     It is the greatest minus the least of the cumulated work less its mean line, J, and the integral
-    over the period of the torque's square where the wheel drives.
-
-    The work has its extremes where the torque equals its mean. Motions are divided there too, and
-    integrated between to the last digits. The mean of an unbounded torque must be infinite.
-
-    >>> from geneva_cli import External, Load
-    >>> from geneva_cli.motion.mechanism import build
-    >>> machine = build(Spec(External(4), load=Load(inertia_kgm2=2.0)))
-    >>> fluctuations(machine, np.zeros(1))[0].round(6)  # I (w psi1max)²/2
-    array([230.09708])
+    over the period of the torque's square where the wheel drives. Motions are divided where the
+    torque equals its mean. The mean of an unbounded torque must be infinite.
     """
     bounded = np.isfinite(mean)
     mean = np.where(bounded, mean, 0.0)[:, None]
@@ -288,7 +263,7 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
     signs, n = np.where(positive, 1.0, -1.0), len(bounded)
 
     def rows(x: Array, which: Whole) -> Array:
-        (here, *_), (uneven,) = load.at(x, design[which], 0, signs[:, which, None])
+        here, (uneven,), _ = load.at(x, design[which], 0, signs[:, which, None])
         back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
         return np.stack(np.broadcast_arrays(uneven(here).value.c[0], back * back))
 
@@ -301,3 +276,14 @@ def _works(load: LoadFunctions, bounded: Mask) -> tuple[Array, Array]:
     returned = np.zeros(n)
     np.add.at(returned, design, each[1])
     return works, returned
+
+
+def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
+    """Peak power that the inertia takes from the input, W: I epsilon omega / eta."""
+    spec, w = mechanism.spec, omega(mechanism.spec.drive.n_rpm)
+    if not mechanism.frame:
+        return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency
+    case = load_case(mechanism)._replace(resists_Nm=0.0, efficiency=1.0).frictionless
+    torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
+    one = isinstance(power_invariant, float)
+    return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency

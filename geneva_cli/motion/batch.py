@@ -1,7 +1,4 @@
-"""Objects of a batch, reduced to some of its designs or to one.
-
-An object of a batch holds arrays (m, 1) along the design axis, at any depth.
-"""
+"""Objects of a batch, with arrays (m, 1) at any depth, reduced to some of its designs or to one."""
 
 from __future__ import annotations
 

@@ -1,8 +1,4 @@
-"""Which wheels, drives and motions make no machine together.
-
-Each kind names a function of its rules in its record, ``refuses``. Here are the rules on a drive in
-front of another, and on the keys of gears.
-"""
+"""Which kinds make no machine together: each names its rules; here are those of sizes, and more."""
 
 from __future__ import annotations
 
@@ -21,15 +17,11 @@ from geneva_cli.spec.schema import SpecTable, fields
 
 
 class Conflict(NamedTuple):
-    """A combination that makes no machine, if ``when`` is true: the key to blame, and the message.
+    """A combination that makes no machine, if ``when`` is true."""
 
-    For a batch of designs ``when`` may be an array of truth values. The message may hold values of
-    the spec, as in ``{spec.wheel.z}``.
-    """
-
-    when: object
-    key: tuple[str, ...]
-    text: str
+    when: object  # a truth value, or an array of them for a batch
+    key: tuple[str, ...]  # to blame
+    text: str  # with values of the spec, as in ``{spec.wheel.z}``
 
 
 # The rules of a drive come first, then those of its wheel, then those of what adds to it.
@@ -48,8 +40,8 @@ def refuse_conflicts(spec: Spec) -> None:
         concerned = (kind.drive and kind.name == spec.drive.NAME) or (
             kind.wheel and kind.name == spec.wheel.NAME
         )
-        for key in kind.keys:
-            table, _, name = key.partition(".")
+        for own in kind.keys:
+            table, _, name = own.partition(".")
             of = vars(spec)[attribute(table)]
             value, default = vars(of).get(name), getattr(type(of), name, None)
             if value is not default and (is_array(value) or value != default):

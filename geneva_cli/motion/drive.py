@@ -6,7 +6,7 @@ import math
 from abc import abstractmethod
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.engagement import Displacement, Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
 from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from geneva_cli.motion.motion import Motion
     from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
-    from geneva_cli.numerics.spline import Doubt
 
 
 class Plan(NamedTuple):
@@ -91,14 +90,12 @@ class Drive(SpecTable, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         lost_s = 0.5 * (self.start_s + self.brake_s)
-        refuse(
-            lost_s > self.stop_s * (1.0 + 1e-12),
-            lambda: GenevaError(
-                f"stop_s = {self.stop_s:g}: to brake and to start takes {lost_s:g} s longer than "
-                f"to run on, so the input would not come to rest: it must be at least {lost_s:g}",
-                (self.TABLE, "stop_s"),
-            ),
+        text = (
+            "stop_s = {stop_s:g}: to brake and to start takes {lost_s:g} s longer than to run on, "
+            "so the input would not come to rest: it must be at least {lost_s:g}"
         )
+        short, key = lost_s > self.stop_s * (1.0 + 1e-12), (self.TABLE, "stop_s")
+        refuse_text(short, key, text, stop_s=self.stop_s, lost_s=lost_s)
 
     @property
     def stands_s(self) -> float:
@@ -166,13 +163,6 @@ class Drive(SpecTable, kw_only=True):
     def may_vary(self, table: str, key: str) -> bool:
         """True if a number of a table may be an array along a design axis with this drive."""
         return True
-
-    def doubt(self, input_deg: float) -> Doubt | None:
-        """Uncertainty of the crank's jerk from the decimals of a ratio file; None without one.
-
-        It is the change by rounding of the ratio's second derivative, over the ratio.
-        """
-        return None
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
         """Rate of the crank over its input shaft's at crank angles; NaN for a path of its own."""

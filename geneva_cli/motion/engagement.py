@@ -1,9 +1,8 @@
 """One index of the wheel: pin path, slot and motion; any two determine the third.
 
 An engagement is one roller's passage through one slot. Input angles are in degrees from its own
-mid-motion. Wheel angles are in radians from the middle of the step. Lengths are in units of the
-centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0). Derivatives are by
-the input angle in radians.
+mid-motion, wheel angles in radians from the middle of the step, lengths in units of the centre
+distance L. The wheel's axis is (0, 0), the crank's (1, 0). Derivatives are by input radians.
 """
 
 from __future__ import annotations
@@ -15,17 +14,8 @@ from dataclasses import dataclass
 from typing import ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import (
-    Array,
-    Batchable,
-    Truth,
-    all_true,
-    array,
-    blocks,
-    choose,
-    library,
-)
-from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
+from geneva_cli.numerics.arrays import Batchable, Truth, all_true, array, blocks, choose, library
+from geneva_cli.numerics.jet import Array, Jet, Number, turning
 
 K = TypeVar("K", float, "Array")
 
@@ -55,12 +45,6 @@ class Rate(Protocol):
     """Rate of a body in radians per input radian, ``tau`` after mid-motion, as the wheel turns."""
 
     def __call__(self, tau: Number, order: int) -> Jet: ...
-
-
-class ClosedPeaks(Protocol):
-    """Peak of a quantity in closed form, or by a quicker search than the general one; else None."""
-
-    def __call__(self, quantity: str) -> Peak[float] | None: ...
 
 
 class Reactions(Protocol):
@@ -138,8 +122,6 @@ class Slot(Batchable, ABC):
 
     # True for a curve that was solved for: it has two branches and its own walls.
     curved = False
-    # True if its two branches are mirror images when the motion is symmetric.
-    mirrored = True
     # True if something other than the roller drives the wheel for part of the motion.
     relieved = False
     # e: distance between a straight slot's axis and the wheel's centre, over L.
@@ -180,19 +162,12 @@ class Slot(Batchable, ABC):
 
 
 class AsBuilt(NamedTuple):
-    """What a crank as built has: its R/L is not what its straight slots need.
+    """What a crank as built has: its R/L is not what its straight slots need."""
 
-    ``crosses`` is true if the roller's centre crosses the axis of the slot at rest inside the rim,
-    before and after its motion. ``gained`` is the wheel's angle beyond its next rest, radians, at
-    which the centre leaves the rim. ``angle`` is the direction of the slot at rest before the
-    motion, radians from the line of centres. ``outer`` is true if the roller enters at the crossing
-    beyond the foot of the perpendicular from the crank's axis.
-    """
-
-    crosses: Truth
-    gained: float
-    angle: float
-    outer: Truth
+    crosses: Truth  # the axis of the slot at rest inside the rim, before and after its motion
+    gained: float  # wheel's angle beyond its next rest at which the roller leaves the rim, radians
+    angle: float  # of the slot at rest before the motion, radians from the line of centres
+    outer: Truth  # it enters beyond the foot of the perpendicular from the crank's axis
 
 
 class Peak(NamedTuple, Generic[K]):
@@ -207,7 +182,6 @@ class WheelMotion(Batchable, ABC):
 
     # False if the two halves of the path differ
     mirrored = True
-    closed_peaks: ClosedPeaks | None = None
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
     BREAKS_TO: ClassVar[float] = 0.0
 
@@ -245,11 +219,8 @@ class WheelMotion(Batchable, ABC):
         return self.breaks_deg
 
     def closed_peak(self, quantity: str) -> Peak[float] | None:
-        """Peak of a quantity in closed form, or by a search that is faster than the general one.
-
-        None if there is neither; in a batch NaN for each design that has neither.
-        """
-        return self.closed_peaks(quantity) if self.closed_peaks else None
+        """Peak in closed form, or by a quicker search; else None, in a batch NaN."""
+        return None
 
     def end_rates(self, input_deg: float) -> tuple[float, float]:
         """Sizes of acceleration and jerk at entry or exit, from inside the motion."""
@@ -281,24 +252,19 @@ class WheelMotion(Batchable, ABC):
 class Engagement(Batchable):
     """Pin path, slot and motion of one roller in one slot.
 
-    ``mid_deg`` is the machine's input angle at its mid-motion. The crank's arm carries the roller,
-    or else ``body`` does, which ``reactions`` hold; ``crank_sense`` is then the crank's direction:
-    -1 with the wheel, 1 against it. ``groove`` is the path if a fixed groove guides the roller
-    along the crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a
-    sphere. ``built`` describes a crank as built, whose R/L is not what the slots need: the wheel's
-    velocity then jumps at entry and exit.
+    The crank's arm carries the roller, or else ``body`` does, which ``reactions`` hold.
     """
 
-    mid_deg: float
+    mid_deg: float  # the machine's input angle at its mid-motion
     path: Path
     slot: Slot
     motion: WheelMotion
     body: Rate | None = None
     reactions: Reactions | None = None
-    crank_sense: float = 0.0
-    groove: Groove | None = None
-    hub: float = 1.0
-    built: AsBuilt | None = None
+    crank_sense: float = 0.0  # of a crank that does not carry it: -1 with the wheel, 1 against it
+    groove: Groove | None = None  # the path, if a fixed groove guides the roller along the crank
+    hub: float = 1.0  # the arm's centre of rotation on the line of centres; less on a sphere
+    built: AsBuilt | None = None  # the wheel's velocity then jumps at entry and exit
 
     @property
     def entry_deg(self) -> float:
@@ -314,8 +280,7 @@ class Engagement(Batchable):
     def jumps(self) -> tuple[Number, Number]:
         """Velocities to which the wheel jumps at entry, and from which it stops at exit.
 
-        They are 0 but on a crank as built, and NaN there if the roller's centre never crosses the
-        axis of the slot at rest inside the rim.
+        They are 0 but on a crank as built, and NaN there if the roller never crosses the slot.
         """
         if self.built is None:
             return 0.0, 0.0
@@ -325,10 +290,7 @@ class Engagement(Batchable):
 
     @property
     def gained(self) -> Number:
-        """Wheel angle beyond its next rest at which the roller leaves the rim, radians.
-
-        It is NaN but on a crank as built; negative where the roller leaves before that rest.
-        """
+        """``AsBuilt.gained``, negative where the roller leaves before that rest; else NaN."""
         return math.nan if self.built is None else self.built.gained
 
     def end_deg(self, end: float) -> float:
@@ -354,7 +316,7 @@ class Engagement(Batchable):
     @property
     def mirrored(self) -> bool:
         """True if motion, slot and loads are symmetric about mid-motion."""
-        return self.motion.symmetric and self.slot.mirrored
+        return self.motion.symmetric
 
     def reach(self, input_deg: float) -> Number:
         """Pin distance from the wheel's axis, in units of L."""
@@ -362,10 +324,7 @@ class Engagement(Batchable):
         return library(x.c[0], y.c[0]).hypot(x.c[0], y.c[0])
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:
-        """Rate at which the body that carries the roller turns, positive with the wheel.
-
-        About the roller's own axis, in radians per input radian.
-        """
+        """Rate of the body that carries the roller, about its axis, positive with the wheel."""
         if self.body:
             return self.body(radians(input_deg), order)
         x, y = self.path(input_deg, order + 1)
@@ -413,11 +372,6 @@ class Engagement(Batchable):
         """Half the angle between the slots of those rollers in the wheel, radians."""
         return self.half_step - self.through.half_step
 
-    @property
-    def overtaking(self) -> float:
-        """Angle by which a roller would lead its slot while something else drives, radians."""
-        return 0.0
-
 
 class Anchor(NamedTuple):
     """An input angle about which the pin's path is written without cancellation."""
@@ -426,13 +380,6 @@ class Anchor(NamedTuple):
     wheel: float  # direction of the ray from the wheel's axis to the pin there, radians
     along: float  # distance from the wheel's axis to the pin there
     displacement: Displacement  # since then, along the ray and across it
-    # input radians since then, in order, at which another formula of the displacement takes over
-    cuts: Sequence[float] = ()
-
-    @property
-    def seams_deg(self) -> list[float]:
-        """Input angles at which another formula of the displacement takes over, degrees."""
-        return [self.input_deg + math.degrees(cut) for cut in self.cuts]
 
     def displacement_at(self, input_deg: Number, order: int) -> Vector:
         """Pin displacement (along the ray, across it) at an input angle in degrees."""
@@ -442,10 +389,3 @@ class Anchor(NamedTuple):
         """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
         along, across = self.displacement_at(input_deg, order)
         return along + self.along, across
-
-
-def in_wheel(path: Vector, wheel: Jet) -> Vector:
-    """Transform a vector from the fixed frame to that of a wheel at angle ``wheel``, radians."""
-    x, y = path
-    s, c = sin_cos(wheel)
-    return x * c + y * s, y * c - x * s

@@ -14,14 +14,9 @@ from geneva_cli.numerics.arrays import Array, Number, scalar, smaller
 EASED_DEG = 30.0  # of the input: range in which the groove joins its arc in the dwell
 
 
-def distance(groove: Groove, input_deg: Array) -> Array:
-    """Return the roller's distance from the crank's axis over a whole turn, in units of L."""
-    return distances(groove, input_deg, 0)[0]
-
-
 def roller_in_groove(groove: Groove, input_deg: Array) -> Array:
     """Return the roller's centre over a whole turn, in units of L from the wheel's axis: (n, 2)."""
-    R, angle = distance(groove, input_deg), np.radians(input_deg)
+    R, angle = distances(groove, input_deg, 0)[0], np.radians(input_deg)
     return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))
 
 
@@ -58,16 +53,15 @@ def distances(groove: Groove, input_deg: Array, order: int = 2) -> list[Array]:
     at = (input_deg - groove.motion.entry_deg) % 360.0 + groove.motion.entry_deg
     moving = at <= groove.motion.exit_deg
     out = [np.empty(len(at)) for _ in range(order + 1)]
-    for here, distances in ((moving, _moving), (~moving, back)):
+    for here in (moving, ~moving):
         if here.any():
-            for column, values in zip(out, distances(groove, at[here], order), strict=True):
-                column[here] = values
+            if here is moving:
+                values = [*groove.distances(at[here], order)[1].arrays()]
+            else:
+                values = back(groove, at[here], order)
+            for column, own in zip(out, values, strict=True):
+                column[here] = own
     return out
-
-
-def _moving(groove: Groove, input_deg: Array, order: int) -> list[Array]:
-    """Return distance and derivatives at input angles in the motion; see ``distances``."""
-    return [*groove.distances(input_deg, order)[1].arrays()]
 
 
 def back(groove: Groove, input_deg: Array, order: int) -> list[Array]:

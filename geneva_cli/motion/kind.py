@@ -1,8 +1,4 @@
-"""The records of kinds of machines and of extras: what the program knows of them, by name.
-
-Functions and classes are written ``module:name``, and imported at their first use. The core asks a
-kind for a thing, such as its parts; it never asks which kind it has.
-"""
+"""The records of kinds of machines and of extras: things by name, as ``module:name``."""
 
 from __future__ import annotations
 

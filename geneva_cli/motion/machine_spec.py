@@ -13,49 +13,26 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.records import CRANK, named, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import all_true
+from geneva_cli.spec import tables
 from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import SpecTable, refuse_kind
-from geneva_cli.spec.tables import (
-    LISTS,
-    PLAIN,
-    Z_DRAWN,
-    Limits,
-    Load,
-    Mass,
-    Motor,
-    Outline,
-    Product,
-    RollerMaterial,
-    Shaft,
-    Size,
-    Support,
-    TitleBlock,
-    Tolerance,
-    WheelMaterial,
-)
+from geneva_cli.spec.tables import LISTS, PLAIN, Z_DRAWN, Mass
 
 BEFORE = "drive.before"  # table of the drive that turns the input shaft of [drive]
 # limits that need a load
 LOADED = (
-    "pin_force_max_N",
-    "input_torque_max_Nm",
-    "contact_stress_max_MPa",
-    "pv_max_W_m2",
+    *("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa", "pv_max_W_m2"),
     "roller_life_min_h",
 )
 # limits that need another key, with its table and its meaning
+_CONTACT = ("face_width_mm", "size", "the length of the line of contact")
 NEEDED = {
-    **dict.fromkeys(
-        (
-            "contact_stress_max_MPa",
-            "pv_max_W_m2",
-            "lock_stress_max_MPa",
-            "stop_stress_max_MPa",
-            "lock_deflection_max_deg",
-        ),
-        ("face_width_mm", "size", "the length of the line of contact"),
-    ),
+    "contact_stress_max_MPa": _CONTACT,
+    "pv_max_W_m2": _CONTACT,
+    "lock_stress_max_MPa": _CONTACT,
+    "stop_stress_max_MPa": _CONTACT,
+    "lock_deflection_max_deg": _CONTACT,
     "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
 }
 
@@ -90,20 +67,20 @@ class Spec(SpecTable):
     wheel: Gearing
     drive: Drive = field(default_factory=lambda: load_named(CRANK)())
     motion: Motion | None = None
-    size: Size = field(default_factory=Size)
-    load: Load = field(default_factory=Load)
+    size: tables.Size = field(default_factory=tables.Size)
+    load: tables.Load = field(default_factory=tables.Load)
     mass: tuple[Mass, ...] = ()
-    support: Support = field(default_factory=Support)
-    motor: Motor = field(default_factory=Motor)
-    shaft: Shaft = field(default_factory=Shaft)
-    material_wheel: WheelMaterial = field(default_factory=WheelMaterial)
-    material_roller: RollerMaterial = field(default_factory=RollerMaterial)
-    tolerance: Tolerance = field(default_factory=Tolerance)
-    product: Product = field(default_factory=Product)
-    limits: Limits = field(default_factory=Limits)
+    support: tables.Support = field(default_factory=tables.Support)
+    motor: tables.Motor = field(default_factory=tables.Motor)
+    shaft: tables.Shaft = field(default_factory=tables.Shaft)
+    material_wheel: tables.WheelMaterial = field(default_factory=tables.WheelMaterial)
+    material_roller: tables.RollerMaterial = field(default_factory=tables.RollerMaterial)
+    tolerance: tables.Tolerance = field(default_factory=tables.Tolerance)
+    product: tables.Product = field(default_factory=tables.Product)
+    limits: tables.Limits = field(default_factory=tables.Limits)
     accept: Accept = field(default_factory=Accept)
-    drawing: TitleBlock = field(default_factory=TitleBlock)
-    outline: Outline = field(default_factory=Outline)
+    drawing: tables.TitleBlock = field(default_factory=tables.TitleBlock)
+    outline: tables.Outline = field(default_factory=tables.Outline)
     title: str = ""
     path: str = ""
     files: tuple[str, ...] = ()

@@ -3,24 +3,13 @@
     >>> import numpy as np
     >>> from geneva_cli import External, SideCrank
     >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> spec = Spec(External(6), SideCrank(A=0.0))
-    >>> batch = many(spec, {"drive.A": np.array([0.0, 0.6, 2.0])})
-    >>> batch.refused
-    array([False, False,  True])
-    >>> batch.spread(batch.machine.ratio)
-    array([0.5, 0.5, nan])
+    >>> batch = many(Spec(External(6), SideCrank(A=0.0)), {"drive.A": np.array([0.0, 0.6, 2.0])})
     >>> batch.spread(worst_peaks(batch.machine, ["velocity"])["velocity"].max)
     array([1.   , 0.625,   nan])
 
-``batch.machine`` is an ordinary machine of the designs that can be built, in their order. The
-numbers that vary are arrays (m, 1), and so are the results. At k input angles, (k,) or (m, k),
-results are (m, k). ``batch.spread`` returns (m, 1) values to their places among the n designs as
-(n,). Build a refused design by itself to get the reason.
-
-Keys that are not numbers (words, lists), and the number of rollers, have one value in all designs
-of a machine. Designs that differ in them must be built as separate batches. ``may_vary`` is True
-for a key that may vary.
+The numbers of ``batch.machine`` that vary are arrays (m, 1) of the designs that can be built, and
+so are the results; at k input angles they are (m, k). Words, lists and the number of rollers have
+one value in all designs. Build a refused design by itself to get the reason.
 """
 
 from __future__ import annotations
@@ -104,13 +93,13 @@ def may_vary(spec: Spec, key: str) -> bool:
     if table not in TABLES:
         return False
     numeric = bool({int, float} & set(_field(spec, key).types))
-    of_law = spec.motion is None or spec.motion.law.may_vary(table, name)
-    # a drive before sees its own table as that of a drive
-    of = "drive" if table == BEFORE else table
-    before = spec.drive_before is None or spec.drive_before.may_vary(of, name)
-    own = spec.drive.may_vary(table, name)
     # the number of rollers decides how many engagements a machine has
-    return numeric and name != "rollers" and of_law and own and before
+    able = numeric and name != "rollers" and spec.drive.may_vary(table, name)
+    if spec.motion is not None:
+        able = able and spec.motion.law.may_vary(table, name)
+    if spec.drive_before is not None:  # it sees its own table as that of a drive
+        able = able and spec.drive_before.may_vary("drive" if table == BEFORE else table, name)
+    return able
 
 
 def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
@@ -121,8 +110,8 @@ def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
     parts: dict[str, SpecTable] = {}
     for table, new in tables.items():
         if spec.motion is not None and table == "motion":
-            own = {name: v for name, v in new.items() if name in Motion.__dataclass_fields__}
-            law = {name: v for name, v in new.items() if name not in own}
+            law = {k: v for k, v in new.items() if k not in Motion.__dataclass_fields__}
+            own = {k: v for k, v in new.items() if k not in law}
             parts[table] = spec.motion.replace(law=spec.motion.law.replace(**law), **own)
         else:
             part: SpecTable = vars(spec)[attribute(table)]

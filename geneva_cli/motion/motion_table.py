@@ -1,8 +1,4 @@
-"""The wheel's position, velocity, acceleration and jerk over whole periods of the machine.
-
-Tables are of one design, since each design has its own rows of motion and dwell. For a batch, call
-the ``motion`` of an engagement.
-"""
+"""Position, velocity, acceleration and jerk of one design's wheel over whole periods."""
 
 from __future__ import annotations
 
@@ -216,13 +212,10 @@ def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -
 
 
 class Stretch(NamedTuple):
-    """A part of the period between two places where a derivative may jump.
+    """A part of the period between two places where a derivative may jump."""
 
-    ``engagement`` is None in a dwell. Master and slave are degrees from the first entry.
-    """
-
-    engagement: Engagement | None
-    begin_deg: float
+    engagement: Engagement | None  # None in a dwell
+    begin_deg: float  # of the master, as the slave's from the first entry
     end_deg: float
     mid_deg: float  # where the engagement's own angle is 0
     base_deg: float  # the slave's angle there; in a dwell everywhere

@@ -1,28 +1,22 @@
-"""Curved slots, which are solved for from a known pin path and motion.
-
-The motion follows a law, as for the groove of a cam.
-"""
+"""Curved slots, which are solved for from a known pin path and a motion by a law."""
 
 from __future__ import annotations
 
 from typing import ClassVar
 
-from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.motion.engagement import Anchor, Peak, Slot, WheelMotion, in_wheel
+from geneva_cli.errors import refuse_text
+from geneva_cli.motion.engagement import Anchor, Peak, Slot, WheelMotion
 from geneva_cli.motion.laws.law import Law, greatest, remaining
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, all_true, ascending, library
-from geneva_cli.numerics.jet import Jet, Number, piecewise
+from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
 
 
 class MiddlePath(Batchable):
-    """The pin's path, written about mid-motion.
+    """The pin's path, written about mid-motion."""
 
-    ``mirrored`` is True if its second half is the mirror image of its first.
-    """
-
-    def __init__(self, middle: Anchor, mirrored: bool = True) -> None:
-        self.middle, self.mirrored = middle, mirrored
+    def __init__(self, middle: Anchor) -> None:
+        self.middle = middle
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) on its circle at input angles in degrees."""
@@ -36,10 +30,10 @@ class SolvedSlot(Slot):
 
     def __init__(self, path: MiddlePath, motion: WheelMotion) -> None:
         self.path, self.motion = path, motion
-        self.mirrored = path.mirrored
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        return in_wheel(self.path(input_deg, order), self.motion(input_deg, order))
+        (x, y), (s, c) = self.path(input_deg, order), sin_cos(self.motion(input_deg, order))
+        return x * c + y * s, y * c - x * s
 
 
 MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
@@ -104,11 +98,8 @@ class LawMotion(WheelMotion):
 def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
     """Raise GenevaError if the extra dwell leaves no motion angle, or no dwell at all."""
     low, high = natural_deg - 360.0 + MOTION_MIN, natural_deg - MOTION_MIN
-    refuse(
-        (alpha0_deg <= low) | (alpha0_deg >= high),
-        lambda: GenevaError(
-            f"alpha0_deg = {alpha0_deg:.12g} leaves no motion angle between 0 and 360 degrees; "
-            f"it must be above {low:.12g} and below {high:.12g}",
-            ("motion", "alpha0_deg"),
-        ),
-    )
+    text = "alpha0_deg = {angle:.12g} leaves no motion angle between 0 and 360 degrees; it must be "
+    text += "above {low:.12g} and below {high:.12g}"
+    outside = (alpha0_deg <= low) | (alpha0_deg >= high)
+    key = ("motion", "alpha0_deg")
+    refuse_text(outside, key, text, angle=alpha0_deg, low=low, high=high)

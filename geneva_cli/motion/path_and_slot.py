@@ -14,6 +14,7 @@ from geneva_cli.numerics.arrays import (
     Whole,
     array,
     library,
+    parameter,
     picked,
     piece_of,
 )
@@ -130,7 +131,7 @@ class StraightSlotMotion(WheelMotion):
     @property
     def seams_deg(self) -> tuple[float, ...]:
         path = self.path
-        places = {0.0, *path.cuts, *[at for one in path.anchors for at in one.seams_deg]}
+        places = {0.0, *path.cuts}
         inside = sorted(at for at in places if self.entry_deg < at < self.exit_deg)
         return (self.entry_deg, *inside, self.exit_deg)
 
@@ -173,6 +174,31 @@ class ClassicMotion(StraightSlotMotion):
     def end_rates(self, input_deg: float) -> tuple[float, float]:
         jump = self.l / self.entry.along  # which is cos b
         return jump, 3.0 * jump * jump
+
+
+class SideCrankMotion(StraightSlotMotion):
+    """Motion of a straight radial slot behind a side-crank, with peaks of batches."""
+
+    def __init__(
+        self, path: AnchoredPath, half_step: float, A: float, sign: float, l: float, rest: float
+    ) -> None:
+        super().__init__(path, half_step)
+        self.A, self.sign, self.l, self.rest = A, sign, l, rest
+
+    def closed_peak(self, quantity: str) -> Peak[float] | None:
+        if isinstance(self.A, float) and isinstance(self.l, float):
+            return None
+        import numpy as np
+
+        from geneva_cli.motion.wheels import side_crank_arrays as arrays
+
+        peaks = {"velocity": arrays.velocity_peaks, "acceleration": arrays.acceleration_peaks}
+        if quantity not in peaks:
+            return None
+        w = arrays.wheels(self.sign, self.l, self.rest, self.A)
+        # nearer to 1 the search for arrays may miss a peak
+        sure = abs(w.A) <= 0.999
+        return Peak(*(parameter(np.where(sure, v, np.nan)[:, None]) for v in peaks[quantity](w)))
 
 
 def _length(x: Jet, y: Jet) -> Jet:

@@ -1,7 +1,6 @@
-"""The search for peaks of motions; a single design is a batch of one.
+"""The search for peaks of motions, a single design as a batch of one.
 
-A peak is at a root of the next derivative, at an end of the motion, or where the law's derivative
-jumps. It is refined to the last bit, and never the largest sample of a grid.
+A peak is a root of the next derivative, an end or a break, refined to the last bit.
 """
 
 from __future__ import annotations
@@ -34,22 +33,21 @@ def curves(motion: WheelMotion, quantities: Sequence[str]) -> Smooth:
         x: Array, which: Which, order: int, requested: Sequence[int]
     ) -> list[Sequence[Array]]:
         names = [quantities[i] for i in requested]
-        rates = some(which).rate(x, max(ORDERS[name] for name in names) - 1 + order).arrays()
-        return [_quantity(name, rates) for name in names]
+        out: list[Sequence[Array]] = []
+        p = some(which).rate(x, max(ORDERS[name] for name in names) - 1 + order).arrays()
+        for name in names:
+            if name == "power":
+                power = [p[0] * p[1]]
+                if order > 0:
+                    power.append(p[1] ** 2 + p[0] * p[2])
+                if order > 1:
+                    power.append(3.0 * p[1] * p[2] + p[0] * p[3])
+                out.append(power)
+            else:
+                out.append(p[ORDERS[name] - 1 :])
+        return out
 
     return Smooth(derivatives, len(quantities), unit=DEGREE)
-
-
-def _quantity(quantity: str, p: tuple[Array, ...]) -> Sequence[Array]:
-    """A quantity and its derivatives from the wheel's speed and its derivatives."""
-    if quantity != "power":
-        return p[ORDERS[quantity] - 1 :]
-    out = [p[0] * p[1]]
-    if len(p) > 2:
-        out.append(p[1] ** 2 + p[0] * p[2])
-    if len(p) > 3:
-        out.append(3.0 * p[1] * p[2] + p[0] * p[3])
-    return out
 
 
 def breaks(motion: WheelMotion, m: int) -> list[Array]:

@@ -1,8 +1,4 @@
-"""Peak velocity, acceleration, jerk and power of a motion, as invariants.
-
-Plain wheels have closed forms, which need no NumPy. All other peaks are searched as a batch of one
-by ``peak_search``.
-"""
+"""Peak velocity, acceleration, jerk and power, as invariants; closed forms need no NumPy."""
 
 from __future__ import annotations
 
@@ -59,22 +55,17 @@ def peak(motion: WheelMotion, quantity: str) -> Peak[float]:
     return peaks_of(motion, [quantity])[0]
 
 
-def ends(engagement: Engagement) -> EndSizes:
-    """Sizes at both ends, from inside the motion."""
-    first = engagement.motion.end_rates(engagement.entry_deg)
-    last = engagement.motion.end_rates(engagement.exit_deg)
-    return EndSizes(first[0], last[0], first[1], last[1])
-
-
 def peaks(engagement: Engagement) -> Peaks:
     """All peaks of one engagement."""
-    return Peaks._make((*peaks_of(engagement.motion, QUANTITIES), ends(engagement)))
+    motion = engagement.motion
+    first, last = motion.end_rates(motion.entry_deg), motion.end_rates(motion.exit_deg)
+    ends = EndSizes(first[0], last[0], first[1], last[1])
+    return Peaks._make((*peaks_of(motion, QUANTITIES), ends))
 
 
 def placed_peaks(mechanism: Mechanism, engagement: Engagement) -> Peaks:
     """Peaks of an engagement at the machine's input angles."""
-    own = peaks(engagement)
-    mid = engagement.mid_deg
+    own, mid = peaks(engagement), engagement.mid_deg
     placed = [Peak(one.max, mechanism.shown_deg(mid + one.at_deg)) for one in own[:-1]]
     return Peaks._make((*placed, own.ends))
 
@@ -118,13 +109,11 @@ def _record(
     peaks: Peaks, engagements: Sequence[Engagement], dwell_deg: float
 ) -> dict[str, float | None]:
     out: dict[str, float | None] = {}
-    sizes: dict[str, float | None] = {**peaks.ends._asdict()}
-    sizes["velocity_entry"], sizes["velocity_exit"] = greatest_jumps(engagements)
-    for name, one in zip(QUANTITIES, peaks[:-1], strict=True):
+    e, jumps = peaks.ends, greatest_jumps(engagements)
+    at_ends = [jumps, e[:2], e[2:], ()]
+    for name, one, sizes in zip(QUANTITIES, peaks[:-1], at_ends, strict=True):
         out[f"{name}.max"], out[f"{name}.at_deg"] = one.max, one.at_deg
-        for end in ("entry", "exit"):
-            if f"{name}_{end}" in sizes:
-                out[f"{name}.{end}"] = sizes[f"{name}_{end}"]
+        out |= {f"{name}.{end}": size for end, size in zip(("entry", "exit"), sizes, strict=False)}
     gained = scalar(engagements[0].gained)  # all rollers leave the rim alike
     out |= {"motion_deg": engagements[0].motion_deg, "dwell_deg": dwell_deg}
     return out | {"index_gained_deg": None if math.isnan(gained) else math.degrees(gained)}

@@ -1,7 +1,4 @@
-"""Tangent, curvature and pressure angle of a slot's pitch curve at input angles.
-
-The formulas hold for jets of floats and of arrays. Lengths are in units of the centre distance L.
-"""
+"""Tangent, curvature and pressure angle of a slot's pitch curve, in jets of any numbers."""
 
 from functools import lru_cache
 from typing import NamedTuple, cast
@@ -9,34 +6,23 @@ from typing import NamedTuple, cast
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, library, size
 from geneva_cli.numerics.jet import Number
-from geneva_cli.numerics.roots import boundary
 
 # table columns for a pitch curve with a wall on either side
 WALLED = (
-    "x_mm",
-    "y_mm",
-    "left_x_mm",
-    "left_y_mm",
-    "right_x_mm",
-    "right_y_mm",
-    "pressure_deg",
-    "curvature_radius_mm",
+    *("x_mm", "y_mm", "left_x_mm", "left_y_mm", "right_x_mm", "right_y_mm"),
+    *("pressure_deg", "curvature_radius_mm"),
 )
 
 
 class Pitch(NamedTuple):
-    """The pitch curve M at one input angle or at an array of them.
-
-    ``tangent`` is the direction of travel of the pin in the wheel. ``turning`` is the rate at which
-    it turns left, in radians per input radian. ``speed`` is |M'|. The curvature is turning / speed.
-    """
+    """The pitch curve M at one input angle or at an array of them."""
 
     x: Number
     y: Number
-    tangent_x: Number
+    tangent_x: Number  # direction of travel of the pin in the wheel
     tangent_y: Number
-    speed: Number
-    turning: Number
+    speed: Number  # |M'|
+    turning: Number  # rate at which it turns left, radians per input radian: curvature x speed
     pressure: Number  # radians, 0 to pi/2
 
 
@@ -65,37 +51,14 @@ def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
     m = library(x.c[0])
     (x0, x1, x2), (y0, y1, y2) = x.derivatives(), y.derivatives()
     speed = m.hypot(x1, y1)
-    return Pitch(
-        x0,
-        y0,
-        x1 / speed,
-        y1 / speed,
-        speed,
-        (x1 * y2 - y1 * x2) / (speed * speed),
-        m.atan2(size(x0 * y1 - y0 * x1), size(x0 * x1 + y0 * y1)),
-    )
+    turning = (x1 * y2 - y1 * x2) / (speed * speed)
+    pressure = m.atan2(size(x0 * y1 - y0 * x1), size(x0 * x1 + y0 * y1))
+    return Pitch(x0, y0, x1 / speed, y1 / speed, speed, turning, pressure)
 
 
 def opposites(engagement: Engagement, input_deg: Array) -> Array:
-    """Input angles on the other branch at which the roller is as far from the wheel's axis.
-
-    NaN beyond the end of the other branch. The roller moves on the crank's circle, so its distance
-    only rises, or only falls, from mid-motion on.
-    """
-    import numpy as np
-
-    if engagement.slot.mirrored:
-        return engagement.inputs_deg(-engagement.own_deg(input_deg))
-
-    def beyond_middle(at: Array) -> Array:
-        (x, y), (x0, y0) = engagement.path(at, 0), engagement.path(0.0, 0)
-        away: Array = np.hypot(x.c[0], y.c[0]) - np.hypot(x0.c[0], y0.c[0])
-        return np.abs(away)
-
-    far = np.where(input_deg < 0.0, engagement.exit_deg, engagement.entry_deg)
-    here = beyond_middle(input_deg)
-    other = boundary(lambda at: beyond_middle(at) <= here, 0.0 * far, far)
-    return np.where(beyond_middle(far) < here, np.nan, other)
+    """Input angles on the other branch at which the roller is as far from the wheel's axis."""
+    return engagement.inputs_deg(-engagement.own_deg(input_deg))
 
 
 @lru_cache(maxsize=16)
@@ -105,12 +68,6 @@ def pitch_at_retrace(engagement: Engagement) -> Pitch:
     m = library(x.c[0])
     (x0, _, x2, x3), (y0, _, y2, y3) = x.derivatives(), y.derivatives()
     bend = m.hypot(x2, y2)
-    return Pitch(
-        x0,
-        y0,
-        -x2 / bend,
-        -y2 / bend,
-        0.0,
-        (x2 * y3 - y2 * x3) / (2.0 * bend * bend),
-        m.atan2(size(x0 * y2 - y0 * x2), size(x0 * x2 + y0 * y2)),
-    )
+    turning = (x2 * y3 - y2 * x3) / (2.0 * bend * bend)
+    pressure = m.atan2(size(x0 * y2 - y0 * x2), size(x0 * x2 + y0 * y2))
+    return Pitch(x0, y0, -x2 / bend, -y2 / bend, 0.0, turning, pressure)

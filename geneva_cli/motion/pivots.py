@@ -1,7 +1,4 @@
-"""Pivots and dimensions from which a machine can be rebuilt.
-
-The wheel's axis is the origin, and the crank's axis is on the x axis, as in the assembly drawing.
-"""
+"""Pivots and dimensions from which a machine can be rebuilt, in the frame of the assembly."""
 
 import math
 from enum import Enum
@@ -65,29 +62,21 @@ class Teeth(NamedTuple):
 
 
 class Link(NamedTuple):
-    """A body between joints, in mm at input angles: a bar, or a plate with three joints.
-
-    ``joints`` are the x and y of each joint, arrays (n,) by the input angle. ``kinds`` names the
-    part in each joint. A link with a radius is the pitch circle of a gear about its one joint.
-    ``plane`` is the number of its plane: 1 is the first plane below the wheel's.
-    """
+    """A body between joints, in mm at input angles: a bar, or a plate with three joints."""
 
     name: str
-    joints: tuple[tuple[Array, Array], ...]
-    kinds: tuple[Joint, ...]
-    plane: int
-    radius_mm: float = 0.0
+    joints: tuple[tuple[Array, Array], ...]  # x and y of each, (n,) by the input angle
+    kinds: tuple[Joint, ...]  # the part in each joint
+    plane: int  # 1 is the first plane below the wheel's
+    radius_mm: float = 0.0  # of a gear's pitch circle about its one joint
     teeth: Teeth = Teeth()
 
 
 class AxisPlace(NamedTuple):
-    """A wheel on a carrier, or a crank about a wheel: where it stands from the first one.
-
-    ``behind_deg`` is the input's angle after which it does what the first one did.
-    """
+    """A wheel on a carrier, or a crank about a wheel: where it stands from the first one."""
 
     number: int  # from 1
-    behind_deg: float
+    behind_deg: float  # the input's angle after which it does what the first one did
     turn: float  # radians about the fixed axis, counterclockwise
     at: tuple[float, float]  # of its axis, mm from the first wheel's
 

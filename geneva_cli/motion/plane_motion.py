@@ -1,9 +1,7 @@
 """The motion of a wheel in its plane: it turns about its axis, or slides as a rack does.
 
-A body has two coordinates, of which its motion changes one: the place. That is the polar angle of a
-wheel's points, and of a rack's points their position along the travel. The other coordinate is the
-level: the distance from a wheel's axis, or the position across a rack. Places are radians: a rack
-slides by its pinion's radius a radian. Lengths are in the unit of the points.
+It changes one of two coordinates of a point, the place (radians; of a rack over its pinion's
+radius), and leaves the other, the level: distance from the axis, or position across the rack.
 """
 
 from __future__ import annotations

@@ -1,8 +1,4 @@
-"""The records of all kinds of wheels and drives, and what they name.
-
-A new wheel or drive of the core is one file and one line here. A kind that only some users need is
-a folder of ``kinds`` and a line there.
-"""
+"""The records of all kinds: a new wheel or drive is a file and a line here, or in ``kinds``."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Classes of wheels, drives and laws by their names; each is imported when it is first used.
-
-A new law of the core is one file and one line here.
-"""
+"""Classes of wheels, drives and laws by their names, imported at their first use."""
 
 from __future__ import annotations
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.wheels.classic import refuse_jam
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep
@@ -52,18 +51,16 @@ def _at_angles(angles: tuple[float, ...], rollers: list[RollerPlace]) -> list[Ro
     """Rollers at the angles of the spec, each gap wide enough for half of both adjacent motions."""
     if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
         raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES_KEY)
-
-    def too_near(a: float, b: float, motions: float) -> GenevaError:
-        text = (
-            f"the rollers at {a:g} and {b % 360.0:g} deg jam: half of both motions takes "
-            f"{motions:.6g} deg, and they are {b - a:.6g} deg apart"
-        )
-        return GenevaError(text, ANGLES_KEY)
+    text = (
+        "the rollers at {a:g} and {b:g} deg jam: half of both motions takes {motions:.6g} deg, and "
+        "they are {apart:.6g} deg apart"
+    )
 
     following = (*angles[1:], 360.0), (*rollers[1:], rollers[0])
     for a, one, b, after in zip(angles, rollers, *following, strict=True):
         motions = one.half_motion_deg + after.half_motion_deg
-        refuse(b - a < motions, partial(too_near, a, b, motions))
+        values = {"a": a, "b": b % 360.0, "motions": motions, "apart": b - a}
+        refuse_text(b - a < motions, ANGLES_KEY, text, **values)
     _refuse_no_dwell(rollers, ANGLES_KEY)
     return [one._replace(crank_deg=a) for a, one in zip(angles, rollers, strict=True)]
 
@@ -71,11 +68,6 @@ def _at_angles(angles: tuple[float, ...], rollers: list[RollerPlace]) -> list[Ro
 def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> None:
     """Raise GenevaError if the motions of all rollers take a whole turn."""
     total = sum(2.0 * one.half_motion_deg for one in rollers)
-    refuse(
-        total >= 360.0,
-        lambda: GenevaError(
-            f"the {len(rollers)} motions together take {total:.6g} deg of a turn and leave no "
-            "dwell: use fewer rollers, or a shorter pattern of steps",
-            key,
-        ),
-    )
+    text = "the {count} motions together take {total:.6g} deg of a turn and leave no dwell: use "
+    text += "fewer rollers, or a shorter pattern of steps"
+    refuse_text(total >= 360.0, key, text, count=len(rollers), total=total)

@@ -1,15 +1,10 @@
-"""Sizes and tolerances that make no machine: every command refuses them when it builds the machine.
-
-A size is refused here only if no choice of the other sizes can mend it. Examples are a roller as
-large as its crank, or a hub inside its bore. ``sizes`` and the checks decide if the other parts are
-well made.
-"""
+"""Sizes and tolerances that make no machine, whatever the other sizes: refused as it is built."""
 
 from __future__ import annotations
 
 import math
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Truth, choose, smaller
 
@@ -25,13 +20,26 @@ _IN_CRANK = (
 
 
 def _refuse(when: Truth, key: tuple[str, str], text: str, **values: object) -> None:
-    refuse(when, lambda: GenevaError(text.format(key=key[1], **values), key))
+    refuse_text(when, key, text, key=key[1], **values)
 
 
 def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     """Raise GenevaError, naming the key, for a size that makes no machine with this R/L."""
     size, r, distance = spec.size, spec.roller_radius_mm(L), f"the {spec.wheel.DISTANCE}"
-    _refuse_two_ratios(spec, L, ratio)
+    radius, given = size.crank_radius_mm, size.center_distance_mm
+    if radius is not None and given is not None:  # a crank as built, of a kind that needs its R/L
+        text = (
+            "{key} = {radius:.9g} and center_distance_mm = {L:.9g} have R/L = {given:.6g}, but "
+            "this machine needs {ratio:.6g}; straight slots of an external or internal wheel on a "
+            "crank or a side-crank are taken as built: {key} = {own:.9g}, or center_distance_mm = "
+            "{fitting_mm:.9g}, or leave one of them out"
+        )
+        if spec.motion is not None:
+            text += "; or set ratio = {given:.9g} in [motion]"
+        values = {"radius": radius, "L": L, "given": radius / L, "ratio": ratio, "own": ratio * L}
+        values["fitting_mm"] = spec.drive.distance_mm(spec.wheel, spec.motion, radius)
+        off = abs(radius / L - ratio) > SAME_RATIO
+        _refuse(off, ("size", "crank_radius_mm"), text, **values)
     farthest = "the roller's greatest distance from the wheel's axis"
     if not spec.output.turns:  # a rack has no axis: where its roller is farthest from the deepest
         farthest = f"twice {distance}"
@@ -62,46 +70,21 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
                 by = "" if own is not None else f'; the value comes from process = "{size.process}"'
                 text = "{key} = {value:g}: it must be below {below:.6g}, " + meaning + by
                 _refuse(value >= below, ("size", key), text, value=value, below=below)
-    if size.face_width_mm is not None and size.wheel_thickness_mm is not None:
-        edge = size.edge_mm
-        refuse(
-            size.face_width_mm + 2.0 * edge > size.wheel_thickness_mm,
-            lambda: GenevaError(
-                f"wheel_thickness_mm = {size.wheel_thickness_mm:g}: the contact line cannot be "
-                f"longer than the wheel is thick; use at least face_width_mm = "
-                f"{size.face_width_mm:g}" + (f" and two edges of {edge:g}" if edge > 0.0 else ""),
-                ("size", "wheel_thickness_mm"),
-            ),
-        )
+    face, thick, edge = size.face_width_mm, size.wheel_thickness_mm, size.edge_mm
+    if face is not None and thick is not None:
+        text = "{key} = {thick:g}: the contact line cannot be longer than the wheel is thick; use "
+        text += "at least face_width_mm = {face:g}"
+        if isinstance(edge, (int, float)) and edge > 0.0:
+            text += " and two edges of {edge:g}"
+        at, values = ("size", "wheel_thickness_mm"), {"thick": thick, "face": face, "edge": edge}
+        _refuse(face + 2.0 * edge > thick, at, text, **values)
     for part in ("wheel", "crank"):
         bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
         if bore is not None and hub is not None:
-            text = (
-                "{key} = {hub:g}: a hub must be larger than its bore: at least "
-                f"{part}_bore_mm = {{bore:g}}, or 0 for none"
-            )
+            text = "{key} = {hub:g}: a hub must be larger than its bore: at least "
+            text += f"{part}_bore_mm = {{bore:g}}, or 0 for none"
             inside = (hub > 0.0) & (hub < bore)
             _refuse(inside, ("size", f"{part}_hub_mm"), text, hub=hub, bore=bore)
-
-
-def _refuse_two_ratios(spec: Spec, L: float, ratio: float) -> None:
-    """Raise GenevaError for a crank as built of a kind that needs its own R/L."""
-    radius, distance = spec.size.crank_radius_mm, spec.size.center_distance_mm
-    if radius is None or distance is None:
-        return
-    fitting_mm = spec.drive.distance_mm(spec.wheel, spec.motion, radius)
-    text = (
-        "{key} = {radius:.9g} and center_distance_mm = {L:.9g} have R/L = {given:.6g}, but "
-        "this machine needs {ratio:.6g}; straight slots of an external or internal wheel on a "
-        "crank or a side-crank are taken as built: {key} = {own:.9g}, or center_distance_mm = "
-        "{fitting_mm:.9g}, or leave one of them out"
-    )
-    if spec.motion is not None:
-        text += "; or set ratio = {given:.9g} in [motion]"
-    values = {"radius": radius, "L": L, "given": radius / L, "ratio": ratio}
-    values |= {"own": ratio * L, "fitting_mm": fitting_mm}
-    off = abs(radius / L - ratio) > SAME_RATIO
-    _refuse(off, ("size", "crank_radius_mm"), text, **values)
 
 
 def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
@@ -116,8 +99,7 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
     disc = arm if lock is None else choose(lock == 0.0, arm, lock)
     for key in ("lock_radius_mm", "recess_radius_mm"):
         text = "{key} = {value:g}: this machine has no locking disc; remove it"
-        value = values[key]
-        _refuse(unlocked & (value != 0.0), ("tolerance", key), text, value=value)
+        _refuse(unlocked & (values[key] != 0.0), ("tolerance", key), text, value=values[key])
     for key, below, what in (
         ("center_distance_mm", L, "the centre distance"),
         ("crank_radius_mm", arm, "the crank's radius"),
@@ -128,6 +110,5 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
         ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
     ):
         text = "{key} = ±{value:g} is as large as the dimension itself: it must be below "
-        value = values[key]
-        text += "{below:.6g}, " + what
+        text, value = text + "{below:.6g}, " + what, values[key]
         _refuse(value >= below, ("tolerance", key), text, value=value, below=below)

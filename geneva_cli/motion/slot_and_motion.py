@@ -1,9 +1,7 @@
 """Engagements with a known straight slot and motion, whose roller path is solved for.
 
-The roller slides along the crank, and a fixed groove guides it. With the wheel at psi and the crank
-at phi, the law of sines gives the roller's distances. From the crank's axis it is R = L sin psi /
-sin(phi + psi), from the wheel's axis rho = L sin phi / sin(phi + psi). For an internal wheel phi +
-psi becomes phi - psi.
+With wheel and crank at psi and phi, the law of sines gives the roller's distances from the crank's
+axis, L sin psi / sin(phi + psi), and from the wheel's L sin phi / sin(phi + psi); inside phi - psi.
 """
 
 from __future__ import annotations
@@ -52,22 +50,23 @@ class SolvedPath(Batchable):
     def _by_sines(self, x: Number, order: int) -> Jet:
         phi, psi = Jet.variable(radians(x), order), self.motion(x, order)
         below = sin(phi + psi * self.sign)
-        return _stacked(sin(phi) / below, sin(psi) / below)
+        return Jet((*(sin(phi) / below).c, *(sin(psi) / below).c))
+
+    @cached_property
+    def _terms(self) -> int:
+        return TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS
 
     @cached_property
     def _series(self) -> Sequence[Number]:
         """Coefficients of psi in powers of phi, about mid-motion."""
-        return self._series_at(0.0)
-
-    def _series_at(self, zero: Number) -> Sequence[Number]:
-        return self.motion(zero, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
+        return self.motion(0.0, self._terms).c
 
     def _by_series(self, x: Number, order: int) -> Jet:
         """Both distances near mid-motion, where both sines vanish: each is first divided by phi."""
         t = Jet.variable(radians(x), order)
         # an enclosure knows nothing of the rounding of the cached series
-        own = self._series_at(*enclosed(x, (0.0,))) if isinstance(x, Enclosed) else self._series
-        c = own[1:]
+        exact = isinstance(x, Enclosed)
+        c = (self.motion(*enclosed(x, (0.0,)), self._terms).c if exact else self._series)[1:]
         # psi / phi, each coefficient of its jet a polynomial of the angle
         slope = Jet(
             [
@@ -78,7 +77,7 @@ class SolvedPath(Batchable):
         psi = slope * t
         angle = slope * self.sign + 1.0  # (phi +- psi) / phi
         below = angle * _sinc(angle * t)
-        return _stacked(_sinc(t) / below, slope * _sinc(psi) / below)
+        return Jet((*(_sinc(t) / below).c, *(slope * _sinc(psi) / below).c))
 
     @property
     def crossing(self) -> Number:
@@ -89,10 +88,8 @@ class SolvedPath(Batchable):
     @cached_property
     def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
         """Roller distance from the crank's axis with two derivatives, at entry and exit."""
-        entry, exit_ = (
-            self.distances(end, 2)[1].derivatives()
-            for end in (self.motion.entry_deg, self.motion.exit_deg)
-        )
+        at = self.motion.entry_deg, self.motion.exit_deg
+        entry, exit_ = (self.distances(end, 2)[1].derivatives() for end in at)
         return entry, exit_
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
@@ -127,10 +124,6 @@ class SolvedPathSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         rho, _ = self.path.distances(input_deg, order + 1)
         return SlotAxis(rho.lower, rho.derivative())
-
-
-def _stacked(a: Jet, b: Jet) -> Jet:
-    return Jet((*a.c, *b.c))
 
 
 def _polynomial(c: Sequence[Number], x: Number) -> Number:

@@ -13,23 +13,17 @@ if TYPE_CHECKING:
 
 
 class Timing(NamedTuple):
-    """One cycle: a motion and the dwell after it. Angles are of the input, index_deg of the wheel.
+    """One cycle: a motion and the dwell after it; numbers, or arrays (n, 1) of a batch."""
 
-    ``index_mm`` is a rack's step, which has no angle; None for a wheel.
-
-    k = motion / dwell (the work coefficient) and tau = motion / cycle are of times, in which a stop
-    of the input counts. For a batch each is a number or an array (n, 1).
-    """
-
-    motion_deg: float
+    motion_deg: float  # of the input
     dwell_deg: float
-    index_deg: float | None
-    k: float
-    tau: float
+    index_deg: float | None  # of the wheel
+    k: float  # motion / dwell, of times, in which a stop of the input counts
+    tau: float  # motion / cycle
     motion_s: float
     dwell_s: float
     cycle_s: float
-    index_mm: float | None = None
+    index_mm: float | None = None  # a rack's step, which has no angle
 
     @property
     def step(self) -> float:
@@ -52,33 +46,20 @@ def timing(
     rest = dwell_deg + second * stop_s  # as an angle at that speed
     cycle = motion_deg + rest
     pause = rest != 0.0
-    return Timing(
-        motion_deg,
-        dwell_deg,
-        index_deg,
-        choose(pause, motion_deg / choose(pause, rest, math.nan), math.inf),
-        motion_deg / cycle,
-        motion_deg / second,
-        rest / second,
-        cycle / second,
-        index_mm,
-    )
+    k = choose(pause, motion_deg / choose(pause, rest, math.nan), math.inf)
+    times = motion_deg / second, rest / second, cycle / second
+    return Timing(motion_deg, dwell_deg, index_deg, k, motion_deg / cycle, *times, index_mm)
 
 
 def timings(mechanism: Mechanism) -> list[Timing]:
     """The timing of every engagement, in order."""
-    output = mechanism.output
-    return [
-        timing(
-            engagement.motion_deg,
-            mechanism.dwell_deg(i),
-            mechanism.index_deg(i) if output.turns else None,
-            mechanism.spec.drive.n_rpm,
-            None if output.turns else 2.0 * engagement.half_step * output.per_radian,
-            mechanism.spec.drive.stop_s,
-        )
-        for i, engagement in enumerate(mechanism.engagements)
-    ]
+    output, drive, out = mechanism.output, mechanism.spec.drive, []
+    for i, one in enumerate(mechanism.engagements):
+        index_deg = mechanism.index_deg(i) if output.turns else None
+        index_mm = None if output.turns else 2.0 * one.half_step * output.per_radian
+        ends = one.motion_deg, mechanism.dwell_deg(i)
+        out.append(timing(*ends, index_deg, drive.n_rpm, index_mm, drive.stop_s))
+    return out
 
 
 class CamFactors(NamedTuple):
@@ -94,8 +75,5 @@ def cam_factors(
 ) -> CamFactors:
     """The factors of a motion, from its invariant peaks, its input angle and the wheel's step."""
     motion, step = radians(motion_deg), radians(step_deg)
-    return CamFactors(
-        acceleration * motion * motion / step,
-        velocity * motion / step,
-        power * motion / (step * acceleration),
-    )
+    Qm = power * motion / (step * acceleration)
+    return CamFactors(acceleration * motion * motion / step, velocity * motion / step, Qm)

@@ -1,9 +1,7 @@
 """Undercut: a roller that is too large for the curvature of the wall along which it runs.
 
-A curved slot has two branches, one for entry and one for exit. Each keeps only its outer wall, the
-one away from the other branch; the inner walls lie in the area that both cut. The outer wall is
-undercut where its centre of curvature is on its own side of the pitch curve, nearer than the
-roller's radius. The flank then runs backwards, and the roller cuts away the wall before it.
+Each branch of a curved slot keeps its outer wall only, away from the other branch. It is undercut
+where its centre of curvature is on its side of the pitch curve, nearer than the roller's radius.
 """
 
 from __future__ import annotations
@@ -12,9 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.pitch_curve import Pitch, opposites, pitch, retraces
+from geneva_cli.motion.pitch_curve import pitch, retraces
 from geneva_cli.numerics.arrays import Array, Mask, Number
 from geneva_cli.numerics.tolerances import TIE
 
@@ -35,33 +32,23 @@ class Undercut(NamedTuple):
 
 def undercut(mechanism: Mechanism, samples: int = HALF_SAMPLES) -> Undercut | None:
     """The deepest undercut of an outer wall, at entry or exit; None if there is none."""
-    walls = outer_walls(mechanism, samples) or ()
-    roller = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
-    with np.errstate(all="ignore"):
-        each = [_undercut(wall, roller, mechanism.center_distance_mm) for wall in walls]
-    found = [one for one in each if one]
-    if len(found) == 2 and found[1].depth_mm > found[0].depth_mm * (1.0 + TIE):
-        return found[1]
-    return found[0] if found else None
-
-
-def _undercut(wall: OuterWall, roller_mm: float, L: float) -> Undercut | None:
-    """The undercut of a design's wall by a roller with its clearance."""
-    (degrees,), (bend,) = wall.degrees, wall.bend
-    over = bend * (roller_mm / L) > 1.0
-    if not over.any():
-        return None
-    to_cusp, sharp = bool(wall.retraces[0, -1] and over[-1]), int(np.argmax(bend))
-    reached = [*degrees[over].tolist(), *([0.0] if to_cusp else [])]
-    return Undercut(
-        "left" if wall.left[0, sharp] else "right",
-        min(reached),
-        max(reached),
-        0.0 if to_cusp else float(degrees[sharp]),
-        0.0 if to_cusp else float(L / bend[sharp]),
-        float(depths_mm(wall, roller_mm, L)[0]),
-        to_cusp,
-    )
+    L, roller = mechanism.center_distance_mm, mechanism.roller_radius_mm
+    roller += mechanism.spec.size.allowances.slot_clearance_mm
+    deepest: Undercut | None = None
+    for wall in outer_walls(mechanism, samples) or ():
+        (degrees,), (bend,), (left,) = wall.degrees, wall.bend, wall.left
+        with np.errstate(all="ignore"):
+            over, depth_mm = bend * (roller / L) > 1.0, float(depths_mm(wall, roller, L)[0])
+        if not over.any() or (deepest and depth_mm <= deepest.depth_mm * (1.0 + TIE)):
+            continue
+        to_cusp, sharp = bool(wall.retraces[0, -1] and over[-1]), int(np.argmax(bend))
+        reached = [*degrees[over].tolist(), *([0.0] if to_cusp else [])]
+        at_deg, radius_mm = float(degrees[sharp]), float(L / bend[sharp])
+        if to_cusp:
+            at_deg = radius_mm = 0.0
+        flank = "left" if left[sharp] else "right"
+        deepest = Undercut(flank, min(reached), max(reached), at_deg, radius_mm, depth_mm, to_cusp)
+    return deepest
 
 
 class OuterWall(NamedTuple):
@@ -90,50 +77,31 @@ def outer_walls(
     own = engagement.own  # by the angle of the crank's own drive the branches mirror each other
     # Squared spacing: close together at mid-motion, where the curve can have a cusp.
     fraction = (1.0 - np.arange(samples) / samples) ** 2
-    x, y = np.atleast_2d(own.entry_deg * fraction, own.exit_deg * fraction)
+    # the branches meet at mid-motion, and within 1e-3 of it their distance is rounding
+    far = int(np.flatnonzero(fraction >= 1e-3)[-1])
+    ends = np.atleast_2d(own.entry_deg * fraction, own.exit_deg * fraction)
+    walls = []
     with np.errstate(all="ignore"):
-        inward, outward = pitch(own, x), pitch(own, y)
-        leads = _lead(own, inward, outward, x), -_lead(own, outward, inward, y)
-        # the branches meet at mid-motion, and within 1e-3 of it their distance is rounding
-        far = int(np.flatnonzero(fraction >= 1e-3)[-1])
-        for lead in leads:
+        curves, back = [pitch(own, x) for x in ends], np.atleast_2d(retraces(own))
+        for x, at, other, way in zip(ends, curves, curves[::-1], (1.0, -1.0), strict=True):
+            # the angle of one branch over the other at equal radii
+            lead = np.arctan2(at.y, at.x) - np.arctan2(other.y, other.x)
+            lead = way * np.atleast_2d(lead)
             lead[:, far + 1 :] = lead[:, far : far + 1]
-        # Left (1) or right (-1) of the travel. Outside, the pin travels inwards first; inside,
-        # outwards.
-        entry, exit_ = (-mechanism.spec.wheel.SIGN * np.where(k > 0.0, 1.0, -1.0) for k in leads)
-        back = np.atleast_2d(retraces(own))
-        x, y = engagement.inputs_deg(x), engagement.inputs_deg(y)
-        return _wall(inward, x, entry, entry > 0.0, back), _wall(
-            outward, y, exit_, exit_ < 0.0, back
-        )
-
-
-def _lead(engagement: Engagement, here: Pitch, mirrored: Pitch, degrees: Array) -> Array:
-    """Angle of one branch over the other at equal radii, (m, k); that at its end where none is."""
-    x, y = mirrored.x, mirrored.y
-    if not engagement.slot.mirrored:
-        x, y = (jet.c[0] for jet in engagement.slot(opposites(engagement, degrees), 0))
-    lead = np.atleast_2d(np.arctan2(here.y, here.x) - np.arctan2(y, x))
-    known = ~np.isnan(lead)
-    first = np.take_along_axis(lead, np.argmax(known, axis=1)[:, None], axis=1)
-    return np.where(known, lead, first)
-
-
-def _wall(at: Pitch, degrees: Array, outer: Array, left: Mask, back: Mask) -> OuterWall:
-    """A branch's outer wall; ``outer`` is 1 where it lies to the left of the pin's travel."""
-    normal = -at.tangent_y * outer, at.tangent_x * outer
-    rows = (degrees, at.x, at.y, *normal, outer * at.turning / at.speed, left, back)
-    return OuterWall(*np.broadcast_arrays(*rows))
+            # Left (1) or right (-1) of the travel. Outside, the pin travels inwards first; inside,
+            # outwards.
+            outer = -mechanism.spec.wheel.SIGN * np.where(lead > 0.0, 1.0, -1.0)
+            normal, bend = (-at.tangent_y * outer, at.tangent_x * outer), outer * at.turning
+            left, degrees = way * outer > 0.0, engagement.inputs_deg(x)
+            rows = (degrees, at.x, at.y, *normal, bend / at.speed, left, back)
+            walls.append(OuterWall(*np.broadcast_arrays(*rows)))
+    return walls[0], walls[1]
 
 
 def depths_mm(wall: OuterWall, roller_mm: Number, L: Number) -> Array:
     """Depth to which a roller with its clearance cuts a wall, (m,); 0 where it does not."""
     r = np.asarray(roller_mm / L)
-    return np.ravel(L * np.maximum(0.0, r - _gap(wall, r)[:, None]))
-
-
-def _gap(wall: OuterWall, r: Array) -> Array:
-    """Least distance of the pitch curve from undercut places of the wall, (m,)."""
+    # the least distance of the pitch curve from undercut places of the wall
     gap = np.full(len(wall.bend), np.inf)
     design, place = np.nonzero(wall.bend * r > 1.0)
     # 32,768 distances at once fit in the cache
@@ -150,4 +118,4 @@ def _gap(wall: OuterWall, r: Array) -> Array:
         # beyond 1e-14 a square is greater whatever the rounding; NaN stays NaN
         near = ~(square > (1.0 + 1e-14) * square.min(axis=1, keepdims=True))
         np.minimum.at(gap, d[np.nonzero(near)[0]], np.hypot(x[near], y[near]))
-    return gap
+    return np.ravel(L * np.maximum(0.0, r - gap[:, None]))

@@ -1,7 +1,4 @@
-"""Angles and speeds: degrees for people, radians for formulas, and exact fractions of pi.
-
-Input angles are in degrees, in which a whole turn and the entry angles of classic wheels are exact.
-"""
+"""Angles and speeds: degrees for people, radians for formulas, and exact fractions of pi."""
 
 from __future__ import annotations
 

@@ -1,9 +1,8 @@
 """Numbers that are floats or arrays, and helpers for formulas that serve both.
 
-One convention for arrays holds in the whole program. The numbers of a machine (its ratio, its
-offset) are floats, or arrays (n, 1) along a design axis. Input angles are floats, or arrays (k,) or
-(n, k). Results are (k,) for one design, (n, k) for n designs, and (n, 1) without an array of
-angles. To the type checker the numbers of a machine are floats.
+In the whole program the numbers of a machine are floats, or arrays (n, 1) along a design axis.
+Input angles are floats, or arrays (k,) or (n, k). Results are (k,) for one design, (n, k) for n
+designs, and (n, 1) without an array of angles. To the type checker a machine's numbers are floats.
 """
 
 from __future__ import annotations
@@ -152,17 +151,25 @@ def choose(condition: Truth, yes: Real, no: Real) -> Real:
     return cast("Real", chosen_value)
 
 
+def record_of(like: Record, parts: Sequence[object]) -> Record:
+    """A record of the type of ``like``."""
+    make: Callable[..., object] = type(like)
+    return cast("Record", tuple(parts) if make is tuple else make(*parts))
+
+
+def mapped(f: Callable[..., object], *records: Record) -> Record:
+    """A record of what ``f`` makes of the members of records of one shape, tuples in them alike."""
+    out: list[object] = []
+    for members in zip(*records, strict=True):
+        out.append(mapped(f, *members) if isinstance(members[0], tuple) else f(*members))
+    return record_of(records[0], out)
+
+
 def choose_record(condition: Truth, yes: Record, no: Record) -> Record:
     """One of two tuples of the same shape; element by element for an array of conditions."""
     if isinstance(condition, bool):
         return yes if condition else no
-
-    def member(a: object, b: object) -> object:
-        if isinstance(a, tuple):
-            return choose_record(condition, a, cast("tuple[object, ...]", b))
-        return choose(condition, cast("Number", a), cast("Number", b))
-
-    return record_of(yes, [a if a is b else member(a, b) for a, b in zip(yes, no, strict=True)])
+    return mapped(lambda a, b: a if a is b else choose(condition, a, b), yes, no)
 
 
 def picked(index: Whole, records: Sequence[Record]) -> Record:
@@ -173,10 +180,8 @@ def picked(index: Whole, records: Sequence[Record]) -> Record:
     """
     import numpy
 
-    def member(members: Sequence[object]) -> object:
+    def member(*members: object) -> object:
         first = members[0]
-        if isinstance(first, tuple):
-            return picked(index, cast("Sequence[tuple[object, ...]]", members))
         if all(one is first for one in members):
             return first
         if all(isinstance(one, _PLAIN) for one in members):
@@ -186,25 +191,14 @@ def picked(index: Whole, records: Sequence[Record]) -> Record:
         designs = numpy.arange(columns[0].size)[:, None] if columns[0].size > 1 else 0
         return numpy.concatenate(columns, axis=1)[designs, index]
 
-    return record_of(records[0], [member(one) for one in zip(*records, strict=True)])
-
-
-def record_of(like: Record, parts: Sequence[object]) -> Record:
-    """A record of the type of ``like``."""
-    make: Callable[..., object] = type(like)
-    return cast("Record", tuple(parts) if make is tuple else make(*parts))
+    return mapped(member, *records)
 
 
 def joined(records: Sequence[Record], axis: int = -1) -> Record:
     """Several records of arrays, or of such records, as one: each array joined along an axis."""
     import numpy
 
-    def member(parts: Sequence[object]) -> object:
-        if isinstance(parts[0], tuple):
-            return joined(cast("Sequence[tuple[object, ...]]", parts), axis)
-        return numpy.concatenate(cast("Sequence[Array]", parts), axis)
-
-    return record_of(records[0], [member(parts) for parts in zip(*records, strict=True)])
+    return mapped(lambda *parts: numpy.concatenate(parts, axis), *records)
 
 
 def numbers_of(which: Mask | Whole) -> Whole:
@@ -214,11 +208,12 @@ def numbers_of(which: Mask | Whole) -> Whole:
 
 def record_taken(record: Record, which: Which) -> Record:
     """A record of arrays (..., m) with some of their columns."""
-    columns = cast("tuple[Array, ...]", record)
+    # NumPy's own indexing puts each column's values side by side in memory; reductions over them
+    # then take fifty times as long.
     if isinstance(which, slice):
-        return record_of(record, [column[..., which] for column in columns])
+        return mapped(lambda column: column[..., which], record)
     numbers = numbers_of(which)
-    return record_of(record, [column.take(numbers, axis=-1) for column in columns])
+    return mapped(lambda column: column.take(numbers, axis=-1), record)
 
 
 def blocks(count: int, size: int) -> list[slice]:

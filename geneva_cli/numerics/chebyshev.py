@@ -1,13 +1,4 @@
-"""Chebyshev series of functions that are sampled at the Chebyshev points of [-1, 1].
-
-Samples are arrays (..., points, m), a column for each function. Once its terms have fallen to
-rounding, the series of a smooth function equals it to the last digits.
-
-    >>> values = np.exp(POINTS)[:, None]
-    >>> bool(abs(at(series(values), np.array([0.3]))[0] - np.exp(0.3)) < 1e-14)
-    True
-    >>> float(remainder(values)[0]) < 1e-14
-    True
+"""Chebyshev series of functions, from samples (..., points, m) at the Chebyshev points of [-1, 1].
 
 Source: L. N. Trefethen, "Approximation Theory and Approximation Practice", SIAM 2013.
 """

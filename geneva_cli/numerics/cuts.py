@@ -1,8 +1,7 @@
 """Division of many designs' spans into pieces on which no sign changes.
 
 A row, a part of a span, is sampled with all signs held as in its middle, so that every function is
-smooth on it. It is cut at the zeros of the functions whose signs matter, and halved if a series
-does not show where they are.
+smooth on it; it is cut at the zeros of the signs' functions, or halved where no series shows them.
 """
 
 from __future__ import annotations

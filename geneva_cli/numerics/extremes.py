@@ -1,8 +1,7 @@
 """Greatest and least values of functions of many designs, and the places where signs change.
 
-Functions are smooth only while certain signs do not change: a load jumps where the roller's sliding
-reverses. Series between the cuts (``cuts``) show where a function may exceed the known values;
-there the function itself is evaluated, by Newton steps.
+Series between the ``cuts``, at which a load may jump, show where a function may exceed the known
+values; there the function itself is evaluated, by Newton steps.
 """
 
 from __future__ import annotations

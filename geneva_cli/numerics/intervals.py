@@ -1,8 +1,5 @@
 """Intervals of doubles: two bounds, rounded outwards at each step, for many numbers at once.
 
-They are wider than balls of Arb (``balls``), and need no library. They never become floats, and
-never answer a comparison whose answer is not the same for all of them.
-
 R. E. Moore, R. B. Kearfott and M. J. Cloud, Introduction to Interval Analysis (2009).
 """
 
@@ -15,16 +12,7 @@ from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import (
-    Array,
-    Enclosed,
-    Library,
-    Mask,
-    Number,
-    Truth,
-    Undecided,
-    Whole,
-)
+from geneva_cli.numerics.arrays import Array, Enclosed, Library, Number, Truth, Undecided, Whole
 
 if TYPE_CHECKING:
     Bound: TypeAlias = Array | float
@@ -281,7 +269,7 @@ class _Intervals:
         return size if y > 0.0 else -size
 
 
-def _passes(low: Bound, high: Bound, at: float) -> Mask:
+def _passes(low: Bound, high: Bound, at: float) -> Truth:
     """True where ``at``, or a whole number of turns from there, may lie between two angles."""
     below = np.floor((high + NEAR - at) / math.tau) * math.tau + at
     return np.greater_equal(below, low - NEAR)

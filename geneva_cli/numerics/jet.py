@@ -1,8 +1,6 @@
-"""Jets: numbers that carry their first derivatives (truncated Taylor arithmetic).
+"""Jets: numbers that carry their Taylor coefficients c[k] = f^(k)/k!, floats or NumPy arrays.
 
-A jet of order n holds the Taylor coefficients c[k] = f^(k)/k! of a function at a point: floats, or
-NumPy arrays of compatible shapes. The recurrences are those of Griewank and Walther, Evaluating
-Derivatives, 2nd ed., section 13.2.
+The recurrences are those of Griewank and Walther, Evaluating Derivatives, 2nd ed., section 13.2.
 """
 
 from __future__ import annotations
@@ -186,17 +184,12 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
     m = library(x, y)
     length = m.hypot(x, y)
     sine, cosine = y / length, x / length
-    versine = _versine(sine, cosine)
+    versine = 1.0 - cosine
+    if not isinstance(cosine, Enclosed):  # without cancellation where the cosine is positive
+        ahead = 0.5 * (1.0 + library(cosine).copysign(1.0, cosine))
+        versine = ahead * sine * sine / (1.0 + size(cosine)) + (1.0 - ahead) * versine
     s, c = _circle([0.0, *rate.c][: order + 1], sine, cosine)
     return s, Jet((versine, *[-a for a in c.c[1:]]))
-
-
-def _versine(sine: Number, cosine: Number) -> Number:
-    """1 - cos without cancellation: sin²/(1 + cos), but as it stands for a negative cosine."""
-    if isinstance(cosine, Enclosed):
-        return 1.0 - cosine
-    ahead = 0.5 * (1.0 + library(cosine).copysign(1.0, cosine))
-    return ahead * sine * sine / (1.0 + size(cosine)) + (1.0 - ahead) * (1.0 - cosine)
 
 
 def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:
@@ -244,18 +237,16 @@ def turning(x: Jet, y: Jet) -> Jet:
 
 def moment(x: Jet, y: Jet) -> Jet:
     """x y' - y x', one order lower."""
-    return Jet([_moment(x.c, y.c, k) for k in range(1, len(x.c))])
-
-
-def _moment(x: Sequence[Number], y: Sequence[Number], k: int) -> Number:
-    """The sum of (k - 2 i) (x[i] y[k - i] - y[i] x[k - i]) for i below k/2."""
-    total = x[0] * y[k] - y[0] * x[k]
-    if k > 1:
-        total = total * k
-    for i in range(1, (k + 1) // 2):
-        more = x[i] * y[k - i] - y[i] * x[k - i]
-        total = total + (more * (k - 2 * i) if k - 2 * i > 1 else more)
-    return total
+    a, b, out = x.c, y.c, []
+    for k in range(1, len(a)):  # the sum of (k - 2 i) (a[i] b[k - i] - b[i] a[k - i]), i below k/2
+        total = a[0] * b[k] - b[0] * a[k]
+        if k > 1:
+            total = total * k
+        for i in range(1, (k + 1) // 2):
+            more = a[i] * b[k - i] - b[i] * a[k - i]
+            total = total + (more * (k - 2 * i) if k - 2 * i > 1 else more)
+        out.append(total)
+    return Jet(out)
 
 
 def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Number], Jet]]) -> Jet:

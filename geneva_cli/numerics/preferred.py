@@ -1,7 +1,4 @@
-"""Preferred numbers: bores of standard bearings, and rounded numbers for other sizes.
-
-Default sizes are taken from them, so that the bearings, reamers and plates of the trade fit.
-"""
+"""Preferred numbers for default sizes: bores of standard bearings, and rounded numbers."""
 
 from __future__ import annotations
 

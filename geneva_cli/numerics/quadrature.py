@@ -1,11 +1,6 @@
 """Integrals of functions of designs by Gauss-Legendre rules, halved where a series has not ended.
 
-The values at n nodes give the first n terms of a Legendre series. The error of the rule is about
-the size of term 2 n, so the last of the n terms bound it; of a narrow feature they prove nothing.
-
->>> x, weight = rule(4)
->>> round(float(np.cos(x) @ weight - 2.0 * np.sin(1.0)), 6)
--0.0
+The last of the n terms from n nodes bound the rule's error, which has the size of term 2 n.
 """
 
 from __future__ import annotations
@@ -67,24 +62,22 @@ class Integrands(NamedTuple):
 
     def parts(self, of: Whole, low: Array, high: Array) -> tuple[Array, Array, Array]:
         """Integrals over fractions of spans, their last terms, and integrals of the sizes."""
-        # 1024 spans at a time: their nodes fit in the processor's cache
-        rows = [self._block(of[i], low[i], high[i]) for i in blocks(len(of), 1024)]
-        return joined(rows)
-
-    def _block(self, of: Whole, low: Array, high: Array) -> tuple[Array, Array, Array]:
         node, terms = _rule(self.ends)
-        half = 0.5 * (high - low)
-        # designs lie side by side in memory
-        t = np.asfortranarray((0.5 * (low + high))[:, None] + half[:, None] * node)
-        width = (self.b - self.a)[of, None]
-        rate = width * half[:, None]
-        if self.ends:
-            rate = rate * (6.0 * t * (1.0 - t))
-            t = t * t * (3.0 - 2.0 * t)
-        value = self.functions(self.a[of, None] + width * t, of) * rate
-        sums = matrix_product(value, terms)
-        last = np.abs(sums[..., 1:]).max(axis=-1)
-        return sums[..., 0], last, matrix_product(np.abs(value), terms[:, 0])
+        rows = []
+        for here in blocks(len(of), 1024):  # whose nodes fit in the processor's cache
+            own, half = of[here], 0.5 * (high[here] - low[here])[:, None]
+            # designs lie side by side in memory
+            t = np.asfortranarray((0.5 * (low[here] + high[here]))[:, None] + half * node)
+            width = (self.b - self.a)[own, None]
+            rate = width * half
+            if self.ends:
+                rate = rate * (6.0 * t * (1.0 - t))
+                t = t * t * (3.0 - 2.0 * t)
+            value = self.functions(self.a[own, None] + width * t, own) * rate
+            sums = matrix_product(value, terms)
+            last = np.abs(sums[..., 1:]).max(axis=-1)
+            rows.append((sums[..., 0], last, matrix_product(np.abs(value), terms[:, 0])))
+        return joined(rows)
 
 
 def span_integrals(
@@ -103,18 +96,23 @@ def span_integrals(
     n, spans = needed.shape[1], len(design)
     into = np.arange(spans) if apart else design
     total, size = np.zeros((len(needed), spans if apart else n)), np.zeros(needed.shape)
+
+    def add(sums: Array, where: Whole, rows: Array) -> None:
+        for own, row in zip(sums, rows, strict=True):
+            own += np.bincount(where, row, len(own))
+
     unbounded, of = total != 0.0, np.arange(spans)
     low, high = np.zeros(spans), np.ones(spans)
     for halved in range(40):  # the narrowest spans are 1e-12 of their design's
         whole, last, sizes = integrands.parts(of, low, high)
         if not halved:
-            _add(size, design[of], sizes)
+            add(size, design[of], sizes)
         lost = ~np.isfinite(sizes)  # spans of an unbounded function are not halved further
         for row, endless, marks in zip(needed, lost, unbounded, strict=True):
             row[design[of[endless]]] = False
             marks[into[of[endless]]] = True
         open_ = (~(last <= LAST_TERMS * size[:, design[of]]) & needed[:, design[of]]).any(axis=0)
-        _add(total, into[of[~open_]], whole[:, ~open_])
+        add(total, into[of[~open_]], whole[:, ~open_])
         parts = np.bincount(design[of[open_]], minlength=n)
         # a kink or a pole leaves some open parts at each depth, noise twice as many as before
         lost_in_noise = (parts > 20_000)[design[of]]
@@ -127,11 +125,6 @@ def span_integrals(
         of = np.concatenate((of[open_], of[open_]))
     total[:, into[of]] = np.inf
     return np.where(unbounded, np.inf, total)
-
-
-def _add(total: Array, design: Whole, rows: Array) -> None:
-    for own, row in zip(total, rows, strict=True):
-        own += np.bincount(design, row, len(own))
 
 
 @cache

@@ -1,8 +1,7 @@
 """Sobol's sequence, scrambled: points that fill a cube more evenly than random ones.
 
-SciPy's is in ``scipy.stats``, whose import takes three times as long as a short run. A random lower
-triangular matrix, then a random shift, scramble the binary digits of each dimension (Matousek, J.
-Complexity 14, 1998, 527-556).
+A random lower triangular matrix and a shift scramble the digits (Matousek, J. Complexity 14, 1998).
+SciPy's takes three times as long to import as a short run.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Tolerances that several files share, each with its unit and its reason.
 
-Doubles carry 2e-16. The rounding of a formula is some 1e-15 of a size, that of a search 1e-13, that
-of a chain of parts 1e-11. Drawings and tables show 1e-6 of a size. Tolerances of equality lie
-between. The tolerance of one file's own method (a Newton step, a scan) stands in that file.
+Doubles carry 2e-16; a formula rounds by some 1e-15 of a size, a search by 1e-13, a chain of parts
+by 1e-11. Drawings and tables show 1e-6. Tolerances of equality lie between.
 """
 
 from __future__ import annotations

@@ -133,16 +133,13 @@ def draw(
 ) -> None:
     """Print the drawing, or write it to the file ``output``; ``version`` is that of a DXF file.
 
-    Formats of tables get the drawing's pieces. Raises GenevaError for an unknown format, for a
-    version of another one, if nothing is drawn, and if the file cannot be written.
+    Raises GenevaError for a format of tables or an unknown one, for a version of another one, if
+    nothing is drawn, and if the file cannot be written.
     """
     name = drawn_as(output, format)
     own = _of_dxf(name, version)
     if name in FORMATS:
-        from geneva_cli.geometry.pieces import pieces_table
-
-        show(pieces_table(drawing), output, name, inputs)
-        return
+        raise GenevaError(f"a drawing is no table: write it as {', '.join(DRAWN)}, or --part slot")
     refuse_columns()
     module, function = DRAWN[name].split(":")
     _put(getattr(_module(module), function)(drawing, *own), output, inputs, name)
@@ -189,19 +186,15 @@ def show_figure(
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
-    """Write the scene as a page of HTML (``-`` prints it), or as a still .svg.
+    """Write the scene as a page of HTML; ``-`` prints it.
 
     Raises GenevaError for another extension, and if the file cannot be written.
     """
     if is_seen(output):
         raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
-    extension = os.path.splitext(output)[1].lower()
-    if output != "-" and extension not in (".html", ".htm", ".svg"):
-        raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm or .svg')
-    from geneva_cli.output import page
-
-    chunks = page.still_chunks if extension == ".svg" else page.chunks
-    _put(chunks(scene), output, inputs)
+    if output != "-" and os.path.splitext(output)[1].lower() not in (".html", ".htm"):
+        raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm')
+    _put(_module("page").chunks(scene), output, inputs)
 
 
 def show_document(

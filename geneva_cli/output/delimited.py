@@ -33,7 +33,7 @@ def text_of(columns: Sequence[Any], infinity: str = "inf") -> str:
     ``infinity`` stands for infinite numbers of arrays.
     """
     parts: list[str | Sequence[str]] = []  # one text for all rows, or one for each
-    for is_numbers, group in groupby(columns, _is_numbers):
+    for is_numbers, group in groupby(columns, lambda c: getattr(c, "dtype", "") == "float64"):
         own = [*group]
         parts += [_number_lines(own, infinity)] if is_numbers else map(_fields, own)
     varied = [k for k, part in enumerate(parts) if not isinstance(part, str)]
@@ -52,10 +52,6 @@ def _fields(column: Any) -> str | Sequence[str]:
     if len({*map(type, cells)}) == 1 and cells.count(cells[0]) == len(cells):
         return _field(cells[0])
     return [*map(_field, cells)]
-
-
-def _is_numbers(column: Any) -> bool:
-    return not isinstance(column, (list, tuple)) and column.dtype == "float64"
 
 
 def _number_lines(columns: Sequence[Any], infinity: str) -> list[str]:

@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterator
 
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.geometry.measure import halved
-from geneva_cli.geometry.pieces import prepared
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Layer, Line, Segment, Shape
 from geneva_cli.geometry.sheet import (
     DASHED,
@@ -26,6 +25,7 @@ from geneva_cli.geometry.sheet import (
     Measure,
     Sheet,
     extent,
+    prepared,
 )
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace, options
 from geneva_cli.output.formats import DXF_VERSIONS

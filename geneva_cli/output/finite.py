@@ -10,6 +10,8 @@ from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.progress import Meter
 from geneva_cli.table import Table, rows_table
 
+KIND = "row"  # column of a table whose rows are of several kinds, each with columns of its own
+
 
 def checked(table: Table, is_seen: bool = False) -> Table:
     """The table, checked; a table that is computed while it is written is checked then.
@@ -39,10 +41,13 @@ def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
         # Infinity is a valid radius of a straight line, a valid value of a check without a bound,
         # and valid as motion over dwell without a dwell.
         boundless = name.rpartition(".")[2] in {"curvature_radius_mm", "value", "k"}
-        if not isinstance(column, (list, tuple)):
-            wrong = (column != column).any() if boundless else _any_endless(column)
-        else:
+        if isinstance(column, (list, tuple)):
             wrong = any(_wrong(v, boundless) for v in column)
+        elif boundless:
+            wrong = (column != column).any()
+        else:
+            ends = (column.min(), column.max()) if len(column) and column.dtype.kind == "f" else ()
+            wrong = not all(map(math.isfinite, ends))
         if wrong:
             raise ArithmeticError(f"{name}: a value is not a number")
 
@@ -58,25 +63,13 @@ def refuse_nan(names: Iterable[str], columns: Iterable[Any]) -> None:
             raise ArithmeticError(f"{name}: a value is not a number")
 
 
-def _any_endless(column: Any) -> bool:
-    if column.dtype.kind != "f":
-        return False
-    low, high = (float(f()) if len(column) else 0.0 for f in (column.min, column.max))
-    return not (math.isfinite(low) and math.isfinite(high))
-
-
 def _wrong(value: Any, boundless: bool) -> bool:
     if isinstance(value, Table):
         refuse_nonsense(value.names, value.columns)
         return False
     if isinstance(value, (tuple, list)):
         return any(_wrong(v, boundless) for v in value)
-    if not isinstance(value, float):
-        return False
-    return value != value if boundless else not math.isfinite(value)
-
-
-KIND = "row"  # column of a table whose rows are of several kinds, each with columns of its own
+    return isinstance(value, float) and (value != value or not (boundless or math.isfinite(value)))
 
 
 def only(table: Table, names: Sequence[str]) -> Table:
@@ -96,13 +89,12 @@ def only(table: Table, names: Sequence[str]) -> Table:
         return table.replaced(names=tuple(names), columns=[table.columns[i] for i in at])
     values: dict[str, Any] = {}
     for name, value in zip(table.names, next(table.rows()), strict=True):
+        parts = [t for t in _tables(value) if set(names) & set(t.names)]
         if name in names:
             values[name] = value
-        else:
-            parts = [t for t in _tables(value) if set(names) & set(t.names)]
+        elif parts:
             own = tuple(only(t, [n for n in names if n in t.names]) for t in parts)
-            if own:
-                values[name] = own[0] if isinstance(value, Table) else own
+            values[name] = own[0] if isinstance(value, Table) else own
     return table.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
 
 

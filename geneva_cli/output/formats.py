@@ -14,7 +14,7 @@ MESHES = {"stl": "mesh_files:stl", "3mf": "mesh_files:threemf"}  # of solids, in
 DRAWN = {"dxf": "dxf:chunks", "svg": "svg:chunks", "step": "step:chunks", **MESHES}
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
 CAMS = ("cam",)  # for motions only: a file for a controller
-CONTROLLERS = ("polynomial", "codesys", "beckhoff")  # what reads a cam
+CONTROLLERS = ("polynomial", "codesys")  # what reads a cam
 PICTURES = ("png", "pdf")  # for figures only
 # for documents; the other formats of tables get their values
 DOCUMENTS = {"html": "html", "pdf": "document_pdf", "md": "document_markdown"}

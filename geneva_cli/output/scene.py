@@ -1,4 +1,4 @@
-"""The scene: drawings that move with the input angle, for a page or a picture.
+"""The scene: drawings that move with the input angle, for a page.
 
 Millimetres and radians, y up, with the wheel's axis as origin. The input's angle is in degrees from
 the scene's start.
@@ -70,18 +70,6 @@ class Rotation(NamedTuple):
     angle: Track
 
 
-def body_pose(body: Body, t: float) -> tuple[float, float, float]:
-    """The position of a body's frame at an input angle, and its rotation in radians.
-
-    >>> from geneva_cli.output.scene import Body, Track, body_pose
-    >>> one, two = (Track((0.0,), (x,), (0.0,)) for x in (1.0, 2.0))
-    >>> body_pose(Body("rack", (), (5.0, 0.0), one, two), 0.0)
-    (5.0, 2.0, 1.0)
-    """
-    x, y = body.centre
-    return x, y + (value_at(body.travel, t) if body.travel else 0.0), value_at(body.angle, t)
-
-
 class CarriedShapes(NamedTuple):
     """Shapes that a link carries: their origin is at a joint, their x away from the first joint."""
 
@@ -108,13 +96,7 @@ def place_at(place: Place, t: float) -> tuple[float, float]:
 
 
 def pose(bar: Bar, plate: CarriedShapes, t: float) -> tuple[float, float, float]:
-    """The position of a link's plate or block at an input angle, and its rotation in radians.
-
-    >>> from geneva_cli.output.scene import Bar, CarriedShapes, Track, pose
-    >>> one, two, four, six = (Track((0.0,), (x,), (0.0,)) for x in (1.0, 2.0, 4.0, 6.0))
-    >>> pose(Bar("", ((one, two), (four, six))), CarriedShapes(0, ()), 0.0)
-    (1.0, 2.0, 0.9272952180016122)
-    """
+    """The position of a link's plate or block at an input angle, and its rotation in radians."""
     (x0, y0), (x1, y1) = (place_at(bar.joints[j], t) for j in (0, plate.joint or 1))
     return *place_at(bar.joints[plate.joint], t), math.atan2(y1 - y0, x1 - x0)
 

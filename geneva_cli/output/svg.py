@@ -12,7 +12,6 @@ from html import escape
 
 from geneva_cli.errors import clean
 from geneva_cli.geometry.measure import halved
-from geneva_cli.geometry.pieces import prepared
 from geneva_cli.geometry.plates import Member, Part, in_place
 from geneva_cli.geometry.shapes import (
     Circle,
@@ -25,7 +24,7 @@ from geneva_cli.geometry.shapes import (
     Shape,
     as_contour,
 )
-from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Drawing, Sheet, extent
+from geneva_cli.geometry.sheet import CAPITALS, DASHED, WIDTHS, Drawing, Sheet, extent, prepared
 from geneva_cli.output.inks import CENTRE_LINES, DARK, DASHES, LIGHT, Paper, inks, mixed
 from geneva_cli.output.notes import LETTERS, Notes, notes
 

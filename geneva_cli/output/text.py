@@ -15,11 +15,20 @@ WIDTH = 90  # letters of a line in a file or a pipe
 
 def chunks(table: Table) -> Iterator[str]:
     """The table as text, line by line."""
-    if table.title:
-        yield "\n".join(paragraphs(table.title)) + "\n\n"
-    if table.prose:
-        yield "\n".join(paragraphs(table.prose)) + "\n\n"
-    yield from _record(table) if table.record else _plain(table)
+    for text in filter(None, (table.title, table.prose)):
+        for paragraph in text.split("\n"):
+            yield "\n".join(textwrap.wrap(clean(paragraph), WIDTH)) + "\n"
+        yield "\n"
+    if not table.record:
+        yield from _plain(table)
+        return
+    for _, piece in apart(table, plain_names=True):
+        if piece.record:
+            yield from _lines(piece)
+        else:
+            yield "\n"
+            yield from _plain(piece)
+            yield "\n"
 
 
 def cell(value: Any) -> str:
@@ -33,39 +42,29 @@ def cell(value: Any) -> str:
     return clean(str(value))
 
 
-def paragraphs(text: str) -> list[str]:
-    """A text of one or more paragraphs, broken into lines of ``WIDTH`` letters."""
-    lines = []
-    for paragraph in text.split("\n"):
-        lines += textwrap.wrap(clean(paragraph), WIDTH) or [""]
-    return lines
-
-
-def _headings(names: tuple[str, ...]) -> list[list[str]]:
-    """Column names broken at underscores, so that sixteen columns stay readable."""
-    parts = [clean(name).split("_") for name in names]
-    height = max(len(p) for p in parts)
-    return [[""] * (height - len(p)) + p for p in parts]
-
-
 def _plain(table: Table) -> Iterator[str]:
     """Rows under their headings; empty if there are no columns."""
     if not table.names:
         return
-    heads = _headings(table.names)
+    # names broken at underscores, so that sixteen columns stay readable
+    parts = [clean(name).split("_") for name in table.names]
+    height = max(len(p) for p in parts)
+    heads = [[""] * (height - len(p)) + p for p in parts]
+    is_first = True
     for block in table.blocks():
         rows = block if table.mixed else without_noise(block)
         lines = [[cell(v) for v in row] for row in rows]
+        columns = zip(*lines, strict=True)
         widths = [
-            max(len(text) for text in (*head, *(line[i] for line in lines)))
-            for i, head in enumerate(heads)
+            max(map(len, (*(head if is_first else ()), *column)))
+            for head, column in zip(heads, columns, strict=True)
         ]
         left = [isinstance(v, str) for v in block[0]]
-        if heads[0]:
-            for level in range(len(heads[0])):
-                yield _line([h[level] for h in heads], widths, left)
+        if is_first:
+            for level in zip(*heads, strict=True):
+                yield _line(level, widths, left)
             yield "  ".join("-" * w for w in widths) + "\n"
-            heads = [[] for _ in heads]
+            is_first = False
         for line in lines:
             yield _line(line, widths, left)
 
@@ -83,7 +82,7 @@ def without_noise(block: list[tuple[Any, ...]]) -> Iterator[list[Any]]:
         ]
 
 
-def _line(texts: list[str], widths: list[int], left: list[bool]) -> str:
+def _line(texts: Any, widths: list[int], left: list[bool]) -> str:
     cells = [
         t.ljust(w) if is_left else t.rjust(w)
         for t, w, is_left in zip(texts, widths, left, strict=True)
@@ -106,17 +105,6 @@ def apart(record: Table, plain_names: bool = False) -> Iterator[tuple[str, Table
         else:
             values[name] = value
     yield "", record_table(values)
-
-
-def _record(table: Table) -> Iterator[str]:
-    """One line for each value, and tables between them."""
-    for _, piece in apart(table, plain_names=True):
-        if piece.record:
-            yield from _lines(piece)
-        else:
-            yield "\n"
-            yield from _plain(piece)
-            yield "\n"
 
 
 def _lines(table: Table) -> Iterator[str]:

@@ -14,9 +14,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
-from geneva_cli.geometry.plates import Plate
+from geneva_cli.geometry.plates import Plate, least_wall
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape, convex_hull
-from geneva_cli.geometry.stacks import least_wall
 from geneva_cli.parts.outlines.crank_outline import (
     crank_circles,
     is_whole,

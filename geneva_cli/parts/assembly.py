@@ -58,7 +58,6 @@ class Assembly(NamedTuple):
     L: float
     sign: float  # +1 external, -1 internal
     turn_deg: float  # input angle in a whole turn of the crank
-    span_deg: float  # input angle over which the parts are checked: a whole turn, or one motion
     motions: tuple[Passage, ...]
     rollers: tuple[Passage, ...]
     slots: tuple[tuple[Engagement, float], ...]
@@ -233,7 +232,6 @@ def assembled_by_input(mechanism: Mechanism) -> Assembly:
         mechanism,
         L,
         wheel.SIGN,
-        turn,
         turn,
         motions,
         rollers,

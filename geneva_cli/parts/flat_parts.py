@@ -34,14 +34,13 @@ from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.slot_ends import wall_lost
 from geneva_cli.parts.outlines.wheel_circles import dial_bolts, wheel_part, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, NamedBuilds
 from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.sizes import Sizes, drawn_thicknesses, pin_radius
-from geneva_cli.parts.slots.roller_paths import roller_centres
+from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
 
 if TYPE_CHECKING:
     from geneva_cli.parts.mounted_plate import FrameAndShafts

@@ -34,7 +34,6 @@ class Accept(SpecTable):
     undercut: Reason = None
     friction_holds_the_wheel: Reason = None
     sharp_wall: Reason = None
-    no_speed: Reason = None
     drives_the_motor: Reason = None
     heavy_inertia: Reason = None
     tiny_machine: Reason = None
@@ -45,7 +44,6 @@ class Accept(SpecTable):
     nothing_to_act_on: Reason = None
     driven_by_one_wall: Reason = None
     lags_behind: Reason = None
-    roller_overtakes: Reason = None
     short_motion: Reason = None
     stout_horns: Reason = None
     tolerance_left_out: Reason = None

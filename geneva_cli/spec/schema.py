@@ -271,53 +271,66 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
 
 def checked(table: str, field: Field, value: Any) -> Any:
     """A value of the field's type and in its range, as the table holds it."""
-    kind, types = type(value), field.types
-    if (kind is float or kind is int) and kind in types and value in field.rule:
+    kind, types, rule = type(value), field.types, field.rule
+    if (kind is float or kind is int) and kind in types and value in rule:
         return value  # the usual case
     place = (*table.split("."), field.key)
     value = plain(value)
     if type(value) in (NoneType, bool) and type(value) in types:
         return value
-    if isinstance(field.rule, Csv):
+    if isinstance(rule, Csv):
         return _points(place, field, value)
-    whole = int in types
-    numeric = whole or float in types
-    if isinstance(value, (int, float)) and not isinstance(value, bool) and numeric:
-        return _number(place, field, value, whole)
-    if numeric and is_array(value):
-        return _numbers(place, field, value, whole)
+    numeric = int in types or float in types
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if numeric and (is_number or is_array(value)):
+        return _number(place, field, value) if is_number else _numbers(place, field, value)
     if is_array(value) and LIST in types:
         value = value.tolist()
     if isinstance(value, (list, tuple)) and LIST in types:
-        return _list(table, field, value)
+        if not 0 < len(value) <= LIST_MAX:
+            raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)
+        return tuple(checked(table, field._replace(types=(float,)), one) for one in value)
     if isinstance(value, str) and str in types:
-        return _word(place, field, value, numeric)
+        if rule is None:
+            return free_text(field.key, value, place)
+        if isinstance(rule, OneOf) and value not in rule:
+            text = f"{field.key} = {shown(value)} must be {rule}{nearest(value, rule)}"
+            raise GenevaError(text, place)
+        if numeric and value not in field.words:
+            words = " or ".join(f'"{word}"' for word in field.words)
+            text = f"{field.key} must be a number or {words}, not {shown(value)}"
+            raise GenevaError(text, place)
+        return value
     if isinstance(value, str) and float in types:
-        return checked(table, field, _with_unit(place, field, value))
+        from geneva_cli.spec.units import in_unit_of
+
+        try:
+            number = in_unit_of(field.key, value)
+        except GenevaError as error:
+            raise GenevaError(f"{error} ({field.meaning})", place) from None
+        return checked(table, field, number)
     expected = " or ".join(_NAMES[t] for t in types if t in _NAMES)
     raise GenevaError(f"{field.key} must be {expected}, not {shown(value)}", place)
 
 
-def _list(table: str, field: Field, values: Sequence[Any]) -> tuple[float, ...]:
-    if not 0 < len(values) <= LIST_MAX:
-        place = (*table.split("."), field.key)
-        raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)
-    return tuple(checked(table, field._replace(types=(float,)), value) for value in values)
+def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
+    if not isinstance(value, Points):  # a Python user may pass a list of pairs
+        try:
+            value = Points(tuple((float(x), float(y)) for x, y in value))
+        except (TypeError, ValueError):
+            text = f"{field.key}: points must be pairs of numbers {field.rule.x},{field.rule.y}"
+            raise GenevaError(text, place) from None
+    field.rule.check(value.pairs, value.file, place)
+    return value
 
 
-def _with_unit(place: tuple[str, ...], field: Field, text: str) -> float:
-    """The number that a text such as "8 in" is in the key's unit."""
-    from geneva_cli.spec.units import in_unit_of
-
-    try:
-        return in_unit_of(field.key, text)
-    except GenevaError as error:
-        raise GenevaError(f"{error} ({field.meaning})", place) from None
-
-
-def _number(place: tuple[str, ...], field: Field, value: float, whole: bool) -> float:
+def _number(place: tuple[str, ...], field: Field, value: float) -> float:
+    whole = int in field.types
     if whole and not isinstance(value, int):
-        fault = f"{value!r} must be a whole number{_whole(value)}"
+        fault = f"{value!r} must be a whole number"
+        if abs(value) < 2.0**53:  # beyond it, a float may be rounded to a whole number
+            low, high = math.floor(value), math.ceil(value)
+            fault += f": write {low}" if low == high else f", {low} or {high}"
     elif value not in field.rule:
         # no reader of the rule would think of such numbers
         least = f"; sizes below {TINY:g} are not computed" if 0.0 < abs(value) < TINY else ""
@@ -330,7 +343,7 @@ def _number(place: tuple[str, ...], field: Field, value: float, whole: bool) -> 
     raise GenevaError(f"{field.key} = {fault} ({field.meaning})", place)
 
 
-def _numbers(place: tuple[str, ...], field: Field, values: Any, whole: bool) -> Any:
+def _numbers(place: tuple[str, ...], field: Field, values: Any) -> Any:
     """Numbers of a batch of designs. Invalid ones are marked, and become NaN.
 
     A whole number, which cannot be NaN, becomes the least that the rule allows.
@@ -338,10 +351,10 @@ def _numbers(place: tuple[str, ...], field: Field, values: Any, whole: bool) -> 
     import numpy as np
 
     wrong = ~field.rule.holds(values)
-    if whole:
+    if int in field.types:
         wrong = wrong | (values != np.floor(values))
     refuse(wrong, lambda: GenevaError(f"{field.key} must be {field.rule}", place))
-    if whole:
+    if int in field.types:
         return np.where(wrong, field.rule.low, values).astype(np.int64)
     return np.where(wrong, np.nan, values.astype(np.float64))
 
@@ -353,32 +366,6 @@ def free_text(key: str, text: str, place: tuple[str, ...]) -> str:
     if any("\ud800" <= letter <= "\udfff" for letter in text):
         raise GenevaError(f"{key} = {shown(text)}: not UTF-8 text", place)
     return text
-
-
-def _word(place: tuple[str, ...], field: Field, value: str, numeric: bool) -> str:
-    if field.rule is None:
-        return free_text(field.key, value, place)
-    if isinstance(field.rule, OneOf) and value not in field.rule:
-        raise GenevaError(
-            f"{field.key} = {shown(value)} must be {field.rule}{nearest(value, field.rule)}", place
-        )
-    if numeric and value not in field.words:
-        allowed = " or ".join(f'"{w}"' for w in field.words)
-        raise GenevaError(f"{field.key} must be a number or {allowed}, not {shown(value)}", place)
-    return value
-
-
-def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
-    """Pairs in ascending order within the rule's bounds; a Python user may pass a list of them."""
-    if not isinstance(value, Points):
-        try:
-            value = Points(tuple((float(x), float(y)) for x, y in value))
-        except (TypeError, ValueError):
-            raise GenevaError(
-                f"{field.key}: points must be pairs of numbers {field.rule.x},{field.rule.y}", place
-            ) from None
-    field.rule.check(value.pairs, value.file, place)
-    return value
 
 
 def unknown(key: str, table: str, known: Sequence[str], hint: str = "") -> GenevaError:
@@ -416,15 +403,6 @@ def shown(value: Any) -> str:
         if isinstance(value, kind):
             return word
     return f"{value:.12g}" if isinstance(value, float) else cut(value)
-
-
-def _whole(value: float) -> str:
-    """Hint for a number that is not whole: the adjacent whole numbers, or how to write it."""
-    if not abs(value) < 2.0**53:  # beyond it, a float may be rounded to a whole number
-        return ""
-    if value == math.floor(value):
-        return f": write {value:.0f}"
-    return f", {math.floor(value)} or {math.ceil(value)}"
 
 
 class Example(NamedTuple):

@@ -558,7 +558,7 @@ class Tolerance(SpecTable):
 
 
 class Product(SpecTable):
-    """``[product]``: what the dial, chain or film carries, and how it may slip or swing.
+    """``[product]``: what the dial, chain or film carries, and how it may slip.
 
     >>> Product(radius_mm=300.0).friction is None
     True
@@ -572,8 +572,6 @@ class Product(SpecTable):
     ] = None
     pitch_mm: Annotated[Positive, "pitch of chain, belt or film"] = None
     friction: Annotated[Positive, "friction coefficient between product and its seat"] = None
-    swing_Hz: Annotated[Positive, "natural frequency of a product that hangs or sloshes"] = None
-    swing_damping: Annotated[float, Range(0.0, 1.0, "[)"), "its damping over critical"] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -7,7 +7,7 @@ from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.names import SHORT_UNITS, unit_end, unit_of
+from geneva_cli.names import SHORT_UNITS, unit_of
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -100,81 +100,40 @@ def in_unit_of(key: str, text: str) -> float:
     >>> in_unit_of("torque_Nm", "12 lbf in")
     1.355817948331...
     """
+    from fractions import Fraction  # only where a text has a unit: it takes some milliseconds
+
     own = unit_key(key)
     parts = re.fullmatch(rf"\s*({NUMBER})(.*)", text, re.DOTALL)
     if own is None or not parts or not parts[2].strip() or parts[2][0] == ",":
-        raise GenevaError(f'{key} must be a number, not "{cut(text)}"{_hint(text, own)}')
+        hint = f'; with a unit it is a text such as "10 {own}", with a point' if own else ""
+        raise GenevaError(f'{key} must be a number, not "{cut(text)}"{hint}')
     wanted = _unit(own)
+    others = [name for name in UNITS.get(wanted.powers, {}) if name != own][:5]
+    like = f"{own} or {', '.join(others)}" if others else f"{own}, or units of that kind"
     try:
         unit = _unit(parts[2])
     except GenevaError as error:
-        raise GenevaError(f'{key} = "{cut(text)}": {error}; use {_units_like(own)}') from None
+        raise GenevaError(f'{key} = "{cut(text)}": {error}; use {like}') from None
     if unit.powers != wanted.powers or not re.fullmatch(pattern(), text):
-        raise GenevaError(
-            f'{key} = "{cut(text)}" must be in {_units_like(own)}{_force(parts[2], wanted)}'
-        )
+        force = re.sub(r"\b(lb|oz)\b", r"\1f", parts[2])  # a pound of mass where a force is meant
+        meant = force != parts[2] and _unit(force).powers == wanted.powers
+        hint = f"; as a force write {force.strip()}" if meant else ""
+        raise GenevaError(f'{key} = "{cut(text)}" must be in {like}{hint}')
+    # a decimal number, a fraction, or a whole number and a fraction
+    bare = parts[1].lstrip("+-")
     try:
-        return float(_number(parts[1]) * unit.size / wanted.size)
+        number = sum(map(Fraction, re.split("[ -]", bare) if "/" in bare else [bare]), Fraction(0))
+        return float((-number if parts[1][0] == "-" else number) * unit.size / wanted.size)
     except (OverflowError, ZeroDivisionError):
         raise GenevaError(f'{key} = "{cut(text)}" is too large a number') from None
 
 
-def with_unit(typed: str, value: object, key: str) -> str:
-    """``KEY = "VALUE UNIT"`` for a key that was typed with another unit; nothing for other keys.
-
-    >>> with_unit("torque_Ncm", 60, "torque_Nm"), with_unit("torque_lbin", 60, "torque_Nm")
-    ('torque_Nm = "60 N cm"', 'torque_Nm = "60 lbf in"')
-    """
-    stem = key.removesuffix(unit_end(key)) + "_"
-    if unit_key(key) is None or not typed.startswith(stem) or not isinstance(value, int | float):
-        return ""
-    all_names = {name for names in UNITS.values() for name in names}
-    names = sorted(all_names - {"Nm"}, key=len, reverse=True)  # Nmm is N mm, not Nm m
-    one = rf"(?:{'|'.join(names)})[2-4]?"
-    factors = typed.removeprefix(stem).split("_")  # all but the first divide
-    if not all(re.fullmatch(rf"(?:{one})+", factor) for factor in factors):
-        return ""
-    unit = "/".join(" ".join(re.findall(one, factor)) for factor in factors)
-    as_force = re.sub(r"\b(lb|oz)\b", r"\1f", unit)  # torque_lbin is in lbf in
-    for text in (f"{value:g} {unit}", f"{value:g} {as_force}"):
-        try:
-            in_unit_of(key, text)
-        except GenevaError:
-            continue
-        return f'{key} = "{text}"'
-    return ""
-
-
-def _hint(text: str, own: str | None) -> str:
-    """What is right instead of a text that is no number with a unit."""
-    comma = re.fullmatch(r"\s*([+-]?\d+),(\d+)\b.*", text)
-    if comma:
-        return f": write {comma[1]}.{comma[2]}, with a point"
-    if re.fullmatch(rf"\s*{NUMBER}\s*", text) and "/" not in text:
-        return f": write {text.strip()} without quotation marks"
-    return f'; with a unit it is a text such as "10 {own}"' if own else ""
-
-
-def _units_like(own: str) -> str:
-    """A key's unit and others of the same kind, for a message."""
-    thing = UNITS.get(_unit(own).powers, {})
-    others = [name for name in thing if name != own]
-    return f"{own} or {', '.join(others[:5])}" if others else f"{own}, or units of that kind"
-
-
-def _force(unit: str, wanted: Unit) -> str:
-    """A hint for a pound of mass where a force is meant."""
-    for mass, force in (("lb", "lbf"), ("oz", "ozf")):
-        instead = re.sub(rf"\b{mass}\b", force, unit)
-        if instead != unit and _unit(instead).powers == wanted.powers:
-            return f"; {mass} is a mass, and {force} a force: write {instead.strip()}"
-    return ""
-
-
 def _unit(text: str) -> Unit:
     """A unit, or a product of units; everything behind a slash divides."""
-    from fractions import Fraction  # only where a text has a unit: it takes some milliseconds
+    from fractions import Fraction
 
+    known = {name: (powers, one) for powers, ones in UNITS.items() for name, one in ones.items()}
+    signs = {'"': "in", "”": "in", "″": "in", "'": "ft", "’": "ft", "′": "ft"}  # of drawings
     powers: tuple[int, ...] = (0, 0, 0, 0)
     size = Fraction(1)
     plain = text.translate(str.maketrans("²³()µ", "23  u"))
@@ -182,32 +141,14 @@ def _unit(text: str) -> Unit:
     for sign, part in ((1, above), *((-1, one) for one in below)):
         for word in filter(None, re.split(r"[\s*·]+|-(?=[A-Za-z])", part)):
             match = re.fullmatch(r"([A-Za-z]+)\^?(-?[1-6])?", word)
+            name = match[1] if match else word
             if word == "1" and sign == 1:
                 continue
-            one = _single(match[1] if match else word)
+            if name not in known:
+                hint = f' (did you mean "{signs[name]}"?)' if name in signs else ""
+                raise GenevaError(f"unknown unit {cut(name, 20)}{hint or nearest(name, [*known])}")
             power = sign * int((match and match[2]) or 1)
-            powers = tuple(a + power * b for a, b in zip(powers, one.powers, strict=True))
-            size *= one.size**power
+            own, one_size = known[name]
+            powers = tuple(a + power * b for a, b in zip(powers, own, strict=True))
+            size *= Fraction(one_size) ** power
     return Unit(powers, size)
-
-
-def _single(name: str) -> Unit:
-    """A unit by its name. Raises GenevaError, with the nearest name, for an unknown one."""
-    from fractions import Fraction
-
-    for powers, units in UNITS.items():
-        if name in units:
-            return Unit(powers, Fraction(units[name]))
-    known = [one for units in UNITS.values() for one in units]
-    signs = {'"': "in", "”": "in", "″": "in", "'": "ft", "’": "ft", "′": "ft"}  # of drawings
-    hint = f' (did you mean "{signs[name]}"?)' if name in signs else nearest(name, known)
-    raise GenevaError(f"unknown unit {cut(name, 20)}{hint}")
-
-
-def _number(text: str) -> Fraction:
-    """A decimal number, a fraction, or a whole number and a fraction."""
-    from fractions import Fraction
-
-    words = re.split("[ -]", text.lstrip("+-")) if "/" in text else [text.lstrip("+-")]
-    value = sum(map(Fraction, words), Fraction(0))
-    return -value if text[0] == "-" else value

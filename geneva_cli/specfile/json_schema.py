@@ -8,8 +8,6 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Mapping
-from itertools import chain
 from typing import Any
 
 from geneva_cli.spec.rules import Csv, OneOf, Range, Words
@@ -66,46 +64,34 @@ def _table(keys: tuple[Field, ...]) -> Schema:
 def _cases(of: KindTable) -> Schema:
     """A table with the keys of each kind under the word that names it.
 
-    Without the word the table has the keys of the default kind, or none. Other kinds' keys are
-    treated as by the reader.
+    Without the word the table has the keys of the default kind, or none.
     """
     word = of.word
     keys = {name: (*own, *of.shared) for name, own in of.keys.items()}
-    lone = keys[word.default] if word.default else ()
-    every: dict[str, Field] = {}
-    for key in chain(of.shared, *keys.values()):
-        every.setdefault(key.key, key)
-    is_word = {**_described(word), "type": "string", "enum": list(keys)}
-    named = {"properties": {word.key: {"const": None}}, "required": [word.key]}
-    cases = [{"if": {"not": {"required": [word.key]}}, "then": _case(lone, every)}]
+    every = {key.key: key for own in (of.shared, *keys.values()) for key in reversed(own)}
+
+    def case(own: tuple[Field, ...]) -> Schema:
+        """Values of a kind's own keys; those of other kinds are refused."""
+        values: Schema = dict.fromkeys(every, False) | {key.key: _value(key) for key in own}
+        required = [key.key for key in own if key.default is REQUIRED]
+        return {"properties": values, **({"required": required} if required else {})}
+
+    without = {"not": {"required": [word.key]}}
+    cases = [{"if": without, "then": case(keys[word.default] if word.default else ())}]
     for name, own in keys.items():
-        condition = {**named, "properties": {word.key: {"const": name}}}
-        cases.append({"if": condition, "then": _case(own, every)})
+        named = {"properties": {word.key: {"const": name}}, "required": [word.key]}
+        cases.append({"if": named, "then": case(own)})
+    is_word = {**_described(word), "type": "string", "enum": list(keys)}
     properties = {word.key: is_word, **{name: _described(key) for name, key in every.items()}}
     return {**_closed(properties), "allOf": cases}
-
-
-def _case(own: tuple[Field, ...], every: Mapping[str, Field]) -> Schema:
-    """Values of a kind's own keys; another kind's key may stand there at its default."""
-    values: Schema = {name: _foreign(key) for name, key in every.items()}
-    values |= {key.key: _value(key) for key in own}
-    required = [key.key for key in own if key.default is REQUIRED]
-    return {"properties": values, **({"required": required} if required else {})}
-
-
-def _foreign(key: Field) -> Schema | bool:
-    return False if key.default in (None, REQUIRED) else {"const": _plain(key.default)}
 
 
 def _described(key: Field) -> Schema:
     """Description and default of a key, for the editor."""
     if key.default in (None, REQUIRED):
         return {"description": key.meaning}
-    return {"description": key.meaning, "default": _plain(key.default)}
-
-
-def _plain(value: Any) -> Any:
-    return list(value) if isinstance(value, tuple) else value
+    plain = list(key.default) if isinstance(key.default, tuple) else key.default
+    return {"description": key.meaning, "default": plain}
 
 
 def _value(key: Field) -> Schema:

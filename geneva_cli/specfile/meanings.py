@@ -80,7 +80,7 @@ def related(word: str) -> list[tuple[str, str, str]]:
     The word may be a group, such as ``checks``. Names and headings come before texts.
 
     >>> len(related("laws")), related("loads")[0][:2]
-    (12, ('quantity', 'loads.omega_rad_s'))
+    (11, ('quantity', 'loads.omega_rad_s'))
     """
     plain = word.casefold()
     everything = [*listed(), *(("key", key.name, key.meaning) for key in _keys())]
@@ -132,15 +132,15 @@ def names() -> list[str]:
 
 def as_markdown(known_meanings: list[Meaning]) -> str:
     """Meanings as a Markdown page."""
-    return "\n".join(_page(one) for one in known_meanings)
-
-
-def _page(one: Meaning) -> str:
-    lines = [f"## {one.name} ({one.group})", "", *_wrapped(one.meaning), ""]
-    for name, text in one._asdict().items():
-        if text and name not in ("group", "name", "meaning"):
-            lines += _wrapped(f"- {name.capitalize().replace('_', ' ')}: {text}")
-    return "\n".join([*lines, ""]) if lines[-1] else "\n".join(lines)
+    lines: list[str] = []
+    for one in known_meanings:
+        lines += [f"## {one.name} ({one.group})", "", *_wrapped(one.meaning), ""]
+        start = len(lines)
+        for name, text in one._asdict().items():
+            if text and name not in ("group", "name", "meaning"):
+                lines += _wrapped(f"- {name.capitalize().replace('_', ' ')}: {text}")
+        lines += [""] if len(lines) > start else []
+    return "\n".join(lines)
 
 
 def _wrapped(text: str) -> list[str]:
@@ -159,74 +159,54 @@ def _lookup(word: str) -> list[Meaning]:
     some = entries()
     if word.startswith(CHECKS):
         bare = word.removeprefix(CHECKS)
-        own = [e for e in some if e.group == "check" and bare in e.names]
-        if own:
+        if own := [e for e in some if e.group == "check" and bare in e.names]:
             return [_of_entry(entry, word) for entry in own]
     key = word.removeprefix(INPUTS)
     keys = [_of_key(k) for k in _keys() if key in (k.key, k.name)]
     if word.startswith(INPUTS):
         return keys
-    exact = [e for e in some if word in e.names or f".{word}" in e.names]
-    if exact:
+    if exact := [e for e in some if word in e.names or f".{word}" in e.names]:
         return [_of_entry(entry, word) for entry in exact] + keys
+    # a quantity with an ending such as .rms: the ending's meaning, then the quantity's
     base, dot, end = word.rpartition(".")
     ending = next((e for e in some if dot and f".{end}" in e.names), None)
-    if ending:
-        of = [m for m in _lookup(base) if m.group == "quantity"]
-        if of:
-            return [_ended(ending, one, word) for one in of]
+    if ending and (of := [m for m in _lookup(base) if m.group == "quantity"]):
+        return [
+            one._replace(
+                name=word,
+                meaning=f"{ending.meaning} The quantity: {one.meaning}",
+                unit=ending.unit or unit_of(word) or one.unit,
+                formula="; ".join(t for t in (ending.formula, one.formula) if t) or None,
+            )
+            for one in of
+        ]
     by_end = {e: [name for name in e.names if name.endswith(f".{word}")] for e in some}
     return [_of_entry(entry, named[0]) for entry, named in by_end.items() if named] + keys
 
 
 def _of_entry(entry: Entry, name: str) -> Meaning:
     """Meaning of an entry; for a kind or law, its class's own summary comes first."""
-    texts = (_about(entry, name), entry.meaning)
+    about = ""
+    if entry.group == "law":
+        text = registry.law(name).ABOUT
+        about = f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"
+    kinds = ((registry.GEARINGS, registry.gearing), (registry.DRIVES, registry.drive))
+    for known, cls in kinds if entry.group == "kind" else ():
+        if name in known:
+            about = inspect.cleandoc(cls(name).__doc__ or "").partition("\n")[0]
     return Meaning(
         entry.group,
         name,
-        " ".join(text for text in texts if text),
+        " ".join(text for text in (about, entry.meaning) if text),
         unit=entry.unit or next((u for n in (name, *entry.names) if (u := unit_of(n))), None),
         manual=", ".join(f"geneva help {topic}" for topic in entry.topics),
         **{field: getattr(entry, field) or None for field in TEXTS},
     )
 
 
-def _about(entry: Entry, name: str) -> str:
-    """Summary line of a class of machine or law; empty for other entries."""
-    if entry.group == "law":
-        text = registry.law(name).ABOUT
-        return f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"
-    kinds = ((registry.GEARINGS, registry.gearing), (registry.DRIVES, registry.drive))
-    for known, cls in kinds if entry.group == "kind" else ():
-        if name in known:
-            return inspect.cleandoc(cls(name).__doc__ or "").partition("\n")[0]
-    return ""
-
-
-def _ended(ending: Entry, of: Meaning, word: str) -> Meaning:
-    """Meaning of a quantity with an ending such as ``.rms``: the ending's, then the quantity's."""
-    return of._replace(
-        name=word,
-        meaning=f"{ending.meaning} The quantity: {of.meaning}",
-        unit=ending.unit or unit_of(word) or of.unit,
-        formula="; ".join(text for text in (ending.formula, of.formula) if text) or None,
-    )
-
-
 def _of_key(key: Key) -> Meaning:
     """Meaning of a key of a spec, as in ``geneva keys``."""
-    texts = [
-        key.meaning,
-        key.type,
-        key.range,
-        key.goes_with,
-        "required" if key.required else f"default {key.default}" if key.default else None,
-    ]
-    return Meaning(
-        "key",
-        key.name,
-        f"A key of the spec's [{key.table}]: " + "; ".join(text for text in texts if text) + ".",
-        unit=key.unit,
-        manual="geneva help keys",
-    )
+    default = "required" if key.required else f"default {key.default}" if key.default else None
+    texts = (key.meaning, key.type, key.range, key.goes_with, default)
+    words = f"A key of the spec's [{key.table}]: " + "; ".join(text for text in texts if text) + "."
+    return Meaning("key", key.name, words, unit=key.unit, manual="geneva help keys")

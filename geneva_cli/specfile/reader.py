@@ -5,7 +5,6 @@ The TOML reader itself determines the lines of keys.
 
 from __future__ import annotations
 
-import codecs
 import os
 import re
 import sys
@@ -21,7 +20,6 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.specfile.settings import Setting, applied, setting
 from geneva_cli.specfile.tree import spec_of
-from geneva_cli.table import in_digits
 
 
 def line_of(text: str, path: tuple[str | int, ...]) -> int:
@@ -110,16 +108,6 @@ class Text(NamedTuple):
         with self.located():
             return spec_of(applied(tree, self.set_keys), self.name)
 
-    def with_units(self, spec: Spec) -> list[str]:
-        """Values that were written with a unit, each with the number that was read."""
-        from geneva_cli.spec.units import unit_key
-
-        return [
-            f"{table}.{key} = {_shown(number)}, from {_typed(value)}"
-            for table, key, value in _texts(applied(_parsed(self.text), self.set_keys))
-            if unit_key(key) and (number := spec.table(table).get(key)) is not None
-        ]
-
 
 # A sweep reads one text many times with other settings; nothing changes a parsed tree.
 _parsed = lru_cache(maxsize=8)(tomli.loads)
@@ -134,26 +122,15 @@ def _reason(message: str, line: str) -> str:
     reason = cut(message[:1].lower() + message[1:], 200)
     if message == "Invalid statement" or message.startswith("Expected '=' after a key"):
         return f'{reason}; write [table], or KEY = VALUE as in z = 6, or a comment behind "#"'
-    if message == "Invalid value" and not line.partition("=")[2].strip():
+    value = line.partition("=")[2].partition("#")[0].strip()
+    if not value:
         return "the value is missing; write one behind the sign, as in z = 6"
-    return reason + _hint(line)
-
-
-def _hint(line: str) -> str:
-    """What is right instead of a bare value such as ``12,5``, ``60 rpm`` or ``cycloidal``."""
-    from geneva_cli.spec.units import NUMBER  # which a spec without errors or units needs not
-
-    match = re.fullmatch(r"""\s*[\w.-]+\s*=\s*([^\s#"'\[{][^#"'\[{]*?)\s*(#.*)?""", line)
-    value = match[1] if match else ""
-    if comma := re.fullmatch(r"([+-]?\d+),(\d+)(.*)", value):
-        quote = '"' if comma[3] else ""
-        return f"; write {quote}{comma[1]}.{comma[2]}{comma[3]}{quote}, with a point"
-    inches = re.fullmatch(rf"""\s*[\w.-]+\s*=\s*({NUMBER})\s*["”″]\s*(#.*)?""", line)
-    if inches:
-        return f'; write "{inches[1]} in"'
-    if re.fullmatch(rf"{NUMBER}\s*[A-Za-zµ°].*", value):
-        return f'; write "{cut(value)}" in quotation marks, or the number alone in the key\'s unit'
-    return f'; write "{cut(value)}" in quotation marks' if value[:1].isalpha() else ""
+    if "'" in value or value[0] in '"[{=':
+        return reason
+    if value[-1] in '"”″':  # inches
+        value = f"{value[:-1].rstrip()} in"
+    value = cut(re.sub(r"(\d),(\d)", r"\1.\2", value))
+    return f'{reason}; write "{value}" in quotation marks, or a number with a point, as 12.5'
 
 
 def read(path: str, set_keys: Iterable[str] = ()) -> Text:
@@ -170,16 +147,6 @@ def shown_name(path: str) -> str:
     return "<stdin>" if path == "-" else path if path.strip() else repr(path)
 
 
-def _advice(path: str) -> str:
-    """The command that writes a spec in place of one that is missing."""
-    from geneva_cli.specfile.designs import names
-
-    design = os.path.basename(path).removesuffix(".toml")
-    if design in names():
-        return f"; `geneva new --from-design {design} -o {design}.toml` writes one"
-    return "; `geneva new external -o spec.toml` writes an example"
-
-
 def _read(path: str, name: str) -> str:
     bytes_max = 1 << 20  # a spec is a page; a megabyte of it is a mistake
     try:
@@ -190,7 +157,14 @@ def _read(path: str, name: str) -> str:
                 data = file.read(bytes_max + 1)
     except OSError as error:
         what = "this is a folder, not a file" if os.path.isdir(path) else str(error.strerror)
-        advice = _advice(path) if isinstance(error, FileNotFoundError) else ""
+        advice = ""
+        if isinstance(error, FileNotFoundError):
+            from geneva_cli.specfile.designs import names
+
+            design = os.path.basename(path).removesuffix(".toml")
+            advice = "; `geneva new external -o spec.toml` writes an example"
+            if design in names():
+                advice = f"; `geneva new --from-design {design} -o {design}.toml` writes one"
         raise GenevaError(f"{name}: cannot read: {what}{advice}") from None
     except ValueError as error:  # a NUL in the name
         raise GenevaError(f"{name!r}: cannot read: {error}") from None
@@ -201,33 +175,8 @@ def _read(path: str, name: str) -> str:
         return data.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
-        # Windows PowerShell 5 writes UTF-16 for >
-        is_utf16 = data[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
-        what = "UTF-16 and not UTF-8 text" if is_utf16 else "not UTF-8 text"
-        advice = ", or write it with -o FILE in place of > FILE" if is_utf16 else ""
-        raise GenevaError(f"{name}:{line}: {what}; save the file as UTF-8{advice}") from None
-
-
-def _texts(tree: dict[str, Any], table: str = "") -> Iterator[tuple[str, str, Any]]:
-    """Table, key and value of each value that is a text or has texts in its list."""
-    for key, value in tree.items():
-        name = f"{table}.{key}" if table else key
-        if isinstance(value, dict):
-            yield from _texts(value, name)
-        elif isinstance(value, list) and value and isinstance(value[0], dict):
-            for i, one in enumerate(value):
-                yield from _texts(one, f"{name}.{i}")
-        elif any(isinstance(one, str) for one in (value if isinstance(value, list) else [value])):
-            yield table, key, value
-
-
-def _shown(number: Any) -> str:
-    if isinstance(number, tuple):
-        return f"[{', '.join(map(_shown, number))}]"
-    return in_digits(number, 7)
-
-
-def _typed(value: Any) -> str:
-    if isinstance(value, list):
-        return f"[{', '.join(map(_typed, value))}]"
-    return f'"{value}"' if isinstance(value, str) else str(value)
+        # as PowerShell 5 writes UTF-16 for >
+        raise GenevaError(
+            f"{name}:{line}: not UTF-8 text; save the file as UTF-8, or write it with -o FILE in "
+            "place of > FILE"
+        ) from None

@@ -14,7 +14,6 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.names import unit_end
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import (
-    REQUIRED,
     Field,
     Points,
     SpecTable,
@@ -25,7 +24,7 @@ from geneva_cli.spec.schema import (
     unknown,
 )
 from geneva_cli.spec.tables import LISTS, PLAIN
-from geneva_cli.specfile.writer import DRIVES, LAWS, WHEELS, KindTable, drives_before, kind_tables
+from geneva_cli.specfile.writer import DRIVES, LAWS, WHEELS, KindTable, kind_tables
 
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
 
@@ -62,7 +61,14 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         raise GenevaError(f"title must be text, not {shown(title)}", ("title",))
     for table, value in tree.items():
         if table not in TABLES:
-            raise _unknown_table(table, value)
+            named = f"table [{cut(table)}]" if isinstance(value, dict) else f"key {cut(table)}"
+            where = "" if isinstance(value, dict) else _tables(_meanings(table))
+            if where:
+                text = f"{table} belongs to {where}; write it below that line"
+                raise GenevaError(text, (table,))
+            known = few(table, [f"[{t}]" for t in TABLES])
+            hint = nearest(table, (*TABLES, "title"))
+            raise GenevaError(f"unknown {named}{hint}; known: title, {known}", (table,))
         if table in LISTS:
             if not (isinstance(value, list) and all(isinstance(one, dict) for one in value)):
                 several = f"a list of tables: write [[{table}]] above the keys of each"
@@ -91,15 +97,6 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
     )
 
 
-def _unknown_table(table: str, value: object) -> GenevaError:
-    kind, named = ("table", f"[{cut(table)}]") if isinstance(value, dict) else ("key", cut(table))
-    if kind == "key" and (tables := _tables(_meanings(table))):
-        return GenevaError(f"{table} belongs to {tables}; write it below that line", (table,))
-    known = few(table, [f"[{t}]" for t in TABLES])
-    hint = nearest(table, (*TABLES, "title"))
-    return GenevaError(f"unknown {kind} {named}{hint}; known: title, {known}", (table,))
-
-
 def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
     """The tables that do not depend on the kind of machine, by field of ``Spec``."""
     out: dict[str, Any] = {}
@@ -109,7 +106,13 @@ def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
         if values is None:
             continue
         if part:
-            _refuse_part(table, values)
+            known = [n.partition(".")[2] for n in PLAIN if n.startswith(f"{table}.")]
+            for own, value in values.items():
+                if own not in known:
+                    raise unknown(own, table, known)
+                if not isinstance(value, dict):
+                    text = f"{own} must be a table: write [{table}.{own}] above its keys"
+                    raise GenevaError(text, (table, own))
             values = values.get(part, {})
         if name not in LISTS:
             out[attribute(name)] = cls(**_values(cls, values, files))
@@ -125,18 +128,6 @@ def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
     return out
 
 
-def _refuse_part(table: str, values: dict[str, Any]) -> None:
-    """Raise GenevaError for unknown tables, or values, in a table of tables such as [material]."""
-    known = [n.partition(".")[2] for n in PLAIN if n.startswith(f"{table}.")]
-    for part, value in values.items():
-        if part not in known:
-            raise unknown(part, table, known)
-        if not isinstance(value, dict):
-            raise GenevaError(
-                f"{part} must be a table: write [{table}.{part}] above its keys", (table, part)
-            )
-
-
 def _kind(values: dict[str, Any], kinds: KindTable, files: _Files) -> Any:
     """The object of a table whose keys depend on a word in it, such as ``kind``."""
     values = dict(values)
@@ -148,22 +139,11 @@ def _kind(values: dict[str, Any], kinds: KindTable, files: _Files) -> Any:
 
 def _before(values: Any, files: _Files) -> Any:
     """The drive before another one; an error names its table."""
-    place, kinds = tuple(BEFORE.split(".")), drives_before()
+    place = tuple(BEFORE.split("."))
     if not isinstance(values, dict):
         raise GenevaError(f"before must be a table: write [{BEFORE}] above its keys", place)
     if "kind" not in values:
         raise GenevaError(f"[{BEFORE}] needs kind: the drive that turns the shaft", place)
-    shared = {field.key for field in kinds.without} & set(values)
-    if shared:
-        raise GenevaError(
-            f"{min(shared)} belongs to the machine: set it in [drive]", (*place, min(shared))
-        )
-    if values["kind"] in [*kinds.names]:  # a list, as the value may be anything
-        own = ("kind", *(f.key for f in kinds.keys_of(kinds.find(values["kind"]))))
-        for key in [k for k in values if k not in own]:
-            # a key of another kind is refused below, with its kind
-            if not any(field.key == key for keys in DRIVES.keys.values() for field in keys):
-                raise unknown(key, BEFORE, own)
     try:
         return _kind(values, DRIVES, files)
     except GenevaError as error:
@@ -176,14 +156,13 @@ def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
     name = values.pop("law", None)
     if name is None:
         known = {f.key: f for keys in (*LAWS.keys.values(), LAWS.shared) for f in keys}
-        for key, value in values.items():
+        for key in values:
             if key not in known:
-                raise _unknown(key, value, "motion", known)
-            if value != known[key].default:
-                raise GenevaError(
-                    f'{key} needs a law, such as law = "cycloidal": straight slots fix the motion',
-                    ("motion", key),
-                )
+                raise _unknown(key, "motion", known)
+            raise GenevaError(
+                f'{key} needs a law, such as law = "cycloidal": straight slots fix the motion',
+                ("motion", key),
+            )
         return None
     cls, of = registry.law(name), f'law = "{name}"'
     own = {field.key for field in fields(cls)}
@@ -193,7 +172,7 @@ def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
     return Motion(law, **_values(Motion, values, files, also=fields(cls)))
 
 
-def _unknown(key: str, value: object, table: str, known: Mapping[str, Field]) -> GenevaError:
+def _unknown(key: str, table: str, known: Mapping[str, Field]) -> GenevaError:
     """Error for a key that a table does not have; it names the tables that have it.
 
     A single table is named with the key's meaning in it: a size in [tolerance] is a deviation.
@@ -213,7 +192,7 @@ def _unknown(key: str, value: object, table: str, known: Mapping[str, Field]) ->
     meant = kinds[0] if kinds else f'"{other}"' if other in known else ""
     hint = f" (did you mean {meant}?)" if meant else twin
     known = {**{of.word.key: of.word for of in of_table}, **known}
-    return unknown(key, table, tuple(known), hint or _hint(key, value, known.values()))
+    return unknown(key, table, tuple(known), hint or _hint(key, known.values()))
 
 
 def _meanings(key: str) -> dict[str, str]:
@@ -229,54 +208,38 @@ def _tables(names: Collection[str]) -> str:
     return " or ".join(tables) if len(tables) <= 3 else ""
 
 
-def _hint(typed: str, value: object, known: Iterable[Field]) -> str:
-    """The known key that an unknown one means by its unit or by a word of the meanings, or nothing.
+def _hint(typed: str, known: Iterable[Field]) -> str:
+    """The known key that an unknown one means by a word of the meanings, or nothing.
 
     Nothing too where a known key is spelt like it: that one is named without this hint.
     """
-    from geneva_cli.spec.units import with_unit  # only for messages
-
-    for field in known:
-        if right := with_unit(typed, value, field.key):
-            return f" (another unit goes with the value: {right})"
     end = unit_end(typed)
     word = typed.removesuffix(end)
-    by_meaning = [
-        field
-        for field in known
-        if end in ("", unit_end(field.key)) and word in re.findall(r"[\w-]+", field.meaning)
-    ]
-    if nearest(typed, [field.key for field in known]) or not by_meaning:
-        return ""
-    first = by_meaning[0]
-    return f' (did you mean "{first.key}", {first.meaning.partition(";")[0]}?)'
+    keys = [field.key for field in known]
+    for field in known if not nearest(typed, keys) else ():
+        if end in ("", unit_end(field.key)) and word in re.findall(r"[\w-]+", field.meaning):
+            return f' (did you mean "{field.key}", {field.meaning.partition(";")[0]}?)'
+    return ""
 
 
 def _refuse_foreign(
     values: dict[str, Any], own: Sequence[Field], kinds: KindTable, of: str
 ) -> None:
-    """Remove other kinds' keys that are at their defaults; raise GenevaError for the others.
-
-    Capitals make no difference to whose key it is.
-    """
-    known = {field.key for field in own}
-    for key in [key for key in values if key not in known]:
-        theirs = [(name, field) for name, keys in kinds.keys.items() for field in keys]
-        exact = next((pair for pair in theirs if pair[1].key == key), None)
-        near = next((p for p in theirs if p[1].key.casefold() == key.casefold()), None)
-        fault = ""
-        if exact:
-            name, field = exact
-            if field.default is REQUIRED or values[key] != field.default:
-                fault = key
-            else:
-                del values[key]
-        elif near and key.casefold() not in {one.casefold() for one in known}:
-            name, field = near
-            hint = nearest(key, [field.key])
-            fault = f"unknown key {cut(key)} in [{kinds.table}]{hint}; {field.key}"
-        if fault:
-            other = f'{kinds.word.key} = "{name}"'
+    """Raise GenevaError for a key of another kind; capitals make no difference to whose it is."""
+    known = {field.key.casefold(): field.key for field in own}
+    theirs: dict[str, str] = {}  # the first kind that has a key
+    for name, keys in kinds.keys.items():
+        for field in keys:
+            theirs.setdefault(field.key, name)
+    by_small = {key.casefold(): key for key in theirs}
+    for key in values:
+        meant = by_small.get(key.casefold())
+        if key.casefold() not in known and meant:
+            fault = key
+            if key not in theirs:
+                hint = nearest(key, [meant])
+                fault = f"unknown key {cut(key)} in [{kinds.table}]{hint}; {meant}"
+            other = f'{kinds.word.key} = "{theirs[key if key in theirs else meant]}"'
             raise GenevaError(f"{fault} belongs to {other}, but this is {of}", (kinds.table, key))
 
 
@@ -296,7 +259,7 @@ def _values(
     for key, value in values.items():
         if key not in known:
             known |= {field.key: field for field in also}
-            raise _unknown(key, value, cls.TABLE, known)
+            raise _unknown(key, cls.TABLE, known)
         field = known[key]
         rule = field.rule
         named = isinstance(rule, Csv)

@@ -20,8 +20,6 @@ from geneva_cli.study.rows import Cell, Column, Rows, cells_of
 from geneva_cli.verdict.quantities.batch_designs import Designs
 from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch
 
-OF_LOADS = ("loads", "sizing", "strength", "life")  # tables of quantities that follow from loads
-
 Batch: TypeAlias = tuple[Whole, Mechanism]  # the numbers of some designs, and their machine
 
 
@@ -193,6 +191,4 @@ def known_columns(machine: Mechanism, names: Sequence[str]) -> dict[str, Number]
         if own in own_columns:
             value = own_columns[own]
             out[name] = np.inf if value is None else value
-            if group.table in OF_LOADS and designs.too_fast.any():
-                out[name] = np.where(designs.too_fast, np.nan, np.ravel(out[name]))
     return out

@@ -115,8 +115,6 @@ def document(design: Design) -> Document:
     caption = "Keys that are set; the appendix has those at their defaults"
     blocks = [*_begin(design, key_figures(design)), *_warnings(design), Heading("Inputs")]
     blocks.append(Grid(caption, ("Key", "Value", "Unit", "Meaning"), tuple(rows)))
-    if design.with_units:
-        blocks += (Prose("Written with a unit:"), TextList(tuple(design.with_units)))
     loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
     figure = design.figure(("velocity", "acceleration", "jerk", *loads))
     figure = figure._replace(title="By the input's angle, from the first entry")

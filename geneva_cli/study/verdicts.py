@@ -19,7 +19,6 @@ from geneva_cli.verdict.headline import (
     chosen_lines,
     failure_lines,
     headline,
-    input_lines,
     proof_lines,
     tightest,
     unused_lines,
@@ -35,7 +34,6 @@ class Verdict(NamedTuple):
     checks: tuple[Check, ...] = ()
     warnings: tuple[Notice, ...] = ()
     unused: tuple[str, ...] = ()  # names of accepted warnings that do not occur
-    with_units: tuple[str, ...] = ()  # inputs that have a unit in the file
     error: str = ""
     chosen: ByLoad = ByLoad({}, {})
 
@@ -62,7 +60,6 @@ def verdict(
             checks=tuple(checks),
             warnings=tuple(design.check_warnings),
             unused=tuple(design.unused_acceptances),
-            with_units=tuple(design.with_units),
             chosen=design.chosen_by_load,
         )
     except GenevaError as error:
@@ -147,8 +144,8 @@ def _head(verdict: Verdict) -> Summary:
 
 def _lines(verdict: Verdict) -> tuple[SummaryLine, ...]:
     checks = verdict.checks
-    inputs, warnings = input_lines(verdict.with_units), warning_lines(checks, verdict.warnings)
-    return (*failure_lines(checks), *inputs, *warnings, *unused_lines(verdict.unused))
+    warnings = warning_lines(checks, verdict.warnings)
+    return (*failure_lines(checks), *warnings, *unused_lines(verdict.unused))
 
 
 def _count(judged: Sequence[Verdict], unread: int) -> Summary:

@@ -37,8 +37,9 @@ LARGER = "center_distance_mm*20"
 # becomes of its present value: key*2 is up to the double, key:5 towards 5, key+180 up to 180 more,
 # key=a,b one of these (an empty one leaves out the key), key? towards the default or anywhere.
 # Words in capitals stand for their own lines. The centre distance is changed for its own limits
-# only, where the spec gives it. The speed is a requirement: it is changed where a limit forbids it,
-# and for a part's strength only where no size of it helps.
+# only, where the spec gives it. Sizes that the spec sets are tried behind the words. The speed is a
+# requirement: it is changed where a limit forbids it, and for a part's strength only where no size
+# of it helps.
 _TABLE = f"""
 LARGER: {LARGER}
 SLOWER: drive.n_rpm*0.001
@@ -51,7 +52,6 @@ BEFORE: drive.before.A:0.99 drive.before.A:-0.99 drive.before.eccentricity:0.99
 MILDER: drive.A:0.99 drive.A:-0.99 drive.eccentricity:0.99 drive.eccentricity:0 BEFORE
   drive.before.eccentricity:0 LONGER wheel.z:24
 BLUNTER: lock_edge_mm*10 WIDER LARGER
-THICK: wheel_thickness_mm? face_width_mm? lock_thickness_mm? arm_thickness_mm?
 velocity_max acceleration_max acceleration_entry_max jerk_max: MILDER
 entry_velocity_max: crank_radius_mm= wheel_radius_mm?
 turns strike_velocity: crank_radius_mm=
@@ -94,28 +94,21 @@ driver_gear_convexity driven_gear_convexity: drive.eccentricity:0 drive.A:0 whee
 dwell_hold: lock_radius_mm= wheel.held_by=detent
 tolerance_slot_mm: slot_clearance_mm+1
 tolerance_lock_mm: lock_clearance_mm+1
+beside_shafts_mm arm_wall_mm arm_to_hub_mm link_wall_mm dial_wall_mm outer_wall_mm:
+cut_plate_mm cut_slot_mm: wheel_thickness_mm? face_width_mm? lock_thickness_mm? arm_thickness_mm?
 wall_between_slots_mm: SMALLER TIGHTER
 horn_mm: lock_radius_mm? SMALLER lock_clearance_mm:0 TIGHTER
 wheels_apart_mm: SMALLER LARGER drive.wheels:1
 rollers_apart_mm: SMALLER drive.sector_deg+30
 crank_shaft_mm crank_hub_mm crank_bore_wall_mm: crank_hub_mm? crank_bore_mm*0.2 crank_bore_mm=0
 wheel_shaft_mm wheel_bore_wall_mm: wheel_hub_mm? wheel_bore_mm*0.2 wheel_bore_mm=0
-beside_shafts_mm: wheel_hub_mm*0.5 crank_hub_mm*0.5 wheel_bore_mm*0.5 arm_eye_mm*0.5
-  crank_bore_mm=0
 gear_gap_mm: drive.gear_distance_mm*0.3 drive.eccentricity*0.3 drive.A*0.3
   drive.before.gear_distance_mm*0.3 drive.before.eccentricity*0.3 drive.before.A*0.3
   wheel_hub_mm=0 arm_bore_mm*0.3
-arm_wall_mm: arm_hub_mm? arm_eye_mm? arm_bore_mm*0.3 lock_bolt_mm*0.2 lock_bolt_circle_mm?
-arm_to_hub_mm: arm_eye_mm*0.2
-link_wall_mm: link_bore_mm? link_pin_mm? link_width_mm?
 link_gap_mm: link_width_mm? link_pin_mm? crank_shaft_low_mm= drive.before.input_crank_mm*0.2
   wheel_hub_mm*0.5 wheel_hub_mm=0
-dial_wall_mm: dial_bolt_circle_mm? dial_bolt_mm? wheel_bore_mm*0.3
-outer_wall_mm: wheel_outer_radius_mm?
-cut_plate_mm: THICK
-cut_slot_mm: roller_radius_mm? THICK
 branches_apart_mm branches_crossed_mm: roller_radius_mm*3 LONGER
-OTHERS: drive.gear_ratio=shockless lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4
+OTHERS: lock_clearance_mm:0 TIGHTER roller_radius_mm*0.4
   wheel.offset_mm:0
 """
 Value: TypeAlias = float | int | str | None  # None: the key is left out

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 
 from geneva_cli.errors import Notice
-from geneva_cli.loads import highest_speed
 from geneva_cli.loads.carried import weight_kg
 from geneva_cli.loads.contact import contact
 from geneva_cli.loads.cycle import Cycle, cycle_of
@@ -19,7 +18,6 @@ from geneva_cli.motion.peak_search import braking
 from geneva_cli.motion.peaks import worst
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.spec.load_limits import limits_by_key, load_limits
 
 
 def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
@@ -29,7 +27,7 @@ def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
 
 
 def _unbounded(cycle: Cycle) -> Iterator[Notice]:
-    """Warnings about loads that nothing bounds, or that no speed keeps within their limits."""
+    """Warnings about loads that nothing bounds."""
     mechanism, case, force = cycle.mechanism, cycle.case, cycle.extremes[FORCE]
     ends = (force.max_at_deg, force.max), (force.min_at_deg, force.min)
     endless = [at for at, value in ends if math.isinf(value)]
@@ -50,21 +48,6 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
             f"the contact stress has no bound at {stress.max_at_deg:.4g}°: the roller bears on an "
             "edge there, where the undercut of the wall begins. A smaller roller bears on less of "
             'it; straight slots have none (kind = "cam" drives any law)',
-        )
-    bounds, limits = load_limits(mechanism.spec.limits), limits_by_key(mechanism.spec.limits)
-    keeps = bounds.keys() <= cycle.extremes.keys() and all(
-        max(cycle.extremes[name].max, -cycle.extremes[name].min) <= limit
-        for name, limit in bounds.items()
-    )
-    # the search for a speed is needed only if the present one breaks a limit
-    if not keeps and highest_speed.fastest_rpm(mechanism) is None:
-        broken = " and ".join(f"{key} = {limit:g}" for key, limit in limits.items())
-        turns = mechanism.output.turns
-        resisting, key = ("torque", "torque_Nm") if turns else ("force", "force_N")
-        yield Notice(
-            "no-speed",
-            f"no speed keeps {broken}, so there is no shortest motion: the resisting {resisting} "
-            f"alone exceeds it, or nothing bounds the load. Use a larger machine or less {key}",
         )
 
 
@@ -98,11 +81,12 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
             "the input. There the play of slot and reducer changes sides, and a self-locking worm "
             f"jams: use a brake or a motor that brakes, {helps}",
         )
-    if stop and stop.lag:
-        lag, at_deg, struck = stop.lag
+    torque_Nm, _, lagging = stop or (0.0, 0.0, None)
+    if lagging:
+        lag, at_deg, struck = lagging
         yield Notice(
             "lags-behind",
-            f"a torque of {stop.torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
+            f"a torque of {torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
             f"Once the gears let go the wheel lags, by up to {lag:.4g}° at {at_deg:.4g}°, "
             f"and the roller strikes it at {struck:.4g}°. Less torque, more inertia or more "
             "speed reduces the lag",

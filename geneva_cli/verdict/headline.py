@@ -17,7 +17,33 @@ if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.checks.check import Check
 
-NO_WALL = {  # the meaning of a negative wall
+# The meaning of a failing check, by its name; without one its value says enough.
+_PLAY = (
+    "between lock and slot the {moves} by {value:.4g}{unit}{where}, more than the "
+    "{limit:.4g}{unit} at which the roller still finds its slot"
+)
+_MOTION_PLAY = (
+    "in its slot the {moves} by {value:.4g}{unit} either way{where}, more than {limit:.4g}{unit}"
+)
+MEANINGS = {
+    "dwell_hold": "nothing holds the wheel in its dwell",
+    "turns": "{value:.0f} of {limit:.0f} slots pass{where}",
+    "gap_mm": "{parts} overlap by {short:.4g} mm{where}",
+    "idle_roller_mm": "an idle roller overlaps the wheel by {short:.4g} mm{where}",
+    "hand_over_play_deg": _PLAY,
+    "hand_over_play_mm": _PLAY,
+    "hand_over_pressure_deg": (
+        "the roller meets the wheel{where} at a pressure angle of {value:.4g}°, above {limit:g}°"
+    ),
+    "hand_over_offset_mm": (
+        "the mouth does not reach the roller, which first touches the wheel{where}, {value:.4g} mm "
+        "farther off the slot's middle than the clearance"
+    ),
+    "driven_fraction": "not positively driven during {idle:.3g} % of the motion",
+    "motion_play_deg": _MOTION_PLAY,
+    "motion_play_mm": _MOTION_PLAY,
+}
+NO_WALL = {  # of a negative wall
     "wall_between_slots_mm": "neighbouring slots cut each other",
     "horn_mm": "the recess breaks into the slot",
     "wheel_bore_wall_mm": "the wheel's bore breaks into the slots",
@@ -25,10 +51,8 @@ NO_WALL = {  # the meaning of a negative wall
     "rollers_apart_mm": "the rollers overlap each other",
     "outer_wall_mm": "the slots break through the wheel's outside",
 }
-SAID = {
-    "dwell_hold": "nothing holds the wheel in its dwell",
-    "turns": "{value:.0f} of {limit:.0f} slots pass{where}",
-}
+# yes or no, and what a machine that turns always keeps
+WITHOUT_MARGIN = ("dwell_hold", "parts", "full_turn", "turns", "turning_slack_mm")
 
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
@@ -94,8 +118,25 @@ def anew_lines(by_load: ByLoad) -> Iterator[SummaryLine]:
 
 
 def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
-    """A line for each check that fails."""
-    return [_failure(check) for check in checks if check.passes is False]
+    """A line for each check that fails: its value, its limit, and the change."""
+    lines = []
+    for check in checks:
+        if check.passes is not False:
+            continue
+        label, unit = spoken(check.name)
+        explained = f"geneva explain {check.name}"
+        if check.value is None or check.limit is None:
+            lines.append(SummaryLine(label, check.why, explained, FAILS))
+            continue
+        how = "with" if "=" in check.nearest else "by"  # a value, or leaving out a key
+        advice = f"passes {how} {check.nearest}" if check.nearest else ""
+        advice += f" (sizes chosen anew: {check.anew})" if check.anew else ""
+        refused = check.nearest and check.name in ("parts", "full_turn")  # the reason is the text
+        change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
+        note = f"{change} ({explained})" if change else explained
+        text = check.why if refused else meaning(check) or compared_text(check, unit)
+        lines.append(SummaryLine(label, text, note, FAILS))
+    return lines
 
 
 def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[SummaryLine]:
@@ -121,27 +162,6 @@ def unused_lines(names: Iterable[str]) -> list[SummaryLine]:
     return [SummaryLine("note", f"{name}: {text}") for name in names]
 
 
-def input_lines(with_units: Iterable[str]) -> list[SummaryLine]:
-    """A line for each input that has a unit in the spec's file, with the number that was read."""
-    return [SummaryLine("read", text) for text in with_units]
-
-
-def _failure(check: Check) -> SummaryLine:
-    """The line of a failing check: its value, its limit, and the change."""
-    label, unit = spoken(check.name)
-    explained = f"geneva explain {check.name}"
-    if check.value is None or check.limit is None:
-        return SummaryLine(label, check.why, explained, FAILS)
-    how = "with" if "=" in check.nearest else "by"  # a value, or leaving out a key
-    advice = f"passes {how} {check.nearest}" if check.nearest else ""
-    advice += f" (sizes chosen anew: {check.anew})" if check.anew else ""
-    refused = check.nearest and check.name in ("parts", "full_turn")  # the reason is the text
-    change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
-    note = f"{change} ({explained})" if change else explained
-    text = check.why if refused else meaning(check) or compared_text(check, unit)
-    return SummaryLine(label, text, note, FAILS)
-
-
 def compared_text(check: Check, unit: str) -> str:
     """The value of a check, its place, and its limit."""
     assert check.value is not None
@@ -161,26 +181,17 @@ def proof_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
 
 def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     """The line of the passing check with the least relative margin, or none."""
-    used = [
-        (fraction, check) for check in checks if (fraction := _limit_fraction(check)) is not None
-    ]
-    if used:
-        _, check = max(used, key=lambda pair: pair[0])
-        label, unit = spoken(check.name)
-        yield SummaryLine("tightest", f"{label} {compared_text(check, unit)}")
-
-
-# yes or no, and what a machine that turns always keeps
-WITHOUT_MARGIN = ("dwell_hold", "parts", "full_turn", "turns", "turning_slack_mm")
-
-
-def _limit_fraction(check: Check) -> float | None:
-    """Fraction of its limit that a check uses, 1 at the limit; None if it has no such fraction."""
-    value, limit = check.value, check.limit
-    has_margin = not check.is_proof and check.name not in WITHOUT_MARGIN
-    if not (check.passes and value and limit and has_margin):
-        return None
-    return value / limit if check.must_be == "at most" else limit / value
+    most, tight = 0.0, None
+    for check in checks:
+        value, limit = check.value, check.limit
+        has_margin = not check.is_proof and check.name not in WITHOUT_MARGIN
+        if check.passes and value and limit and has_margin:
+            used = value / limit if check.must_be == "at most" else limit / value
+            if tight is None or used > most:
+                most, tight = used, check
+    if tight:
+        label, unit = spoken(tight.name)
+        yield SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")
 
 
 def measured(value: float, unit: str = "", digits: int = 4) -> str:
@@ -242,36 +253,10 @@ def in_words(c: Check, parts: str = "") -> str:
 
 def meaning(c: Check, parts: str = "") -> str:
     """The meaning of a failing check; empty if its value is enough."""
-    where, value, limit = c.where, c.value or 0.0, c.limit or 0.0
-    if c.name == "gap_mm":
-        return f"{parts or 'parts'} overlap by {-value:.4g} mm{where}"
-    if c.name == "idle_roller_mm":
-        return f"an idle roller overlaps the wheel by {-value:.4g} mm{where}"
+    value, limit = c.value or 0.0, c.limit or 0.0
     if c.name in NO_WALL and value < 0.0:
         return f"{NO_WALL[c.name]} by {-value:.4g} mm"
-    if c.name in SAID:
-        return SAID[c.name].format(value=value, limit=limit, where=where)
     moves, unit = ("rack can move", " mm") if c.name.endswith("_mm") else ("wheel can turn", "°")
-    if c.name in ("hand_over_play_deg", "hand_over_play_mm"):
-        return (
-            f"between lock and slot the {moves} by {value:.4g}{unit}{where}, more than the "
-            f"{limit:.4g}{unit} at which the roller still finds its slot"
-        )
-    if c.name == "hand_over_pressure_deg":
-        return (
-            f"the roller meets the wheel{where} at a pressure angle of {value:.4g}°, above "
-            f"{limit:g}°"
-        )
-    if c.name == "driven_fraction":
-        return f"not positively driven during {100.0 * (1.0 - value):.3g} % of the motion"
-    if c.name == "hand_over_offset_mm":
-        return (
-            f"the mouth does not reach the roller, which first touches the wheel{where}, "
-            f"{value:.4g} mm farther off the slot's middle than the clearance"
-        )
-    if c.name in ("motion_play_deg", "motion_play_mm"):
-        return (
-            f"in its slot the {moves} by {value:.4g}{unit} either way{where}, more than "
-            f"{limit:.4g}{unit}"
-        )
-    return ""
+    named = {"value": value, "limit": limit, "short": -value, "idle": 100.0 * (1.0 - value)}
+    words = {"where": c.where, "moves": moves, "unit": unit, "parts": parts or "parts"}
+    return MEANINGS.get(c.name, "").format(**named, **words)

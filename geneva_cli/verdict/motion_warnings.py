@@ -25,7 +25,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     return [
         *_of_sizes(mechanism),
         *_fits(mechanism),
-        *_of_gears_and_points(mechanism),
+        *_of_rounded_points(mechanism),
         *(_of_law(mechanism, mechanism.law) if mechanism.law else ()),
     ]
 
@@ -125,33 +125,20 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
             )
 
 
-def _of_gears_and_points(mechanism: Mechanism) -> Iterator[Notice]:
-    """Warnings about points of a file that round the jerk, and a roller that overtakes."""
-    spec, engagement, law = mechanism.spec, mechanism.engagements[0], mechanism.law
-    # the place where the jerk of a ratio has the greatest effect
-    top = peak(engagement.motion, "velocity")
-    move = decimals = 0.0
-    if ratio := (spec.drive_before or spec.drive).doubt(engagement.mid_deg + top.at_deg):
-        decimals, move = ratio.decimals, ratio.move * top.max
-    elif points := law.doubt() if law else None:
-        engagement = engagement.own  # the law holds by the angle of its shaft
-        whole = (engagement.motion_deg * DEGREE) ** 3
-        decimals, move = points.decimals, points.move * 2.0 * engagement.half_step / whole
-    fraction = move / peak(engagement.motion, "jerk").max if move else 0.0
-    if not fraction < 0.01:  # less is not worth a warning
-        yield Notice(
-            "rounded-points",
-            f"the points have {decimals} decimals, so the jerk is known only to about "
-            f"{float(f'{100.0 * fraction:.2g}'):g} %: use more decimals, or fewer points",
-        )
-    lead = mechanism.engagements[0].overtaking / DEGREE
-    if lead > 1e-6:  # degrees: less is rounding
-        yield Notice(
-            "roller-overtakes",
-            f"the roller overtakes the wheel by {lead:.4g}° while the gears drive. Near the "
-            "line of centres its slot would turn the wheel faster than the gears do. It presses "
-            'into the wall that it drove: gear_ratio = "shockless" keeps it behind',
-        )
+def _of_rounded_points(mechanism: Mechanism) -> Iterator[Notice]:
+    """A warning about points of a file that round the jerk."""
+    law = mechanism.law
+    doubt = law.doubt() if law else None
+    if doubt is not None:
+        own = mechanism.engagements[0].own  # the law holds by the angle of its shaft
+        move = doubt[1] * 2.0 * own.half_step / (own.motion_deg * DEGREE) ** 3
+        fraction = move / peak(own.motion, "jerk").max
+        if not fraction < 0.01:  # less is not worth a warning
+            yield Notice(
+                "rounded-points",
+                f"the points have {doubt[0]} decimals, so the jerk is known only to about "
+                f"{float(f'{100.0 * fraction:.2g}'):g} %: use more decimals, or fewer points",
+            )
 
 
 def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:

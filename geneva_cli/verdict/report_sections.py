@@ -6,7 +6,6 @@ import math
 from contextlib import suppress
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads import highest_speed
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.load_tables import reversals_deg
 from geneva_cli.motion.mechanism import Mechanism
@@ -53,26 +52,6 @@ def inputs(parts: Parts) -> Values:
     return values
 
 
-def shortest_motion(parts: Parts) -> Values:
-    """The time of the fastest motion, if it is equal in all engagements."""
-    each = [engagement.motion_deg for engagement in parts.mechanism.engagements]
-    # Rounding makes a motion differ between engagements by up to 1e-12 of it.
-    if not math.isclose(min(each), max(each), rel_tol=1e-12):
-        return {}
-    return {"shortest_motion_s": _shortest_s(parts.mechanism, each[0])}
-
-
-def _shortest_s(mechanism: Mechanism, motion_deg: float) -> float | None:
-    """The time of a motion at the highest speed that the limits on loads allow.
-
-    Krasniqi's (15) and (16). Without limits it is that at n; None if no speed keeps them.
-    """
-    fastest = highest_speed.fastest_rpm(mechanism)
-    if fastest is not None and math.isinf(fastest):
-        fastest = mechanism.spec.drive.n_rpm
-    return motion_deg / (6.0 * fastest) if fastest else None
-
-
 def stations(parts: Parts) -> Values:
     """A row for each engagement, if they differ: its timing and peaks."""
     mechanism, each = parts.mechanism, list[Numbers]()
@@ -82,7 +61,6 @@ def stations(parts: Parts) -> Values:
     for timing, engagement in zip(timings(mechanism), mechanism.engagements, strict=True):
         motion = timing.motion_deg
         values: Numbers = timing._asdict()
-        values["shortest_motion_s"] = _shortest_s(mechanism, motion)
         values["k_r"] = motion / (360.0 - motion) if motion < 360.0 else None
         row = {f"timing.{name}": value for name, value in values.items()}
         peaks = placed_peaks(mechanism, engagement)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -99,75 +99,64 @@ class Strength:
 
         None for a known value, or for one that the machine lacks, such as a horn's without a lock.
         """
-        load = self.spec.load_keys
-        for step in self._needs(name):
-            if words := [words for is_met, words in step if not is_met]:
-                # without a load nothing else helps
-                return load if load in words else " and ".join(words) or None
-        return None
-
-    def _needs(self, name: str) -> Iterator[list[tuple[bool, str]]]:
-        """Steps of needs: whether each is met, and its keys in words.
-
-        Those of a step are given together, if the earlier ones are met. The machine lacks a part
-        without words.
-        """
         spec, load = self.spec, self.load
-        loaded = spec.is_loaded, spec.load_keys
-        face = spec.size.face_width_mm is not None, _WIDTH
         part = name.removesuffix("_stress_MPa").removesuffix("_pressure_MPa")
+        locked = name.startswith("lock_")
+        if not (spec.is_loaded or locked):
+            return spec.load_keys  # nothing else helps
+        bounded = locked or math.isfinite(load.force_N[0])
+        face = spec.size.face_width_mm is not None, _WIDTH
+        needs = [(bounded, BOUND)]
         if name == "friction_work_J":
-            yield [(bool(spec.load.friction), "friction in [load]"), loaded]
+            needs = [(bool(spec.load.friction), "friction in [load]")]
         elif name == "pv_max_W_m2":
-            yield [face, loaded]
-            pv = self._column("life.pv_max_W_m2")
-            bounded = pv is not None and bool(np.all(np.isfinite(pv)))
-            yield [(bounded, "a stress with a bound: see the warnings")]
-        elif name.startswith("roller_life"):
-            yield [self._bound]
+            pv, needs = self._column("life.pv_max_W_m2"), [face]
+            if pv is not None and not np.all(np.isfinite(pv)):
+                return "a stress with a bound: see the warnings"
+        elif name.startswith("roller_life") and bounded:
             rated = spec.material_roller.dynamic_capacity_N is not None
-            yield [(rated, "dynamic_capacity_N in [material.roller]"), loaded]
-        elif name.startswith("lock_"):
-            yield from self._lock_needs(name)
+            needs = [(rated, "dynamic_capacity_N in [material.roller]")]
+        elif locked or name == "horn_stress_MPa":
+            return self._horn_reason(name, locked)
         elif part.endswith("_shaft"):
-            yield from self._shaft_needs(part.removesuffix("_shaft"))
-        else:
-            if name == "horn_stress_MPa":
-                drawn = bool(load.horn_sizes)
-                yield [(spec.is_flat or drawn, _FLAT)]
-                yield [(drawn or bool(sized(self.mechanism)), _CUT)]
-                yield [(load.has_horns, "")]
-            elif part in ("arm", "wheel_key", "crank_key"):
-                yield [(self._has_part(part), "")]
-            if part in ("pin", "horn"):
-                yield [(load.contact_mm is not None, _WIDTH), loaded]
-            yield [loaded]
-            yield [self._bound]
+            shaft, drawn = part.removesuffix("_shaft"), load.parts is not None
+            if shaft == "wheel" and not spec.output.turns:
+                return "a wheel that turns on a shaft"
+            known = {"overhang": drawn, "diameter": drawn and self._has_part(part)}
+            for end, is_known in known.items() if bounded else ():
+                key = f"{shaft}_{end}_mm"
+                needs.append((vars(spec.shaft)[key] is not None or is_known, f"{key} in [shaft]"))
+        elif part in ("arm", "wheel_key", "crank_key") and not self._has_part(part):
+            return None
+        elif part == "pin":
+            needs.append((load.contact_mm is not None, _WIDTH))
+        return " and ".join(words for is_met, words in needs if not is_met) or None
 
-    def _lock_needs(self, name: str) -> Iterator[list[tuple[bool, str]]]:
+    def _horn_reason(self, name: str, locked: bool) -> str | None:
+        """The keys that a stress of horns or lock needs; None for a machine that has none."""
         load = self.load
-        yield [(self.spec.is_flat, _FLAT)]
-        yield [(bool(load.lock_sizes or sized(self.mechanism)), _CUT)]
-        yield [(load.lock_sizes is not None, "")]
-        held = bool(held_torque_Nm(self.mechanism)), "dwell_torque_Nm in [load]"
-        yield [(load.contact_mm is not None, _WIDTH), held]
-        if name != "lock_horn_stress_MPa":  # on a sharp edge a contact stress has no bound
-            sharp = bool(load.lock and np.isnan(load.lock.approach_deg))
-            corner = load.lock is not None and load.lock.on == "corner"
-            yield [(not sharp, _EDGE if corner else _SHORT)]
+        drawn = bool(load.lock_sizes if locked else load.horn_sizes)
+        if not (self.spec.is_flat or (drawn and not locked)):
+            return _FLAT
+        if not (drawn or sized(self.mechanism)):
+            return _CUT
+        if not (drawn if locked else load.has_horns):
+            return None
+        needs = [] if load.contact_mm is not None else [_WIDTH]
+        if locked and not held_torque_Nm(self.mechanism):
+            needs.append("dwell_torque_Nm in [load]")
+        if not locked and not math.isfinite(load.force_N[0]):
+            needs.append(BOUND)
+        # on a sharp edge a contact stress has no bound
+        sharp = locked and load.lock and np.isnan(load.lock.approach_deg)
+        if sharp and name != "lock_horn_stress_MPa" and not needs and load.lock:
+            return _EDGE if load.lock.on == "corner" else _SHORT
+        return " and ".join(needs) or None
 
-    def _shaft_needs(self, shaft: str) -> Iterator[list[tuple[bool, str]]]:
-        spec, load = self.spec, self.load
-        if shaft == "wheel":
-            yield [(spec.output.turns, "a wheel that turns on a shaft")]
-        yield [self._bound]
-        drawn = load.parts is not None
-        known = {"overhang": drawn, "diameter": drawn and self._has_part(f"{shaft}_shaft")}
-        step = [(spec.is_loaded, spec.load_keys)]
-        for key in ("diameter", "overhang"):
-            own = vars(spec.shaft)[f"{shaft}_{key}_mm"] is not None
-            step.insert(0, (own or known[key], f"{shaft}_{key}_mm in [shaft]"))
-        yield step
+    def _has_part(self, part: str) -> bool:
+        """True unless the machine lacks an arm, a key or a shaft; unknown ones count."""
+        parts = self.load.parts
+        return parts is None or not np.isnan(getattr(parts, part)[0][0])
 
     def missing(self, among: Sequence[str]) -> list[str]:
         """The keys that the unknown values of ``among`` need, in words."""
@@ -181,16 +170,6 @@ class Strength:
             f"{', '.join(names)}: need{'s' * (len(names) == 1)} {keys}"
             for keys, names in by_key.items()
         ]
-
-    @property
-    def _bound(self) -> tuple[bool, str]:
-        """Whether the roller's force has a bound, if there is a load."""
-        return not self.spec.is_loaded or math.isfinite(self.load.force_N[0]), BOUND
-
-    def _has_part(self, part: str) -> bool:
-        """Return True unless the machine lacks an arm, a key or a shaft; unknown ones count."""
-        parts = self.load.parts
-        return parts is None or not np.isnan(getattr(parts, part)[0][0])
 
 
 @lru_cache(maxsize=16)

@@ -52,7 +52,6 @@ plot spec.toml -o plot.png
 export spec.toml --for print -o shop
 export spec.toml --for print -o shop
 animate spec.toml -o page.html
-animate spec.toml -o page.svg
 animate spec.toml --open
 help symbols
 new external -o own.toml

@@ -56,7 +56,7 @@ NOT_TOML = [
     case("yaml", "wheel:\n  z: 6\n", 1, "not TOML", "write [table], or KEY = VALUE as in z = 6"),
     case("no-value", "[wheel]\nz =\n", 2, "the value is missing; write one behind the sign"),
     case("not-utf-8", b"[wheel]\nz = 6\n# gr\xfc\xdfe\n", 3, "not UTF-8", "save"),
-    case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "UTF-16", "-o FILE"),
+    case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "not UTF-8", "-o FILE"),
     case("deep-lists", "a = " + "[" * 50_000, 0, "nested too deep"),
     case("5000-digits", "[wheel]\nz = " + "1" * 5000 + "\n", 0),
     case("two-megabytes", "# " + "x" * (1 << 21) + "\n" + WHEEL, 0, "larger than", "bytes"),
@@ -77,16 +77,9 @@ HUGE = [
     wheel("hex-list", f"steps_deg = [{HEX}]\nz = 6", "steps_deg = 0xff", "below 360"),
     key("long-key", f'[drive]\n"{LONG}" = 1\n', 2, "unknown key very", "known: "),
     key("long-table", f'["{LONG}"]\n', 1, "unknown table", "known: "),
-    key("long-law", f'[motion]\nlaw = "{LONG}"\n', 2, "law must be one of", "and 7 more"),
+    key("long-law", f'[motion]\nlaw = "{LONG}"\n', 2, "law must be one of", "and 6 more"),
     key("long-file", TABLE.replace("law.csv", LONG), 3, "cannot read", "too long"),
     key("nul-in-a-file", TABLE.replace("law.csv", r"a\u0000b"), 3, "cannot read", "null byte"),
-    key(
-        "nul-in-a-ratio-file",
-        '[drive]\nkind = "noncircular-gears"\nratio_file = "a\\u0000b"\n',
-        3,
-        "cannot read",
-        "null byte",
-    ),
 ]
 
 UNKNOWN = [
@@ -97,8 +90,7 @@ UNKNOWN = [
     case("key", "[wheel]\nz = 6\nzz = 7\n", 3, "unknown key zz", '"z"'),
     key("key-of-the-kind", SIDE + "a = 0.5\n", 3, "unknown key a", "A"),
     key("capital", "[size]\nCenter_distance_mm = 5\n", 2, '"center_distance_mm"'),
-    key("unit", "[load]\ntorque_Nmm = 5\n", 2, 'with the value: torque_Nm = "5 N mm")'),
-    key("unit-per-degree", "[shaft]\nstiffness_Nm_deg = 5\n", 2, 'rad = "5 N m/deg")'),
+    key("unit", "[load]\ntorque_Nmm = 5\n", 2, 'did you mean "torque_Nm"?'),
     key("word-of-a-meaning", "[drive]\nspeed = 5\n", 2, '"n_rpm", constant speed of the input'),
     key("large-clearance", "[size]\nslot_clearance_mm = 60\n", 2, "below 50, the smaller of the"),
     key("size-or-deviation", "[size]\nroller_diameter_mm = 8\n", 2, "twice roller_radius_mm)"),

@@ -45,8 +45,7 @@ LOADS = {
     "shaft.crank_overhang_mm=25 shaft.crank_span_mm=45 shaft.shear_stress_max_MPa=50 "
     "material.wheel.stress_max_MPa=300 "
     "material.roller.stress_max_MPa=300 material.roller.dynamic_capacity_N=9000 "
-    "tolerance.center_distance_mm=0.02 tolerance.slot_angle_deg=0.05 product.radius_mm=300 "
-    "product.swing_Hz=3",
+    "tolerance.center_distance_mm=0.02 tolerance.slot_angle_deg=0.05 product.radius_mm=300 ",
 }
 pytestmark = pytest.mark.usefixtures("no_advice")  # which takes seconds, and nothing here reads
 every = pytest.mark.parametrize(

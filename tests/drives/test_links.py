@@ -47,15 +47,6 @@ def test_bars_keep_their_length(machine):
             assert np.ptp(length) < NEAR, link.name
 
 
-def test_a_slider_stays_on_its_line():
-    machine = load(str(repo.DESIGNS / "slider-crank.toml")).mechanism
-    every = links_at(machine, np.linspace(-180.0, 180.0, 97))
-    (link,) = (one for one in every if Joint.SLIDE in one.kinds and len(one.joints) > 2)
-    (x, y), (u, v), (p, q) = link.joints
-    aside = ((u - x) * (q - y) - (v - y) * (p - x)) / np.hypot(u - x, v - y)
-    assert np.abs(aside).max() < NEAR
-
-
 def test_joints_at_input_0_are_the_pivots_of_the_list(machine):
     at = links(machine, np.zeros(1))
     places = {(round(float(x[0]), 9), round(float(y[0]), 9)) for j in at.values() for x, y in j}

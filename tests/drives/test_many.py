@@ -1,10 +1,7 @@
 """Peaks of batches of side-cranks: against the general search, and against 50 digits."""
 
-import math
-
 import numpy as np
 import pytest
-from sampling import some
 from witness import Geneva
 
 from geneva_cli.drives.side_crank import SideCrank
@@ -69,14 +66,6 @@ def test_none_is_missed(gearing, quantity):
     np.testing.assert_allclose(whole.max, found.max, rtol=2 * EXACT)
 
 
-def test_a_finer_scan_finds_no_more(monkeypatch):
-    """Three times the scan finds nothing more among 200,000, in `make test` among 50,000."""
-    w = batch(*designs(some(200_000, 50_000), 2))
-    size, _ = acceleration_peaks(w)
-    monkeypatch.setattr("geneva_cli.motion.wheels.side_crank_arrays.SCAN", 33)
-    assert np.nanmax(np.abs(size / acceleration_peaks(w)[0] - 1.0)) <= 2 * EXACT
-
-
 @pytest.mark.parametrize("z", [3, 4, 6, 24, 1000])
 def test_inside_a_slow_crank_never_passes_its_jump(z):
     """What is not searched for: inside and A >= 0, on a grid of A up to 1 - 1e-6 and of f."""
@@ -98,13 +87,6 @@ def test_against_50_digits(z, gearing, quantity):
         exact, at_deg = Geneva(z, gearing, float(A[i])).peak(quantity)
         assert abs(float(size[i] / exact - 1)) <= EXACT
         assert place[i] == pytest.approx(float(at_deg), abs=1e-8)
-
-
-def test_plain_internal_wheels_peak_at_entry():
-    z = np.arange(3, 1000)
-    size, at_deg = acceleration_peaks(batch(z, True, 0.0))
-    assert size == pytest.approx([math.tan(math.pi / k) for k in z], rel=EXACT)
-    assert at_deg == pytest.approx(-90.0 - 180.0 / z, abs=1e-12)
 
 
 def test_no_numpy_state_changes_and_no_warning():

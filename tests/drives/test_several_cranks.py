@@ -56,15 +56,6 @@ def test_each_pin_stays_in_a_slot_of_the_wheel(steps, places, slots):
     assert sorted(entered) == list(slots)
 
 
-def test_the_discs_of_several_cranks_clear_the_wheel():
-    """From each crank the recesses look alike, as do the reliefs of a disc at even phases.
-
-    So the check of one crank with several rollers holds for the disc of each of several cranks.
-    """
-    assert Design(External(6), Crank(rollers=2)).passes
-    assert Design(External(8), Crank(rollers=2)).passes
-
-
 # cranks with parts that clear each other, also as neighbours
 BUILT = [(6, (0, 3)), (6, (0, 1)), (12, (0, 5)), (5, (0, 4, 3)), (3, (0, 1, 2))]
 LOAD = Load(inertia_kgm2=0.02, torque_Nm=0.3, friction=0.1)
@@ -92,17 +83,6 @@ def test_motion_and_loads_are_those_of_one_crank(z, places):
         in_turn = "crank_bearing_N" in name and name.endswith((".mean", ".rms"))
         if name.startswith(("timing.", "jerk.", "loads.", "cycle.", "life.", "strength.")):
             assert answers[name] == own[name] or in_turn
-
-
-@pytest.mark.sampled(6)
-@built
-def test_the_bearing_of_a_crank_has_the_means_of_one_crank_alone(z, places):
-    """Each crank works once in a turn, as a single crank with one roller does."""
-    several, alone = with_cranks(z, places), Design(External(z), Crank(), load=LOAD)
-    own, one = (design.loads["crank_bearing_N"] for design in (several, alone))
-    assert own.max == one.max
-    assert own.mean == pytest.approx(one.mean, rel=1e-12)
-    assert own.rms == pytest.approx(one.rms, rel=1e-12)
 
 
 @pytest.mark.long
@@ -231,26 +211,6 @@ def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
     table = design.report.table.to_dict()["cranks"]
     listed = {s for row in table for s in range(row["slot"], steps, row["slot_every"])}
     assert sorted(listed) == list(slots)
-
-
-@pytest.mark.long
-@built
-def test_backwards_the_cranks_stand_and_work_as_in_a_mirror(z, places):
-    """In a mirror about the line of centres, with the input turned back."""
-    design = with_cranks(z, places)
-    turned = design.backwards.mechanism
-    own = {
-        (round(p.at[0], 9), round(-p.at[1], 9)): -p.behind_deg
-        for p in design.mechanism.crank_places
-    }
-    for place in turned.crank_places:
-        behind = own[round(place.at[0], 9), round(place.at[1], 9)]
-        assert math.remainder(place.behind_deg - behind, 360.0) == 0.0
-    names = [one.name for one in design.backwards.checks]
-    values = [one.value for one in design.backwards.checks]
-    at = names.index("cranks_apart_mm")
-    # 1e-3: both bounds are below one gap by rounding of the directions
-    assert values[at] == pytest.approx(design.checks[at].value, abs=1e-3)
 
 
 BEFORE = {"eccentricity": 0.3}

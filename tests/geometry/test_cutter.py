@@ -7,7 +7,7 @@ import repo
 from drawing_witness import polygon
 
 from geneva_cli.design import load
-from geneva_cli.geometry.cutter import judged
+from geneva_cli.geometry.offsets import judged
 from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import Circle, Line, about, closed
 from geneva_cli.geometry.sheet import Drawing

@@ -65,11 +65,3 @@ def test_a_support_s_own_friction_is_a_load():
     assert not Spec(External(6), support=Support(friction=0.15, radius_mm=100.0)).is_loaded
     with pytest.raises(GenevaError, match=r"no inertia: set radius_mm, or set its weight as"):
         Mass("point", mass_kg=1.0)
-
-
-def test_a_body_beyond_the_reach_of_the_table():
-    """Five centre distances out is a large table still; farther a unit is asked about."""
-    for radius, said in ((490.0, False), (900.0, True)):
-        body = Mass(shape="point", mass_kg=2.0, count=2, radius_mm=radius)
-        warnings = Design(External(6), mass=(body,)).warnings
-        assert any("9 centre distances" in text for text in warnings) is said

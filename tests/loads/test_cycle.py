@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 import repo
+from load_states import integrals
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
@@ -60,10 +61,10 @@ def test_a_load_that_changes_walls():
     assert first == pytest.approx(10.3447585591609, rel=1e-13)
     force = summaries(still)["pin_force_N"]
     assert force.max == pytest.approx(324.50370415267853, rel=1e-14)
-    size = still.integrals(lambda i: i.pin_force_N * i.drives * i.sliding_m_s * i.slides)
+    size = integrals(still, lambda i: i.pin_force_N * i.drives * i.sliding_m_s * i.slides)
     per_second = still.case.speed_rad_s
     assert size[0] / per_second == pytest.approx(16.229000563314397, rel=1e-13)
-    turns = still.integrals(lambda i: i.sliding_m_s * i.slides)[0] / per_second
+    turns = integrals(still, lambda i: i.sliding_m_s * i.slides)[0] / per_second
     assert turns / (2.0 * math.pi * 0.008) == pytest.approx(2.6551484499207021, rel=1e-13)
 
 
@@ -78,7 +79,8 @@ def test_the_work_closes(path):
     mechanism = mechanism._replace(spec=mechanism.spec.replace(load=Load(0.02, 3.0, friction=0.1)))
     cycle = Cycle(mechanism)
     w = cycle.case.speed_rad_s
-    paid, moved, rubbed, taken = cycle.integrals(
+    paid, moved, rubbed, taken = integrals(
+        cycle,
         lambda i: i.input_torque_Nm,
         lambda i: i.wheel_torque_Nm * i.omega_rad_s / w,
         lambda i: i.rubbed_Nm,

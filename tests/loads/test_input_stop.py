@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from bisect import bisect_right
 
@@ -18,7 +17,6 @@ from geneva_cli import (
     Load,
     Motor,
     RollerMaterial,
-    Shaft,
     Size,
 )
 from geneva_cli.errors import GenevaError
@@ -149,17 +147,6 @@ def test_the_roller_lasts_as_many_motions_and_more_hours() -> None:
     )
     assert motions[0] == motions[1]
     assert hours[1] == pytest.approx(1.8 * hours[0], rel=1e-13)
-
-
-def test_a_swing_has_the_stop_to_die_out() -> None:
-    """Motions add their residual r to what is left of the earlier ones: |r/(1 - exp(p T))|."""
-    shaft = Shaft(stiffness_Nm_rad=2000.0, damping_ratio=0.02)
-    design = Design(External(6), STOPPED, load=Load(inertia_kgm2=0.4), shaft=shaft)
-    shown = design.vibration().to_dict()
-    frequency, zeta = math.sqrt(2000.0 / 0.4), 0.02
-    p = frequency * complex(-zeta, math.sqrt(1.0 - zeta * zeta))
-    expected = shown["residual_share"] / abs(1.0 - cmath.exp(p * 1.8))
-    assert shown["steady_share"] == pytest.approx(expected, rel=1e-9)
 
 
 def test_what_the_brake_takes_by_hand() -> None:

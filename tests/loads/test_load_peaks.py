@@ -12,12 +12,13 @@ from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads import highest_speed
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
+from geneva_cli.loads.load_peaks import greatest_pressure
+from geneva_cli.loads.sizing import kinetic_power_W
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.peaks import worst
-from geneva_cli.spec.tables import Limits, Load, Size
+from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.cycle_warnings import cycle_warnings
 
 OMEGA = 2.0 * math.pi
@@ -60,7 +61,7 @@ def test_inertia_alone_takes_the_peaks_of_the_motion(spec):
     motion, scale = worst(mechanism), 0.05 * OMEGA**2
     shaft = greatest(mechanism, "input_torque_Nm")
     assert shaft.max == pytest.approx(scale * motion.power.max, rel=2e-14)
-    assert highest_speed.kinetic_power_W(mechanism, motion.power.max) == pytest.approx(
+    assert kinetic_power_W(mechanism, motion.power.max) == pytest.approx(
         shaft.max * OMEGA, rel=2e-14
     )
     torque = greatest(mechanism, "wheel_torque_Nm")
@@ -97,7 +98,7 @@ def test_against_a_dense_grid(spec):
     every = state(mechanism, engagement, x)
     for quantity, values in every._asdict().items():
         if quantity == "pressure_deg":
-            found = highest_speed.greatest_pressure(mechanism).max
+            found = greatest_pressure(mechanism).max
         else:
             found = greatest(mechanism, REPORTED_PEAKS[quantity]).max
         most = float(np.max(np.abs(values)))
@@ -163,55 +164,6 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
     assert any("no bound" in text for text in cycle_warnings(mechanism))
 
 
-@pytest.mark.sampled(24)
-@pytest.mark.parametrize(
-    "load", [Load(0.02), Load(0.02, 3.0), Load(0.02, 3.0, friction=0.2, efficiency=0.9)]
-)
-@pytest.mark.parametrize(
-    ("key", "quantity", "limit"),
-    [
-        ("pin_force_max_N", "pin_force_N", 120.0),
-        ("input_torque_max_Nm", "input_torque_Nm", 6.0),
-        ("contact_stress_max_MPa", "contact_stress_MPa", 260.0),
-    ],
-)
-@pytest.mark.parametrize("spec", [crank(5), curved("3-4-5", "matched"), side(5, 0.5)])
-def test_the_fastest_speed_meets_its_limit(spec, key, quantity, limit, load):
-    """Solved at each place, not searched for: the load there is the limit to 64 ulp."""
-    mechanism = build(spec.replace(load=load, limits=Limits(**{key: limit})))
-    n = highest_speed.fastest_rpm(mechanism)
-    if spec.motion and quantity == "contact_stress_MPa":
-        assert n is None  # without bound beside the cusp
-        return
-    assert n is not None
-    again = build(mechanism.spec.replace(drive=spec.drive.replace(n_rpm=n)))
-    assert greatest(again, quantity).max == pytest.approx(limit, rel=2e-14)
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("no_advice")
-def test_a_limit_that_no_speed_keeps():
-    """The resistance alone takes 100 N at mid-motion."""
-    mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=20.0)))
-    assert highest_speed.fastest_rpm(mechanism) is None
-    assert any("no speed keeps pin_force_max_N = 20" in t for t in cycle_warnings(mechanism))
-    table = Design.of(mechanism.spec).report.table
-    row = dict(zip(table.names, table.columns, strict=True))
-    assert list(row["timing.shortest_motion_s"]) == [None]
-
-
-def test_off_the_mid_condition_no_speed_keeps_a_force():
-    limits = Limits(pin_force_max_N=1e4)
-    mechanism = build(curved("modified-sine", 0.4, Load(0.02, 3.0)).replace(limits=limits))
-    assert highest_speed.fastest_rpm(mechanism) is None
-
-
-def test_limits_that_any_speed_keeps():
-    mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=200.0)))
-    assert math.isinf(highest_speed.fastest_rpm(mechanism))
-    assert not cycle_warnings(mechanism)
-
-
 def test_friction_that_holds_the_wheel():
     """r f > rho at mid-motion: no pin force turns the wheel, and a warning says so."""
     mechanism = build(crank(3, load=Load(0.0, 3.0, friction=3.0)))
@@ -268,27 +220,6 @@ def test_beside_a_cusp_the_stress_goes_to_nought():
     assert less / more == pytest.approx(math.sqrt(0.1), rel=1e-3)
     found = design.loads["contact_stress_MPa"]
     assert (found.min, found.min_at_deg) == (0.0, 0.0)
-
-
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize("friction", [0.0, 0.1])
-@pytest.mark.parametrize("share", [0.3, 0.9])
-def test_a_torque_that_changes_its_sign_beside_mid_motion_leaves_no_stress_there(share, friction):
-    """Nearer to it than stretches of a curved slot come: at ``share`` of a ten-thousandth.
-
-    A harmonic motion's torque is I w² (step/2) (pi/beta)² cos(pi u) + M: 0 there, and nowhere else.
-    """
-    machine = build(curved("harmonic"))
-    beta, step = math.radians(machine.engagements[0].motion_deg), math.pi / 3.0
-    x = share * 1e-4 * beta / 2.0
-    resists = OMEGA**2 * 0.5 * step * (math.pi / beta) ** 2 * math.sin(math.pi * x / beta)
-    spec = curved("harmonic", load=Load(1.0, resists, friction=friction))
-    cycle = Cycle(build(spec))
-    for name in ("contact_stress_MPa", "wheel_bearing_N"):
-        one = cycle.extremes[name]
-        assert one.min == 0.0
-        # of a torque that all but is 0
-        assert one.min_at_deg == pytest.approx(math.degrees(x), rel=1e-9)
 
 
 @pytest.mark.parametrize(("law", "alpha0"), [("cycloidal", 10.0), ("harmonic", 5.0)])

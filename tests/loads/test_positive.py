@@ -3,14 +3,11 @@
 import cmath
 import math
 
-import numpy as np
 import pytest
 from words import Drive, Motion, Spec, Wheel
 
 from geneva_cli.loads.positive_drive import positive_drives
-from geneva_cli.motion import registry
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.undercut import undercut
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.motion_warnings import motion_warnings
 
@@ -75,52 +72,3 @@ def test_the_warning_s_gap_lies_where_it_says():
     assert found.loose_gap_mm < 0.95 * found.gap_mm
     (said,) = [text for text in motion_warnings(mechanism) if "not positively" in text]
     assert f"up to {found.loose_gap_mm.item():.3g} mm off" in said
-
-
-def uneven_gears():
-    """Gears whose ratio 1 + 0.3 sin 6 x turns the crank by x + 0.05 (1 - cos 6 x) from the middle.
-
-    So it leads by one angle at both mirrored input angles, and the roller is not equally far out.
-    """
-    degrees = np.arange(361.0)
-    ratio = 1.0 + 0.3 * np.round(np.sin(np.radians(6.0 * (degrees % 60.0))), 6)
-    ratio[::30] = 1.0
-    points = tuple(zip(degrees.tolist(), ratio.tolist(), strict=True))
-    return registry.drive("noncircular-gears")(ratio=points)
-
-
-def test_an_uneven_drive_s_branches_are_compared_at_equal_radii():
-    """Against both branches by the crank's angle, whose mirror image is as far out."""
-    load = Load(1.0, 10.0)
-    motion = Motion("cycloidal", ratio=0.48)
-    spec = PRESS.replace(drive=uneven_gears(), motion=motion, load=load)
-    found = positive_drives(build(spec))
-
-    half, step = math.pi / 3.0, math.pi / 3.0
-    x = np.linspace(-half, half, 200_001)
-    crank = x + 0.05 * (1.0 - np.cos(6.0 * x))
-    u = 0.5 * (x / half + 1.0)
-    psi = step * (u - np.sin(2.0 * math.pi * u) / (2.0 * math.pi) - 0.5)
-    polar = np.angle(1.0 - 0.48 * np.exp(-1j * crank)) - psi
-    lead = polar - np.interp(-crank, crank, polar, left=np.nan, right=np.nan)
-    far = np.abs(1.0 - 0.48 * np.exp(-1j * crank))
-    gap = np.nan_to_num(441.89 * far * np.abs(lead))
-    # at 60 rpm, whose input turns by 2 pi a second
-    torque = np.sin(2.0 * math.pi * u) * step * 2.0 * math.pi / (2.0 * half) ** 2
-    torque = torque * (2.0 * math.pi) ** 2 * load.inertia_kgm2 + load.torque_Nm
-    loose = (gap > 0.01) & (np.nan_to_num(lead) * torque < 0.0)
-    # of 1440 places, and a ratio of six decimals
-    assert found.fraction == pytest.approx(loose.mean(), abs=2.0 / 1440.0)
-    assert found.gap_mm == pytest.approx(gap[x < 0.0].max(), rel=1e-4)
-    assert found.loose_gap_mm == pytest.approx(gap[loose].max(), rel=1e-3)
-
-
-def test_the_undercut_of_a_machine_behind_gears_is_that_without():
-    own = PRESS.replace(motion=Motion("modified-sine", ratio="matched"), size=Size(100.0, 30.0))
-    one, other = (undercut(build(spec)) for spec in (own, own.replace(drive_before=uneven_gears())))
-    assert other.depth_mm == one.depth_mm > 0.1
-    assert other.wall == one.wall
-    crank = math.radians(other.from_deg)
-    assert crank + 0.05 * (1.0 - math.cos(6.0 * crank)) == pytest.approx(
-        math.radians(one.from_deg), abs=1e-5
-    )

@@ -107,30 +107,11 @@ def test_jerk():
     assert jerk.at_deg.item() == 0.0
 
 
-def test_swing_by_quadrature():
-    """The residual is the integral of the acceleration times exp(i wn t), over wn."""
-    design = Design(External(6), product=Product(radius_mm=300.0, swing_Hz=2.0))
-    with mpmath.workdps(30):
-        l, w = mpmath.mpf(1) / 2, 2 * mpmath.pi
-        wn = 2 * mpmath.pi * 2
-
-        def term(a):
-            d = 1 - 2 * l * mpmath.cos(a) + l * l
-            return -l * (1 - l * l) * mpmath.sin(a) / d**2 * mpmath.exp(1j * wn * a / w)
-
-        half = mpmath.pi / 3
-        whole = abs(mpmath.quad(term, [-half, -0.3, 0, 0.3, half])) * w / wn * 300
-    assert product_motion(design.mechanism).swing_mm.item() == pytest.approx(
-        float(whole), rel=1e-10
-    )
-
-
 @pytest.mark.parametrize(
     ("keys", "message"),
     [
         ({"sprocket_teeth": 16}, "a sprocket needs sprocket_teeth and pitch_mm"),
         ({"friction": 0.2}, "friction needs the product's place"),
-        ({"swing_Hz": 0.0}, "swing_Hz = 0 must be above 0"),
     ],
 )
 def test_refused(keys, message):

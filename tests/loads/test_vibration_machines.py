@@ -9,10 +9,9 @@ import repo
 from bench import truth
 from swings import greatest_acceleration, residuals, shares
 from words import law as load_law
-from words import load, points
+from words import load
 
 from geneva_cli import Crank, Design, External, Shaft, SideCrank
-from geneva_cli.drives.noncircular_gears import NoncircularGears
 from geneva_cli.loads.vibration.panels import law_shape
 from geneva_cli.loads.vibration.panels import motion_shapes as shape
 from geneva_cli.loads.vibration.swing import Oscillator, local_maxima
@@ -81,17 +80,6 @@ def test_straight_slots_to_the_last_digits(z, gearing, A, damping):
         assert abs(found - abs(exact)) <= 1e-13 * abs(exact)
 
 
-def test_gears_by_points(tmp_path):
-    """Behind gears given by points the motion is no polynomial between them, and has kinks."""
-    path = tmp_path / "ratio.csv"
-    rows = [f"{x},{1.0 - 0.2 * math.cos(math.radians(x)):.17g}" for x in range(0, 361, 10)]
-    path.write_text("\n".join(rows) + "\n")
-    ratio = points(path, NoncircularGears, "ratio")
-    engagement = build(Spec(External(6), NoncircularGears(ratio=ratio))).engagements[0]
-    found = residuals(shape(engagement.motion), [3.3], 0.02)[0]
-    assert found == pytest.approx(by_gauss(engagement, 3.3, 0.02, 360), abs=1e-10)
-
-
 @pytest.mark.parametrize(
     ("ratio", "factor"),
     [
@@ -132,43 +120,10 @@ def test_dynamic_factor_against_a_solver(kind, ratio, damping):
     assert found == pytest.approx(greatest, rel=2e-6)
 
 
-@pytest.mark.parametrize("damping", [0.002, 0.05])
-def test_steady_state_is_where_marching_ends(damping):
-    """Unlike steps, cycle after cycle by the state's own 2 x 2 matrix, until nothing changes."""
-    machine = build(Spec(External(6, steps_deg=(72.0, 48.0))))
-    ratio = 4.0
-    first = machine.engagements[0].motion_deg
-    wn = 2.0 * math.pi * ratio / first  # by degrees of the input
-    wd = wn * math.sqrt(1.0 - damping * damping)
-
-    def free(y, angle):
-        """r and its rate after some free swinging."""
-        c, s = math.cos(wd * angle), math.sin(wd * angle)
-        back = (y[1] + damping * wn * y[0]) / wd
-        e = math.exp(-damping * wn * angle)
-        r = e * (y[0] * c + back * s)
-        return np.array([r, -damping * wn * r + e * wd * (back * c - y[0] * s)])
-
-    owns = []
-    for engagement in machine.engagements:
-        z = by_gauss(engagement, ratio * engagement.motion_deg / first, damping)
-        own = np.array([z.imag, wd * z.real - damping * wn * z.imag])
-        owns.append(own * engagement.half_step)
-    y, found = np.zeros(2), [0.0, 0.0]
-    for _ in range(200 if damping > 0.01 else 2500):
-        for i, engagement in enumerate(machine.engagements):
-            y = free(y, engagement.motion_deg) + owns[i]
-            back = (y[1] + damping * wn * y[0]) / wd
-            found[i] = math.hypot(y[0], back) / engagement.half_step
-            y = free(y, machine.dwell_deg(i))
-    own = Oscillators(machine, Oscillator(np.array([ratio]), np.array([damping])))
-    assert own.steady_share()[:, 0] == pytest.approx(found, rel=1e-9)
-
-
 def test_a_maximum_is_where_the_slope_of_the_closed_form_vanishes():
     """Of |sin pi l|/(pi l (l² - 1)): pi l cot pi l = 1 + 2 l²/(l² - 1), between two integers."""
     form = law_shape(load_law("cycloidal"))
-    l = local_maxima(lambda ratio: shares(form, ratio, 0.0), 0.6, 30.0)
+    l = local_maxima(lambda ratio: shares(form, ratio, 0.0)[None], 0, 0.6, 30.0)
     assert np.floor(l).tolist() == list(range(2, 30))
     slope = math.pi * l / np.tan(math.pi * l) - 1.0 - 2.0 * l * l / (l * l - 1.0)
     # its own slope is -pi² l there and steeper: the places are right to 1e-12

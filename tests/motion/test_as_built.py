@@ -62,23 +62,6 @@ def test_published_machines(design: Design, at_deg: float, entry: float, exit_: 
     assert (one.entry_deg, one.exit_deg) == pytest.approx((-at_deg, at_deg), abs=6e-5)
 
 
-def test_peak_and_reach_of_the_first_machine() -> None:
-    design = built(External(6), 50, 25.217025694, wheel_radius_mm=40)
-    assert design.peaks.velocity.max == pytest.approx(1.017511, abs=5e-6)
-    x, y = design.mechanism.engagements[0].path(-52.4775684916, 0)
-    assert 50.0 * math.hypot(x.c[0], y.c[0]) == pytest.approx(40.0, abs=1e-8)
-
-
-def test_thirty_of_ninety_degrees_at_mid_motion() -> None:
-    e = 100.0 - 50.0 * math.sqrt(3.0)
-    design = built(External(4, offset_mm=-e), 100, 100.0 * (math.sqrt(3.0) - 1.0))
-    angle = design.mechanism.engagements[0].motion
-    assert math.degrees(angle(0.0, 0).c[0]) + 45.0 == pytest.approx(30.0, abs=1e-12)
-    assert greatest_jumps(design.mechanism.engagements) == pytest.approx(
-        [0.0, math.sqrt(3.0) - 1.0], abs=1e-12
-    )
-
-
 def witness(sign: int, z: int, l: mp.mpf, e: mp.mpf, crank: mp.mpf) -> mp.mpf:
     """Direction of the slot whose axis, e off the wheel's centre, holds the pin at a crank angle.
 
@@ -124,16 +107,6 @@ def test_crossings_against_roots_at_50_digits(
     for crank_deg in np.linspace(one.entry_deg, one.exit_deg, 7):
         turned = slot(mp.radians(mp.mpf(float(crank_deg)))) - middle
         assert one.motion(float(crank_deg), 0).c[0] == pytest.approx(float(turned), abs=1e-14)
-
-
-def test_an_outer_crossing_inside_the_rim_strikes_backwards() -> None:
-    inner, outer = (
-        built(External(6), 50, 25.217025694, wheel_radius_mm=rim).mechanism.engagements[0]
-        for rim in (46.5, 46.7)
-    )
-    assert inner.jumps[0] == pytest.approx(0.082532, abs=5e-7)
-    assert outer.jumps[0] == pytest.approx(-0.070839, abs=5e-7)
-    assert outer.entry_deg == pytest.approx(-67.5224, abs=5e-5)
 
 
 def test_a_side_crank_multiplies_the_jump_by_its_rate() -> None:

@@ -18,7 +18,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.jet import turning
 
 # The formulas are the same, but NumPy's sine and the C library's differ in the last place, and so
@@ -102,18 +101,6 @@ def test_the_same_motion_path_and_slot(case):
 
 
 @pytest.mark.long
-def test_parts_of_the_designs_asked_at_the_same_angles_answer_for_themselves(case):
-    """At the same angles as the whole batch before them, and to the last bit."""
-    found = case[2]
-    motion, n = found.machine.engagements[0].motion, len(found.which)
-    x = np.linspace(-1e-3, 1e-3, 3)
-    whole = np.broadcast_to(motion(x, 1).c[1], (n, 3))
-    for part in (slice(0, n // 2), slice(n // 2, n)):
-        some = np.broadcast_to(taken(motion, part)(x, 1).c[1], whole[part].shape)
-        assert np.array_equal(some, whole[part])
-
-
-@pytest.mark.long
 def test_it_pickles_and_can_be_taken_apart(case):
     _, _, found, _ = case
     again = pickle.loads(pickle.dumps(found.machine))
@@ -160,13 +147,6 @@ def test_refused_together_as_alone(name, seed):
     assert found.refused.tolist() == [alone(spec, varied, i) is None for i in range(5)]
 
 
-def test_none_of_them_can_be_built():
-    found = many(machine(6), {"wheel.z": np.array([1, 2])})
-    assert found.machine is None
-    assert found.refused.all()
-    assert many(machine(6), {"wheel.z": np.array([], dtype=int)}).machine is None
-
-
 def test_keys_that_cannot_vary():
     spec = machine(6, "elliptical-gears", eccentricity=0.1)
     with pytest.raises(ValueError, match="phase"):
@@ -179,11 +159,6 @@ def test_keys_that_cannot_vary():
         many(spec, {"drive.excentricity": np.array([0.1, 0.2])})
     with pytest.raises(GenevaError, match=r"no \[motion\]"):
         may_vary(spec, "motion.alpha0_deg")
-
-
-def test_an_array_needs_the_door():
-    with pytest.raises(GenevaError, match="many"):
-        External(np.array([[4], [5]]))
 
 
 CARRIED = ["side-crank", "inside", "placed rollers", "noncircular gears", "tilted law", "cycloidal"]
@@ -201,17 +176,3 @@ def test_a_known_carrier_turns_as_its_pin_goes_round_the_crank_axis(name):
         )
         # three derivatives of the path, each of which takes the rounding of those before it along
         assert np.abs(own - seen).max() <= 4 * UNITS * max(1.0, np.abs(seen).max())
-
-
-@pytest.mark.parametrize("name", ["crank", "side-crank", "internal", "cycloidal"])
-@pytest.mark.parametrize("count", [40, 41])
-def test_blocks_of_mirrored_angles_have_the_values_of_single_angles(monkeypatch, name, count):
-    """Blocks of 7 angles: the last one ends at the middle, or contains it."""
-    monkeypatch.setattr("geneva_cli.motion.engagement.BLOCK", 7)
-    motion = build(MACHINES[name][0]).engagements[0].motion
-    half = np.linspace(motion.entry_deg, 0.0, count // 2, endpoint=False)
-    x = np.concatenate((half, [0.0] * (count % 2), -half[::-1]))
-    single = np.array([motion(float(one), 3).derivatives() for one in x]).T
-    orders = (3, 0, 2)
-    for k, values in zip(orders, motion.derivatives(x, orders), strict=True):
-        assert np.all(np.abs(values - single[k]) <= UNITS * np.max(np.abs(single[k])))

@@ -63,34 +63,6 @@ def test_an_offset_slot_is_tangent_to_the_crank_circle() -> None:
     assert sum(ends) == pytest.approx(120.0, rel=1e-14)
 
 
-@pytest.mark.parametrize(
-    ("kind", "keys", "z"),
-    [("gear-sector", {"sector_deg": 60.0}, 3), ("geneva-pair", {"first_z": 3}, 6)],
-)
-def test_drives_that_solve_for_their_ratio_keep_the_radius(
-    kind: str, keys: dict[str, float], z: int
-) -> None:
-    mechanism = Design(External(z), drive(kind)(**keys), size=Size(crank_radius_mm=R)).mechanism
-    assert mechanism.center_distance_mm * mechanism.ratio == pytest.approx(R, rel=1e-13)
-
-
-def test_clearances_of_a_cut_follow_the_derived_distance() -> None:
-    """A laser's clearances depend on the plates' thickness, which is a tenth of L."""
-    by_radius, by_distance, default = (
-        Design(External(6), size=Size(process="laser", **keys)).size.as_dict()
-        for keys in ({"crank_radius_mm": 150.0}, {"center_distance_mm": 300.0}, {})
-    )
-    assert by_radius | {"crank_radius_mm": None} == by_distance
-    assert by_radius["slot_clearance_mm"] > default["slot_clearance_mm"]
-
-
-def test_other_keys_change_the_derived_distance() -> None:
-    design = Design(External(6), size=Size(crank_radius_mm=R))
-    assert design.with_("wheel.z", 4).mechanism.center_distance_mm == pytest.approx(R * 2.0**0.5)
-    assert design.with_("size.crank_radius_mm", None).mechanism.center_distance_mm == 100.0
-    assert "derived" not in repr(design)
-
-
 def test_a_batch_has_the_distances_of_its_designs() -> None:
     spec = Design(External(6), size=Size(crank_radius_mm=R)).spec
     varied = {"wheel.offset_mm": np.array([0.0, 4.0, -8.0]), "wheel.z": np.array([6, 5, 4])}
@@ -136,15 +108,6 @@ def test_keys_that_agree_pass_and_others_name_both() -> None:
     design = Design(Spherical(6), size=Size(crank_radius_mm=R, center_distance_mm=70.0))
     with pytest.raises(GenevaError, match=r"needs 0.5; .* = 35, or center_distance_mm = 60,"):
         _ = design.mechanism
-
-
-def test_a_rim_without_a_distance_names_the_distance_whose_mouth_it_is() -> None:
-    """The roller enters at L cos 30° of six slots: 61/0.8660254 = 70.4367."""
-    (text,) = Design(External(6), size=Size(wheel_radius_mm=61.0)).motion_warnings
-    assert text.name == "no-centre-distance"
-    assert "with 70.4367 the roller" in text
-    by_radius = Design(External(6), size=Size(wheel_radius_mm=61.0, crank_radius_mm=35.0))
-    assert not by_radius.motion_warnings
 
 
 def test_a_sized_spec_keeps_the_crank_radius_alone() -> None:

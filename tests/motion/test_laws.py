@@ -13,9 +13,6 @@ from witness import LAWS as WITNESS
 from witness import krasniqi, mp, near
 from words import LAWS, Spec, Wheel, named, points
 
-from geneva_cli.errors import marking
-from geneva_cli.motion.batch import taken
-from geneva_cli.motion.laws.law import greatest
 from geneva_cli.motion.laws.standard import SineConstantCosine, SineGroup
 from geneva_cli.motion.laws.table_law import TableLaw
 from geneva_cli.motion.mechanism import build
@@ -61,16 +58,6 @@ def test_rest_at_both_ends_exactly(law):
     for u, s in ((0.0, 0.0), (1.0, 1.0)):
         assert law(u, 1).derivatives() == (s, 0.0)
         assert [c[0] for c in law(np.array([u]), 1).derivatives()] == [s, 0.0]
-
-
-def test_some_of_a_batch_of_laws_are_those_laws():
-    """A value that the batch stored would be wrong for some of it."""
-    tilts = np.array([[0.0], [0.125], [-0.125]])
-    with marking():
-        every = SineGroup(tilts)
-    assert every(0.5, 1).c[0].shape == (3, 1)
-    some = taken(every, np.array([2]))
-    assert some(0.5, 1).c[0] == SineGroup(-0.125)(0.5, 1).c[0]
 
 
 @pytest.mark.sampled(3)
@@ -136,16 +123,6 @@ def test_greatest_values_against_the_search_over_arrays(seed):
             assert own.max == near(peak.max.item(), 1e-14), (law, name)
             # a summit is flat: its place is known to the root of a rounding
             assert own.at_deg == pytest.approx(peak.at_deg.item(), abs=1e-5), (law, name)
-
-
-@pytest.mark.parametrize("shape", [1e-5, -1e-5])
-def test_the_top_of_a_slightly_tilted_law(shape):
-    """Krasniqi's acceleration about u = 1/2 + d/pi is 16 lambda - 8 d: zero at d = 2 lambda.
-
-    There the velocity is greater than half-way by a few roundings only.
-    """
-    at = greatest(SineGroup(lambda_=shape))["velocity"][1]
-    assert at - 0.5 == pytest.approx(2.0 * shape / pi, rel=1e-6)  # u has 16 digits
 
 
 def test_constants_to_the_digits_of_the_books():

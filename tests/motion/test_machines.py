@@ -22,7 +22,6 @@ from words import load
 
 from geneva_cli import Design
 from geneva_cli.drives.transmission import Transmission
-from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.motion.motion_table import motion_table
 from geneva_cli.motion.peaks import QUANTITIES, worst
@@ -54,38 +53,31 @@ CASES = {
     "internal": text(f"z = 5, {INSIDE}"),
     "spherical-3": text(f"z = 3, {SPHERE}"),
     "spherical-6": text(f"z = 6, {SPHERE}"),
-    "spherical-24": text(f"z = 24, {SPHERE}"),
     "spherical-60-deg": text(f"z = 5, {SPHERE}, axes_deg = 60"),
     "spherical-130-deg": text(f"z = 4, {SPHERE}, axes_deg = 130"),
     "spherical-nearly-flat": text(f"z = 6, {SPHERE}, axes_deg = 0.7"),
-    "spherical-two-rollers": text(f"z = 6, {SPHERE}, axes_deg = 50", "rollers = 2"),
     "linear": text(f"z = 6, {RACK}"),
     "linear-side-crank": text(f"z = 6, {RACK}", f"{SIDE}0.4"),
     "linear-gears": text(f"z = 6, {RACK}", f"{GEARS}0.3"),
     "linear-noncircular": text(f"z = 6, {RACK}", f"{NONCIRCULAR}-0.2"),
     "offset": text("z = 6, offset_mm = 20"),
-    "offset-negative": text("z = 4, offset_mm = -13.7"),
     "offset-near-its-limit": text("z = 5, offset_mm = 40"),
     "steps": text("z = 6, steps_deg = [70, 50]"),
-    "steps-three": text("z = 3, steps_deg = [100, 122.5, 137.5]"),
     "steps-angles": text("z = 4, steps_deg = [50, 130]", "roller_angles_deg = [0, 120]"),
     "angles": text("z = 4", "roller_angles_deg = [0, 90]"),
     "angles-spherical": text(f"z = 6, {SPHERE}, axes_deg = 50", "roller_angles_deg = [0, 161.3]"),
     "side-crank": text("z = 6", f"{SIDE}0.6"),
-    "side-crank-quick": text("z = 6", f"{SIDE}-0.3"),
     "side-crank-two-rollers": text("z = 8", f"{SIDE}0.4, rollers = 2"),
     "side-crank-internal": text(f"z = 6, {INSIDE}", f"{SIDE}0.3"),
     "side-crank-spherical": text(f"z = 5, {SPHERE}, axes_deg = 80", f"{SIDE}0.5"),
     "side-crank-offset": text("z = 6, offset_mm = 15", f"{SIDE}0.5"),
     "side-crank-steps": text("z = 6, steps_deg = [70, 50]", f"{SIDE}0.35"),
-    "side-crank-angles": text("z = 6", f"{SIDE}0.35, roller_angles_deg = [0, 130]"),
     "gears": text("z = 6", f"{GEARS}0.3"),
     "gears-quick": text("z = 4", f"{GEARS}0.2{QUICK}"),
     "gears-internal": text(f"z = 6, {INSIDE}", f"{GEARS}0.2{QUICK}"),
     "gears-spherical": text(f"z = 6, {SPHERE}", f"{GEARS}0.35"),
     "gears-offset": text("z = 6, offset_mm = -20", f"{GEARS}0.25"),
     "gears-two-rollers": text("z = 8", f"{GEARS}0.3{QUICK}, rollers = 2"),
-    "gears-angles": text("z = 6", f"{GEARS}0.25, roller_angles_deg = [0, 150]"),
     "noncircular": text("z = 6", f"{NONCIRCULAR}0.5"),
     "noncircular-internal": text(f"z = 6, {INSIDE}", f"{NONCIRCULAR}-0.2"),
     "noncircular-spherical": text(f"z = 4, {SPHERE}", f"{NONCIRCULAR}0.3"),
@@ -96,26 +88,17 @@ CASES = {
     "carousel-internal": text(f"z = 6, {INSIDE}", ORBIT),
     "carousel-offset-two-rollers": text("z = 8, offset_mm = 7", f"{ORBIT}, rollers = 2"),
     "geneva-pair": text("z = 4", f"{PAIR}3"),
-    "geneva-pair-alike": text("z = 4", f"{PAIR}4"),
     "geneva-pair-offset": text("z = 4, offset_mm = 5", f"{PAIR}3"),
     "gears-curved": text("z = 6", f"{GEARS}0.2", 'law = "cycloidal", ratio = "matched"'),
     "curved": text("z = 6", "", 'law = "3-4-5", ratio = "matched"'),
-    "curved-internal": text(f"z = 8, {INSIDE}", "", 'law = "cycloidal", ratio = "matched"'),
     "planet-sun-4": text("z = 4", f'{PLANET}"shockless"'),
     "planet-ring-4": text("z = 4", f'{PLANET}"shockless", fixed = "ring"'),
-    "planet-sun-3": text("z = 3", f"{PLANET}0.01"),
-    "planet-sun-6": text("z = 6", f"{PLANET}-0.0125"),
-    "planet-ring-6": text("z = 6", f'{PLANET}0.07, fixed = "ring"'),
     "cam": text("z = 6", 'kind = "cam"', 'law = "cycloidal"'),
-    "cam-early": text("z = 4", 'kind = "cam"', 'law = "modified-sine", alpha0_deg = 10'),
     "cam-two-rollers": text("z = 8", 'kind = "cam", rollers = 2', 'law = "3-4-5"'),
     "cam-internal": text(f"z = 8, {INSIDE}", 'kind = "cam"', 'law = "4-5-6-7"'),
     "four-bar": text("z = 6", f"{FOUR_BAR}point_mm = 170, point_deg = 0"),
     "slider-crank": text("z = 4", f"{SLIDER}point_mm = 200, point_deg = 20, height_mm = 10"),
     "planet-behind-gears": text("z = 4", f'{PLANET}"shockless", {BEFORE}{GEARS}0.2}}'),
-    "planet-behind-side-crank": text(
-        "z = 6", f'{PLANET}0.07, fixed = "ring", {BEFORE}{SIDE}-0.3}}'
-    ),
     "four-bar-behind-gears": text(
         "z = 6", f"{FOUR_BAR}point_mm = 170, point_deg = 0, {BEFORE}{NONCIRCULAR}0.4}}"
     ),
@@ -297,32 +280,6 @@ def test_error_within_16_ulp_of_the_peak(machine, exact, case):
                     for j in np.flatnonzero(~(error <= bar))
                 ]
     assert not over, "\n".join(over[:40])
-
-
-@pytest.mark.sampled(48)
-@every
-def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case):
-    for i in range(len(machine(case).engagements)):
-        w = witness(case)[i]
-        if w.closed is None:  # a law or a linkage: nobody derived it by hand
-            continue
-        x, reference = exact(case, i)
-        for j in range(0, len(x), 5):
-            for k, value in enumerate(w.closed(to_radians(x[j])), 1):
-                assert abs(value - reference[k][j]) <= mp.mpf(10) ** -40 * (1 + abs(value))
-
-
-@pytest.mark.sampled(16)
-@every
-def test_numbers_and_arrays_agree(machine, exact, case):
-    for i, s in enumerate(machine(case).engagements):
-        x, reference = exact(case, i)
-        many = s.motion(x, 3).derivatives()
-        one = np.array([s.motion(float(v), 3).derivatives() for v in x]).T
-        for k, name in enumerate(NAMES):
-            # 6: the two libraries' sines differ by a unit, and a front drive takes two of them
-            bar = bars(s, x, reference, k, 6.0, case)
-            assert np.all(np.abs(many[k] - one[k]) <= bar), name
 
 
 @pytest.mark.sampled(56)
@@ -522,37 +479,6 @@ def test_unequal_steps_are_wheels_of_their_own(machine):
     assert math.hypot(1.0 - x, y) == pytest.approx(math.sin(math.radians(24.0)), rel=1e-15)
 
 
-@pytest.mark.parametrize(
-    "angles, message",
-    [
-        ("[0, 89]", "the rollers at 0 and 89 deg jam: half of both motions takes 90 deg"),
-        ("[0, 271]", "the rollers at 271 and 0 deg jam"),
-        ("[0, 100, 200]", "each of the 2 steps has a roller"),
-    ],
-)
-def test_angles_that_do_not_fit_the_steps(machine, angles, message):
-    with pytest.raises(GenevaError, match=message):
-        machine(text("z = 4, steps_deg = [50, 130]", f"roller_angles_deg = {angles}"))
-
-
-def test_four_slots_and_two_pins_90_degrees_apart(machine):
-    """One turn of the wheel in two of the crank, with one dwell of zero length a turn.
-
-    In print as a curiosity. Each motion takes 90 degrees: the second follows at once, and rests
-    for half a turn after it.
-    """
-    m = machine("angles")
-    assert [(t.motion_deg, t.dwell_deg) for t in timings(m)] == [(90.0, 0.0), (90.0, 180.0)]
-    columns = dict(zip(*motion_table(m, 361)[:2], strict=True))
-    wheel = np.array(columns["wheel_deg"])
-    assert m.period_deg == 360.0
-    assert wheel[-1] - wheel[0] == pytest.approx(180.0, abs=1e-12)
-    # It moves all through the first 180 degrees, resting for a moment at 90.
-    velocity = np.array(columns["velocity"])
-    assert np.flatnonzero(velocity[:181] == 0.0).tolist() == [0, 90, 180]
-    assert np.all(wheel[180:] == wheel[180])
-
-
 def test_shockless_gear_geneva(machine):
     """In print for z = 4: peak velocity 3.778 and acceleration 13.73, against 2.414 and 5.407."""
     found = worst(machine("planet-sun-4"))
@@ -564,20 +490,9 @@ def test_shockless_gear_geneva(machine):
     assert plain.acceleration.max == pytest.approx(5.407, abs=5e-4)
 
 
-def test_soft_gear_geneva(machine):
-    """In print for z = 6, rp = -R/40: peak 1.151 for 1.350, entry 0.794 for 0.577."""
-    # R is the carrier's reach at entry, R0 - rp = L/2
-    found = worst(machine("planet-sun-6"))
-    assert found.acceleration.max == pytest.approx(1.151, abs=5e-4)
-    assert found.ends.acceleration_entry == pytest.approx(0.794, abs=5e-4)
-    plain = worst(machine(text("z = 6")))
-    assert plain.acceleration.max == pytest.approx(1.350, abs=5e-4)
-    assert plain.ends.acceleration_entry == pytest.approx(0.577, abs=5e-4)
-
-
 def test_cam_groove(machine, witness):
     """R(0) = L V/(1 + V); R' by the law of sines; at entry R'/R = cot(phi1 + b)."""
-    for case in ("cam", "cam-early", "cam-two-rollers", "cam-internal"):
+    for case in ("cam", "cam-two-rollers", "cam-internal"):
         m, w = machine(case), witness(case)[0]
         s, g = m.engagements[0], -1 if m.spec.wheel.NAME == "internal" else 1
         V = s.motion(0.0).derivatives()[1]

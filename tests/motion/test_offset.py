@@ -6,16 +6,10 @@ place of the input angle, or of ``offset_mm``, moves.
 
 import math
 
-import design_arrays
-import numpy as np
 import pytest
-from design_arrays import RATIO
 from exact.machines import compare_machine, read
 from exact.table import DIGITS, LIMIT, Table
 from witness import mp
-
-from geneva_cli.motion.mechanism import build
-from geneva_cli.motion.peaks import worst
 
 NEAR = (1e-4, 1e-9)  # much nearer, peaks lie between two doubles of the input angle
 
@@ -40,22 +34,7 @@ def test_near_the_limit(z, side):
     assert not table.over, LIMIT
 
 
-def test_the_numbers_of_the_report():
-    """At 0.999 of the limit; 476.1099865088 was printed."""
-    found = worst(read(spec(5, 0.999 * limit(5))))
-    assert found.acceleration.max == pytest.approx(476.1099865147, abs=5e-11)
-
-
 def test_the_limit_itself_is_refused():
     for z in (3, 4, 6):  # 25, 50 and 75 mm are doubles
         assert read(spec(z, math.nextafter(round(limit(z)), 0.0)))
         assert read(spec(z, float(round(limit(z))))) is None
-
-
-def test_gears_by_points():
-    """Their anchors differ in more than numbers: angles as of many designs are cut up, too."""
-    keys = design_arrays.machine(6, "noncircular-gears", own={"offset_mm": 15.0}, ratio=RATIO)
-    (s,) = build(keys).engagements
-    x = np.linspace(s.entry_deg, s.exit_deg, 41)
-    for one, row in zip(s.motion(x).arrays(), s.motion(x[:, None]).arrays(), strict=True):
-        assert np.array_equal(one[:, None], row)

@@ -68,7 +68,6 @@ def bound(name, spec, wrong, pattern, side):
 
 OFFSET = [
     case("offset", WHEEL + "offset_mm = @", "80", 3, "offset_mm = 80", "shock", "below 75"),
-    case("offset-at-the-limit", WHEEL + "offset_mm = @", "75", 3, "below 75"),
     case("offset-internal", INSIDE + "offset_mm = @", "5", 4, "internal", 'gearing = "external"'),
     case("offset-law", WHEEL + "offset_mm = @\n" + LAW, "5", 3, "law", "remove"),
     case("offset-steps", WHEEL + STEPS + "offset_mm = @\n", "5", 4, "steps_deg", "one of them"),
@@ -87,11 +86,8 @@ TINY = [
 
 STEP = [
     case("sum", WHEEL + "steps_deg = @", "[70, 60]", 3, "390", "not 360", "120"),
-    case("no-multiple", WHEEL + "steps_deg = @", "[20, 25, 35, 10]", 3, "z = 6", "multiple", "4"),
     case("out-of-reach", "[wheel]\nz = 3\nsteps_deg = @", "[80, 90, 190]", 3, "190", "below 180"),
     case("no-dwell", WHEEL + "steps_deg = @", "[40, 60, 80]", 3, "360", "dwell", "fewer"),
-    case("zero", WHEEL + "steps_deg = @", "[0, 120]", 3, "steps_deg = 0", "above 0"),
-    case("empty", WHEEL + "steps_deg = @", "[]", 3, "list of 1"),
     case("law", WHEEL + "steps_deg = @\n" + LAW, "[70, 50]", 3, "law", "remove"),
     case("rollers", WHEEL + STEPS + "[drive]\nrollers = @", "3", 5, "2 steps", "remove rollers"),
     case("angles", WHEEL + STEPS + ANGLES + "@", "[0, 100, 200]", 5, "2 steps", "as many angles"),
@@ -100,8 +96,6 @@ STEP = [
 ROLLERS = [
     case("close", WHEEL + ANGLES + "@", "[0, 90]", 4, "0 and 90", "120", "90 deg apart"),
     case("no-dwell", WHEEL + ANGLES + "@", "[0, 120, 240]", 4, "3 motions", "360", "dwell"),
-    case("unsorted", WHEEL + ANGLES + "@", "[0, 150, 140]", 4, "rise from 0"),
-    case("whole-turn", WHEEL + ANGLES + "@", "[0, 360]", 4, "below 360"),
     case("law", WHEEL + ANGLES + "@\n" + LAW, "[0, 150]", 4, "straight", "remove"),
     case("count", WHEEL + ANGLES + "[0, 150]\nrollers = @", "3", 5, "2 angles", "remove rollers"),
 ]
@@ -111,21 +105,17 @@ SPHERICAL = [
     case(
         "axes-of-a-flat-wheel", WHEEL + "axes_deg = @", "80", 3, 'gearing = "spherical"', "external"
     ),
-    case("two-rollers", BALL + "[drive]\nrollers = @", "2", 5, "180", "at most 1"),
     case("law", BALL + "[motion]\nlaw = @", '"cycloidal"', 5, "straight", "remove law"),
 ]
 
 FRONTS = [
     case("e-near-1", WHEEL + GEARS.replace("0.2", "@"), "0.9999999999999", 5, "at most 1 - 1e-12"),
-    case("e-missing", WHEEL + drive("@"), "elliptical-gears", 3, "needs eccentricity", "below 1"),
-    case("e-elsewhere", WHEEL + "[drive]\neccentricity = @", "0.2", 4, '"elliptical-gears"'),
     case("rollers-law", WHEEL + GEARS + "rollers = @\n" + LAW, "2", 6, "slot", "rollers = 1"),
 ]
 
 PLANETS = [
     case("z", "[wheel]\nz = @\n" + PLANET, "5", 2, "z = 5", "3, 4 or 6"),
     case("large", WHEEL + PLANET.replace("0.01", "@"), "0.39", 5, "0.39", "at most 0."),
-    case("missing", WHEEL + drive("@"), "epicyclic", 3, "needs planet_ratio"),
     case("rollers", WHEEL + PLANET + "rollers = @", "2", 6, "one roller"),
 ]
 
@@ -157,27 +147,17 @@ PATHS = [
 ]
 
 LINKS = [
-    case("grashof", WHEEL + FOUR_BAR.replace("40", "@"), "95", 5, "crank_mm = 95", "below 90"),
     case("size", WHEEL + FOUR_BAR + "[size]\ncenter_distance_mm = @", "120", 12, "remove"),
     case("rollers", WHEEL + FOUR_BAR + "rollers = @", "2", 11, "one roller"),
 ]
 
 SLIDES = [
     case("all-round", WHEEL + SLIDER.replace("40", "@"), "115", 5, "crank_mm = 115", "below 110"),
-    case("height", WHEEL + SLIDER.replace("= 10", "= @"), "-100", 5, "crank_mm = 40", "below 20"),
     case("internal", WHEEL + "gearing = @\n" + SLIDER, '"internal"', 3, "external wheel"),
 ]
 
 NONCIRCULAR = [
-    case("neither", WHEEL + drive("@"), "noncircular-gears", 4, "A", "ratio_file"),
-    case("no-file", WHEEL + drive("noncircular-gears", "ratio_file = @"), '"gone.csv"', 5, "gone"),
-    case(
-        "both",
-        WHEEL + drive("@", 'A = 0.2\nratio_file = "ratio.csv"'),
-        "noncircular-gears",
-        4,
-        "both",
-    ),
+    case("neither", WHEEL + drive("@"), "noncircular-gears", 3, "needs A"),
 ]
 
 SECTORS = [
@@ -185,7 +165,6 @@ SECTORS = [
 ]
 PAIRS = [
     case("first-2", WHEEL + drive("geneva-pair", "first_z = @"), "2", 5, "first_z = 2", "least 3"),
-    case("short", "[wheel]\nz = @\n" + drive("geneva-pair", "first_z = 4"), "8", 2, "67.5", "45"),
     case("rollers", WHEEL + drive("geneva-pair", "first_z = 3\nrollers = @"), "2", 6, "one roller"),
     case("internal", "[wheel]\nz = 4\ngearing = @\n" + PAIR, '"internal"', 2, "135", "60"),
 ]
@@ -194,9 +173,7 @@ SEVERAL = "[drive]\nrollers = 2\ncrank_steps = @\n"
 TWO = "[drive]\nrollers = 2\ncrank_steps = [0, 3]\n"
 BODY = '[[mass]]\nshape = "point"\nmass_kg = 1\n'
 CRANKS = [
-    case("beyond", WHEEL + SEVERAL, "[0, 6]", 5, "below z = 6"),
     case("twice", WHEEL + SEVERAL, "[0, 0]", 5, "different"),
-    case("three", WHEEL + SEVERAL, "[0, 2, 4]", 4, "3 cranks", "rollers = 3"),
     case("inside", INSIDE + "[drive]\ncrank_steps = @\n", "[0, 3]", 5, "external"),
     case("angles", WHEEL + TWO + "roller_angles_deg = @", "[0, 150]", 6, "even turns", "remove"),
     case("tolerance", WHEEL + TWO + "[tolerance]\nlock_radius_mm = @", "0.1", 6, "remove one"),
@@ -219,7 +196,6 @@ CAROUSELS = [
         "set radius_mm instead",
     ),
     case("many", WHEEL + ORBIT + "wheels = @", "3", 5, "wheels = 3", "120 deg", "at most 2"),
-    case("fingers", WHEEL + ORBIT + "rollers = 2\nwheels = @", "2", 6, "remove rollers"),
     case("gears", WHEEL + ORBIT + "[support]\ngear_ratio = @", "2", 6, "set it to 1"),
 ]
 
@@ -248,13 +224,9 @@ SMALL = "[size]\ncenter_distance_mm = 37"
 BELOW, ABOVE = r"below (\S+)", r"above (\S+)"
 BOUNDS = [
     bound("offset", WHEEL + "offset_mm = @", "80", BELOW, -1),
-    bound("offset-3", "[wheel]\nz = 3\noffset_mm = @", "80", BELOW, -1),
     bound("offset-L", WHEEL + "offset_mm = @\n" + SMALL, "30", BELOW, -1),
     bound("alpha0-high", WHEEL + CAM + LAW + "alpha0_deg = @", "200", BELOW, -1),
-    bound("planet-low", WHEEL + OWN_ARM, "-0.3", ABOVE, 1),
     bound("planet-high", WHEEL + OWN_ARM, "0.3", r"at most (\S+)", -1),
-    bound("ring-low", RING, "-0.39", ABOVE, 1),
-    bound("ring-high", RING, "0.39", r"at most (\S+)", -1),
     bound("slider", WHEEL + SLIDER.replace("40", "@"), "115", r"it must be below (\S+)", -1),
 ]
 TAKE = r"motions takes (\S+) deg"
@@ -277,8 +249,6 @@ NAMED = [
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    rows = "".join(f"{x},1\n" for x in range(0, 361, 30))
-    (tmp_path / "ratio.csv").write_text(rows, encoding="utf-8")
 
 
 def built(spec, value):

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from witness import LAWS, SineLaw, mp
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.motion.laws.standard import SineConstantCosine
 from geneva_cli.study.law_values import characteristic
 
@@ -90,17 +89,3 @@ def test_peaks_are_the_closed_forms(shares):
     assert found.velocity == pytest.approx(a * ((b + d) / pi + c / 2), rel=1e-14)
     jerk = a * pi / min((x for x in (b, d) if x), default=math.inf)
     assert found.jerk == pytest.approx(jerk, rel=1e-14, abs=0.0)
-
-
-@pytest.mark.parametrize(
-    ("shares", "said"),
-    [
-        ((0.25, 0.5, 0.5), r"b \+ c \+ d = 1\.25 must be 1"),
-        ((0.25, 0.5, 0.2), r"b \+ c \+ d = 0\.95 must be 1"),
-        ((1e-4, 0.9999, 0.0), "b = 0.0001 must be 0, for none, or at least 0.001"),
-        ((-0.1, 0.6, 0.5), "b = -0.1 must be at least 0, at most 1"),
-    ],
-)
-def test_shares_that_are_none_are_refused(shares, said):
-    with pytest.raises(GenevaError, match=said):
-        scca(*shares)

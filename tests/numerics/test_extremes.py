@@ -61,16 +61,6 @@ def test_the_greatest_and_the_least_of_waves():
     assert -found.most[1] == pytest.approx(low, rel=1e-15)
 
 
-def test_no_design_hangs_on_how_its_neighbours_are_parted():
-    rng = np.random.default_rng(9)
-    rates, parted = rng.uniform(0.1, 2.0, 40), rng.uniform(0.5, 9.5, 40)
-    together = extremes(rates, parted)
-    for i in range(40):
-        alone = extremes(rates[i : i + 1], parted[i : i + 1])
-        assert np.array_equal(alone.most[:, 0], together.most[:, i])
-        assert np.array_equal(alone.x[:, 0], together.x[:, i])
-
-
 class Bent:
     """|x - turn| of each design, by way of the sign of x - turn, and 1 / (x - turn) beside it."""
 
@@ -105,18 +95,6 @@ def test_a_kink_and_a_pole_are_cut_where_the_sign_changes():
     assert np.array_equal(found.stretches.design, np.repeat(np.arange(50), 2))
     assert found.stretches.x[1, ::2] == pytest.approx(turn, rel=1e-14)
     assert found.stretches.positive[0].tolist() == [False, True] * 50
-
-
-def test_of_equal_values_the_earlier_place_counts():
-    """A whole wave and a half: its two tops differ by roundings."""
-    rates = np.full(1, 3.0 * np.pi / WHOLE)
-    found = extremes(rates, np.array([4.0]))
-    assert found.x[0, 0] == pytest.approx(WHOLE / 6.0, rel=1e-7)
-
-
-def test_a_constant_is_greatest_where_it_begins():
-    found = extremes(np.zeros(2), np.array([4.0, 6.0]))
-    assert np.array_equal(found.x, np.zeros((2, 2)))
 
 
 @pytest.mark.sampled(2)

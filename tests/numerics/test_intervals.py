@@ -8,10 +8,8 @@ import numpy as np
 import pytest
 from sampling import some
 
-from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Undecided, library, narrowed, piece_of
 from geneva_cli.numerics.intervals import Interval, size_of
-from geneva_cli.numerics.jet import Jet, sin_cos, sqrt
 from geneva_cli.numerics.spline import at_rest
 
 ONE_OF = {
@@ -85,26 +83,6 @@ def test_every_operation_holds_the_exact_values():
                 assert holds(angle, mpmath.atan2(v, u))
 
 
-@np.errstate(all="ignore")  # some have no bounds
-def test_intervals_together_are_those_of_each_alone():
-    rng = np.random.default_rng(2)
-    ends = np.sort(rng.uniform(-9.0, 9.0, (2, 200)), axis=0)
-    together = Interval(*ends)
-    for f in (
-        lambda x: x * (x + 2.0) - 3.0 / x,
-        lambda x: (x - 0.5) ** 3 * abs(x),
-        lambda x: library(x).sin(x) * library(x).cos(3.0 * x),
-        lambda x: library(x).sqrt(x * x + 1.0) / library(x).exp(x),
-        lambda x: library(x).acos(x / 10.0) + library(x).hypot(x, 2.0 - x),
-        lambda x: library(x).atan2(x, x * x + 0.5),
-    ):
-        out = f(together)
-        each = [f(Interval(low, high)) for low, high in ends.T.tolist()]
-        assert out.low.tolist() == [float(one.low) for one in each]
-        assert out.high.tolist() == [float(one.high) for one in each]
-        assert out.size.tolist() == [float(one.size) for one in each]
-
-
 @pytest.mark.parametrize(
     ("ask", "answers"),
     [
@@ -132,14 +110,6 @@ def test_intervals_in_several_pieces_of_a_spline_are_evaluated_together():
             assert (whole.low[k], whole.high[k]) == (alone.low, alone.high)
 
 
-def test_peaks_of_the_sine_are_inside():
-    for k in range(-3, 4):
-        middle = (k + 0.5) * math.pi
-        wave = library(Interval(0.0, 1.0)).sin(Interval(middle - 0.1, middle + 0.1))
-        assert (wave.high if k % 2 == 0 else -wave.low) == 1.0
-    assert library(Interval(0.0, 1.0)).cos(Interval(0.0, 7.0)).size == 1.0
-
-
 def test_what_is_unknown_has_no_bound():
     x = Interval(-1.0, 1.0)
     assert (1.0 / x).size == math.inf
@@ -157,29 +127,3 @@ def test_a_rising_function_is_as_narrow_as_its_ends():
     found = narrowed(f(x), f, x)
     assert found.low <= 0.0 and 0.75 <= found.high < 0.75 + 1e-15
     assert found.low > -1e-300 and f(x).high >= 1.0
-
-
-def test_jets_of_intervals_hold_those_of_floats():
-    def curve(x, order):
-        t = Jet.variable(radians(x), order)
-        sine, cosine = sin_cos(t)
-        return sine * cosine / (cosine + 3.0) + sqrt(t * t + 1.0)
-
-    for low in np.linspace(-170.0, 170.0, 41).tolist():
-        enclosed = curve(Interval(low, low + 1.0), 3)
-        for at in np.linspace(low, low + 1.0, 5).tolist():
-            for bound, value in zip(enclosed.c, curve(at, 3).c, strict=True):
-                assert bound.low <= value <= bound.high
-
-
-def test_a_jet_brings_its_own_arithmetic():
-    """A formula may begin with a number that is an interval: (high - D) of a coupler's point."""
-    three, x = Interval.exact(3.0), Jet.variable(Interval(1.0, 2.0), 1)
-    for got, (low, high) in (
-        (three - x, (1.0, 2.0)),
-        (three + x, (4.0, 5.0)),
-        (three * x, (3.0, 6.0)),
-        (three / x, (1.5, 3.0)),
-    ):
-        assert got.c[0].low <= low and high <= got.c[0].high
-        assert got.c[0].high - got.c[0].low < high - low + 1e-14

@@ -59,11 +59,6 @@ def test_boundary_by_sections(margin, good, bad, most):
     assert len(seen) <= most
 
 
-def test_boundary_by_sections_without_a_good_end():
-    """Where no number is good, the first end is returned."""
-    assert boundary_by_sections(lambda x: -1.0 - x, 1.0, 2.0) == 1.0
-
-
 def test_roots_of_a_batch():
     """Newton, a bend that misleads it, a slope that is none, and no number."""
     rate = np.array([1.0, 50.0, 1e3, math.nan])

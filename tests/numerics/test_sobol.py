@@ -31,12 +31,6 @@ def test_scrambled_points_are_a_net(seed):
     assert len({*zip(*cells, strict=True)}) == COUNT
 
 
-def test_blocks_are_parts_of_one_sequence():
-    sequence = Sobol.scrambled(3, 1)
-    parts = [sequence.points(start, 64) for start in range(0, 256, 64)]
-    assert np.array_equal(np.hstack(parts), sequence.points(0, 256))
-
-
 def test_means_are_exact_to_the_order_of_a_scrambled_net():
     """Random points would be wrong by a hundredth of the range: a net's error falls faster."""
     points = Sobol.scrambled(7, 1).points(0, 1 << 14)

@@ -22,13 +22,6 @@ def summed(f, n=1, ends=False):
     return found[0], sum(places)
 
 
-@pytest.mark.parametrize("power", [0, 1, 9, 12])
-def test_what_few_terms_tell_is_had_at_once(power):
-    found, places = summed(lambda x, _: x**power)
-    assert found == pytest.approx(1.0 / (power + 1), rel=4e-15)
-    assert places == NODES
-
-
 @pytest.mark.parametrize("pole", [0.05, 0.1, 0.2, 0.5, 1.0])
 def test_what_is_left_is_told_by_the_series(pole, monkeypatch):
     """∫ dx/(x + p) is log(1 + 1/p): whatever may be left, no more is."""
@@ -54,17 +47,6 @@ def test_designs_that_need_more_are_halved(ends):
     s = np.array([1.0, 1e-4])
     found, _ = summed(lambda x, which: 1.0 / (x * x + s[which, None] ** 2), 2, ends)
     assert found == pytest.approx(np.arctan(1.0 / s) / s, rel=4e-15)
-
-
-def test_spans_apart():
-    """Of a design's spans the rounding of one is known to a share of them all, not of itself."""
-    design, a, b = np.array([0, 0, 1]), np.array([0.0, 1.0, 0.0]), np.array([1.0, 2.0, 3.0])
-
-    def waves(x, which):
-        return np.where((which == 1)[:, None], 1e-16 * np.sin(1e9 * x), np.cos(x))[None]
-
-    found = span_integrals(Integrands(waves, a, b), design, np.full((1, 2), True), apart=True)
-    assert found[0] == pytest.approx(np.sin([1.0, 0.0, 3.0]), rel=4e-15, abs=1e-15)
 
 
 def test_noise_is_given_up_after_a_count_and_leaves_other_designs():

@@ -23,17 +23,6 @@ def test_every_fraction_of_a_turn():
             assert sin_cos_pi(p, q) == rounded(p, q), (p, q)
 
 
-def test_exact_values():
-    assert sin_cos_pi(1, 6)[0] == 0.5
-    assert sin_cos_pi(1, 3)[1] == 0.5
-    assert sin_cos_pi(1, 2) == (1.0, 0.0)
-    assert sin_cos_pi(1, 1) == (0.0, -1.0)
-    assert sin_cos_pi(-1, 2) == (-1.0, 0.0)
-    assert sin_cos_pi(0, 7) == (0.0, 1.0)
-    s, c = sin_cos_pi(1, 4)
-    assert s == c == math.sqrt(0.5)
-
-
 @settings(max_examples=100)
 @given(st.floats(-720.0, 720.0).filter(lambda d: d == 0.0 or abs(d) > 1e-6))
 def test_degrees_are_taken_as_exact(deg):

@@ -4,7 +4,6 @@ import json
 import math
 import re
 from functools import cache
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -14,8 +13,7 @@ from py_mini_racer import MiniRacer
 from geneva_cli import load
 from geneva_cli.geometry.shapes import Circle
 from geneva_cli.motion.pivots import Joint
-from geneva_cli.output import animate, page
-from geneva_cli.output.inks import INKS
+from geneva_cli.output import page
 from geneva_cli.output.scene import value_at
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.turn.gaps import Gaps
@@ -171,28 +169,6 @@ def test_the_force_is_the_pin_force_and_pushes_the_wheel_the_way_it_is_driven():
         # friction turns with the normal's torque: 0.05 of it, on the wall's arm of a roller
         assert 1e-3 * (x * fy - y * fx) == pytest.approx(torque, rel=0.02)
     assert engine.eval("pushAt(scene.pushes[0], 200)") is None
-
-
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize("name", ["spherical-z6", "gear-sector", "internal-z6"])
-def test_a_still_picture_is_the_scene_on_its_way(name, tmp_path):
-    """Well-formed, and its wheel and rollers where the scene's tracks have them there."""
-    found, file = scene(design_of(name)), tmp_path / "still.svg"
-    animate(found, str(file))
-    root = ElementTree.parse(file).getroot()
-    t = 0.12 * found.turn_deg
-    groups = root.findall("{http://www.w3.org/2000/svg}g")
-    turned = re.search(r"rotate\(([^)]*)\)", groups[0].get("transform"))[1]
-    angle = value_at(found.bodies[0].angle, t)
-    assert float(turned) == pytest.approx(-np.degrees(angle), rel=1e-5)  # six digits
-    ink = INKS["ROLLER"].rgb
-    places = [g.get("transform") for g in groups if g.get("stroke") == ink]
-    drawn = [
-        (float(x), -float(y)) for p in places for x, y in re.findall(r"translate\((\S+) (\S+)\)", p)
-    ]
-    for x, y in found.rollers:
-        place = value_at(x, t), value_at(y, t)
-        assert min(np.hypot(a - place[0], b - place[1]) for a, b in drawn) < 1e-2
 
 
 def test_the_same_scene_gives_the_same_bytes_and_titles_are_no_markup():

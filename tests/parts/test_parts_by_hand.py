@@ -22,7 +22,7 @@ from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import arc_floor, lock_of, reliefs, widened
 from geneva_cli.parts.outlines.cut_outlines import cut_arcs, drawn
 from geneva_cli.parts.shafts.bores import bore_of
-from geneva_cli.parts.slots.roller_paths import mouth_corners
+from geneva_cli.parts.slots.roller_paths import horn_corners
 from geneva_cli.spec.tables import Size
 
 L = 100.0
@@ -199,7 +199,7 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
     """
     parts = drawn(*machine_sizes(Design(wheel, size=Size(100.0, 4.0)).mechanism))
     assembly, sizes = parts.assembly, parts.sizes
-    mouths = mouth_corners(assembly, sizes.roller, sizes.recess, sizes.rim)
+    mouths = horn_corners(assembly, sizes.roller, 0.0, sizes.recess, sizes.rim)
     wide = {one.motion: one for one in widened(assembly, sizes, mouths)}
     for one in reliefs(assembly):
         middle = 0.5 * (one.start + one.end)

@@ -12,7 +12,7 @@ from words import Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.design import Design
-from geneva_cli.drawings.sheet.content import faces
+from geneva_cli.drawings.sheet.machine_sheet import cut_faces
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import in_place
@@ -119,7 +119,7 @@ def test_each_item_of_the_list_has_one_balloon(path, sheets):
 def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
     """Against the polygons of the plates at their places, cut by a line in shapely."""
     parts = sheets(name)[0].parts.flat.within(TOLERANCE, "arcs")
-    cut = faces(parts.members, 1.0)
+    cut = cut_faces(parts.members, 1.0)
     for own, plate in in_place(parts.members):
         rings = [vertices(shape, 0.01) for shape in (plate.outline, *plate.holes)]
         solid = Polygon(rings[0], rings[1:])

@@ -27,7 +27,7 @@ from geneva_cli.loads.impacts.entry import mouth_contacts
 from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import single_stress
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.parts.outlines.slot_ends import wall_lost
+from geneva_cli.parts.slots.roller_paths import wall_lost
 from geneva_cli.verdict.checks import checks, single_check
 
 L, Z, R, W, CLEAR = 100.0, 6, 50.0, 5.05, 0.05

@@ -15,12 +15,11 @@ import pytest
 import repo
 from other_shape import with_shape
 from sampling import some
-from turn_witness import ROUNDING, TO_MM, check_bounds, check_proof, least_gap, turn_of
+from turn_witness import ROUNDING, TO_MM, check_bounds, check_proof
 from words import load
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Line, about, closed
 from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -108,26 +107,6 @@ def larger_crank(parts, larger_mm):
     )
 
 
-def with_spike(parts, rng):
-    """The crank with a thin spike on its outline, up to 3 mm high."""
-    [contour, *rest] = parts.outlines.crank
-    i = rng.randrange(len(contour.segments))
-    segment = contour.segments[i]
-    if isinstance(segment, Line):
-        return None
-    (cx, cy), radius, sweep = segment.centre, segment.radius, segment.sweep
-    start = math.atan2(segment.start[1] - cy, segment.start[0] - cx)
-    turn, wide = sweep * rng.uniform(0.1, 0.9), math.copysign(0.2 / radius, sweep)
-    before = about((cx, cy), radius, start, turn)
-    after = about((cx, cy), radius, start + turn + wide, sweep - turn - wide)
-    high = radius + math.copysign(rng.uniform(0.1, 3.0), sweep)
-    middle = start + turn + 0.5 * wide
-    tip = cx + high * math.cos(middle), cy + high * math.sin(middle)
-    spike = (before, Line(before.end, tip), Line(tip, after.start), after)
-    segments = (*contour.segments[:i], *spike, *contour.segments[i + 1 :])
-    return with_crank(parts, [closed(contour.layer, segments), *rest])
-
-
 @pytest.mark.parametrize("name", FLAT)
 @pytest.mark.sampled(40)
 def test_no_gap_within_an_interval_is_below_its_bound(name):
@@ -175,26 +154,6 @@ def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
         else:
             assert found.open.gap_mm < -TO_MM
             assert found.open.gap_mm >= -depth - parts.close - ROUNDING
-
-
-@pytest.mark.long
-def test_a_spike_that_collides_for_a_moment_is_never_proved_free():
-    """A spike 0.2 mm wide somewhere on the crank; dense positions show how deep it collides."""
-    rng = random.Random(5)
-    collides = free = 0
-    for name in ("turret.toml", "three-slots.toml", "quick-index.toml"):
-        for _ in range(some(100, 6)):
-            parts = with_spike(named(name), rng)
-            if parts is None:
-                continue
-            gap = least_gap(parts, turn_of(parts, some(8_000, 2_000)))
-            found = proved(parts)
-            collides += gap < -TO_MM
-            free += found.proved
-            assert not (found.proved and gap < found.least_mm)
-            assert found.proved or gap < TO_MM
-    assert collides
-    assert free
 
 
 def checked(parts, turn_of=None, to_mm=None):

@@ -8,7 +8,6 @@ A run with `--state` can be stopped and resumed.
 import argparse
 import contextlib
 import json
-import math
 import multiprocessing
 import os
 import random
@@ -26,9 +25,7 @@ from fuzz_machines import machine_text
 from fuzz_texts import text_of
 
 LAW = "".join(f"{i / 10},{(i / 10) ** 2 * (3 - i / 5)}\n" for i in range(11))
-# i = 1 - 0.3 cos(input), to what a person writes
-RATIOS = "".join(f"{x},{1 - 0.3 * math.cos(math.radians(x)):.9f}\n" for x in range(0, 361, 15))
-FILES = {"law.csv": LAW, "ratio.csv": RATIOS}  # which a spec may name
+FILES = {"law.csv": LAW}  # which a spec may name
 MEMORY = 2**30  # bytes of data that a process of a long run may hold
 
 

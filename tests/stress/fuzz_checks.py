@@ -20,9 +20,8 @@ from geneva_cli import design
 from geneva_cli.design import Design
 from geneva_cli.drawings.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
 from geneva_cli.errors import GenevaError
-from geneva_cli.extras.certify.certificate import certificate
-from geneva_cli.extras.certify.certified_loads import LOADS, not_proved
-from geneva_cli.geometry.pieces import pieces_table
+from geneva_cli.extras.certify.certificate import LOADS, certificate, not_proved
+from geneva_cli.geometry.sheet import prepared
 from geneva_cli.motion.motion_table import motion_table
 from geneva_cli.motion.peaks import QUANTITIES, peaks_table, worst
 from geneva_cli.motion.registry import DRIVES
@@ -134,7 +133,7 @@ def parts(text):
         return "parts refused"
     for part in DRAWINGS:
         for curves in ("arcs", "cubics"):
-            tried(lambda *of: pieces_table(part_drawing(*of)), drawn, part, tolerance, curves)
+            tried(lambda *of: prepared(part_drawing(*of)), drawn, part, tolerance, curves)
     return "parts"
 
 

@@ -39,7 +39,6 @@ def value(rng, field, wild):
         "law": tuple(LAWS),
         "kind": tuple(DRIVES),
         "file": ("law.csv", "gone.csv", ""),
-        "ratio_file": ("ratio.csv", "gone.csv"),
     }
     return f'"{rng.choice(words.get(field.key, ("matched", "shockless", "slow")))}"'
 

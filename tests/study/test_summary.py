@@ -7,7 +7,7 @@ import repo
 
 from geneva_cli.answer import Summary, SummaryLine
 from geneva_cli.design import Design, load
-from geneva_cli.loads.indexer_formula import RATED_kW, RecommendedMotor
+from geneva_cli.loads.motor import RATED_kW, recommended_motor
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.study.summary.report_summary import of_tolerance, of_vibration
 from geneva_cli.verdict.headline import tightest
@@ -29,9 +29,11 @@ def line(summary: Summary, label: str) -> SummaryLine:
 )
 def test_the_motor_is_the_next_standard_power(power_W: float, rated: float) -> None:
     """Whichever of both powers is greater; beyond the largest there is none."""
-    assert RecommendedMotor(power_W, 0.0, 1400.0, 1.0).rated_kW == rated
-    assert RecommendedMotor(0.0, power_W, 1400.0, 1.0).rated_kW == rated
-    assert RecommendedMotor(1e3 * RATED_kW[-1] + 1.0, 0.0, 1400.0, 1.0).rated_kW is None
+    by = {"power_W": 0.0, "motor_torque_max_Nm": 0.0, "motor_rpm": 1400.0, "input_torque_Nm": 1.0}
+    torque = power_W * 60.0 / 1400.0 / math.tau * (1.0 - 1e-15)
+    for name, value in (("power_W", power_W), ("motor_torque_max_Nm", torque)):
+        assert recommended_motor(by | {name: value}).rated_kW == rated
+    assert recommended_motor(by | {"power_W": 1e3 * RATED_kW[-1] + 1.0}).rated_kW is None
     assert list(RATED_kW) == sorted(set(RATED_kW))
 
 

@@ -132,38 +132,6 @@ def test_branches_behind_gears_have_the_angle_of_the_input() -> None:
         assert other.at_deg == pytest.approx(input_deg, abs=1e-9)  # rounding of degrees
 
 
-@pytest.mark.long
-def test_branches_of_a_crank_that_turns_unevenly() -> None:
-    """Both branches at equal radii, though the roller is not there at mirrored input angles.
-
-    The ratio 1 + a sin 6 x turns the crank by x + a (1 - cos 6 x)/6 from mid-motion.
-    """
-    swing, law, step = 0.3, "sine-group", math.pi / 3.0
-    degrees = np.arange(361.0)
-    ratio = 1.0 + swing * np.round(np.sin(np.radians(6.0 * (degrees % 60.0))), 6)
-    ratio[::30] = 1.0
-    points = tuple(zip(degrees.tolist(), ratio.tolist(), strict=True))
-    drive = registry.drive("noncircular-gears")(ratio=points)
-    spec = Spec(Wheel(6), drive, motion=Motion(law, ratio=0.5), size=Size(L, r))
-    rows = {c.name: c.value for c in standing_checks(parts_of(build(spec)))}
-
-    def branch(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Radius over L and polar angle in the wheel."""
-        crank = x + swing / 6.0 * (1.0 - np.cos(6.0 * x))
-        psi = (krasniqi(math.pi * (0.5 * x / step + 0.5)) - 0.5) * step
-        pin = 1.0 - 0.5 * np.exp(-1j * crank)
-        return np.abs(pin), np.angle(pin) - psi
-
-    x = np.linspace(-step, 0.0, 400_001)
-    radius, way_in = branch(x)
-    radius_out, way_out = branch(-x[::-1])
-    opposite = np.interp(radius, radius_out, way_out, right=np.nan)
-    gap = 2.0 * L * radius * np.sin(0.5 * (way_in - opposite))
-    for side, most in (("apart", np.nanmax(gap)), ("crossed", -np.nanmin(gap))):
-        # the ratio is given to six decimals, and the check has 400 places
-        assert rows[f"branches_{side}_mm"] == pytest.approx(max(most, 0.0), rel=2e-3, abs=1e-4)
-
-
 def test_the_pressure_angle_of_a_curved_slot() -> None:
     """From tan mu = rho (theta' - psi')/rho', sampled densely."""
     spec = curved("3-4-5", 0.4838709677419355).replace(limits=Limits(pressure_angle_max_deg=45.0))

@@ -13,9 +13,9 @@ from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, T
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
+from geneva_cli.loads.tolerance.entry_jump import entry_jumps
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.loads.tolerance.motion_error import motion_errors, motion_plays
-from geneva_cli.loads.tolerance.random_machines import entry_jumps
 from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion

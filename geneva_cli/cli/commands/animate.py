@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
     "geneva animate spec.toml -o machine.html",
-    "geneva animate spec.toml -o machine.svg",
+    "geneva animate spec.toml --reverse -o backwards.html",
     "geneva animate spec.toml --open",
 )
 
@@ -20,13 +20,13 @@ def run(
     settings: Settings = None,
     open_: Annotated[bool, flag("--open", "Open the page in the desktop's browser.")] = False,
     output: Annotated[
-        str, output_option("FILE", "Write to this .html or .svg; - prints html.", default=True)
+        str, output_option("FILE", "Write to this .html; - prints it.", default=True)
     ] = "-",
 ) -> None:
     """Animate the machine on a page that needs no network.
 
-    It shows parts, gears, contact force and curves, and plays or follows a slider. An .svg does
-    not move. --open prints the page's path if there is no browser.
+    It shows parts, gears, contact force and curves, and plays or follows a slider.
+    --open prints the page's path if there is no browser.
     """
     from geneva_cli.design import load
     from geneva_cli.output import animate

@@ -50,9 +50,9 @@ def run(
     If the engagements differ, it covers a whole period of the machine. velocity, acceleration and
     jerk are relative to the input; omega_rad_s and alpha_rad_s2 are at the spec's speed.
 
-    --format cam writes an electronic cam: polynomials of degree five as csv, CODESYS points
-    (XYVA), or Beckhoff pairs. Standard error has the number of rows and the greatest error. The
-    exit status is 1 if that is more than a --tolerance that was given.
+    --format cam writes an electronic cam: polynomials of degree five as csv, or CODESYS points
+    (XYVA). Standard error has the number of rows and the greatest error. The exit status is 1 if
+    that is more than a --tolerance that was given.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_text

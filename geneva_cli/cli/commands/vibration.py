@@ -21,7 +21,7 @@ def run(
 ) -> None:
     """The load on an elastic shaft: vibration after each index, and the speeds to avoid.
 
-    As csv the spectrum: residual and steady state from half to twice the design's speed. At a
+    As csv the spectrum: the residual from half to twice the design's speed. At a
     speed to avoid the residual has a local maximum of at least 0.0001 of the step. `avoid` says
     how far it moves with a stiffness 20 % lower and higher.
     """

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hub, holes_of
-from geneva_cli.drawings.sheet.view import Block, View, grouped, times
+from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.geometry.measure import at, legs
 from geneva_cli.geometry.plates import Member, Plate, plates
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, Shape
@@ -27,6 +28,8 @@ from geneva_cli.parts.shafts.bores import radius_of
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.spec.written import degrees, length
 
+UP = 0.5 * math.pi
+
 
 def draw_disc(view: View, parts: FlatParts) -> None:
     """Draw the locking disc, or its sectors, about the crank's axis."""
@@ -38,59 +41,50 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     contours = [disc.outline for disc in discs if isinstance(disc.outline, Contour)]
     view.draw_all((*contours, *screwed, *bores, *(hub.outline for hub in hubs)))
     circle_of(view, screwed)
-    view.cross((0.0, 0.0), sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
+    view.cross(ORIGIN, sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
     for hub in hubs:
         draw_hub(view, hub)
     bored(view, bores, mechanism.spec.size, "crank")
-    arcs = [s for contour in contours for s in contour.segments if isinstance(s, Arc)]
-    locking = [
-        arc
-        for arc in arcs
-        if max(math.hypot(*arc.centre), abs(arc.radius - sizes.lock)) < SAME_ON_SHEET
-    ]
+    locking, reliefs = list[Arc](), dict[tuple[str, str], list[Arc]]()
+    for arc in (s for contour in contours for s in contour.segments if isinstance(s, Arc)):
+        if max(math.hypot(*arc.centre), abs(arc.radius - sizes.lock)) < SAME_ON_SHEET:
+            locking.append(arc)
+        else:
+            far = length(math.hypot(*at(arc, 0.5)))
+            reliefs.setdefault((sized.plain(arc.radius, "R "), far), []).append(arc)
     _gaps(view, sizes.lock, locking)  # first, as their legs have no other place
     view.of_arcs(locking, sized.made(view.fits, mechanism, "lock", sizes.lock), whole=True)
-    _reliefs(view, [arc for arc in arcs if arc not in locking])
-    bolted(view, screwed)
-
-
-def _reliefs(view: View, arcs: list[Arc]) -> None:
-    alike: dict[tuple[str, str], list[Arc]] = {}
-    for arc in arcs:
-        far = length(math.hypot(*at(arc, 0.5)))
-        alike.setdefault((sized.plain(arc.radius, "R "), far), []).append(arc)
-    for (radius, far), some in alike.items():
+    for (radius, far), some in reliefs.items():
         view.of_arcs(some, times(len(some), radius))
         arc, middle = some[0], at(some[0], 0.5)
         if math.hypot(*arc.centre) > SAME_ON_SHEET and math.hypot(*middle) > SAME_ON_SHEET:
             view.radial(middle, times(len(some), far))
+    bolted(view, screwed)
 
 
 def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
-    ends = sorted(legs(arc) for arc in _joined(locking))
-    after = zip(ends, [*ends[1:], *ends[:1]], strict=True)
-    gaps = ((end, (start - end) % math.tau) for (_, end), (start, _) in after)
-    named = ((degrees(wide), (end, end + wide)) for end, wide in gaps if wide > SAME_ON_SHEET)
-    for text, pairs in grouped(named):
-        view.angular(pairs, lock, lock, text)
-
-
-def _joined(arcs: list[Arc]) -> list[Arc]:
-    """Return arcs of one circle, with adjoining ones joined."""
+    """Draw the angles between the locking arcs; adjoining ones are one arc."""
     joined: list[Arc] = []
-    for arc in arcs:
+    for arc in locking:
         if joined and joined[-1].end == arc.start:
             sweep = joined[-1].sweep + arc.sweep
             joined[-1] = Arc(joined[-1].start, arc.end, math.tan(0.25 * sweep))
         else:
             joined.append(arc)
-    return joined
+    ends = sorted(map(legs, joined))
+    named = []
+    for (_, end), (start, _) in zip(ends, [*ends[1:], *ends[:1]], strict=True):
+        wide = (start - end) % math.tau
+        if wide > SAME_ON_SHEET:
+            named.append((degrees(wide), (end, end + wide)))
+    for text, pairs in grouped(named):
+        view.angular(pairs, lock, lock, text)
 
 
 def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
     """Draw the crank arm with its holes."""
     view.draw_all((arm.outline, arm.bore, *arm.pins, *arm.bolts))
-    view.cross((0.0, 0.0), arm.hub)
+    view.cross(ORIGIN, arm.hub)
     for pin in arm.pins:
         view.cross(pin.centre, arm.eye, math.atan2(pin.centre[1], pin.centre[0]))
     circle_of(view, arm.bolts)
@@ -111,15 +105,14 @@ def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
 
 def draw_roller(view: View, mechanism: Mechanism) -> None:
     """Draw a roller about its pin."""
-    roller, axis = mechanism.roller_radius_mm, (0.0, 0.0)
-    pin = drawn_pin_radius(mechanism)
-    loose = 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
-    circles = [Circle("", axis, roller)] + ([Circle("", axis, pin + loose)] if pin else [])
+    pin, roller = drawn_pin_radius(mechanism), mechanism.roller_radius_mm
+    hole = pin + 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
+    circles = [Circle("", ORIGIN, roller)] + ([Circle("", ORIGIN, hole)] if pin else [])
     view.draw_all(circles)
-    view.cross(axis, roller)
+    view.cross(ORIGIN, roller)
     view.diameter(circles[:1], sized.made(view.fits, mechanism, "roller", roller))
     if pin:
-        view.diameter(circles[1:], sized.made(view.fits, mechanism, "roller bore", pin + loose))
+        view.diameter(circles[1:], sized.made(view.fits, mechanism, "roller bore", hole))
         view.remark(f"turns on its pin {sized.shaft(view.fits, pin)}, which is pressed in")
 
 
@@ -129,60 +122,58 @@ def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> Non
     for shape in shapes:
         view.draw(shape, layers.get(shape.layer, OUTLINE))
     L = parts.assembly.L
-    deviation = parts.assembly.mechanism.spec.tolerance.center_distance_mm
-    reach = parts.sizes.outer or parts.sizes.rim
-    view.cross((0.0, 0.0), reach)
+    view.cross(ORIGIN, parts.sizes.outer or parts.sizes.rim)
     for place in parts.assembly.full.crank_places:
         view.cross(place.at, max(parts.sizes.lock, 0.1 * L))
-    view.linear((0.0, 0.0), (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
-
-
-UP = 0.5 * math.pi
+    deviation = parts.assembly.mechanism.spec.tolerance.center_distance_mm
+    view.linear(ORIGIN, (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
 
 
 def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> None:
     """Draw a link, or a block that slides in one, with dimensions from its first hole."""
     plate = member.part
-    assert isinstance(plate, Plate)
+    assert isinstance(plate, Plate) and isinstance(plate.outline, Contour)
     view.draw_plate(plate)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     slots = [hole for hole in plate.holes if isinstance(hole, Contour) and hole.layer == "LINK"]
     shaped = [hole for hole in plate.holes if isinstance(hole, Contour) and hole not in slots]
     for hole in holes:
         view.cross(hole.centre, 2.0 * hole.radius)
-    base = ORIGIN if shaped else _base(view, plate, holes)
+    # the origin of dimensions: the link's own if on it, else its first hole
+    eyes = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
+    own = next((eye for eye in eyes if math.hypot(*eye.centre) < SAME_ON_SHEET), None)
+    nearest = min((hole.centre for hole in holes), key=lambda p: math.hypot(*p), default=None)
+    base = ORIGIN
+    if not shaped and nearest and (own is None or math.hypot(*nearest) < SAME_ON_SHEET):
+        base = nearest
+    elif not shaped:
+        view.cross(ORIGIN, own.radius if own else 0.0)
+        view.remark("one piece with its shaft")
     for slot in slots:
         _slot(view, slot, base)
     view.places((hole.centre for hole in holes), base)
     pressed = [centre for _, centre in roller_pins(mechanism)]  # in a link or in its block
-
-    def written(hole: Circle, there: Circle) -> str:
+    named = []
+    for hole, there in zip(holes, placed_holes(member), strict=True):
         if plate.name in bars.standing:
-            return sized.screw_hole(hole.radius)
-        if any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed):
-            return sized.made(view.fits, mechanism, "pin hole", hole.radius)
-        return sized.bore(view.fits, hole.radius)
-
-    pairs = zip(holes, placed_holes(member), strict=True)
-    for text, some in grouped((written(hole, there), hole) for hole, there in pairs):
+            text = sized.screw_hole(hole.radius)
+        elif any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed):
+            text = sized.made(view.fits, mechanism, "pin hole", hole.radius)
+        else:
+            text = sized.bore(view.fits, hole.radius)
+        named.append((text, hole))
+    for text, some in grouped(named):
         view.diameter(some, text)
     if shaped:
         view.cross(ORIGIN, 2.0 * radius_of(shaped[0]))
         bored(view, shaped, mechanism.spec.size, "crank")  # no other shaft of links has a shape
-    _outline(view, plate, plate.name in bars.blocks)
-
-
-def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
-    """Return the origin of a link's dimensions: its own if on the link, else its first hole."""
-    assert isinstance(plate.outline, Contour)
-    eyes = (piece for piece in plate.outline.segments if isinstance(piece, Arc))
-    own = next((eye for eye in eyes if math.hypot(*eye.centre) < SAME_ON_SHEET), None)
-    nearest = sorted((hole.centre for hole in holes), key=lambda p: math.hypot(*p))
-    if nearest and (own is None or math.hypot(*nearest[0]) < SAME_ON_SHEET):
-        return nearest[0]
-    view.cross((0.0, 0.0), own.radius if own else 0.0)
-    view.remark("one piece with its shaft")
-    return 0.0, 0.0
+    if plate.name not in bars.blocks:
+        view.radii(eyes)
+        return
+    half, (x, _) = eyes[0].radius, eyes[0].centre
+    end = abs(x) + half
+    view.linear((0.0, -half), (0.0, half), UP, sized.fitted(view.fits, 2.0 * half, "", "g6"))
+    view.linear((-end, 0.0), (end, 0.0), 0.0, sized.plain(2.0 * end))
 
 
 def _slot(view: View, slot: Contour, base: Point) -> None:
@@ -200,47 +191,26 @@ def _slot(view: View, slot: Contour, base: Point) -> None:
     off = abs(math.remainder(turn, math.tau))
     if math.degrees(off) > SAME_ON_SHEET and math.hypot(*base) < SAME_ON_SHEET:
         legs = (0.0, turn) if turn > 0.0 else (turn, 0.0)
-        reach = math.dist(base, near.centre)
-        view.angular([legs], 0.0, reach, degrees(off))
-
-
-def _outline(view: View, plate: Plate, slides: bool) -> None:
-    """Draw the radii of eyes; of a sliding block, its width in the slot and its length."""
-    assert isinstance(plate.outline, Contour)
-    arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
-    if slides:
-        half, (x, _) = arcs[0].radius, arcs[0].centre
-        end = abs(x) + half
-        view.linear((0.0, -half), (0.0, half), UP, sized.fitted(view.fits, 2.0 * half, "", "g6"))
-        view.linear((-end, 0.0), (end, 0.0), 0.0, sized.plain(2.0 * end))
-        return
-    view.radii(arcs)
+        view.angular([legs], 0.0, math.dist(base, near.centre), degrees(off))
 
 
 def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
     """Return a table of the pins, washers, spacers and rollers between links, and on the frame."""
-    rows = list(_rows(members, mechanism))
-    if not rows:
-        return []
-    columns = (62.0, 44.0, 46.0, 16.0)  # mm
-    return [table(("round parts",), [("part", "outside", "bore", "length"), *rows], columns)]
-
-
-def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str, str, str, str]]:
+    rows = [("part", "outside", "bore", "length")]
     for plate in dict.fromkeys(one.part for one in members if isinstance(one.part, Plate)):
         assert isinstance(plate.outline, Circle)
         fits = Fits(mechanism.spec.size.process, plate.thickness)
         outer, bores = plate.outline.radius, [h for h in plate.holes if isinstance(h, Circle)]
-        rolls, on_screw = plate.layer == "ROLLER", plate.layer == "SHAFT"
-        outside = sized.plain(2.0 * outer, "Ø ")
+        outside, inside = sized.plain(2.0 * outer, "Ø "), ""
         if not bores:
             outside = sized.shaft(fits, outer)
-        elif rolls:
+        elif plate.layer == "ROLLER":
             outside = sized.made(fits, mechanism, "roller", outer)
-        inside = "".join(
-            sized.plain(2.0 * bore.radius, "Ø ")
-            if on_screw
-            else sized.made(fits, mechanism, "roller bore", bore.radius)
-            for bore in bores
-        )
-        yield plate.name, outside, inside, length(plate.thickness)
+        for bore in bores:
+            if plate.layer == "SHAFT":  # on a screw
+                inside += sized.plain(2.0 * bore.radius, "Ø ")
+            else:
+                inside += sized.made(fits, mechanism, "roller bore", bore.radius)
+        rows.append((plate.name, outside, inside, length(plate.thickness)))
+    columns = (62.0, 44.0, 46.0, 16.0)  # mm
+    return [table(("round parts",), rows, columns)] if len(rows) > 1 else []

@@ -1,17 +1,18 @@
-"""The drawing sheet of a machine: dimensioned parts, the list of items and a title block.
+"""The drawing sheet of a flat machine: dimensioned parts, the list of items and a title block.
 
 The assembled machine and its section are drawn at the scale of the parts, or at half of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import partial
-from typing import TypeAlias
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cache, partial
+from typing import Any, NamedTuple
 
 from geneva_cli.drawings.part_drawings import machine
+from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.content import SheetContent, sheet_of, shown_on_sheet
 from geneva_cli.drawings.sheet.crank_views import (
     draw_arm,
     draw_assembly,
@@ -20,152 +21,229 @@ from geneva_cli.drawings.sheet.crank_views import (
     draw_roller,
     round_parts,
 )
-from geneva_cli.drawings.sheet.paper import table
+from geneva_cli.drawings.sheet.packing import Block
+from geneva_cli.drawings.sheet.paper import on_paper, scale_name, smaller, table
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove, draw_shaft
-from geneva_cli.drawings.sheet.view import Block, View
+from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
-from geneva_cli.geometry.plates import Group, Member, Plate, Shell
-from geneva_cli.geometry.shapes import Circle
-from geneva_cli.geometry.sheet import Sheet
+from geneva_cli.geometry.board import chords
+from geneva_cli.geometry.measure import at, bounds, bounds_of, mapped
+from geneva_cli.geometry.plates import Group, Member, Plate, Shell, in_place, plates
+from geneva_cli.geometry.shapes import Circle, Point, two_arcs
+from geneva_cli.geometry.sheet import HATCH, OUTLINE, Sheet, line, rectangle
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.parts import Parts
+from geneva_cli.parts.projection import alike
 from geneva_cli.parts.shafts.fits import Fits
 from geneva_cli.spec.written import length, number
+
+
+class Face(NamedTuple):
+    """A rectangle in which the plane cuts a plate, mm: along the line of centres, and upwards."""
+
+    plate: Plate  # in its own frame
+    left: float
+    right: float
 
 
 def sheet(parts: FlatParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
     mechanism, L = parts.mechanism, parts.mechanism.center_distance_mm
-    shown = shown_on_sheet(mechanism.spec, parts.members, machine(parts).shapes)
-    fixed = [
+    drawn = machine(parts).shapes
+    every = [one.part for one in parts.members]
+    rows: list[dict[str, Any]] = list(part_rows(mechanism.spec, every))
+    largest = max(row[f"size_{axis}_mm"] for row in rows for axis in "xy")
+    # each plate of these layers has a view, and so has the frame: the sheet has their area at least
+    apart = [one for part in every for one in plates(part) if one.layer in ("WHEEL", "ARM")]
+    boxes = [bounds(plate.outline) for plate in (*apart, *plates(every[-1]))]
+    area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
+    items: dict[Plate, int] = {}  # the number of each kind of plate in the list
+    for i, kind in enumerate(alike(every), 1):
+        items |= {one: i for one in kind if isinstance(one, Plate)}
+    # chords of 1.5 mm on a part of 500 mm: spans are within 0.1 mm on any paper
+    faces = cut_faces(parts.members, 500.0 / largest)
+    marked = {items[face.plate] for face in faces}
+    tables = [
         *round_parts((*parts.links.joined, *parts.spacers), mechanism),
-        *layout(mechanism),
+        *_layout(mechanism),
     ]
 
-    def together(view: View) -> None:
-        draw_assembly(view, parts.outlines, shown.together)
+    @cache
+    def whole(scale: float) -> Block:
+        view = View(f"assembly ({scale_name(scale)})", scale)
+        draw_assembly(view, parts.outlines, drawn)
+        box = bounds_of(drawn)
+        view.section((box.x0, 0.0), (box.x1, 0.0), "A")
+        tips: dict[int, list[Point]] = {}
+        for own, plate in in_place(parts.members):
+            if items[own] in marked:
+                continue
+            shape = plate.outline
+            pieces = two_arcs(shape) if isinstance(shape, Circle) else shape.segments
+            longest = sorted(pieces, key=lambda piece: -math.dist(piece.start, piece.end))
+            tips.setdefault(items[own], []).extend(at(piece, 0.5) for piece in longest[:8])
+        for item, places in sorted(tips.items()):
+            view.balloon(places, str(item))
+        return view.block()
 
-    views = partial(_views, shown, parts)
-    return sheet_of(mechanism.spec, shown, views, together, (0.0, L), fixed)
+    @cache
+    def section(scale: float) -> Block:
+        view = View(f"A-A ({scale_name(scale)})", scale)
+        _draw_section(view, faces, (0.0, L))
+        sides: dict[int, list[Point]] = {}  # the middles of the faces' sides
+        for face in sorted(faces, key=lambda f: f.left - f.right):
+            low, high = face.plate.low, face.plate.high
+            x, z = 0.5 * (face.left + face.right), 0.5 * (low + high)
+            own = (x, high), (x, low), (face.right, z), (face.left, z)
+            sides.setdefault(items[face.plate], []).extend(own)
+        for item, places in sorted(sides.items()):
+            view.balloon(places, str(item))
+        return view.block()
 
+    def rest(scale: float) -> Iterator[list[Block]]:
+        half = smaller(scale, 2.0)
+        for of_cut, of_whole in ((scale, scale), (scale, half), (half, half)):
+            yield [section(of_cut), whole(of_whole)]
 
-def _views(shown: SheetContent, parts: FlatParts, scale: float) -> Iterator[View]:
-    begin = titled(shown.rows, scale, parts)
-    yield from _wheels(parts, begin)
-    if parts.arm:
-        view = begin("arm")
-        draw_arm(view, parts.mechanism, parts.arm)
-        yield view
-    yield from rolling(begin, parts.mechanism)
-    yield from linked(begin, parts)
-    yield from _standing(parts, begin)
+    def blocks(scale: float) -> tuple[list[Block], Callable[[], Iterator[list[Block]]]]:
+        views = [view.block() for view in _views(rows, parts, scale)]
+        return [*views, *tables], partial(rest, scale)
 
-
-def _wheels(parts: FlatParts, begin: Begin) -> Iterator[View]:
-    for front, of in zip(("", "first "), (parts, *parts.in_front), strict=False):
-        view = begin(f"{front}wheel", f"{front}wheel's hub")
-        draw_wheel(view, of)
-        yield view
-        if of.outlines.crank:
-            view = begin(
-                *(f"{front}{name}" for name in ("locking disc", "locking sector", "crank's hub"))
-            )
-            draw_disc(view, of)
-            yield view
-
-
-def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
-    yield from shafted(begin, parts.shafts)
-    grooved = flat_plates(parts.groove_plate)
-    if grooved:
-        view = begin(*(plate.name for plate in grooved), "groove")
-        draw_groove(view, parts.groove, parts.outlines.sizes.half_width, grooved[0])
-        yield view
-    for plate in flat_plates(parts.bridge):
-        view = begin(plate.name)
-        _, *through = (hole for hole in plate.holes if isinstance(hole, Circle))
-        screws = {hole: sized.screw_hole(hole.radius) for hole in through}
-        draw_frame(view, plate, axis_name="the crank's axis", screws=screws)
-        yield view
-    (frame,) = flat_plates([parts.frame])
-    view = begin(frame.name)
-    draw_frame(
-        view,
-        frame,
-        screws={h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads},
-    )
-    yield view
+    return on_paper(mechanism.spec, rows, largest, blocks, area)
 
 
-def layout(mechanism: Mechanism) -> list[Block]:
+def _layout(mechanism: Mechanism) -> list[Block]:
     """Return a table of pivots and lengths of the drive in front of the crank, if any."""
-    own = mechanism.layout
     rows = [("drive", "x or value", "y or unit")]
-    rows += [(p.name, length(p.x_mm), length(p.y_mm)) for p in own if isinstance(p, Pivot)]
-    rows += [
-        (d.name, d.value if isinstance(d.value, str) else number(d.value), d.unit)
-        for d in own
-        if isinstance(d, Dimension)
-    ]
+    for p in mechanism.layout:
+        if isinstance(p, Pivot):
+            rows.append((p.name, length(p.x_mm), length(p.y_mm)))
+    for d in mechanism.layout:
+        if isinstance(d, Dimension):
+            value = d.value if isinstance(d.value, str) else number(d.value)
+            rows.append((d.name, value, d.unit))
     return [table((), rows, (60.0, 36.0, 20.0))] if len(rows) > 1 else []  # mm
 
 
-Begin: TypeAlias = Callable[..., View]
-
-
-def titled(rows: Sequence[Mapping[str, object]], scale: float, parts: Parts) -> Begin:
-    """Return a function that begins a view, titled with its parts' numbers and thicknesses.
-
-    Its fits are those of the process, for the thickness of the first part.
-    """
-    process = parts.mechanism.spec.size.process
+def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterator[View]:
+    """Yield the view of each part."""
+    mechanism, bars = parts.mechanism, parts.links
+    process = mechanism.spec.size.process
     unborne = {name for name, _ in parts.unborne}
 
     def begin(*names: str, thick: bool = True) -> View:
+        """Begin a view, titled with its parts' numbers and thicknesses.
+
+        Its fits are those of the process, for the thickness of the first part.
+        """
         titles: list[str] = []
         fits = Fits(process)
         for i, row in enumerate(rows, 1):
             if row["name"] in names:
-                long = row["thickness_mm"]
-                assert isinstance(long, float)
-                fits = fits if titles else Fits(process, long)
-                titles.append(f"{i} {row['name']}" + f", t = {length(long)}" * thick)
+                fits = fits if titles else Fits(process, row["thickness_mm"])
+                titles.append(f"{i} {row['name']}" + f", t = {length(row['thickness_mm'])}" * thick)
         view = View("; ".join(titles) or names[0], scale, fits)
         for name in names:
             if name in unborne:
                 view.remark("no bearing: hold it from above")
         return view
 
-    return begin
-
-
-def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
-    """Yield views of links, each once."""
-    bars = parts.links
-    for one in {member.part: member for member in bars.cut}.values():
-        view = begin(one.part.name)
-        draw_link(view, one, bars, parts.mechanism)
+    for front, of in zip(("", "first "), (parts, *parts.in_front), strict=False):
+        view = begin(f"{front}wheel", f"{front}wheel's hub")
+        draw_wheel(view, of)
         yield view
-
-
-def rolling(begin: Begin, mechanism: Mechanism) -> Iterator[View]:
-    """Yield the view of the roller with its pin."""
+        if of.outlines.crank:
+            names = ("locking disc", "locking sector", "crank's hub")
+            view = begin(*(f"{front}{name}" for name in names))
+            draw_disc(view, of)
+            yield view
+    if parts.arm:
+        view = begin("arm")
+        draw_arm(view, mechanism, parts.arm)
+        yield view
     view = begin("roller", "pin")
     draw_roller(view, mechanism)
     yield view
-
-
-def shafted(begin: Begin, shafts: Iterable[Member]) -> Iterator[View]:
-    """Yield a view of each kind of shaft."""
-    for part in dict.fromkeys(member.part for member in shafts):
+    for one in {member.part: member for member in bars.cut}.values():
+        view = begin(one.part.name)
+        draw_link(view, one, bars, mechanism)
+        yield view
+    for part in dict.fromkeys(member.part for member in parts.shafts):
         assert not isinstance(part, Group | Shell)
         view = begin(part.name, thick=False)
         draw_shaft(view, part)
         yield view
+    grooved = _plates_among(parts.groove_plate)
+    if grooved:
+        view = begin(*(plate.name for plate in grooved), "groove")
+        draw_groove(view, parts.groove, parts.outlines.sizes.half_width, grooved[0])
+        yield view
+    for plate in _plates_among(parts.bridge):
+        view = begin(plate.name)
+        _, *through = (hole for hole in plate.holes if isinstance(hole, Circle))
+        screws = {hole: sized.screw_hole(hole.radius) for hole in through}
+        draw_frame(view, plate, axis_name="the crank's axis", screws=screws)
+        yield view
+    (frame,) = _plates_among([parts.frame])
+    view = begin(frame.name)
+    threads = {h: sized.screw_hole(h.radius, tapped=True) for h in parts.frame_threads}
+    draw_frame(view, frame, screws=threads)
+    yield view
 
 
-def flat_plates(members: Iterable[Member]) -> list[Plate]:
-    """Return the plates among some parts."""
+def _plates_among(members: Iterable[Member]) -> list[Plate]:
     return [one.part for one in members if isinstance(one.part, Plate)]
+
+
+def cut_faces(members: Iterable[Member], scale: float) -> list[Face]:
+    """Return the faces that the plane y = 0 cuts, by chords of 1.5 mm at a scale.
+
+    They lie inside of an outline and outside of its holes.
+    """
+    faces = []
+    for own, plate in in_place(members):
+        crossings: list[float] = []
+        for shape in (plate.outline, *plate.holes):
+            scaled = mapped(shape, lambda p: (scale * p[0], scale * p[1]), lambda r: scale * r)
+            for x, y, u, v in chords(scaled).tolist():
+                # chords that follow each other share their ends within rounding, 1e-9 mm
+                if (round(y, 9) <= 0.0) != (round(v, 9) <= 0.0):
+                    crossings.append((x - y * (u - x) / (v - y)) / scale)
+        ends = sorted(crossings)
+        spans = zip(ends[::2], ends[1::2], strict=True)
+        faces += [Face(own, a, b) for a, b in spans if b - a > 1e-6]
+    return faces
+
+
+def _draw_section(view: View, cut: list[Face], axes: Iterable[float]) -> None:
+    """Draw cut faces and the height; all but rods are hatched (ISO 128-3)."""
+    numbers: Mapping[Plate, int] = {
+        plate: k for k, plate in enumerate(dict.fromkeys(face.plate for face in cut))
+    }
+    low, high = min(f.plate.low for f in cut), max(f.plate.high for f in cut)
+    for face in cut:
+        low_, high_ = face.plate.low, face.plate.high
+        view.draw(rectangle("", face.left, low_, face.right, high_), OUTLINE)
+        if face.plate.layer not in ("SHAFT", "ROLLER"):
+            _hatch(view, face, numbers[face.plate])
+    for x in axes:
+        view.centre_line((x, low), (x, high))
+    left = min(face.left for face in cut)
+    view.linear((left, low), (left, high), 0.5 * math.pi, length(high - low))
+
+
+def _hatch(view: View, face: Face, k: int) -> None:
+    """Draw lines at 45 degrees, 2 mm apart on paper or 3, rising or falling by the plate."""
+    rising, step = k % 2 == 0, (2.0 if k % 4 < 2 else 3.0) * math.sqrt(2.0) / view.scale
+    (a, b), (c, d) = (face.left, face.right), (face.plate.low, face.plate.high)
+    # a line x - z = level, or x + z = level, between its crossings with the sides
+    least, most = (a - d, b - c) if rising else (a + c, b + d)
+    for i in range(math.ceil(least / step), math.floor(most / step) + 1):
+        level = i * step
+        start, end = max(a, level + c), min(b, level + d)
+        if not rising:
+            start, end = max(a, level - d), min(b, level - c)
+        if end - start > 1e-9 * step:
+            heights = (start - level, end - level) if rising else (level - start, level - end)
+            view.draw(line("", (start, heights[0]), (end, heights[1])), HATCH)

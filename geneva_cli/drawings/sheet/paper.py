@@ -1,12 +1,18 @@
-"""The paper: formats (ISO 5457), frame, title block (ISO 7200), list of items, tables."""
+"""Sheets of paper: formats, scales, title block and tables.
+
+The views have one scale: the largest standard scale at which everything fits on one sheet, A1 at
+most. The sheet is the smallest that fits. Above 1:1 the largest part is no wider than a hand.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
-from geneva_cli.drawings.sheet.view import Block
+from geneva_cli.drawings.sheet.packing import Block, is_overfull, packed
+from geneva_cli.drawings.sheet.sized import edge_note
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Circle, Point, Shape
 from geneva_cli.geometry.sheet import (
     FRAME,
@@ -15,11 +21,16 @@ from geneva_cli.geometry.sheet import (
     SMALL,
     TEXT,
     Label,
+    Sheet,
     line,
     polar,
     rectangle,
     width,
 )
+from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.spec.materials import material_names
+from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.written import length, number
 
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
 TITLE_WIDTH = 180.0  # mm: width of the title block
@@ -59,51 +70,116 @@ def smaller(scale: float, times: float) -> float:
     return max((s for s in SCALES if s <= scale / times * (1.0 + 1e-9)), default=SCALES[-1])
 
 
-def frame(paper: PaperSize) -> list[Shape]:
-    """Return the frame, with marks at the middle of its sides."""
-    w, h = paper.width, paper.height
-    shapes: list[Shape] = [rectangle(FRAME, LEFT, MARGIN, w - MARGIN, h - MARGIN)]
-    x, y = 0.5 * w, 0.5 * h
-    for start, end in (
-        ((x, 0.0), (x, MARGIN)),
-        ((x, h), (x, h - MARGIN)),
-        ((0.0, y), (LEFT, y)),
-        ((w, y), (w - MARGIN, y)),
-    ):
-        shapes.append(line(FRAME, start, end))
-    return shapes
+def on_paper(
+    spec: Spec,
+    rows: list[dict[str, Any]],
+    largest: float,
+    blocks: Callable[[float], tuple[list[Block], Callable[[], Iterable[list[Block]]]]],
+    area: float,
+) -> Sheet:
+    """Return the sheet with blocks at the largest scale at which all fit on it.
 
-
-def title_block(title: str, rows: Sequence[Mapping[str, str]]) -> Block:
-    """Return the title block of a title and rows of fields; its lower left corner is the origin.
-
-    Fields without a value are empty, for a pen. The rows are given from below; the second one has
-    the symbol of projection at its end.
+    ``rows`` are its list of items. ``blocks`` returns what is always on it, and a function that
+    yields alternatives of the rest, the best first, for each size of paper. ``largest`` is the
+    greatest length that is drawn, mm. ``area``, mm², is the least area that some of it needs.
+    Raises GenevaError where no scale fits.
     """
-    high = 12.0  # mm, of a row
-    top = high * len(rows)
+    for scale in SCALES:
+        _, wide, high = FORMATS[-1]
+        most = 170.0 if scale > 1.0 else wide  # mm: an enlarged part is no wider than a hand
+        if scale * largest > most or scale * scale * area > wide * high:
+            continue
+        parts, alternatives = blocks(scale)
+        for paper in FORMATS:
+            inside = LEFT, MARGIN, paper.width - MARGIN, paper.height - MARGIN
+            if is_overfull(parts, inside):
+                continue
+            for one in alternatives():
+                every = [*parts, *one]
+                if is_overfull(every, inside):
+                    continue
+                right = paper.width - MARGIN
+                corner = _title_block(spec, rows, scale, paper).moved(right - TITLE_WIDTH, MARGIN)
+                items = _items(rows)
+                fixed = [corner, items.moved(right - items.width, corner.y1)]
+                placed = packed(every, fixed, inside)
+                if placed is None:
+                    continue
+                whole = [*fixed, *placed]
+                return Sheet(
+                    spec.title or spec.wheel.title,
+                    paper.width,
+                    paper.height,
+                    scale,
+                    (*_frame(paper), *(s for b in whole for s in b.shapes)),
+                    tuple(label for b in whole for label in b.labels),
+                    tuple(m for b in whole for m in b.measures),
+                )
+    raise GenevaError("--part sheet: the parts and their tables do not fit on one A1 sheet")
+
+
+def _frame(paper: PaperSize) -> list[Shape]:
+    """Return the frame, with marks at the middle of its sides."""
+    _, w, h = paper
+    x, y = 0.5 * w, 0.5 * h
+    sides = (((x, 0.0), (x, MARGIN)), ((x, h), (x, h - MARGIN)))
+    sides += (((0.0, y), (LEFT, y)), ((w, y), (w - MARGIN, y)))
+    box = rectangle(FRAME, LEFT, MARGIN, w - MARGIN, h - MARGIN)
+    return [box, *(line(FRAME, *ends) for ends in sides)]
+
+
+def _title_block(spec: Spec, rows: list[dict[str, Any]], scale: float, paper: PaperSize) -> Block:
+    """Return the title block; its lower left corner is the origin.
+
+    Fields without a value are empty, for a pen.
+    """
+    own, shop, materials = spec.drawing, workshop(spec.size.process), material_names(spec)
+    mass = sum(row["mass_kg"] * row["count"] for row in rows)
+    # mg where kg would have too many zeros for the field
+    shown = f"{_rounded(mass)} kg" if mass >= 1e-3 else f"{_rounded(1e6 * mass)} mg"
+    general = {
+        "scale": scale_name(scale),
+        "mass": shown,
+        "material": materials[0] if len(set(materials)) == 1 else "see list",
+        "tolerances": shop.tolerances,
+        "units": "mm, degrees",
+        "size": paper.name,
+        "sheet": "1/1",
+    }
+    rough, flanks = (
+        f"Ra {um:g}" if um else "" for um in (own.roughness_um, own.flank_roughness_um)
+    )
+    hard = f"{own.flank_hardness_HRC:g} HRC" if own.flank_hardness_HRC else ""
+    surfaces = {
+        "roughness": rough or shop.roughness,
+        "edges": edge_note(spec.size) or "free of burrs",
+        "faces that roll, slide, lock": ", ".join(filter(None, (flanks, hard))),
+    }
+    names = {
+        "drawing number": own.number or "",
+        "revision": own.revision or "",
+        "date": own.date or "",
+        "author": own.author or "",
+    }
+    high, top = 12.0, 36.0  # mm, of a row, and of all three
     shapes: list[Shape] = [rectangle(FRAME, 0.0, 0.0, TITLE_WIDTH, top + high)]
-    labels = _field((0.0, top), "title", title, LARGE, TITLE_WIDTH)
-    for k, fields in enumerate(rows):
+    labels = _field((0.0, top), "title", spec.title or spec.wheel.title, LARGE, TITLE_WIDTH)
+    # rows from below; the second one has the symbol of projection at its end
+    for k, fields in enumerate((general, surfaces, names)):
         y = high * k
-        long = TITLE_WIDTH
+        long = TITLE_WIDTH - (30.0 if k == 1 else 0.0)
         if k == 1:
-            long -= 30.0
             shapes += projection((TITLE_WIDTH - 15.0, y + 0.5 * high))
         shapes.append(line(TEXT, (0.0, y + high), (TITLE_WIDTH, y + high)))
+        # what each field needs, and an equal part of what is left
+        needed = [max(width(v) * SMALL, width(name) * 1.8) + 4.0 for name, v in fields.items()]
+        spare = (long - sum(needed)) / len(fields)
         x = 0.0
-        for (name, value), cell in zip(fields.items(), _cells(fields, long), strict=True):
-            labels += _field((x, y), name, value, SMALL, cell)
-            x += cell
+        for (name, value), need in zip(fields.items(), needed, strict=True):
+            labels += _field((x, y), name, value, SMALL, need + spare)
+            x += need + spare
             shapes.append(line(TEXT, (x, y), (x, y + high)))
     return Block(0.0, 0.0, TITLE_WIDTH, top + high, tuple(shapes), tuple(labels))
-
-
-def _cells(fields: Mapping[str, str], long: float) -> list[float]:
-    """Return the widths of fields: what they need, and an equal part of what is left."""
-    needed = [max(width(value) * SMALL, width(name) * 1.8) + 4.0 for name, value in fields.items()]
-    spare = (long - sum(needed)) / len(fields)
-    return [need + spare for need in needed]
 
 
 def _field(at: Point, name: str, value: str, height: float, limit: float) -> list[Label]:
@@ -113,17 +189,27 @@ def _field(at: Point, name: str, value: str, height: float, limit: float) -> lis
     return [*labels, Label(shown, (x, y + 3.0), height)] if shown else labels
 
 
+def _items(rows: Sequence[Mapping[str, Any]]) -> Block:
+    """Return the list of items."""
+    lines = [("item", "part", "count", "t", "kg each", "material")]
+    for i, row in enumerate(rows, 1):
+        thick, mass = length(row["thickness_mm"]), _rounded(row["mass_kg"])
+        lines.append((f"{i}", f"{row['name']}", f"{row['count']}", thick, mass, row["material"]))
+    return table((), lines, (12.0, 66.0, 14.0, 20.0, 24.0, 44.0))  # mm
+
+
+def _rounded(mass: float) -> str:
+    """Return a number of four digits, without exponent."""
+    return number(float(f"{mass:.4g}"), 9)
+
+
 def cut_to(text: str, height: float, limit: float) -> str:
     """Return a text, cut if it is longer than ``limit``."""
-    if _fits(text, height, limit):
+    if width(text) * height <= limit:
         return text
-    while text and not _fits(text + "...", height, limit):
+    while text and width(text + "...") * height > limit:
         text = text[:-1]
     return text + "..."
-
-
-def _fits(text: str, height: float, limit: float) -> bool:
-    return width(text) * height <= limit
 
 
 def projection(at: Point) -> list[Shape]:
@@ -132,8 +218,8 @@ def projection(at: Point) -> list[Shape]:
     small, large, long = 1.75, 3.5, 7.0
     side = ((-10.0, -small), (-10.0 + long, -large), (-10.0 + long, large), (-10.0, small))
     corners = [(x + a, y + b) for a, b in side]
-    shapes: list[Shape] = [line(OUTLINE, *corners, corners[0])]
     centre = (x + 6.0, y)
+    shapes: list[Shape] = [line(OUTLINE, *corners, corners[0])]
     shapes += [Circle(OUTLINE, centre, small), Circle(OUTLINE, centre, large)]
     shapes.append(line(TEXT, (x - 11.5, y), (x - 1.5, y)))
     for angle in (0.0, 0.5 * math.pi):
@@ -142,7 +228,7 @@ def projection(at: Point) -> list[Shape]:
 
 
 def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequence[float]) -> Block:
-    """Return a table, with lines of text above it that are wrapped to its width.
+    """Return a table, with lines of text above it.
 
     The first row has the names of its columns. ``columns`` are widths in mm.
     """
@@ -164,22 +250,9 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequen
     for column in columns[:-1]:
         x += column
         shapes.append(line(TEXT, (x, 0.0), (x, high)))
-    # text above a narrow table is up to 60 mm wide
-    lines = [part for text in heading for part in broken(text, SMALL, max(wide, 60.0))]
     top = high
-    for text in reversed(lines):
+    for text in reversed(heading):
         top += 1.8 * SMALL
         labels.append(Label(text, (0.0, top - 1.2 * SMALL), SMALL))
         wide = max(wide, labels[-1].width)
     return Block(0.0, 0.0, wide, top, tuple(shapes), tuple(labels))
-
-
-def broken(text: str, height: float, limit: float) -> list[str]:
-    """Return the lines of a text, wrapped at spaces to the width ``limit``."""
-    lines: list[str] = []
-    for word in text.split():
-        if lines and width(f"{lines[-1]} {word}") * height <= limit:
-            lines[-1] += f" {word}"
-        else:
-            lines.append(word)
-    return lines

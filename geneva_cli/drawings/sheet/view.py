@@ -5,16 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from heapq import merge
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
 from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.packing import Block
 from geneva_cli.geometry import marks
 from geneva_cli.geometry.board import Board, chords
 from geneva_cli.geometry.measure import legs, mapped
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Layer, Point, Segment, Shape
+from geneva_cli.geometry.shapes import Arc, Circle, Layer, Point, Segment, Shape
 from geneva_cli.geometry.sheet import CENTRE, LARGE, OUTLINE, SMALL, Label, Measure, line, polar
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
@@ -26,56 +27,6 @@ RANKS = 14  # rows of dimension lines that are tried
 OVER = 3.0  # mm: length of a centre line beyond its part
 
 T = TypeVar("T")
-
-
-class Block(NamedTuple):
-    """A part of a sheet that is placed as a whole, and its bounding box."""
-
-    x0: float
-    y0: float
-    x1: float
-    y1: float
-    shapes: tuple[Shape, ...]
-    labels: tuple[Label, ...]
-    measures: tuple[Measure, ...] = ()
-
-    @property
-    def width(self) -> float:
-        """Width, mm."""
-        return self.x1 - self.x0
-
-    @property
-    def height(self) -> float:
-        """Height, mm."""
-        return self.y1 - self.y0
-
-    def moved(self, dx: float, dy: float) -> Block:
-        """Return the block, moved by (dx, dy)."""
-
-        def point(p: Point) -> Point:
-            return p[0] + dx, p[1] + dy
-
-        def written(label: Label) -> Label:
-            return label._replace(at=point(label.at))
-
-        def put(one: Measure) -> Measure:
-            lines = mapped(Contour("", one.lines, closed=False), point).segments
-            return one._replace(
-                points=tuple(map(point, one.points)),
-                label=written(one.label),
-                lines=lines,
-                arrows=tuple(a._replace(tip=point(a.tip)) for a in one.arrows),
-            )
-
-        return Block(
-            self.x0 + dx,
-            self.y0 + dy,
-            self.x1 + dx,
-            self.y1 + dy,
-            tuple(mapped(s, point) for s in self.shapes),
-            tuple(map(written, self.labels)),
-            tuple(map(put, self.measures)),
-        )
 
 
 class View:

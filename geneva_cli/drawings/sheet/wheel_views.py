@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 from geneva_cli.drawings.part_drawings import pitch_lines
 from geneva_cli.drawings.sheet import sized
@@ -11,14 +10,14 @@ from geneva_cli.drawings.sheet.standing import bolted, bored, circle_of, draw_hu
 from geneva_cli.drawings.sheet.view import View, grouped, times
 from geneva_cli.geometry.measure import turned
 from geneva_cli.geometry.plates import plates
-from geneva_cli.geometry.shapes import Arc, Contour, Point
+from geneva_cli.geometry.shapes import ORIGIN, Arc, Contour, Point
 from geneva_cli.geometry.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.slot_ends import cut_walls
 from geneva_cli.parts.projection import outlines_of
+from geneva_cli.parts.slots.roller_paths import cut_walls
 from geneva_cli.spec.written import degrees, length
 
 
@@ -32,25 +31,44 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     edges = [s for s in (wheel.outline, *wheel.holes) if isinstance(s, Contour)]
     contour = next(s for s in edges if s.layer == wheel.layer)
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
-    view.cross((0.0, 0.0), reach)
-    _axes(view, parts)
+    view.cross(ORIGIN, reach)
+    for i, (engagement, direction) in enumerate(assembly.slots):
+        if not engagement.slot.curved:
+            walls = turned(outlines.slots[engagement], direction)
+            for end, mouth in _ends(cut_walls(walls, outlines.wheel)):
+                view.centre_line(*((end, mouth) if assembly.sign > 0.0 else (mouth, end)))
+        elif i == 0:
+            for line in pitch_lines(parts, engagement):
+                view.draw(line, CENTRE)
+    L = assembly.L
+    # a recess's centre, the leftmost one
+    centres = ((L * math.cos(a), L * math.sin(a)) for a in assembly.rests)
+    at_rest = min(centres, key=lambda p: p[0], default=ORIGIN)
     if sizes.recess:
-        view.cross(_recess_centre(outlines), 0.0)
+        view.cross(at_rest, 0.0)
     arcs = [s for s in contour.segments if isinstance(s, Arc)]
     bores, screwed = holes_of([wheel])
     circle_of(view, screwed)
-    _recesses(view, outlines, arcs)
+    if sizes.recess:
+        about = [arc for arc in arcs if abs(math.hypot(*arc.centre) - L) < SAME_ON_SHEET]
+        own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME_ON_SHEET]
+        deviation = assembly.mechanism.spec.tolerance.center_distance_mm
+        view.radial(at_rest, sized.plain(L, off=deviation))
+        recess = sized.made(view.fits, assembly.mechanism, "recess", sizes.recess)
+        view.of_arcs(own, times(len(own), recess), whole=True)
+        _radii(view, [arc for arc in about if arc not in own])
     for engagement in assembly.kinds:
-        number_of = sum(1 for one, _ in assembly.slots if one is engagement)
+        count = sum(1 for one, _ in assembly.slots if one is engagement)
         if not engagement.slot.curved:
-            _slot(view, outlines, engagement, number_of)
+            _slot(view, outlines, engagement, count)
             continue
         width = sized.made(view.fits, assembly.mechanism, "slot", sizes.half_width)
-        view.remark(f"{times(number_of, 'slot')}, {width} wide: flanks as in the wheel's dxf")
+        view.remark(f"{times(count, 'slot')}, {width} wide: flanks as in the wheel's dxf")
     up = 0.5 * math.pi
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
     _steps(view, outlines, reach)
-    _rims(view, arcs, reach)
+    own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME_ON_SHEET]
+    _radii(view, own, besides=reach)
     clear = assembly.mechanism.spec.size.allowances
     if clear.source and clear.slot_clearance_mm:  # of a process, whose fits do not say it
         text = f"clearance a side: {length(clear.slot_clearance_mm)} from roller to slot"
@@ -64,18 +82,6 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
         draw_hub(view, hub)
     bored(view, bores, assembly.mechanism.spec.size, "wheel")
     bolted(view, screwed)
-
-
-def _axes(view: View, parts: FlatParts) -> None:
-    outlines = parts.outlines
-    for i, (engagement, direction) in enumerate(outlines.assembly.slots):
-        if not engagement.slot.curved:
-            walls = turned(outlines.slots[engagement], direction)
-            for end, mouth in _ends(cut_walls(walls, outlines.wheel)):
-                view.centre_line(*((end, mouth) if outlines.assembly.sign > 0.0 else (mouth, end)))
-        elif i == 0:
-            for line in pitch_lines(parts, engagement):
-                view.draw(line, CENTRE)
 
 
 def _ends(walls: Contour) -> list[tuple[Point, Point]]:
@@ -97,8 +103,8 @@ def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point
 
 
 def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
-    direction = next(d for one, d in parts.assembly.slots if one is engagement)
-    walls = cut_walls(turned(parts.slots[engagement], direction), parts.wheel)
+    directions = [d for one, d in parts.assembly.slots if one is engagement]
+    walls = cut_walls(turned(parts.slots[engagement], directions[0]), parts.wheel)
     ends = _ends(walls)
     end, mouth = ends[0]
     turn = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
@@ -119,78 +125,41 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     view.linear(end, mouth, turn, times(count, deep), "from a slot's end to its mouth", near=True)
     if math.hypot(*foot) > SAME_ON_SHEET:
         normal, off = math.atan2(foot[1], foot[0]), sized.plain(math.hypot(*foot))
-        view.linear((0.0, 0.0), foot, normal, off, "from the wheel's axis to a slot's axis")
-    rounds = [
-        s
-        for one, d in parts.assembly.slots
-        if one is engagement
-        for s in turned(parts.slots[one], d).segments
-        if isinstance(s, Arc) and math.hypot(*s.centre) > SAME_ON_SHEET
-    ]
+        view.linear(ORIGIN, foot, normal, off, "from the wheel's axis to a slot's axis")
+    pieces = [s for d in directions for s in turned(parts.slots[engagement], d).segments]
+    arcs = [s for s in pieces if isinstance(s, Arc)]
+    rounds = [s for s in arcs if math.hypot(*s.centre) > SAME_ON_SHEET]
     view.of_arcs(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
 
 
-def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
-    assembly, sizes = parts.assembly, parts.sizes
-    L = assembly.L
-    if not sizes.recess:
-        return
-    about = [arc for arc in arcs if abs(math.hypot(*arc.centre) - L) < SAME_ON_SHEET]
-    own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME_ON_SHEET]
-    deviation = assembly.mechanism.spec.tolerance.center_distance_mm
-    centre = _recess_centre(parts)
-    view.radial(centre, sized.plain(L, off=deviation))
-    recess = sized.made(view.fits, assembly.mechanism, "recess", sizes.recess)
-    view.of_arcs(own, times(len(own), recess), whole=True)
-    for radius, some in _by_radius([arc for arc in about if arc not in own]).items():
-        view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
-
-
-def _recess_centre(parts: Outlines) -> Point:
-    L = parts.assembly.L
-    return min(
-        ((L * math.cos(a), L * math.sin(a)) for a in parts.assembly.rests), key=lambda p: p[0]
-    )
-
-
-def _rims(view: View, arcs: list[Arc], reach: float) -> None:
-    own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME_ON_SHEET]
-    for radius, some in _by_radius(own).items():
-        if abs(radius - reach) > SAME_ON_SHEET:
-            view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
-
-
 def _steps(view: View, parts: Outlines, reach: float) -> None:
+    """Draw the angles from slot to slot, and from a slot to a recess."""
     assembly = parts.assembly
+    angles = []
+    for engagement, direction in assembly.slots:
+        if engagement.slot.curved:
+            angles.append(direction)
+            continue
+        for (x, y), (u, v) in _ends(turned(parts.slots[engagement], direction)):
+            angle = math.atan2(v - y, u - x)
+            angle += 0.0 if assembly.sign > 0.0 else math.pi
+            angles.append(direction + math.remainder(angle - direction, math.tau))
+    angles.sort()
     deviation = assembly.mechanism.spec.tolerance.slot_angle_deg
-    angles = sorted(
-        angle
-        for engagement, direction in assembly.slots
-        for angle in _directions(parts, engagement, direction)
-    )
-    off = f" ±{deviation:g}°" if deviation else ""
-    view.steps(angles, reach, off)
+    view.steps(angles, reach, f" ±{deviation:g}°" if deviation else "")
     rests = assembly.rests if parts.sizes.recess else ()
     halves = ((min((rest - angle) % math.tau for angle in angles), rest) for rest in rests)
     for text, pairs in grouped((degrees(half), (rest - half, rest)) for half, rest in halves):
         view.angular(pairs, reach, reach, text)
 
 
-def _directions(parts: Outlines, engagement: Engagement, direction: float) -> Iterator[float]:
-    if engagement.slot.curved:
-        yield direction
-        return
-    for (x, y), (u, v) in _ends(turned(parts.slots[engagement], direction)):
-        angle = math.atan2(v - y, u - x)
-        angle += 0.0 if parts.assembly.sign > 0.0 else math.pi
-        yield direction + math.remainder(angle - direction, math.tau)
-
-
-def _by_radius(arcs: list[Arc]) -> dict[float, list[Arc]]:
-    """Return arcs grouped by radius; rounding does not write one radius as two."""
+def _radii(view: View, arcs: list[Arc], besides: float = -1.0) -> None:
+    """Draw each radius of some arcs, but one; rounding does not write one radius as two."""
     groups: dict[float, list[Arc]] = {}
     near = 5e-4  # mm: half of the last decimal that a sheet shows
     for arc in arcs:
         same = next((r for r in groups if abs(r - arc.radius) < near), arc.radius)
         groups.setdefault(same, []).append(arc)
-    return groups
+    for radius, some in groups.items():
+        if abs(radius - besides) > SAME_ON_SHEET:
+            view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))

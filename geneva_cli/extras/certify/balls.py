@@ -100,11 +100,7 @@ class Ball(Enclosed):
         return (self.arb > 0) - (self.arb < 0)
 
     def meet(self, other: Ball) -> Ball:
-        """Intersection of two balls that hold one number; an unbounded ball adds nothing.
-
-        Two balls without a common number are of two formulas that meet within ``REACH``: their hull
-        holds both.
-        """
+        """Intersection of two balls that hold one number; an unbounded ball adds nothing."""
         if not other.is_finite:
             return self
         if not self.is_finite:
@@ -117,10 +113,7 @@ class Ball(Enclosed):
         return Ball(self.arb.union(other.arb))
 
     def piece(self, cuts: Sequence[float]) -> int:
-        """Number of the piece between ``cuts`` that holds its middle.
-
-        Raises Undecided if it reaches over a cut by more than ``REACH`` and its radius's rounding.
-        """
+        """Number of the piece between ``cuts`` that holds its middle."""
         # 2^-24 of a radius is rounding: Arb's radii have 30 bits, and each step rounds them up.
         middle, radius = self.middle, self.radius * (1.0 - 2.0**-24)
         for cut in cuts:

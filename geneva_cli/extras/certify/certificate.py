@@ -1,6 +1,8 @@
 """Certificates: proved bounds of the greatest velocity, acceleration, jerk, power, force, torque.
 
 The program's own formulas are evaluated in balls over every whole motion (``enclosures.greatest``).
+Those of a load (``instant``) depend on three signs: of the wheel's torque, of the sliding, and of
+the input's torque. Where an interval does not decide a sign, the load is enclosed for either.
 """
 
 from __future__ import annotations
@@ -9,13 +11,18 @@ import math
 from collections.abc import Callable, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.extras.certify.certified_loads import LOADS, load_formula, not_proved
+from geneva_cli.loads.contact import contact
+from geneva_cli.loads.cycle_quantities import FORCE, TORQUE
+from geneva_cli.loads.cycle_quantities import QUANTITIES as LOAD_QUANTITIES
+from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import QUANTITIES
+from geneva_cli.numerics.arrays import Undecided, enclosed
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.table import Table, rows_table
@@ -24,10 +31,14 @@ if TYPE_CHECKING:
     from geneva_cli.extras.certify.balls import Ball
     from geneva_cli.extras.certify.enclosures import BoundedSpan, Greatest
 
+# a jet of an order by the input angle, at an angle in degrees from mid-motion
+Formula: TypeAlias = Callable[[Number, int], Jet]
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
 DIGITS = 15  # that are printed: as many as every double keeps
 NARROW_DEG = 1e-6  # a narrower place is one angle for people
 DERIVED = {"velocity": 0, "acceleration": 1, "jerk": 2}  # derivatives of the velocity
+WHEEL_TORQUE = "wheel_torque_Nm"
+LOADS = (WHEEL_TORQUE, FORCE, TORQUE)
 
 
 class Place(NamedTuple):
@@ -125,6 +136,17 @@ class Certificate(NamedTuple):
         return near and self.low * (1.0 - TIE) <= size <= self.high * (1.0 + TIE)
 
 
+def not_proved(mechanism: Mechanism, quantity: str) -> str:
+    """The reason why a load has no certificate; empty if it has one."""
+    if not mechanism.spec.is_loaded:
+        return f"no load: set {mechanism.spec.load_keys}"
+    if quantity != WHEEL_TORQUE and load_case(mechanism).guided:
+        return "friction in a rack's guide"
+    if quantity == WHEEL_TORQUE or mechanism.engagements[0].slot.walls_flat:
+        return ""
+    return "the slot is curved, or gears drive for part of the motion"
+
+
 def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Certificate:
     """The certificate of a machine's peak over all its engagements, with so many intervals each.
 
@@ -143,52 +165,89 @@ def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Cert
         raise GenevaError(f"{quantity}.max is not proved: {reason}")
     if find_spec("flint") is None:
         raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
-    from geneva_cli.extras.certify.balls import precision
+    from geneva_cli.extras.certify.balls import ball_of, precision
     from geneva_cli.extras.certify.enclosures import greatest
 
-    each = mechanism.engagements
+    def peak_of(rate: Formula) -> Formula:
+        def formula(x: Number, order: int) -> Jet:
+            if quantity == "power":
+                speed = rate(x, order + 1)
+                return speed.lower * speed.derivative()
+            jet = rate(x, order + DERIVED[quantity])
+            for _ in range(DERIVED[quantity]):
+                jet = jet.derivative()
+            return jet
+
+        return formula
+
+    peaks: list[Greatest] = []
     with precision():
-        peaks: list[Greatest] = []
-        for e in each:
-            if quantity in LOADS:
-                formula = load_formula(mechanism, e, quantity)
-            else:
-                formula = _peak(e.motion.rate, quantity)
+        for e in mechanism.engagements:
+            formula = _load(mechanism, e, quantity) if quantity in LOADS else peak_of(e.motion.rate)
+
+            def curve(at: Ball, order: int, formula: Formula = formula) -> Sequence[Ball]:
+                return [ball_of(c) for c in formula(cast("Number", at), order).c]
+
             seams = {*e.motion.seams_deg, *e.slot.seams_deg}
-            peaks.append(greatest(_curve(formula), seams, limit))
+            peaks.append(greatest(curve, seams, limit))
     return _combined(mechanism, quantity, peaks)
 
 
-def _peak(rate: Callable[[Number, int], Jet], quantity: str) -> Callable[[Number, int], Jet]:
-    """Velocity, acceleration, jerk or power from the wheel's rate."""
+def _load(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:
+    """A load as a jet by the input angle, at one angle in degrees from mid-motion."""
+    from geneva_cli.extras.certify.balls import NOWHERE, ball_of
 
-    def formula(x: Number, order: int) -> Jet:
-        if quantity == "power":
-            speed = rate(x, order + 1)
-            return speed.lower * speed.derivative()
-        jet = rate(x, order + DERIVED[quantity])
-        for _ in range(DERIVED[quantity]):
-            jet = jet.derivative()
-        return jet
+    case = load_case(mechanism)
 
-    return formula
+    def signs_of(jet: Jet) -> tuple[float, ...]:
+        sign = ball_of(jet.c[0]).sign
+        return (float(sign),) if sign else (1.0, -1.0)
 
+    def torque(input_deg: Number, order: int) -> Jet:
+        rates = engagement.motion.rate(input_deg, order + 1)
+        return rates.derivative() * case.inertia_Nm + case.resists_Nm
 
-def _curve(formula: Callable[[Number, int], Jet]) -> Callable[[Ball, int], Sequence[Ball]]:
-    """Taylor coefficients of a formula at a ball of input angles in degrees."""
-    from geneva_cli.extras.certify.balls import ball_of
+    def load(input_deg: Number, order: int) -> Jet:
+        at = contact(engagement, input_deg, order, reactions=False)
+        own = enclosed(input_deg, case)
+        found: list[Jet] = []
+        # the signs that are possible; those that no quantity depends on are 1
+        for drives in signs_of(Instant(own, at).wheel_torque_Nm):
+            for slides in signs_of(Instant(own, at, drives).slip) if own.rubs else (1.0,):
+                here = Instant(own, at, drives, slides)
+                for fed in (1.0,) if own.efficiency == 1.0 else signs_of(here.feeding):
+                    one = LOAD_QUANTITIES[quantity](Instant(own, at, drives, slides, fed))
+                    if one.margin is not None and not one.margin.c[0] > 0.0:
+                        raise Undecided("friction alone may hold the wheel: no bound of the force")
+                    found.append(one.value)
+        first, *others = found
+        if not others:
+            return first
+        # several loads: a jet without derivatives whose value holds them all
+        value = ball_of(first.c[0])
+        for other in others:
+            value = value.join(ball_of(other.c[0]))
+        return Jet(cast("list[Number]", [value, *[NOWHERE] * first.order]))
 
-    return lambda at, order: [ball_of(c) for c in formula(cast("Number", at), order).c]
+    return torque if quantity == WHEEL_TORQUE else load
 
 
 def _combined(mechanism: Mechanism, quantity: str, peaks: Sequence[Greatest]) -> Certificate:
+    """The certificate of the greatest of all engagements."""
     each = [*zip(mechanism.engagements, peaks, strict=True)]
     low = max(peak.low for peak in peaks)
     least = low * (1.0 - TIE)
     count = sum(peak.intervals for peak in peaks)
+
+    def shown(engagement: Engagement, interval: BoundedSpan) -> Place:
+        """An interval of the engagement as the machine's; longer by the rounding of both ends."""
+        start = mechanism.shown_deg(engagement.mid_deg + interval.start)
+        # rounding of an angle that is counted from another mid-motion
+        slack = 0.0 if start == interval.start else 2.0**-42
+        return Place(start - slack, interval.end + (start - interval.start) + slack)
+
     # the intervals that are not settled, by their bounds
-    left = [(p.open.high, _shown(mechanism, e, p.open)) for e, p in each if p.open]
-    left = [one for one in left if one[0] >= least]
+    left = [(p.open.high, shown(e, p.open)) for e, p in each if p.open and p.open.high >= least]
     if left:
         bound, place = max(left, key=lambda one: one[0])
         below = bound if math.isfinite(bound) else None
@@ -196,17 +255,9 @@ def _combined(mechanism: Mechanism, quantity: str, peaks: Sequence[Greatest]) ->
     places = [(e, place) for e, peak in each for place in peak.places if place.high >= least]
     (first, one), (last, other) = places[0], places[-1]
     opposite = first is last and first.motion.symmetric and abs(one.start + other.end) < NARROW_DEG
-    shown = tuple(sorted(_shown(mechanism, e, place) for e, place in places))
+    every = tuple(sorted(shown(e, place) for e, place in places))
     high = max(peak.high for peak in peaks)
-    return Certificate(quantity, low, high, shown, len(places) == 2 and opposite, count, None)
-
-
-def _shown(mechanism: Mechanism, engagement: Engagement, interval: BoundedSpan) -> Place:
-    """An interval of the engagement as the machine's; longer by the rounding of both ends."""
-    start = mechanism.shown_deg(engagement.mid_deg + interval.start)
-    # rounding of an angle that is counted from another mid-motion
-    slack = 0.0 if start == interval.start else 2.0**-42
-    return Place(start - slack, interval.end + (start - interval.start) + slack)
+    return Certificate(quantity, low, high, every, len(places) == 2 and opposite, count, None)
 
 
 def _outwards(x: float, rounding: str) -> str:
@@ -231,10 +282,7 @@ def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> T
 
 
 def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[str, ...]:
-    """The loads' certificates: a table of them, or a text each.
-
-    For a load without a certificate, ``why`` is the reason.
-    """
+    """The loads' certificates: a table of them, or a text each."""
     lacks = mechanism.output.lacks
     reasons = {name: not_proved(mechanism, name) for name in LOADS if name not in lacks}
     proofs = {name: certificate(mechanism, name) for name, why in reasons.items() if not why}
@@ -251,13 +299,7 @@ def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[s
 
 
 def _row(one: Certificate) -> dict[str, object]:
-    return {
-        "quantity": one.quantity,
-        "low": one.low,
-        "high": one.high,
-        "at_deg": one.at_deg,
-        "places": tuple(map(tuple, one.places)),
-        "proved": one.proved,
-        "intervals": one.intervals,
-        "open": None if one.open is None else one.open._asdict(),
-    }
+    names = "quantity low high at_deg places proved intervals open"
+    row = {name: getattr(one, name) for name in names.split()}
+    row["places"] = tuple(map(tuple, one.places))
+    return row | {"open": None if one.open is None else one.open._asdict()}

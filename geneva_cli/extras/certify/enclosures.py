@@ -62,15 +62,6 @@ class _Enclosure(NamedTuple):
     slope: Ball
     bend: Ball
 
-    @property
-    def ends_decide(self) -> bool:
-        """True if the greatest size is at an end: the function is monotonic, or its size convex."""
-        return bool(self.slope.sign or self.value.sign * self.bend.sign > 0)
-
-    @property
-    def is_concave(self) -> bool:
-        return self.value.sign * self.bend.sign < 0
-
 
 class _Piece(NamedTuple):
     """Part of the motion with one formula; an end where another takes over is not sharp."""
@@ -86,17 +77,9 @@ class _Piece(NamedTuple):
         ends = b == self.end and not self.sharp_end
         return a - EDGE_DEG * begins, b + EDGE_DEG * ends
 
-    def at(self, x: float) -> tuple[float, float]:
-        """An interval that holds the end of an interval, mostly inside the piece."""
-        a, b = self.reach(x, x)
-        return a - 3.0 * (b - x), b + 3.0 * (x - a)
-
 
 def greatest(curve: Curve, seams: Iterable[float], limit: int) -> Greatest:
-    """The greatest size of a curve from the first seam to the last, with at most so many intervals.
-
-    Between two seams, in degrees, the curve is one analytic formula.
-    """
+    """The greatest size of a curve from first to last seam, with at most so many intervals."""
     ends = sorted(seams)
     pieces = [
         _Piece(a, b, a == ends[0], b == ends[-1])
@@ -119,8 +102,9 @@ class _Search:
     def run(self, pieces: Sequence[_Piece]) -> Greatest:
         for piece in pieces:
             for x in (piece.start, piece.end):
-                self._take(*piece.at(x))
-            self._queue(piece, piece.start, piece.end, math.inf)
+                a, b = piece.reach(x, x)
+                self._take(a - 3.0 * (b - x), b + 3.0 * (x - a))  # mostly inside the piece
+            heapq.heappush(self.waiting, (-math.inf, piece.start, piece.end, piece))
         while self.waiting and -self.waiting[0][0] >= self._least and self.examined < self.limit:
             high, a, b, piece = heapq.heappop(self.waiting)
             self.examined += 1
@@ -130,18 +114,20 @@ class _Search:
         kept = [interval for interval in self.candidates if interval.high >= self._least]
         kept += [interval for interval in self.ends if interval.high >= self.low]
         high = max(interval.high for interval in kept + left)
-        # places within 1e-9 of all pieces are one
-        places = _places(kept, 1e-9 * (pieces[-1].end - pieces[0].start))
+        places: list[BoundedSpan] = []
+        near = 1e-9 * (pieces[-1].end - pieces[0].start)  # nearer places are one
+        for one in sorted(kept):
+            if places and one.start - places[-1].end <= near:
+                start, end, most = places.pop()
+                one = BoundedSpan(start, max(end, one.end), max(most, one.high))
+            places.append(one)
         open_ = max(left, key=lambda interval: interval.high, default=None)
-        return Greatest(self.low, high, places, self.examined, open_)
+        return Greatest(self.low, high, tuple(places), self.examined, open_)
 
     @property
     def _least(self) -> float:
         """The size that an interval must reach to be one of the greatest."""
         return self.low * (1.0 - TIE)
-
-    def _queue(self, piece: _Piece, a: float, b: float, high: float) -> None:
-        heapq.heappush(self.waiting, (-high, a, b, piece))
 
     def _examine(self, piece: _Piece, interval: BoundedSpan) -> None:
         a, b, high = interval
@@ -151,10 +137,11 @@ class _Search:
             high = min(high, enclosure.value.sizes()[1])
             if high < self._least:
                 return
-            if enclosure.ends_decide:
+            bends = enclosure.value.sign * enclosure.bend.sign  # above 0: the size is convex
+            if enclosure.slope.sign or bends > 0:
                 self._take_ends(piece, a, b)
                 return
-            if enclosure.is_concave and self._take_top(piece, a, b, enclosure):
+            if bends < 0 and self._take_top(piece, a, b, enclosure):
                 return
             # an interval that rises by less than 1e-15 of the greatest size is a plateau
             if high <= self.low * (1.0 + 1e-15):
@@ -169,8 +156,8 @@ class _Search:
             spans.append(BoundedSpan(a, b, high))
             return
         middle = 0.5 * (a + b)
-        self._queue(piece, a, middle, high)
-        self._queue(piece, middle, b, high)
+        heapq.heappush(self.waiting, (-high, a, middle, piece))
+        heapq.heappush(self.waiting, (-high, middle, b, piece))
 
     def _take_ends(self, piece: _Piece, a: float, b: float) -> None:
         """Take the sizes at both ends of an interval; those of the piece are known."""
@@ -243,14 +230,3 @@ def _sum(coefficients: Sequence[Ball], t: Ball) -> Ball:
     for c in reversed(coefficients[:-1]):
         total = total * t + c
     return total
-
-
-def _places(spans: Iterable[BoundedSpan], near: float) -> tuple[BoundedSpan, ...]:
-    """Intervals in order, those nearer to each other than ``near`` as one."""
-    places: list[BoundedSpan] = []
-    for one in sorted(spans):
-        if places and one.start - places[-1].end <= near:
-            start, end, high = places.pop()
-            one = BoundedSpan(start, max(end, one.end), max(high, one.high))
-        places.append(one)
-    return tuple(places)

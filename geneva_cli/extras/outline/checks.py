@@ -10,15 +10,17 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.extras.outline.contact import contacts
-from geneva_cli.extras.outline.impacts import hardest_impact, moving, struck_by
 from geneva_cli.extras.outline.machine import DrawnMachine
 from geneva_cli.extras.outline.turning import (
     LOOSE,
     SenseResult,
     Turned,
+    hardest_impact,
     least_slack_mm,
     most_slack_mm,
+    moving,
     put_back,
+    struck_by,
     turned,
     turning,
 )
@@ -40,10 +42,7 @@ TURNED_WRONG = 0.25  # of the index: no slot is so loose
 
 
 def checks(mechanism: Mechanism) -> list[Check]:
-    """The checks of a machine with drawn outlines, one after the other.
-
-    Raises GenevaError for a drawing that is no outline.
-    """
+    """The checks of a machine with drawn outlines, one after the other."""
     result = turned(mechanism)
     rows = [_turns(result, mechanism), *_slack(result)]
     holds = result.is_held or mechanism.spec.wheel.held_by is not None
@@ -58,10 +57,7 @@ def checks(mechanism: Mechanism) -> list[Check]:
 
 
 def as_built(mechanism: Mechanism) -> list[Check]:
-    """The checks that our own parts on a crank as built turn, and of their impact.
-
-    Raises GenevaError for parts that are not flat, or whose rollers go round no crank.
-    """
+    """The checks that our own parts on a crank as built turn, and of their impact."""
     result = turned(mechanism)
     check, worst = _turns(result, mechanism), hardest_impact(result)
     if not check.passes or worst is None:

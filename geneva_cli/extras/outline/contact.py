@@ -1,8 +1,7 @@
 """The contact of wheel and crank: which pieces touch, and the motion that they give the wheel.
 
-Each side is a circle or a corner about a point that its body carries, or a straight edge. Two
-points keep their distance, and a point keeps its distance from an edge. So the wheel's angle is a
-closed form of the crank's, whose derivatives jets carry: they need no differences.
+Two points keep their distance, or a point and an edge. So the wheel's angle is a closed form of the
+crank's, whose derivatives jets carry.
 """
 
 from __future__ import annotations
@@ -25,11 +24,7 @@ FIXED = 1e-9  # of L: a point so near to the crank's axis, as a disc's centre, m
 
 
 class Side(NamedTuple):
-    """What touches on one side, in the fixed frame, (n,) each: a point, or an edge's foot.
-
-    ``far`` and ``ahead`` are polar coordinates about the wheel's axis; the foot is the edge's
-    nearest point to it. ``radius`` is that of the circle about the point, 0 of a corner.
-    """
+    """What touches on one side, in the fixed frame, (n,) each: a point, or an edge's foot."""
 
     far: Array
     ahead: Array
@@ -106,9 +101,8 @@ def contacts(
 ) -> Contact:
     """What touches at positions (n,), of which the wheel is at an end of a free range.
 
-    Of several contacts it is the one whose interval ends nearest to the wheel's angle, at most
-    ``near`` radians from it. The sine of the angle between its normal and the direction from the
-    wheel's axis is above ``lever``: a smaller one touches, but does not push.
+    It is what ends nearest to the wheel's angle, at most ``near`` radians from it. A contact whose
+    normal points to the wheel's axis but for a sine of ``lever`` touches, but does not push.
     """
     n, period = len(crank_angle), free.period
     best = np.full(n, near)

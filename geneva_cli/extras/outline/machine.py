@@ -54,11 +54,7 @@ class DrawnMachine(NamedTuple):
         return sum(2.0 * motion.engagement.half_step for motion in self.assembly.motions)
 
     def deepest(self, points: Sequence[Point]) -> tuple[float, Point]:
-        """How deep points of the crank lie in the wheel in the middle of the dwell, mm.
-
-        The place is that of the deepest one, in the wheel's own frame; the depth is below 0 if all
-        lie outside.
-        """
+        """How deep points of the crank lie in the wheel in mid-dwell, mm, and where."""
         turn = float(self.free.crank_direction(np.array([self.start]))[0])
         z = np.array([complex(*point) for point in points]) * np.exp(1j * turn)
         z = (z + self.assembly.L) * np.exp(-1j * self.rest)
@@ -68,11 +64,7 @@ class DrawnMachine(NamedTuple):
 
 
 def drawn_machine(mechanism: Mechanism) -> DrawnMachine:
-    """A machine with the drawings of its ``[outline]``.
-
-    Raises GenevaError for a drawing that cannot be read or is no outline, for a machine that no
-    crank turns, and where no part reaches the other.
-    """
+    """A machine with the drawings of its ``[outline]``."""
     spec, place = mechanism.spec, _assembly(mechanism)
     notes = list[Notice]()
     wheel, crank = (_drawn(spec, part, notes) for part in ("wheel", "crank"))

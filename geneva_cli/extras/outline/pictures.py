@@ -8,10 +8,9 @@ import numpy as np
 
 from geneva_cli.design import Design
 from geneva_cli.extras.outline.contact import contacts
-from geneva_cli.extras.outline.impacts import moving
 from geneva_cli.extras.outline.machine import drawn_machine
 from geneva_cli.extras.outline.real_motion import at_crank, inside, motion, steady_turn
-from geneva_cli.extras.outline.turning import turned
+from geneva_cli.extras.outline.turning import moving, turned
 from geneva_cli.figure import Curve
 from geneva_cli.geometry.plates import placed
 from geneva_cli.geometry.shapes import Contour, Layer
@@ -28,10 +27,7 @@ DRAWN: Layer = "OUTLINE"
 
 
 def drawn_scene(design: Design) -> Scene:
-    """The scene of a design with its drawings in place of the computed outlines.
-
-    Raises GenevaError if the wheel jams.
-    """
+    """The scene of a design with its drawings in place of the computed outlines."""
     result, shown = turned(design.mechanism), scene(design)
     turn, machine = steady_turn(result), result.machine
     start, entry = (
@@ -109,10 +105,7 @@ def _layered(contours: tuple[Contour, ...], layer: Layer) -> tuple[Contour, ...]
 
 
 def over(mechanism: Mechanism, drawing: Drawing) -> Drawing:
-    """A drawing of our own part with that of somebody else over it, on layer OUTLINE.
-
-    Drawings of other parts than wheel, crank and assembly are returned as they are.
-    """
+    """A drawing of our own part with that of somebody else over it, on layer OUTLINE."""
     machine, outline = drawn_machine(mechanism), mechanism.spec.outline
     shapes: list[Contour] = []
     has_wheel, has_crank = (layer in drawing.layers for layer in ("WHEEL", "CRANK"))

@@ -1,8 +1,7 @@
 """The motion that drawn outlines give: a table over a turn of the crank, and its peaks.
 
-It is piecewise: at rest, or pushed by one contact after the other. Velocity, acceleration and jerk
-follow from the geometry of the contact. At the beginning of a push the velocity may leap: that is
-an impact, at which the acceleration has no bound.
+It is at rest, or pushed by one contact after the other. At the beginning of a push the velocity may
+leap: that is an impact, at which the acceleration has no bound.
 """
 
 from __future__ import annotations
@@ -14,9 +13,16 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.contact import contacts
-from geneva_cli.extras.outline.impacts import Struck, hardest_impact, moving, struck_by
 from geneva_cli.extras.outline.machine import crank_jet
-from geneva_cli.extras.outline.turning import LOOSE, Turned, turned
+from geneva_cli.extras.outline.turning import (
+    LOOSE,
+    Struck,
+    Turned,
+    hardest_impact,
+    moving,
+    struck_by,
+    turned,
+)
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import (
     check_samples,
@@ -37,10 +43,7 @@ QUANTITIES = ("velocity", "acceleration", "jerk", "power")
 
 
 def steady_turn(result: Turned) -> LazyTurn:
-    """The last turn of the crank forwards, after which the wheel rests as before.
-
-    Raises GenevaError if the wheel jams or is not turned.
-    """
+    """The last turn of the crank forwards, after which the wheel rests as before."""
     if not result.turns:
         raise GenevaError(
             "the wheel does not turn, so there is no motion: `geneva check` says where it jams",
@@ -59,11 +62,7 @@ def steady_turn(result: Turned) -> LazyTurn:
 
 
 def motion(mechanism: Mechanism, samples: int, at_deg: Sequence[float] | None = None) -> Table:
-    """``samples`` rows, evenly spaced in the input angle, over a period from the entry.
-
-    With ``at_deg`` they are at those input angles from mid-motion instead. Raises GenevaError for a
-    number of samples out of range, angles that are no numbers, and if the wheel does not turn.
-    """
+    """``samples`` rows, evenly spaced in the input angle over a period, or at ``at_deg``."""
     if at_deg is None:
         check_samples(samples)
         input_deg = inputs(mechanism, samples, 0, samples)
@@ -113,10 +112,7 @@ def _by_input(wheel: Array, rates: Sequence[Array], crank: Jet) -> tuple[Array, 
 
 
 def peaks(mechanism: Mechanism) -> Table:
-    """The greatest velocity, acceleration, jerk and power, as ``geneva peaks`` prints them.
-
-    They are those inside the pushes; the hardest impact at a beginning is apart, as ``impact``.
-    """
+    """The greatest velocity, acceleration, jerk and power, as ``geneva peaks`` prints them."""
     result = turned(mechanism)
     turn, place = steady_turn(result), result.machine.assembly
 
@@ -136,12 +132,12 @@ def peaks(mechanism: Mechanism) -> Table:
         even[[0, -1]] = inside(push)
         known = quantities(even)
         for name in QUANTITIES:
-            grid, values = even, known[name]
+            grid, row = even, known[name]
             for k in range(ROUNDS):
                 if k:
-                    values = quantities(grid)[name]
-                top = int(np.argmax(np.abs(values)))
-                size = abs(float(values[top]))
+                    row = quantities(grid)[name]
+                top = int(np.argmax(np.abs(row)))
+                size = abs(float(row[top]))
                 if size > best[name][0]:
                     best[name] = size, float(grid[top])
                 grid = np.linspace(grid[max(top - 1, 0)], grid[min(top + 1, len(grid) - 1)], FINE)

@@ -1,10 +1,8 @@
 """The smallest wall of a drawn part: between slots, bores and its outline.
 
 A wall is thinnest where a line through the material meets its boundary at a right angle on both
-sides, at an edge, an arc, or a corner that points into the material. Of two edges that is at a
-corner of one, of an arc with the material outside it on the line through its centre. So points are
-compared with pieces: all corners, and the centres of those arcs. A horn is thinnest where it ends,
-at the corner of a slot's mouth.
+sides, at an edge, an arc, or a corner that points into the material. So all corners, and the
+centres of arcs with the material outside, are compared with pieces.
 """
 
 from __future__ import annotations
@@ -35,10 +33,9 @@ class Wall(NamedTuple):
 
 
 def smallest_wall(contours: Sequence[Contour], some: Whole | None = None) -> Wall | None:
-    """The smallest wall of a part, or None if it has none.
+    """The smallest wall of a part with the material on the left, or None if it has none.
 
-    Its contours have the material on their left. Only walls that begin at the pieces ``some`` are
-    looked at, numbers in the order of the contours: one sector of a wheel is enough.
+    Only walls that begin at the pieces ``some`` are looked at: one sector of a wheel is enough.
     """
     outline = Polyarc(contours)
     some = np.arange(len(outline)) if some is None else some
@@ -57,8 +54,7 @@ def smallest_wall(contours: Sequence[Contour], some: Whole | None = None) -> Wal
     def faces(which: Whole, direction: Array, ends: bool = False) -> Mask:
         """Whether directions lead into the material from corners that nowhere come nearer.
 
-        A wall ``ends`` at a sharp corner of which one side comes no nearer, as a horn does at the
-        mouth of a slot.
+        A wall ``ends`` at a sharp corner of which one side comes no nearer, as a horn at its mouth.
         """
         a, b = before[which], after[which]
         nearer = [(side.conjugate() * direction).real for side in (a, b)]
@@ -71,10 +67,7 @@ def smallest_wall(contours: Sequence[Contour], some: Whole | None = None) -> Wal
         return is_sharp & (np.minimum(*between) > SLANT) & (np.minimum(*nearer) <= SLANT)
 
     def feet(points: Array) -> tuple[Whole, Array]:
-        """The nearest points of pieces to points: rows and feet.
-
-        The line from the foot back to the point leads into the material, at a right angle.
-        """
+        """The nearest points of pieces to points: rows and feet."""
         seen = outline.distances(points.real[:, None], points.imag[:, None])
         row, piece = np.nonzero(seen.distance > LEAST_MM)
         facing, along = seen.facing[row, piece], seen.along[row, piece]

@@ -76,10 +76,7 @@ def against(path: str, settings: Sequence[str], names: Sequence[str]) -> Table:
 
 
 def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
-    """The machine of a cam indexer or a servo with the step, the times and the load of a design.
-
-    With ``rotor`` a servo's load has its rotor and the losses of its reducer, too.
-    """
+    """The machine of a cam indexer or a servo with the step, the times and the load of a design."""
     times = design.timings
     if design.spec.drive.wheels_on_carrier:
         raise GenevaError(

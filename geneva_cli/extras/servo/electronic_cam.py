@@ -1,49 +1,113 @@
-"""The motion as an electronic cam: points or polynomials between which a controller interpolates.
+"""The motion as an electronic cam: polynomials, or points between which CODESYS interpolates.
 
 The master is the input, in degrees from the first entry; the slave is the wheel, in degrees from
 its place there. Each error is that of the controller's own interpolation, evaluated at 33 places of
 a piece. One is the middle, where a smooth error of one sign is greatest or nearly so.
+
+Source: CODESYS SoftMotion, library SM3_Basic, MC_CAM_REF and SMC_CAMXYVA.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from collections.abc import Iterator
+from decimal import ROUND_CEILING, Context
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.motion.motion_table import Stretch, stretches
+from geneva_cli.motion.motion_table import Stretch, periods, stretches
 from geneva_cli.numerics.jet import Array
+from geneva_cli.output.formats import CONTROLLERS
 from geneva_cli.table import Table
 
+TOLERANCE_MIN_DEG = 1e-12  # an angle of 360 degrees is rounded by up to 3e-14, a sum by some more
 INSIDE = (np.arange(33) + 0.5) / 33.0  # places in a piece, its middle among them
 # The greatest error over that at these places. An error of degree six with three zeros at each end
 # is 0.3 % more at most, one that also changes its sign in the middle 0.8 %.
 BETWEEN = 1.01
 LEAST_DEG = 1e-3  # shorter pieces are not halved: a servo's cycle is longer
+# Why a controller's cam may not meet a tolerance.
+LIMITED = {
+    "polynomial": "its shortest pieces are 0.001 degrees long",
+    "codesys": "a jump becomes a ramp over 0.01 degrees, so --for polynomial is nearer",
+}
 
-# widths of pieces, and the states after and before their ends -> powers of their polynomials
-Interpolation: TypeAlias = Callable[[Array, Array, Array], Array]
 
+def cam(
+    design: Design, controller: str, turns: int | None, tolerance_deg: float
+) -> tuple[Table | str, int, float]:
+    """The cam of a controller as a table or a text, the number of its rows, and its error, degrees.
 
-class CamPoints(NamedTuple):
-    """Points of a cam in ascending order, and the greatest error between them.
+    Without ``turns`` it covers a period. Raises GenevaError for an unknown controller, and for
+    turns that are no whole periods.
 
-    ``master_deg``, ``slave_deg``, ``velocity`` (degrees a degree) and ``acceleration_per_deg`` are
-    arrays (k,); ``error_deg`` is in degrees of the wheel.
+    >>> _, points, error_deg = cam(Design(External(6)), "codesys", None, 1e-4)
+    >>> points, error_deg < 1e-4
+    (13, True)
     """
+    if controller not in CONTROLLERS:
+        raise GenevaError(f"--for {cut(controller)}: it must be one of {', '.join(CONTROLLERS)}")
+    if not TOLERANCE_MIN_DEG <= tolerance_deg < 360.0:
+        raise GenevaError(
+            f"--tolerance {tolerance_deg:.6g}: must be at least {TOLERANCE_MIN_DEG:g}, which is "
+            "rounding, and below 360 degrees"
+        )
+    mechanism = design.mechanism
+    if not mechanism.output.turns:
+        raise GenevaError(
+            "--for: an electronic cam has angles, and this machine moves a rack: write its motion "
+            "as a table, with --turns"
+        )
+    count = periods(mechanism, turns)
+    if controller == "polynomial":
+        table = _pieces(mechanism, count, tolerance_deg)
+        return table, len(table), float(max(table.to_dict()["error_deg"]))
+    points, error_deg = _points(mechanism, count, tolerance_deg)
+    text = "".join(_codesys(points, error_deg, design.spec.title))
+    return text, points.shape[1], error_deg
 
-    master_deg: Array
-    slave_deg: Array
-    velocity: Array
-    acceleration_per_deg: Array
-    error_deg: float
+
+def words(
+    controller: str, rows: int, error_deg: float, tolerance_deg: float | None
+) -> tuple[str, bool]:
+    """A cam's rows and error in words, and True if it meets a tolerance that was given."""
+    text = f"{rows} rows, greatest error {rounded_up(error_deg)} degrees of the wheel"
+    if tolerance_deg is None or error_deg <= tolerance_deg:
+        return text, True
+    return f"{text}, more than --tolerance {tolerance_deg:g}: {LIMITED[controller]}", False
 
 
-def cam_pieces(mechanism: Mechanism, count: int, tolerance_deg: float) -> Table:
+def rounded_up(error_deg: float) -> str:
+    """An error in two digits, never less than it is.
+
+    >>> rounded_up(1.131e-3)
+    '0.0012'
+    """
+    return f"{float(Context(2, ROUND_CEILING).create_decimal(repr(error_deg))):.2g}"
+
+
+def _codesys(points: Array, error_deg: float, title: str) -> Iterator[str]:
+    """A declaration in structured text: polynomials of degree five between points (4, k)."""
+    # a title that ends no comment, in letters that every controller reads
+    plain = " ".join(title.encode("ascii", "replace").decode().replace("*", "").split())
+    count, end = points.shape[1], float(points[0, -1])
+    yield f"(* {plain} *)\n"
+    yield f"(* greatest error {rounded_up(error_deg)} degrees of the slave *)\n"
+    yield "(* before MC_CamTableSelect: cam.pce := ADR(points); *)\n"
+    yield "VAR\n"
+    yield "  cam : MC_CAM_REF := (byType := 3, "
+    yield f"xStart := 0.0, xEnd := {end!r}, nElements := {count});\n"
+    yield f"  points : ARRAY[1..{count}] OF SMC_CAMXYVA := [\n"
+    for i, (x, y, v, a) in enumerate((points + 0.0).T.tolist(), 1):  # without a minus before 0
+        comma = "," if i < count else ""
+        yield f"    (dX := {x!r}, dY := {y!r}, dV := {v!r}, dA := {a!r}){comma}\n"
+    yield "  ];\nEND_VAR\n"
+
+
+def _pieces(mechanism: Mechanism, count: int, tolerance_deg: float) -> Table:
     """Polynomials of the fifth degree over ``count`` periods, a row each.
 
     Columns: ``begin_deg``, ``end_deg`` of the master; ``c0`` to ``c5``, of which the slave is
@@ -53,37 +117,34 @@ def cam_pieces(mechanism: Mechanism, count: int, tolerance_deg: float) -> Table:
     """
     begins, coefficients, errors = [], [], []
     for stretch in stretches(mechanism):
-        nodes, states, error = _halved(stretch, _quintic, tolerance_deg, LEAST_DEG)
+        nodes, states, error = _halved(stretch, tolerance_deg)
         begins.append(nodes[:-1])
         coefficients.append(_quintic(np.diff(nodes), *states))
         errors.append(error)
-    error_deg = np.concatenate(errors)
-    powers = np.concatenate(coefficients, axis=1)
-    step = step_deg(mechanism)
-    again = np.arange(count)[:, None]
+    powers, again = np.concatenate(coefficients, axis=1), np.arange(count)[:, None]
     begin = (again * mechanism.period_deg + np.concatenate(begins)).ravel()
     end = np.append(begin[1:], count * mechanism.period_deg)
-    constant = (again * step + powers[0]).ravel()
-    others = [np.tile(one, count) for one in (*powers[1:], error_deg)]
+    constant = (again * _step_deg(mechanism) + powers[0]).ravel()
+    others = [np.tile(one, count) for one in (*powers[1:], np.concatenate(errors))]
     names = ("begin_deg", "end_deg", *(f"c{k}" for k in range(6)), "error_deg")
     return Table(names, [begin, end, constant, *others])
 
 
-def cam_points(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoints:
-    """Points with velocity and acceleration, between which polynomials of degree five are drawn.
+def _points(mechanism: Mechanism, count: int, tolerance_deg: float) -> tuple[Array, float]:
+    """Points between which polynomials of degree five are drawn, (4, k), and their greatest error.
 
-    A point has one velocity and one acceleration: a jump becomes a ramp over 0.01 degrees after it.
+    Rows are master and slave in degrees, velocity, and acceleration a degree. A point has one
+    velocity and one acceleration: a jump becomes a ramp over 0.01 degrees after it.
     """
     first, error_deg, last = _period_points(mechanism, tolerance_deg, None)
     later = first
     if count > 1:  # a period after another may begin with a jump
         later, error, last = _period_points(mechanism, tolerance_deg, last)
         error_deg = max(error_deg, error)
-    step = np.array([[mechanism.period_deg], [step_deg(mechanism)], [0.0], [0.0]])
+    step = np.array([[mechanism.period_deg], [_step_deg(mechanism)], [0.0], [0.0]])
     whole = [first, *(later + k * step for k in range(1, count))]
     end = np.append(mechanism.period_deg, last)[:, None] + (count - 1) * step
-    master, slave, velocity, acceleration = np.concatenate([*whole, end], axis=1)
-    return CamPoints(master, slave, velocity, acceleration, error_deg)
+    return np.concatenate([*whole, end], axis=1), error_deg
 
 
 def _period_points(
@@ -93,7 +154,7 @@ def _period_points(
     points: list[Array] = []
     error_deg = 0.0
     for stretch in stretches(mechanism):
-        nodes, (begin, end), errors = _halved(stretch, _quintic, tolerance_deg, LEAST_DEG)
+        nodes, (begin, end), errors = _halved(stretch, tolerance_deg)
         error_deg = max(error_deg, float(errors.max()))
         if before is not None and np.abs(begin[1:, 0] - before[1:]).max() > 1e-9:
             start = nodes[0]
@@ -112,63 +173,20 @@ def _period_points(
     return np.concatenate(points, axis=1), error_deg, before
 
 
-def cam_pairs(mechanism: Mechanism, count: int, tolerance_deg: float) -> CamPoints:
-    """Pairs of master and slave for linear interpolation: at most 360, and 0.1 degrees apart.
-
-    All are multiples of 1e-4 degrees. The tolerance grows until the pairs are few enough.
-    """
-    most, least_deg, grid = 360, 0.1, 1e-4  # of a table of Beckhoff's
-    own = list(stretches(mechanism))
-    for rung in range(240):
-        tolerance = max(tolerance_deg, 0.5 * grid) * 2.0 ** (rung / 8.0)
-        nodes = [_halved(stretch, _linear, tolerance, 2.0 * least_deg)[0] for stretch in own]
-        ends = np.append(np.concatenate([one[:-1] for one in nodes]), mechanism.period_deg)
-        if count * (len(ends) - 1) + 1 <= most:
-            break
-    else:
-        raise GenevaError(f"{count} periods need more than {most} pairs; give fewer --turns")
-    ends = grid * np.rint(ends / grid)
-    near = np.diff(ends) < least_deg
-    near[-1], near[-2] = False, near[-2] or near[-1]  # the end stays, the place before it goes
-    ends = ends[np.append(True, ~near)]
-    slave = np.empty_like(ends)
-    for stretch in own:
-        here = (ends >= stretch.begin_deg - grid) & (ends <= stretch.end_deg + grid)
-        slave[here] = stretch.slave_deg(ends[here])
-    slave = grid * np.rint(slave / grid)
-    errors = []
-    for stretch in own:
-        inner = ends[(ends > stretch.begin_deg) & (ends < stretch.end_deg)]
-        marks = np.concatenate([[stretch.begin_deg], inner, [stretch.end_deg]])
-        places = (marks[:-1, None] + np.diff(marks)[:, None] * INSIDE).ravel()
-        off = abs(np.interp(places, ends, slave) - stretch.slave_deg(places))
-        errors.append(BETWEEN * float(off.max()))
-    error_deg = max(errors)
-    again = np.arange(count)[:, None]
-    master = np.append((again * mechanism.period_deg + ends[:-1]).ravel(), 0.0)
-    angle = np.append((again * step_deg(mechanism) + slave[:-1]).ravel(), 0.0)
-    master[-1] = count * mechanism.period_deg
-    angle[-1] = (count - 1) * step_deg(mechanism) + slave[-1]
-    nothing = np.zeros_like(master)
-    return CamPoints(master, angle, nothing, nothing, error_deg)
-
-
-def step_deg(mechanism: Mechanism) -> float:
+def _step_deg(mechanism: Mechanism) -> float:
     """The wheel's angle over one period, degrees."""
     return math.degrees(sum(2.0 * one.half_step for one in mechanism.engagements))
 
 
-def _halved(
-    stretch: Stretch, interpolation: Interpolation, tolerance_deg: float, least_deg: float
-) -> tuple[Array, tuple[Array, Array], Array]:
+def _halved(stretch: Stretch, tolerance_deg: float) -> tuple[Array, tuple[Array, Array], Array]:
     """Nodes of a stretch, the states (3, k) after and before each piece's ends, and its errors."""
     nodes = np.array([stretch.begin_deg, stretch.end_deg])
     while True:
         after = stretch.states(nodes[:-1], 1)
         before = stretch.states(nodes[1:], -1)
         width = np.diff(nodes)
-        error = _errors(stretch, nodes, interpolation(width, after, before))
-        wide = (error > tolerance_deg) & (width > least_deg)
+        error = _errors(stretch, nodes, _quintic(width, after, before))
+        wide = (error > tolerance_deg) & (width > LEAST_DEG)
         if not wide.any():
             return nodes, (after, before), error
         nodes = np.sort(np.append(nodes, nodes[:-1][wide] + 0.5 * width[wide]))
@@ -197,7 +215,3 @@ def _quintic(width: Array, after: Array, before: Array) -> Array:
     fourth = -15.0 * rise + 7.0 * slope - bend
     fifth = 6.0 * rise - 3.0 * slope + 0.5 * bend
     return np.stack([y0, v0, 0.5 * a0, third / width**3, fourth / width**4, fifth / width**5])
-
-
-def _linear(width: Array, after: Array, before: Array) -> Array:
-    return np.stack([after[0], (before[0] - after[0]) / width])

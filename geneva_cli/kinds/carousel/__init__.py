@@ -7,7 +7,7 @@ KINDS = (
         "carousel",
         drive="kinds.carousel.motion:Carousel",
         gearings=("external", "internal"),
-        refuses="kinds.carousel.refuses:refuses",
+        refuses="kinds.carousel.motion:refuses",
         families={"carrier": "kinds.carousel.family:carousels"},
         quantities=(
             Quantities(

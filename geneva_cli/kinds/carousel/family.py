@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from geneva_cli.kinds.carousel.motion import Carousel
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.study.synth.families.family import (
@@ -21,30 +20,20 @@ from geneva_cli.study.target import Target
 
 
 def carousels(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
-    """One wheel with any number of fingers, or several wheels with one finger.
-
-    The wheels must not meet in time: each moves before the next one reaches the finger.
-    """
+    """One wheel with any number of fingers, or several wheels with one finger."""
     for wheel in wheels:
         natural = natural_deg(wheel)
-        several = rollers(target, natural)
-        for fingers in several:
+        for fingers in rollers(target, natural):
             if not allows(allowed_motions(target, fingers, natural), natural):
                 continue
             for count in target.wheels:
                 # each finger and each wheel has its own part of a turn
-                if count == 1 or (fingers == 1 and count <= rollers_max(natural)):
-                    spec = _carousel(target, wheel, fingers, count)
-                    if is_compatible(spec):
-                        yield Family(spec)
+                if count > 1 and (fingers > 1 or count > rollers_max(natural)):
+                    continue
 
+                def drive(n: float, fingers: int = fingers, count: int = count) -> Carousel:
+                    return Carousel(n_rpm=n, rollers=fingers, wheels=count)
 
-def _carousel(target: Target, wheel: Gearing, fingers: int, wheels: int) -> Spec:
-    """A carousel with radial slots."""
-    return machine(
-        target,
-        wheel,
-        lambda n: Carousel(n_rpm=n, rollers=fingers, wheels=wheels),
-        fingers,
-        natural_deg(wheel),
-    )
+                spec = machine(target, wheel, drive, fingers, natural)
+                if is_compatible(spec):
+                    yield Family(spec)

@@ -7,10 +7,14 @@ stands at c + psi(c) from the ground. An internal wheel turns against the carrie
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
+from geneva_cli.drives.refuses import of_transmission, other_wheels
 from geneva_cli.drives.transmission import Direct
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.motion.compatible import Conflict
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, wheel_places
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.spec.rules import Range
@@ -72,3 +76,44 @@ class Carousel(Direct, kw_only=True):
             Dimension("wheels on the carrier", self.wheels),
             Dimension("orbit's radius", plan.center_distance_mm, "mm"),
         )
+
+
+def refuses(spec: Spec) -> Iterator[Conflict]:
+    """Rules of wheels on a carrier."""
+    yield other_wheels(spec)
+    yield from of_transmission(spec)
+    drive = spec.drive
+    yield Conflict(
+        drive.stop_s != 0.0,
+        ("drive", "stop_s"),
+        'kind = "{spec.drive.NAME}" carries its wheels round at a constant speed: remove stop_s',
+    )
+    yield Conflict(
+        spec.unbalanced,
+        ("mass", "radius_mm"),
+        'kind = "{spec.drive.NAME}" needs balanced wheels, as a body off the axis would pull in '
+        "another direction in each motion: set count to 2 or more, or radius_mm = 0",
+    )
+    if drive.wheels_on_carrier > 1:
+        yield Conflict(
+            drive.rollers > 1 or spec.wheel.steps or drive.roller_angles_deg,
+            ("drive", "wheels"),
+            "several wheels meet one finger, each in turn: remove rollers, roller_angles_deg and "
+            "steps_deg, or set wheels = 1",
+        )
+        yield Conflict(
+            spec.wheel.SIGN < 0.0,
+            ("drive", "wheels"),
+            "an internal wheel surrounds the finger, so that one alone fits: set wheels = 1",
+        )
+    yield Conflict(
+        spec.product.runs_straight,
+        ("product", "pitch_mm"),
+        'a chain or belt needs a wheel on the ground, not kind = "{spec.drive.NAME}": set '
+        "radius_mm instead",
+    )
+    yield Conflict(
+        spec.support.gear_ratio != 1.0,
+        ("support", "gear_ratio"),
+        'gear_ratio is for a table on the ground, not for kind = "{spec.drive.NAME}": set it to 1',
+    )

@@ -28,10 +28,7 @@ from geneva_cli.study.target import AllowedSpan, Target
 
 
 def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
-    """Gear sectors that take over without a jump, with a free half angle b of the slots.
-
-    At the plain crank's b the gears have nothing to drive.
-    """
+    """Gear sectors that take over without a jump, with a free half angle b of the slots."""
     span = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
     example = BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))
     if span is None or not is_compatible(example):

@@ -1,15 +1,9 @@
 """Gear sectors that replace the slot at a constant ratio, for steps that a slot cannot make.
 
-The roller starts the wheel in a straight slot of half angle b. When the wheel reaches u times the
-crank's speed, toothed sectors drive it at that ratio for a crank angle D. Then the next roller
-stops the wheel in its own slot.
-
-The speeds agree at the crank angle a_t with sin²(a_t/2) = w (1-w) / (2l (1+u) (1 + 2u)), w = 1 -
-(1-l)(1+u). The acceleration jumps there, except for w = 0, u = l/(1-l): then a_t = 0 and the pitch
-circles are R and L - R. The step is 2 (b - psi_t) + u D.
-
-No ratio below that one gives the step, since b - psi_t is greatest at a_t = 0. With one above it
-the slot would still accelerate the wheel. In gear the roller then moves into the wall it pushed.
+The roller starts the wheel in a straight slot of half angle b. On the line of centres the wheel
+turns at u = l/(1-l) times the crank's speed, l = sin b, without acceleration. There toothed sectors
+take over, and drive it at that ratio for a crank angle D. Then the next roller stops the wheel in
+its own slot. The step is 2 b + u D, and the pitch circles are R and L - R.
 """
 
 from __future__ import annotations
@@ -17,17 +11,16 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
-from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import PinPath, Plan
 from geneva_cli.motion.engagement import Engagement, Path, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.motion.wheels import poses
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, larger, library, parameter, size
+from geneva_cli.numerics.arrays import Array, larger, library, size
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.spec.rules import POSITIVE, Range, Words
+from geneva_cli.spec.rules import Range
 from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
@@ -37,10 +30,7 @@ if TYPE_CHECKING:
 
 
 class GearSector(PinPath, kw_only=True):
-    """Slot, gears at constant ratio, slot.
-
-    ``sector_deg`` is the crank's angle in gear. ``gear_ratio`` is the wheel's speed over the
-    crank's in gear, or "shockless" for the ratio without a jump in acceleration at the handover.
+    """Slot, gears at constant ratio, slot; ``sector_deg`` is the crank's angle in gear.
 
     >>> Design(External(3), GearSector(sector_deg=60)).timing.motion_deg
     180.0
@@ -50,35 +40,29 @@ class GearSector(PinPath, kw_only=True):
     WORDS: ClassVar[str] = "a crank with gear sectors"
     EXAMPLE: ClassVar[Example] = Example(
         "slot, gears at a constant ratio, slot",
-        {"wheel": {"z": 3}, "drive": {"sector_deg": 60.0, "gear_ratio": "shockless"}},
+        {"wheel": {"z": 3}, "drive": {"sector_deg": 60.0}},
     )
     ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
     round_gears: ClassVar[tuple[str, ...]] = ("crank gear", "wheel gear")
     sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle in gear, D"]
-    gear_ratio: Annotated[
-        float | str,
-        Words(POSITIVE, ("shockless",)),
-        'wheel speed / crank speed in gear; "shockless" for no jump, others are slightly above it',
-    ] = "shockless"
 
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
         """Centre distance L for a crank radius, mm: R = L sin b, with the slot's half angle b."""
-        b = self._solved(math.pi / wheel.z).half_angle
+        b, _ = self._solved(math.pi / wheel.z)
         return radius_mm / library(b).sin(b)
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""
-        b, u, handover, _ = self._solved(math.pi / wheel.z)
+        b, u = self._solved(math.pi / wheel.z)
         place = wheel.place(poses.HalfStep.of_deg(library(b).degrees(b)), L)
         crank = cast("Transmission", registry.drive("crank")())
-        slot = crank.follows(wheel, place, L)
-        engagement = SectorEngagement(slot, handover, self.sector_deg, u)
+        engagement = SectorEngagement(crank.follows(wheel, place, L), self.sector_deg, u)
         return self.planned(engagement, library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Dimensions of slot, gears and handover, and angles between rollers and between slots."""
+        """Dimensions of slot and gears, and angles between rollers and between slots."""
         L, (engagement, *_) = plan.center_distance_mm, plan.engagements
-        b, u, handover, _ = self._solved(engagement.half_step)
+        b, u = self._solved(engagement.half_step)
         (_, first), (_, last) = engagement.passages
         return (
             Dimension("crank radius", L * plan.ratio, "mm"),
@@ -87,110 +71,48 @@ class GearSector(PinPath, kw_only=True):
             Dimension("between a pair's slots", math.degrees(2.0 * engagement.apart), "deg"),
             Dimension("gears' ratio u", u),
             Dimension("sector's angle", self.sector_deg, "deg"),
-            Dimension("handover, from the line of centres", math.degrees(handover), "deg"),
             Dimension("crank gear's pitch radius", L * u / (1.0 + u), "mm"),
             Dimension("wheel gear's pitch radius", L / (1.0 + u), "mm"),
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """Both toothed sectors; the rollers are on the crank's arm."""
-        L, still = plan.center_distance_mm, 0.0 * input_deg
-        u = self._solved(plan.engagements[0].half_step).ratio
-        shaft = Joint.SHAFT
-        return (
-            Link(
-                "crank gear",
-                ((still + L, still),),
-                (shaft,),
-                2,
-                L * u / (1.0 + u),
-                Teeth(1, self.sector_deg, 180.0),
-            ),
-            Link(
-                "wheel gear",
-                ((still, still),),
-                (shaft,),
-                2,
-                L / (1.0 + u),
-                Teeth(round(math.pi / plan.engagements[0].half_step), u * self.sector_deg),
-            ),
+        L, still, half_step = (
+            plan.center_distance_mm,
+            0.0 * input_deg,
+            plan.engagements[0].half_step,
+        )
+        _, u = self._solved(half_step)
+        teeth = Teeth(round(math.pi / half_step), u * self.sector_deg)
+        gears = (
+            ("crank gear", L, L * u / (1.0 + u), Teeth(1, self.sector_deg, 180.0)),
+            ("wheel gear", 0.0, L / (1.0 + u), teeth),
+        )
+        return tuple(
+            Link(name, ((still + x, still),), (Joint.SHAFT,), 2, radius, own)
+            for name, x, radius, own in gears
         )
 
-    def _solved(self, half_step: float) -> Handover:
-        """The slot and its handover that give the step together with the gears."""
-        D, u = radians(self.sector_deg), self.gear_ratio
-        if isinstance(u, str):  # the step grows with b
-            b = boundary(lambda b: _shockless(b).turned(D) >= half_step, half_step, 1e-9)
-            return _shockless(b)
-        # A slot with u > l/(1-l) never reaches the speed u. Among the others, the wheel turns less
-        # the sooner the slot reaches it.
-        ends = (math.pi / 2.0 - 1e-6, 0.0)
-        least, most = (2.0 * (half_step - _handover(u, x).turned(0.0)) / u for x in reversed(ends))
-        refuse(
-            (least > D) | (most < D),
-            lambda: self._no_step(half_step, math.degrees(least), math.degrees(most)),
-        )
-        return _handover(u, boundary(lambda x: _handover(u, x).turned(D) < half_step, *ends))
+    def _solved(self, half_step: float) -> tuple[float, float]:
+        """Half angle b of the slot and ratio u of the gears that give the step."""
+        D = radians(self.sector_deg)
 
-    def _no_step(self, half_step: float, least_deg: float, most_deg: float) -> GenevaError:
-        """The error for a sector that gives no step, with the sectors that would give one."""
-        step = f"a step of {math.degrees(2.0 * half_step):.6g} deg"
-        if least_deg > 330.0:  # the key's own limit
-            return GenevaError(
-                f"gear_ratio = {self.gear_ratio:g}: {step} needs a sector_deg of {least_deg:.6g}, "
-                "more than 330; set a greater gear_ratio",
-                ("drive", "gear_ratio"),
-            )
-        least = f"at least {least_deg:.6g}" if least_deg > 0.0 else "above 0"
-        return GenevaError(
-            f"sector_deg = {self.sector_deg:g}: with gear_ratio = {self.gear_ratio:g} it does not "
-            f"give {step}; it must be {least} and at most {min(most_deg, 330.0):.6g}",
-            ("drive", "sector_deg"),
-        )
+        def ratio(b: float) -> float:
+            m = library(b)
+            return m.sin(b) / (2.0 * m.sin(0.5 * (0.5 * math.pi - b)) ** 2)  # l/(1 - l)
 
-
-class Handover(NamedTuple):
-    """Half angle b of a slot, and the handover to gears of ratio u: a_t and psi_t, radians."""
-
-    half_angle: float
-    ratio: float
-    crank: float
-    wheel: float
-
-    def turned(self, sector: float) -> float:
-        """Half the step, for gears that drive over a crank angle ``sector`` in radians."""
-        return self.half_angle - self.wheel + 0.5 * self.ratio * sector
-
-
-def _shockless(b: float) -> Handover:
-    """Handover at mid-motion: u = l/(1-l)."""
-    m = library(b)
-    short = 2.0 * m.sin(0.5 * (0.5 * math.pi - b)) ** 2  # 1 - l
-    return Handover(b, m.sin(b) / short, 0.0, 0.0)
-
-
-def _handover(u: float, x: float) -> Handover:
-    """Handover of the slot with w = sin² x, so that b is smooth up to 90° and a_t down to 0."""
-    m = library(u, x)
-    s, c = m.sin(x), m.cos(x)
-    l, short = (u + s * s) / (1.0 + u), c * c / (1.0 + u)
-    sine = s * c / m.sqrt(2.0 * l * (1.0 + u) * (1.0 + 2.0 * u))
-    a = 2.0 * m.asin(sine)
-    b = m.atan2(l, m.sqrt(short * (1.0 + l)))
-    return Handover(b, u, a, m.atan2(l * m.sin(a), short + 2.0 * l * sine * sine))
+        # the step grows with b
+        b = boundary(lambda b: b + 0.5 * ratio(b) * D >= half_step, half_step, 1e-9)
+        return b, ratio(b)
 
 
 class _SectorMotion(WheelMotion):
     """The slot's motion at both ends, and the gears' motion between them."""
 
-    def __init__(self, inner: WheelMotion, handover: float, sector_deg: float, u: float) -> None:
-        self.inner, self.u = inner, u
-        self.half_sector = 0.5 * sector_deg
-        self.handover_deg = library(handover).degrees(handover)
-        half = inner.exit_deg - self.handover_deg + self.half_sector
-        turn = parameter(inner(self.handover_deg, 0).c[0])
-        gears = u * radians(self.half_sector)
-        super().__init__(-half, half, inner.half_step - turn + gears)
+    def __init__(self, inner: WheelMotion, sector_deg: float, u: float) -> None:
+        self.inner, self.u, self.half_sector = inner, u, 0.5 * sector_deg
+        half = inner.exit_deg + self.half_sector
+        super().__init__(-half, half, inner.half_step + u * radians(self.half_sector))
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
@@ -204,8 +126,8 @@ class _SectorMotion(WheelMotion):
         return tuple(sorted(places | {*self.breaks_deg}))
 
     def slot_deg(self, input_deg: Number) -> Number:
-        """Crank angle in the slot's own motion; while the gears drive, that of the handover."""
-        out = larger(size(input_deg) - self.half_sector, 0.0) + self.handover_deg
+        """Crank angle in the slot's own motion; 0 while the gears drive."""
+        out = larger(size(input_deg) - self.half_sector, 0.0)
         return library(out, input_deg).copysign(out, input_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
@@ -224,7 +146,7 @@ class _SectorMotion(WheelMotion):
 
 
 class _SectorPath(NamedTuple):
-    """The roller's path in its slot; while the gears drive it stays at the handover."""
+    """The roller's path in its slot; while the gears drive it stays on the line of centres."""
 
     inner: Path
     motion: _SectorMotion
@@ -259,8 +181,8 @@ class _SectorSlot(Slot):
 class SectorEngagement(Engagement):
     """The engagement of slot, gears and slot: the passages of two rollers as one."""
 
-    def __init__(self, inner: Engagement, handover: float, sector_deg: float, u: float) -> None:
-        motion = _SectorMotion(inner.motion, handover, sector_deg, u)
+    def __init__(self, inner: Engagement, sector_deg: float, u: float) -> None:
+        motion = _SectorMotion(inner.motion, sector_deg, u)
         super().__init__(
             0.0, _SectorPath(inner.path, motion), _SectorSlot(inner.slot, motion), motion
         )
@@ -272,13 +194,6 @@ class SectorEngagement(Engagement):
 
     @property
     def passages(self) -> tuple[tuple[Engagement, float], ...]:
-        """The plain wheel's, of the starting roller and of the stopping one: D - 2 a_t apart."""
-        half = self._sector.half_sector - self._sector.handover_deg
+        """The plain wheel's, of the starting roller and of the stopping one: D apart."""
+        half = self._sector.half_sector
         return (self._inner, half), (self._inner, -half)
-
-    @property
-    def overtaking(self) -> float:
-        """Angle 2 (psi_t - u a_t): the slot would turn the wheel by 2 psi_t from -a_t to a_t."""
-        a = self._sector.handover_deg
-        turn = parameter(self._inner.motion(a, 0).c[0])
-        return 2.0 * (turn - self._sector.u * radians(a))

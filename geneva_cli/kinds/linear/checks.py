@@ -1,37 +1,121 @@
-"""The checks of a rack's horns and guide."""
+"""The checks and quantities of a rack: its horns, its guide, and shafts that pass it."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
 from geneva_cli.errors import GenevaError
-from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.geometry.distance import Polyarc
+from geneva_cli.geometry.measure import bounds
+from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.shapes import as_contour
+from geneva_cli.kinds.linear.guide import RackGuide
+from geneva_cli.kinds.linear.motion import guided
+from geneva_cli.kinds.linear.parts import RackParts
+from geneva_cli.kinds.linear.rack import rack_sizes
+from geneva_cli.loads.contact import QuantityValue
+from geneva_cli.loads.instant import Instant
+from geneva_cli.loads.load_peaks import load_peaks
+from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.sizes import drawn_thicknesses
 from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.least_wall import wall_min
-from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.checks.check import Check, compared, gap
+from geneva_cli.verdict.checks.clearances import cut_width, plate_thickness
+from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
+from geneva_cli.verdict.shaft_gap import gear_rings, ring_gaps, rings_of
+from geneva_cli.verdict.strength import strength
 
 
-def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
-    """The wall between slot and recess of a rack; None for a wheel, and without a lock."""
-    if mechanism.output.turns:
-        return None
-    from geneva_cli.kinds.linear.rack import rack_sizes
-
-    try:
-        sizes = rack_sizes(mechanism)
-    except GenevaError:
-        return None  # the check of the parts reports the error
-    if not sizes.lock:
-        return None
-    least = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
-    return compared(name, sizes.horn, "at least", least)
-
-
-def guide_locks(name: str, mechanism: Mechanism) -> Check | None:
+def guide_locks(name: str, parts: RackParts) -> Check | None:
     """The friction from which a rack's guide locks, above that of the guide."""
-    load = mechanism.spec.load
+    load = parts.mechanism.spec.load
     friction = value_or(load.guide_friction, load.friction)
-    if mechanism.output.turns or not friction:
-        return None
-    from geneva_cli.verdict.strength import strength
-
-    value = strength(mechanism)["guide.locks_at_friction"]
+    value = strength(parts.mechanism)["guide.locks_at_friction"] if friction else None
     return compared(name, value, "at least", friction) if value else None
+
+
+def passing_shafts(name: str, parts: RackParts) -> Check | None:
+    """The least gap between shafts and a rack, of a crank's shaft that ends above the arm."""
+    if not parts.mechanism.spec.has_parts:
+        return None  # without a frame there are no shafts
+    L = parts.mechanism.center_distance_mm
+
+    def gaps() -> Iterator[float]:
+        (rack,) = plates(parts.wheel.part)
+        edge = bounds(rack.outline).x1
+        for shaft in rings_of(parts.shafts):
+            if shaft.high - rack.low > SAME_LENGTH * L:
+                yield shaft.axis[0] - shaft.outer - edge
+
+    return gap(name, gaps, L)
+
+
+def passing_gears(name: str, parts: RackParts) -> Check | None:
+    """The least gap of gears before a rack's crank to its guide and to shafts."""
+    L = parts.mechanism.center_distance_mm
+
+    def gaps() -> Iterator[float]:
+        rings = list(gear_rings(parts.mechanism, None))
+        yield from ring_gaps(parts.mechanism, [], rings, parts.shafts)
+        for plate in (plate for one in parts.guide for plate in plates(one.part)):
+            outline = Polyarc([as_contour(plate.outline)])
+            for ring in rings:
+                if min(ring.high, plate.high) - max(ring.low, plate.low) > SAME_LENGTH * L:
+                    yield float(outline.signed(np.array([ring.axis]))[0]) - ring.outer
+
+    return gap(name, gaps, L)
+
+
+def thickest_plate(name: str, parts: RackParts) -> Check | None:
+    """The thickest plate of a rack's machine, where the process has a limit."""
+    thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm)
+    return plate_thickness(name, parts.mechanism, max(thick.wheel, thick.lock, thick.arm))
+
+
+def slot_width(name: str, parts: RackParts) -> Check | None:
+    """The width of a rack's slots, where the process cuts none that is narrow for its plate."""
+    thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm).wheel
+    return cut_width(name, parts.mechanism, 2.0 * parts.sizes.half_width, thick)
+
+
+def guide(of: Designs) -> Columns:
+    """Return the guides of racks; none for a wheel, and for a rack that has no guide."""
+    if not guided(of.spec):
+        return {}
+    rows = []
+    for machine in of.each:
+        try:
+            place = rack_sizes(machine).guide
+        except GenevaError:  # the check of the horn reports the error
+            rows.append((math.inf,) * 4)
+            continue
+        R, r, mu = machine.center_distance_mm, machine.roller_radius_mm, machine.spec.load.friction
+        far = R - place.middle
+        lever = max(far - mu * (R - r), mu * (R + r) - far, mu * place.half)
+        force = at_deg = math.inf
+        if machine.spec.is_loaded:
+            ends = {str(side): _end_force(side) for side in (1.0, -1.0)}
+            first, second = load_peaks(machine, tuple(ends), ends).values()
+            most = first if first.max.item() >= second.max.item() else second
+            force, at_deg = math.sqrt(most.max.item()), most.at_deg.item()
+        rows.append((2.0 * place.half, place.half / lever, force, at_deg))
+    names = "length_mm", "locks_at_friction", "force_N", "at_deg"
+    return dict(zip(names, np.array(rows).T, strict=True))
+
+
+def _end_force(side: float) -> Callable[[Instant[Jet]], QuantityValue[Jet]]:
+    """The squared force at one end of a guide, 1 or -1, as a quantity of ``load_peaks``."""
+
+    def squared(i: Instant[Jet]) -> QuantityValue[Jet]:
+        guide = i.case.guide
+        assert isinstance(guide, RackGuide)
+        lever = guide.lever(i.case, i.at, i.drives, i.slides) * i.drives
+        rub = i.slides * i.case.friction
+        force = i.force_N * (lever * (0.5 * side / guide.half) + 0.5 * rub)
+        return QuantityValue(force * force, i.grip)
+
+    return squared

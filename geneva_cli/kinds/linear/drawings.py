@@ -10,7 +10,7 @@ from geneva_cli.geometry.plates import Group
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.geometry.sheet import Annotations, Drawing, LevelDistance
 from geneva_cli.kinds.linear.parts import RackParts
-from geneva_cli.kinds.linear.rack import rack_arm, rack_sizes, slot_walls
+from geneva_cli.kinds.linear.rack import rack_sizes, slot_walls
 from geneva_cli.motion.pivots import Dimension
 from geneva_cli.output.scene import Body, Box, Track
 from geneva_cli.parts.projection import (
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 def arm(parts: RackParts) -> Drawing:
     """Return the arm, whose x is from the crank's axis to the roller."""
     # without an arm the error says why
-    return drawing_of(parts.mechanism, "arm", parts.arm or rack_arm(parts.mechanism))
+    return drawing_of(parts.mechanism, "arm", parts.arm or parts.required_arm)
 
 
 def slot(parts: RackParts) -> Drawing:
@@ -45,10 +45,7 @@ def slot(parts: RackParts) -> Drawing:
 
 
 def guide(parts: RackParts) -> Drawing:
-    """Return rail and wall of the guide, with the bar of the rack between them.
-
-    The cover lies on wall and bar, and its holes are those of the wall.
-    """
+    """Return rail and wall of the guide, with the bar of the rack between them."""
     title = titled(parts.mechanism, "guide")
     solid = Group(title, (parts.bar, *parts.guide))
     return Drawing(title, outlines_of(solid), solid=solid)
@@ -68,20 +65,15 @@ def dimensions(parts: RackParts) -> Iterator[Dimension | Missing]:
 
     def listed() -> Iterator[Dimension]:
         sizes = parts.sizes
-        lock = {
-            "recess radius": sizes.recess,
-            "locking sector: outer radius": sizes.lock,
-            "locking sector: inner radius": sizes.floor,
-        }
-        named = {
-            "distance of the slots": 2.0 * sizes.arm,
-            "edge, from the deepest roller": sizes.edge,
-            **(lock if sizes.lock else {}),
-            "guide bar: width": sizes.guide.bar,
-            "guide: clearance on either side": sizes.guide.slide,
-            "guide: length": 2.0 * sizes.guide.half,
-        }
-        return (Dimension(name, value, "mm") for name, value in named.items())
+        yield Dimension("distance of the slots", 2.0 * sizes.arm, "mm")
+        yield Dimension("edge, from the deepest roller", sizes.edge, "mm")
+        if sizes.lock:
+            yield Dimension("recess radius", sizes.recess, "mm")
+            yield Dimension("locking sector: outer radius", sizes.lock, "mm")
+            yield Dimension("locking sector: inner radius", sizes.floor, "mm")
+        yield Dimension("guide bar: width", sizes.guide.bar, "mm")
+        yield Dimension("guide: clearance on either side", sizes.guide.slide, "mm")
+        yield Dimension("guide: length", 2.0 * sizes.guide.half, "mm")
 
     return or_missing("dimensions of the rack", listed)
 
@@ -101,21 +93,13 @@ class RackScene(WheelScene):
         yield Body("wheel", (*shapes, mark), (0.0, 0.0), still(), travel)
 
     def view(self, wheel: Body, box: Box, turn: MachineTurn) -> Box:
-        """Return the box that a page shows: the rack's width, and the slots next to the crank.
-
-        A rack of many slots is much longer than its machine. 3 R on either side stay full of any
-        rack in the first turn: the shortest one has 4 R on either side, and travels by R from its
-        middle.
-        """
+        """Return the box that a page shows: the rack's width, and the slots next to the crank."""
         R = turn.mechanism.output.per_radian
         own = bounds(wheel.shapes[0])
         x0, y0, x1, y1 = box
         return min(x0, own.x0), min(y0, -3.0 * R), max(x1, own.x1), max(y1, 3.0 * R)
 
     def stops(self, outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float]:
-        """Return the input angles from the start between which all slots of the rack have passed.
-
-        The middle slot is the first to pass.
-        """
+        """Return the input angles from the start between which all slots of the rack pass."""
         z, step_deg = turn.mechanism.spec.wheel.z, turn.turn_deg / len(turn.passages)
         return -step_deg * (z // 2), step_deg * ((z + 1) // 2)

@@ -8,7 +8,6 @@ beyond the sweep of the crank's arm, and are screwed to the frame.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -19,7 +18,6 @@ from geneva_cli.kinds.linear.rack import (
     RackSizes,
     crank_arm,
     rack_bore,
-    rack_ends,
     rack_sizes,
     slot_places,
 )
@@ -68,18 +66,22 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
 
 
 def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
-    """Return the shafts and the frame, with holes for them and guide's screws.
-
-    Raises GenevaError, naming the key, where they do not fit.
-    """
+    """Return the shafts and the frame, with holes for them and guide's screws."""
     size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
-    L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
-    own = list(_shafts(mechanism, heights))
+    L, axis, radius = 2.0 * sizes.arm, mechanism.crank_shaft.at, rack_bore(mechanism)  # z = 6
+    own: list[Shaft] = []
+    if radius:  # the crank's shaft, up to the arm's upper face
+        low, high = shaft_ends(size, "crank", heights.plain, heights.stands)
+        bore = bore_of(size, "crank", radius)
+        # the keyway is on the side of the locking sector, as in the arm
+        crank = Shaft("crank's shaft", "crank", bore, low, high, axis, math.pi, math.pi)
+        own.append(crank)
+    if mechanism.spec.gears:
+        own += gear_shafts(mechanism, None, heights.plain, True, radius)
     axles = tuple(one.member for one in own)
     bored = list(shaft_holes(size, axles, heights.top))
-    if not rack_bore(mechanism):
-        diameter = mechanism.spec.shaft.crank_diameter_mm
-        bored.insert(0, hole_without_shaft(diameter, mechanism.crank_shaft.at, L))
+    if not radius:
+        bored.insert(0, hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L))
     rows = zip(("guide rail", "guide wall"), _screws(sizes), strict=True)
     screwed = tuple((hole, name) for name, row in rows for hole in row)
     within = [*bored, *(tapped(hole) for hole, _ in screwed)]
@@ -88,40 +90,14 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     return FrameAndShafts(frame, axles, screwed=screwed)
 
 
-def _shafts(mechanism: Mechanism, heights: RackFrame) -> Iterator[Shaft]:
-    """Yield the crank's shaft, up to the arm's upper face, and that of a driver gear."""
-    size, geared = mechanism.spec.size, mechanism.spec.gears is not None
-    radius, axis = rack_bore(mechanism), mechanism.crank_shaft.at
-    if radius:
-        low, high = shaft_ends(size, "crank", heights.plain, heights.stands)
-        bore = bore_of(size, "crank", radius)
-        # the keyway is on the side of the locking sector, as in the arm
-        yield Shaft("crank's shaft", "crank", bore, low, high, axis, math.pi, math.pi)
-    if geared:
-        yield from gear_shafts(mechanism, None, heights.plain, True, radius)
-
-
-def guide_bar(mechanism: Mechanism, count: int) -> Plate:
-    """Return the bar under a rack of ``count`` slots; half the height under it is free."""
-    sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
-    low, high = rack_ends(sizes, count)
-    x = sizes.guide.back
-    outline = rectangle("LINK", x, low, x + sizes.guide.bar, high)
-    return Plate("guide bar", "LINK", outline, bar_bolts(sizes, count), 0.5 * heights.top, 0.0)
-
-
 def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:
-    """Return the holes that fix the bar to a rack, behind each of its slots."""
-    x = sizes.guide.middle
+    """Return the holes that fix the guide's bar to a rack, behind each of its slots."""
     places = slot_places(sizes, count) if _bolt(sizes) else ()
-    return tuple(Circle("BORE", (x, y), _bolt(sizes)) for y in places)
+    return tuple(Circle("BORE", (sizes.guide.middle, y), _bolt(sizes)) for y in places)
 
 
 def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
-    """Return rail, wall and cover of the guide.
-
-    Raises GenevaError where the slots are so wide that hardly any guide is left between them.
-    """
+    """Return rail, wall and cover of the guide."""
     sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
     place = sizes.guide
     x, bar, slide, half = place.back, place.bar, place.slide, place.half
@@ -157,11 +133,7 @@ def _bolt(sizes: RackSizes) -> float:
 
 
 def rack_stressed(mechanism: Mechanism) -> Stressed:
-    """Return the dimensions of the parts of a machine that their strength depends on.
-
-    The rack has no shaft and no key. The crank's overhang is the distance of its bearing in the
-    frame from the middle of the rack's thickness. Raises GenevaError where the parts do not fit.
-    """
+    """Return the dimensions of the parts of a machine that their strength depends on."""
     spec, heights, bore = mechanism.spec, rack_frame(mechanism), rack_bore(mechanism)
     size, R = spec.size, mechanism.center_distance_mm
     contact, thick = value_or(size.face_width_mm, heights.rack), heights.stands - heights.arm

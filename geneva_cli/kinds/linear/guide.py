@@ -27,18 +27,14 @@ greatest of R - x0 - mu (R - r), mu (R + r) - (R - x0) and mu h.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from geneva_cli.kinds.linear.motion import guided
-from geneva_cli.loads.forces import Contact, LoadCase, QuantityValue, lesser
-from geneva_cli.loads.instant import Instant
-from geneva_cli.loads.load_peaks import load_peaks
+from geneva_cli.loads.contact import Contact, LoadCase, lesser
 from geneva_cli.loads.strength.pin import pin_diameter_mm
-from geneva_cli.motion.engagement import Peak
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import choose, larger
-from geneva_cli.numerics.jet import Jet, Number, V
+from geneva_cli.numerics.jet import Number, V
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import eye_about, wall_min
 
@@ -48,15 +44,10 @@ class GuidePlace(NamedTuple):
 
     slot: float  # half of the slot's width
     bottom: float  # clearance between the deepest roller and the slot's end
-    rail: float  # distance of the rail's front behind the deepest roller
     bar: float  # width of the bar on the rack's back, and of the rail
     slide: float  # clearance of the bar on either side
     half: float  # half of the guide's length; 0 or less where the slots are too wide for a guide
-
-    @property
-    def back(self) -> float:
-        """The x of the bar's back."""
-        return 0.0 - (self.rail + 2.0 * self.bar + self.slide)
+    back: float  # the x of the bar's back
 
     @property
     def middle(self) -> float:
@@ -74,16 +65,15 @@ def guide_place(mechanism: Mechanism) -> GuidePlace:
     # the holes of its screws take at most half of the bar, and leave a wall on either side
     wall = wall_min(size, R)
     bar = larger(R / 10.0, 4.0 * wall)
-    rail = larger(bottom + half_slot, _eye_mm(mechanism, wall) + 0.25 * bar)
-    return GuidePlace(half_slot, bottom, rail, bar, slide, R - half_slot)
-
-
-def _eye_mm(mechanism: Mechanism, wall: float) -> float:
-    """Return the radius of the arm's eye about the pin; 0 without a pin, and so without an arm."""
-    size = mechanism.spec.size
+    # the arm's eye about the pin; none without a pin, and so without an arm
     hole = 0.5 * (pin_diameter_mm(mechanism) - size.allowances.press_fit_mm)
     eye = eye_about(hole, wall) if size.arm_eye_mm is None else 0.5 * size.arm_eye_mm
-    return eye if size.pin_mm is None else choose(size.pin_mm > 0.0, eye, 0.0 * eye)
+    if size.pin_mm is not None:
+        eye = choose(size.pin_mm > 0.0, eye, 0.0 * eye)
+    rail = larger(bottom + half_slot, eye + 0.25 * bar)
+    return GuidePlace(
+        half_slot, bottom, bar, slide, R - half_slot, 0.0 - (rail + 2.0 * bar + slide)
+    )
 
 
 class RackGuide(NamedTuple):
@@ -123,49 +113,13 @@ class RackGuide(NamedTuple):
 
 
 def with_guide(mechanism: Mechanism, case: LoadCase) -> LoadCase:
-    """Return a load case with the guide of a rack, if the machine has one.
-
-    A rack whose slots leave no space for a guide has none.
-    """
+    """Return a load case with the guide of a rack, if the machine has one."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     if not guided(spec):
         return case
     place = guide_place(mechanism)
     friction = value_or(spec.load.guide_friction, spec.load.friction)
     there = place.half > 0.0
-    guide = RackGuide(
-        choose(there, friction, 0.0), place.middle / L, choose(there, place.half / L, 1.0)
-    )
+    half = choose(there, place.half / L, 1.0)
+    guide = RackGuide(choose(there, friction, 0.0), place.middle / L, half)
     return case._replace(guide=guide)
-
-
-class EndForce(NamedTuple):
-    """The squared force at one end of a guide, as a quantity of ``load_peaks``."""
-
-    side: float  # 1 for one end, -1 for the other
-
-    def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
-        """The square, and the grip that bounds it."""
-        rub = i.slides * i.case.friction
-        guide = i.case.guide
-        assert isinstance(guide, RackGuide)
-        lever = guide.lever(i.case, i.at, i.drives, i.slides) * i.drives
-        force = i.force_N * (lever * (0.5 * self.side / guide.half) + 0.5 * rub)
-        return QuantityValue(force * force, i.grip)
-
-
-def guide_force(mechanism: Mechanism) -> Peak[float]:
-    """The greatest force at an end of a guide, N; infinite if the pin's force has no bound."""
-    ends = {str(side): EndForce(side) for side in (1.0, -1.0)}
-    first, second = load_peaks(mechanism, tuple(ends), ends).values()
-    most = first if first.max.item() >= second.max.item() else second
-    return Peak(math.sqrt(most.max.item()), most.at_deg.item())
-
-
-def locks_at_friction(mechanism: Mechanism) -> float:
-    """The friction from which a guide locks itself, with the slot's own friction as it is."""
-    place, mu = guide_place(mechanism), mechanism.spec.load.friction
-    R, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
-    far = R - place.middle
-    levers = (far - mu * (R - r), mu * (R + r) - far, mu * place.half)
-    return place.half / max(levers)

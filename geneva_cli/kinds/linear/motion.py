@@ -153,11 +153,7 @@ class ParallelSlotMotion(StraightSlotMotion):
 
 
 def guided(spec: Spec) -> bool:
-    """True if a rack slides in a guide, which stands on the frame of its crank.
-
-    >>> guided(Spec(Linear(6))), guided(Spec(External(6)))
-    (True, False)
-    """
+    """True if a rack slides in a guide, which stands on the frame of its crank."""
     return not spec.output.turns and (spec.drive.direct or spec.drive.gears is not None)
 
 

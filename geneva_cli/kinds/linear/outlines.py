@@ -12,10 +12,9 @@ from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear.rack import RackSizes, locking_sector, rack_contour
 from geneva_cli.numerics.arrays import Array, Whole, within_half_turn
-from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.pairs import Pose
 from geneva_cli.parts.turn.stops import (
     Branches,
     Stops,
@@ -119,40 +118,6 @@ class RackGaps(Gaps):
         """Reduce the rack to one slot and its neighbours; the slots are two radii apart."""
         self.pitch, radius = 2.0, self.assembly.L
         self.around = self.wheel.subset(np.flatnonzero(np.abs(self.wheel.oy) <= 3.5 * radius))
-
-    def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """Return the gap between the outlines of crank and rack, mm (n,); see ``Gaps``.
-
-        In the middle of a dwell the ring ends at the rack's edge. Then all corners of an overlap
-        lie on both outlines, and its deepest point is elsewhere on a recess.
-        """
-        gap = super().locking(pose, lead, near)
-        meets = np.flatnonzero(gap <= SAME_LENGTH * self.assembly.L)
-        if self.crank is not None and len(meets):
-            turn = np.broadcast_to(pose.wheel + lead, gap.shape)[meets]
-            gap[meets] = np.minimum(gap[meets], -self._depth(self._axis(turn), pose.crank[meets]))
-        return gap
-
-    def _depth(self, axis: Array, crank: Array) -> Array:
-        """Return how deep recesses lie in the ring next to its ends, at most, mm (n,)."""
-        size, recesses = self.sizes, np.flatnonzero(self.wheel.radius == self.sizes.recess)
-        cx, cy = self.wheel.cx[recesses][:, None, None], self.wheel.cy[recesses][:, None, None]
-        ax, ay = axis.T
-        c, s = np.cos(crank), np.sin(crank)
-        ends = np.array((1.0, -1.0))[:, None] * size.lock  # the ring's outer corners, along y
-        angle = np.arctan2(ay + ends * c - cy, ax - ends * s - cx)  # (recesses, 2, n)
-        for _ in range(6):  # Newton: from a start this near two steps reach rounding
-            ux, uy = np.cos(angle), np.sin(angle)
-            x, y = cx + size.recess * ux - ax, cy + size.recess * uy - ay
-            far = np.hypot(x, y)
-            value = far - size.lock - (x * c + y * s)
-            slope = size.recess * ((uy * c - ux * s) + (y * ux - x * uy) / far)
-            angle = angle - value / slope
-        depth = np.minimum(size.lock - far, far - size.floor)
-        on_rack = x + ax <= size.edge
-        deep = np.where(on_rack, np.maximum(depth, 0.0), 0.0)
-        out: Array = deep.max(axis=(0, 1), initial=0.0)  # without a recess 0
-        return out
 
     @cached_property
     def _stops(self) -> Stops:

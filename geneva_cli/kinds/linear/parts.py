@@ -11,38 +11,39 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Self
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Group, Member, Plate
+from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
 from geneva_cli.geometry.shapes import Point
+from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kept import cached_property
-from geneva_cli.kinds.linear.frame import bar_bolts, guide, guide_bar, shafts_and_frame
+from geneva_cli.kinds.linear.frame import bar_bolts, guide, rack_frame, shafts_and_frame
 from geneva_cli.kinds.linear.outlines import RackOutlines, turned_rack
 from geneva_cli.kinds.linear.rack import (
     RackSizes,
+    crank_arm,
     lock_bolts,
-    rack_arm,
+    locking_sector,
     rack_bore,
     rack_contour,
-    rack_crank,
+    rack_ends,
     rack_sizes,
 )
 from geneva_cli.numerics.arrays import Array
+from geneva_cli.parts.arm import roller_plates
 from geneva_cli.parts.assembly import assembled
 from geneva_cli.parts.gears.gear_pair import gear_pair
 from geneva_cli.parts.parts import EdgedParts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.screws import Screws
-from geneva_cli.parts.sizes import drawn_thicknesses
+from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.turn.bounds import FlatPairs
+from geneva_cli.spec.least_wall import wall_min
 
 if TYPE_CHECKING:
     from geneva_cli.parts.mounted_plate import FrameAndShafts
 
 
 class RackParts(EdgedParts):
-    """The parts of a machine, in its frame.
-
-    A part that the sizes leave no place for raises GenevaError, naming the key.
-    """
+    """The parts of a machine, in its frame."""
 
     @cached_property
     def _shape(self) -> RackOutlines:
@@ -87,15 +88,34 @@ class RackParts(EdgedParts):
 
     @cached_property
     def bar(self) -> Member:
-        """The bar under the rack's back."""
-        return Member(guide_bar(self.mechanism, self.mechanism.spec.wheel.z))
+        """The bar under the rack's back; half the height under it is free."""
+        count, sizes, x = self.mechanism.spec.wheel.z, self.sizes, self.sizes.guide.back
+        low, high = rack_ends(sizes, count)
+        outline = rectangle("LINK", x, low, x + sizes.guide.bar, high)
+        under = 0.5 * rack_frame(self.mechanism).top
+        return Member(Plate("guide bar", "LINK", outline, bar_bolts(sizes, count), under, 0.0))
 
     @cached_property
     def arm(self) -> Plate | None:
-        """The crank's arm; None without a pin for the roller."""
-        if not rack_bore(self.mechanism):
-            return None
-        return rack_arm(self.mechanism)
+        """The crank's arm, x to the roller; None without a pin for the roller."""
+        return self.required_arm if rack_bore(self.mechanism) else None
+
+    @property
+    def required_arm(self) -> Plate:
+        """The arm. Raises GenevaError, naming the key, where the sizes leave none."""
+        size, R, arm = self.mechanism.spec.size, self.sizes.arm, crank_arm(self.mechanism)
+        holes = (arm.bore, *arm.pins, *arm.bolts)
+        least, needed = least_wall(holes, [arm.outline]), wall_min(size, R)
+        if least < needed:
+            raise GenevaError(
+                f"--part arm: the least wall around the arm's holes is {least:.4g} mm, below "
+                f"{needed:g}; use a larger arm_eye_mm or arm_hub_mm, or a smaller arm_bore_mm, "
+                "pin_mm or lock_bolt_mm",
+                ("size", "arm_bore_mm"),
+            )
+        high = -size.allowances.pin_gap_mm
+        thick = drawn_thicknesses(size, R).arm
+        return Plate("arm", "ARM", arm.outline, holes, high - thick, high)
 
     @cached_property
     def crank_without_arm(self) -> Member:
@@ -108,10 +128,19 @@ class RackParts(EdgedParts):
         return self._crank(self.arm)
 
     def _crank(self, arm: Plate | None) -> Member:
-        below = (Member(arm),) if arm else ()
-        members = *below, *rack_crank(self.mechanism)
+        """The crank's parts in the arm's frame; the locking sector stands on the arm."""
+        size, sizes = self.mechanism.spec.size, self.sizes
+        thick, stands = drawn_thicknesses(size, sizes.arm), -size.allowances.pin_gap_mm
+        pin, fit = pin_radius(size, sizes.roller), size.allowances.shaft_fit_mm
+        turned = roller_plates(sizes.roller, pin, stands - thick.arm, thick.wheel, fit)
+        members = [Member(arm)] if arm else []
+        members += [Member(one, (sizes.arm, 0.0)) for one in turned]
+        sector = locking_sector(sizes)
+        if sector is not None:
+            holes, high = tuple(lock_bolts(self.mechanism)), stands + thick.lock
+            members.append(Member(Plate("locking sector", "CRANK", sector, holes, stands, high)))
         # the roller is on the rack's side
-        return Member(Group("crank", members), self.axis, math.pi)
+        return Member(Group("crank", tuple(members)), self.axis, math.pi)
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:

@@ -21,12 +21,10 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, about, closed, convex_hull
-from geneva_cli.geometry.stacks import least_wall
 from geneva_cli.kinds.linear.guide import GuidePlace, guide_place
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.parts.arm import CrankArm, roller_plates
+from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
@@ -42,7 +40,6 @@ from geneva_cli.parts.sizes import (
 )
 from geneva_cli.spec.default_sizes import half_or, value_or
 from geneva_cli.spec.least_wall import wall_min
-from geneva_cli.spec.tables import Size
 
 
 class RackSizes(NamedTuple):
@@ -56,6 +53,7 @@ class RackSizes(NamedTuple):
     lock: float  # outer radius of the locking sector
     floor: float  # its inner radius
     recess: float
+    relief: float  # clearance of the recess inside the locking sector
     guide: GuidePlace
 
     @property
@@ -65,10 +63,7 @@ class RackSizes(NamedTuple):
 
     @property
     def horn(self) -> float:
-        """Thickness of the horn between slot and recess at its thinnest place.
-
-        Without a recess it is half of the wall between two slots.
-        """
+        """Thickness of the horn between slot and recess at its thinnest place."""
         below = min(self.edge - self.arm, 0.0)  # an edge below the crank's axis has wider horns
         half_recess = math.sqrt(max(self.recess**2 - below**2, 0.0))
         return self.arm - self.half_width - half_recess
@@ -101,8 +96,20 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             "half the distance of the slots",
             ("size", "roller_radius_mm"),
         )
-    relief = _relief(size, arm)
-    lock = _lock(mechanism, arm, arm - w - allowed.lock_clearance_mm, relief)
+    # the locking sector must be wider than its inner radius
+    relief, limit = value_or(size.relief_clearance_mm, arm / 200.0), arm - w
+    limit, lock = limit - allowed.lock_clearance_mm, size.lock_radius_mm
+    least = 0.5 * (arm + relief)
+    if lock != 0.0 and limit <= least:
+        raise GenevaError(
+            f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm, "
+            f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0",
+            ("size", "lock_radius_mm"),
+        )
+    if lock is None:
+        lock = lock_between(least, limit, r)
+    elif lock:
+        require_lock_between(lock, least, limit)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
     floor = arm - recess + relief if lock else 0.0
     edge = value_or(size.wheel_radius_mm, arm)
@@ -112,14 +119,11 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             f"{arm - recess:.6g} and {arm + recess:.6g} mm",
             ("size", "wheel_radius_mm"),
         )
-    return RackSizes(arm, r, w, edge, guide.bottom, lock, floor, recess, guide)
+    return RackSizes(arm, r, w, edge, guide.bottom, lock, floor, recess, relief, guide)
 
 
 def key_sizes(mechanism: Mechanism) -> KeySizes:
-    """Return the sizes of a rack and its crank by the keys of the spec, of which no load chooses.
-
-    There are none where they leave no rack.
-    """
+    """Return the sizes of a rack and its crank by the keys of the spec, without its load."""
     size, r = mechanism.spec.size, mechanism.roller_radius_mm
     try:
         sizes, bore = rack_sizes(mechanism), rack_bore(mechanism)
@@ -131,7 +135,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         "wheel_radius_mm": sizes.edge,
         "slot_bottom_clearance_mm": sizes.slot_bottom,
         "lock_radius_mm": sizes.lock,
-        "relief_clearance_mm": _relief(size, sizes.arm),
+        "relief_clearance_mm": sizes.relief,
         "pin_mm": 2.0 * pin_radius(size, r),
         "wheel_thickness_mm": thick.wheel,
         "lock_thickness_mm": thick.lock,
@@ -143,40 +147,16 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     return KeySizes(known, ())
 
 
-def _relief(size: Size, arm: float) -> float:
-    """Return the clearance of the recess inside the locking sector."""
-    return value_or(size.relief_clearance_mm, arm / 200.0)
-
-
-def _lock(mechanism: Mechanism, arm: float, limit: float, relief: float) -> float:
-    """Return the outer radius of the locking sector, which must be wider than its inner radius."""
-    own, r = mechanism.spec.size.lock_radius_mm, mechanism.roller_radius_mm
-    if own == 0.0:
-        return 0.0
-    least = 0.5 * (arm + relief)
-    if limit <= least:
-        raise GenevaError(
-            f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm, "
-            f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0",
-            ("size", "lock_radius_mm"),
-        )
-    if own is None:
-        return lock_between(least, limit, r)
-    require_lock_between(own, least, limit)
-    return own
-
-
 def rack_contour(sizes: RackSizes, count: int) -> Contour:
-    """Return a rack of ``count`` slots, counterclockwise; the slot in the middle is at y = 0.
-
-    A recess lies between two slots, and one beyond the last slot on either side.
-    """
+    """Return a rack of ``count`` slots, counterclockwise; the slot in the middle is at y = 0."""
     low, high = rack_ends(sizes, count)
     back, places = sizes.behind, slot_places(sizes, count)
     cuts = [slot_walls(sizes, y) for y in places]
     if sizes.recess:
         between = places[0] - sizes.arm, *(y + sizes.arm for y in places)
-        recesses = [_recess(sizes, y) for y in between]
+        beyond = math.asin((sizes.edge - sizes.arm) / sizes.recess)
+        start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
+        recesses = [[about((sizes.arm, y), sizes.recess, start, sweep)] for y in between]
         pairs = zip(recesses, [*cuts, []], strict=True)
         cuts = [cut for pair in pairs for cut in pair if cut]
     edge: list[Segment] = []
@@ -209,12 +189,6 @@ def slot_walls(sizes: RackSizes, y: float) -> list[Segment]:
     return [Line((edge, y - w), end.start), end, Line(end.end, (edge, y + w))]
 
 
-def _recess(sizes: RackSizes, y: float) -> list[Segment]:
-    beyond = math.asin((sizes.edge - sizes.arm) / sizes.recess)
-    start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
-    return [about((sizes.arm, y), sizes.recess, start, sweep)]
-
-
 def locking_sector(sizes: RackSizes) -> Contour | None:
     """Return the ring opposite the roller, whose direction is x from the axis; None without one."""
     if not sizes.lock:
@@ -223,26 +197,6 @@ def locking_sector(sizes: RackSizes) -> Contour | None:
     inner = about((0.0, 0.0), sizes.floor, 1.5 * math.pi, -math.pi)
     inwards, outwards = Line(outer.end, inner.start), Line(inner.end, outer.start)
     return closed("CRANK", [outer, inwards, inner, outwards])
-
-
-def rack_arm(mechanism: Mechanism) -> Plate:
-    """Return the arm, whose x is from the crank's axis to the roller.
-
-    Raises GenevaError, naming the key, where the sizes leave no arm around its holes.
-    """
-    size, sizes = mechanism.spec.size, rack_sizes(mechanism)
-    thick, arm = drawn_thicknesses(size, sizes.arm), crank_arm(mechanism)
-    outline, holes = arm.outline, (arm.bore, *arm.pins, *arm.bolts)
-    least, needed = least_wall(holes, [outline]), wall_min(size, sizes.arm)
-    if least < needed:
-        raise GenevaError(
-            f"--part arm: the least wall around the arm's holes is {least:.4g} mm, below {needed:g}"
-            "; use a larger arm_eye_mm or arm_hub_mm, or a smaller arm_bore_mm, pin_mm or "
-            "lock_bolt_mm",
-            ("size", "arm_bore_mm"),
-        )
-    high = -size.allowances.pin_gap_mm
-    return Plate("arm", "ARM", outline, holes, high - thick.arm, high)
 
 
 def crank_arm(mechanism: Mechanism) -> CrankArm:
@@ -259,10 +213,7 @@ def crank_arm(mechanism: Mechanism) -> CrankArm:
 
 
 def rack_bore(mechanism: Mechanism) -> float:
-    """Return the radius of the arm's bore, in which the crank's shaft ends.
-
-    It is 0 where the roller has no pin, and so the crank no arm.
-    """
+    """Return the radius of the arm's bore, in which the crank's shaft ends."""
     size, R = mechanism.spec.size, mechanism.ratio * mechanism.center_distance_mm
     pin = pin_radius(size, mechanism.roller_radius_mm)
     # as if R were L/2, as for 6 slots
@@ -278,22 +229,7 @@ def lock_bolts(mechanism: Mechanism) -> list[Circle]:
     half_turn = [(0.5 * math.pi, math.pi)] if sizes.lock else []
     away = half_or(size.lock_bolt_circle_mm, 0.5 * (sizes.floor + sizes.lock))
     half_width = min(away - sizes.floor, sizes.lock - away)
-    turns = [turn for some in lock_bolt_directions(half_turn, count) for turn in some]
     r = bolt_radius(size.lock_bolt_mm, 2.0 * sizes.arm, half_width)
     refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
-    at = [(away * math.cos(turn), away * math.sin(turn)) for turn in turns if r]
-    return [Circle("BORE", centre, r) for centre in at]
-
-
-def rack_crank(mechanism: Mechanism) -> tuple[Member, ...]:
-    """Return locking sector, roller and pin in the arm's frame; the sector stands on the arm."""
-    size, sizes = mechanism.spec.size, rack_sizes(mechanism)
-    thick = drawn_thicknesses(size, sizes.arm)
-    sector, stands = locking_sector(sizes), -size.allowances.pin_gap_mm
-    pin, fit = pin_radius(size, sizes.roller), size.allowances.shaft_fit_mm
-    turned = roller_plates(sizes.roller, pin, stands - thick.arm, thick.wheel, fit)
-    members = [Member(one, (sizes.arm, 0.0)) for one in turned]
-    if sector is not None:
-        holes, high = tuple(lock_bolts(mechanism)), stands + thick.lock
-        members.append(Member(Plate("locking sector", "CRANK", sector, holes, stands, high)))
-    return tuple(members)
+    turns = [turn for some in lock_bolt_directions(half_turn, count) for turn in some if r]
+    return [Circle("BORE", (away * math.cos(x), away * math.sin(x)), r) for x in turns]

@@ -1,13 +1,19 @@
-"""What a rack refuses, and which keys are a rack's only."""
+"""What a rack refuses, which keys are a rack's only, and the check that needs no parts."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.motion.compatible import Conflict, is_set
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.spec.tables import Shaft
+from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.spec.least_wall import wall_min
+
+if TYPE_CHECKING:
+    from geneva_cli.verdict.checks.check import Check
 
 
 def refuses(spec: Spec) -> Iterator[Conflict]:
@@ -39,21 +45,30 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
     yield Conflict(spec.mass, ("mass",), f"[[mass]] {its}")
     yield Conflict(is_set(spec.support), ("support",), f"[support] {its}")
     not_its = "is for a wheel on a shaft, and not available for a rack: remove it"
-    yield Conflict(is_set(spec.tolerance), ("tolerance",), f"[tolerance] {not_its}")
-    yield Conflict(is_set(spec.product), ("product",), f"[product] {not_its}")
-    for key in ("index_play_max_deg", "dwell_play_max_deg"):
-        yield Conflict(
-            getattr(spec.limits, key) is not None,
-            ("limits", key),
-            f"{key} is an angle of a wheel, and a rack has none: remove it",
-        )
-    for key in (
-        *("stiffness_Nm_rad", "damping_ratio"),
-        *("wheel_diameter_mm", "wheel_overhang_mm", "wheel_span_mm"),
+    for table in ("tolerance", "product"):
+        yield Conflict(is_set(getattr(spec, table)), (table,), f"[{table}] {not_its}")
+    shaft = "stiffness_Nm_rad damping_ratio wheel_diameter_mm wheel_overhang_mm wheel_span_mm"
+    for table, keys in (
+        ("limits", "index_play_max_deg dwell_play_max_deg"),
+        ("shaft", shaft),
     ):
-        value = getattr(spec.shaft, key)
-        yield Conflict(
-            value is not None and value != getattr(Shaft, key),
-            ("shaft", key),
-            f"{key} is of a wheel's shaft, and a rack has none: remove it",
-        )
+        values = getattr(spec, table)
+        for key in keys.split():
+            own = getattr(values, key)
+            set_ = own is not None and own != getattr(type(values), key)
+            yield Conflict(set_, (table, key), f"{key} {not_its}")
+
+
+def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
+    """The wall between slot and recess of a rack; None for a wheel, and without a lock."""
+    if mechanism.output.turns:
+        return None
+    from geneva_cli.kinds.linear.rack import rack_sizes
+    from geneva_cli.verdict.checks.check import compared
+
+    try:
+        sizes = rack_sizes(mechanism)
+    except GenevaError:
+        return None  # the check of the parts reports the error
+    least = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
+    return compared(name, sizes.horn, "at least", least) if sizes.lock else None

@@ -11,11 +11,7 @@ from geneva_cli.numerics.arrays import Array, N
 
 
 class Sliding(PlaneMotion):
-    """The travel of a rack along y, by ``radius`` a radian.
-
-    >>> Sliding(50.0).into(np.array([[0.0, 2.0]]), np.array([0.04]))
-    array([[0., 0.]])
-    """
+    """The travel of a rack along y, by ``radius`` a radian."""
 
     PERIOD = math.inf
 

@@ -5,12 +5,13 @@ to its own pivot, at the distance g from the input's axis. The roller C is at th
 at an angle from the line AB. The wheel's centre is solved for.
 """
 
+from collections.abc import Mapping
 from functools import reduce
 from typing import Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinds.linkages.link_path import LinkPath, PointDisplacement
-from geneva_cli.kinds.linkages.linkage import Linkage, Moving, refuse_proportions
+from geneva_cli.kinds.linkages.linkage import Linkage, Moving
 from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
 from geneva_cli.numerics.arrays import enclosed, larger, library, parameter, smaller
@@ -37,6 +38,13 @@ class FourBar(Linkage, kw_only=True):
     NAME: ClassVar[str] = "four-bar"
     WORDS: ClassVar[str] = "a point of a four-bar linkage"
     CARRIER: ClassVar[str] = "coupler"
+    LENGTHS: ClassVar[Mapping[str, str]] = {
+        "crank a": "crank_mm",
+        "ground g": "ground_mm",
+        "coupler b": "coupler_mm",
+        "rocker c": "rocker_mm",
+        "roller from A": "point_mm",
+    }
     EXAMPLE: ClassVar[Example] = Example(
         "the roller on a four-bar's coupler",
         {
@@ -63,13 +71,6 @@ class FourBar(Linkage, kw_only=True):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        refuse_proportions(
-            crank_mm=self.crank_mm,
-            ground_mm=self.ground_mm,
-            coupler_mm=self.coupler_mm,
-            rocker_mm=self.rocker_mm,
-            point_mm=self.point_mm,
-        )
         # Grashof's condition for a full turn: the crank is the shortest link, and with the longest
         # it is below the sum of the other two.
         others = [self.ground_mm, self.coupler_mm, self.rocker_mm]
@@ -93,17 +94,8 @@ class FourBar(Linkage, kw_only=True):
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Joints at input 0, and lengths of the links."""
-        return (
-            self.placed(plan, "rocker axis", self.ground_mm, 0.0),
-            *self.linked(plan),
-            Dimension("crank a", self.crank_mm, "mm"),
-            Dimension("ground g", self.ground_mm, "mm"),
-            Dimension("coupler b", self.coupler_mm, "mm"),
-            Dimension("rocker c", self.rocker_mm, "mm"),
-            Dimension("roller from A", self.point_mm, "mm"),
-            Dimension("angle BAC", self.point_deg, "deg"),
-            Dimension("branch", self.branch),
-        )
+        pivots = self.linked(plan, **{"rocker axis": (self.ground_mm, 0.0)})
+        return (*pivots, Dimension("branch", self.branch))
 
     def holder(self, end: Moving) -> Link:
         """The rocker, on a pin in the frame."""
@@ -157,10 +149,7 @@ class CouplerPath(LinkPath):
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
 
     def about(self, phi: float) -> PointDisplacement:
-        """Displacement since a crank angle.
-
-        Each of A, D, 1/D, N, k and e changes by the change of the one before it.
-        """
+        """Displacement since a crank angle."""
         a, g, b, c, p, q = self.numbers
         m = library(phi, a, g)
         sine, cosine, half_sine, half_cosine = (

@@ -46,10 +46,7 @@ _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
 
 
 def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
-    """The best four-bar of each wheel, and some others.
-
-    Others are added if the search cannot compute the goal or a bound.
-    """
+    """The best four-bar of each wheel, and some others."""
     if target.rollers not in (None, 1):
         return
     tasks = [task for wheel in wheels if (task := _task(target, wheel))]
@@ -77,10 +74,7 @@ def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
 
 
 def _searched(target: Target, tasks: Sequence[WheelGoal]) -> list[tuple[Goal, Places]]:
-    """The search of each wheel that found four-bars, and its places, in the order of the wheels.
-
-    Where any motion will do, that of the plain crank is tried first.
-    """
+    """The search of each wheel that found four-bars, and its places, in the order of the wheels."""
     bounds = tuple(b for b in target.bounds if is_known(b.name))
     goal = Goal(target, (), bounds, target.peak)
     if target.sort and is_known(target.sort.name):

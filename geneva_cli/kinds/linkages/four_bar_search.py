@@ -64,10 +64,7 @@ class Goal(NamedTuple):
 
 
 class CouplerDrive(NamedTuple):
-    """A wheel's drive: entry and motion in radians, the wheel's sense, the roller's place; (n, 1).
-
-    A batch of them and their links are the machines of the search.
-    """
+    """A wheel's drive, (n, 1): entry and motion in radians, sense, and the roller's place."""
 
     entry: Array
     motion: Array
@@ -135,10 +132,7 @@ def _costs(goal: Goal, places: int, of: Whole, at: Array) -> tuple[Array, Array]
 
 
 def four_bars_at(goal: Goal, of: Whole, at: Array, places: int = FINE) -> FourBars:
-    """The machines at places of the cube, for wheels by their numbers.
-
-    Their motion is sampled at ``places``.
-    """
+    """The machines at places of the cube, for wheels by their numbers."""
     rows = [(w.wheel.step.b, *w.motion, w.roller, float(w.wheel.z)) for w in goal.wheels]
     half, low, high, radius, slots = np.array(rows).T[:, of, None]
     u = at.T[:, :, None]

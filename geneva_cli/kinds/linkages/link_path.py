@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import copy
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
-from typing import NamedTuple, Protocol, Self, cast
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, Self, TypeAlias, cast
 
 from geneva_cli.motion.engagement import Vector, cross
 from geneva_cli.numerics.angles import radians, sin_cos_deg
@@ -13,12 +13,8 @@ from geneva_cli.numerics.arrays import Array, Batchable, Which
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.spec.rules import is_array
 
-
-class PointDisplacement(Protocol):
-    """The pin's displacement since a moment, as a function of the crank's rotation since then."""
-
-    def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """Displacement (x, y), from sin d and 1 - cos d of the crank's rotation d since then."""
+# the pin's displacement (x, y) from sin d and 1 - cos d of the crank's rotation d since a moment
+PointDisplacement: TypeAlias = Callable[[Jet, Jet], tuple[Jet, Jet]]
 
 
 class LinkPath(Batchable, ABC):
@@ -107,10 +103,11 @@ class LinkReactions(NamedTuple):
             across = force[1] * self.sense
             F = (force[0] * self.x - across * self.y, force[0] * self.y + across * self.x)
             push = (cross(place, F) + moment * (self.sense * self.L)) / lever * -1.0  # about A
-            third = h[0] * push, h[1] * push
-            out.append((self._turned(F[0] + third[0], F[1] + third[1]), self._turned(*third)))
+            x, y = h[0] * push, h[1] * push
+            # from the path's axes to the machine's
+            shaft, third = (
+                (u * self.x + v * self.y, (v * self.x - u * self.y) * self.sense)
+                for u, v in ((F[0] + x, F[1] + y), (x, y))
+            )
+            out.append((shaft, third))
         return out
-
-    def _turned(self, x: Jet, y: Jet) -> Vector:
-        """Transform a vector from the path's axes to the machine's."""
-        return x * self.x + y * self.y, (y * self.x - x * self.y) * self.sense

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from functools import reduce
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self, TypeAlias, TypeVar, cast
 
@@ -33,9 +34,26 @@ class Linkage(PinPath, kw_only=True):
     LOCKS: ClassVar[bool] = False
     LENGTH: ClassVar[str] = "crank_mm in [drive]"
     CARRIER: ClassVar[str]  # link that carries the roller
+    LENGTHS: ClassVar[Mapping[str, str]]  # their keys by their names
     entry_deg: Annotated[
         float | None, Range(-360.0, 360.0), "crank angle near entry, to choose among several wheels"
     ] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        ratio = 1e4  # of two links: beyond it the path is a point, or rounding
+        lengths = {key: vars(self)[key] for key in self.LENGTHS.values() if key != "height_mm"}
+        limit = ratio * reduce(smaller, lengths.values())
+
+        def error() -> GenevaError:
+            name = max(lengths, key=lengths.__getitem__)
+            return GenevaError(
+                f"{name} = {lengths[name]:g}: links differ by more than {ratio:g} times: it must "
+                f"be at most {limit:g}",
+                ("drive", name),
+            )
+
+        refuse(reduce(larger, lengths.values()) > limit, error)
 
     @property
     @abstractmethod
@@ -71,19 +89,17 @@ class Linkage(PinPath, kw_only=True):
             entry_deg=entry_deg - 360.0 * library(entry_deg).floor(entry_deg / 360.0)
         )
 
-    def placed(self, plan: Plan, name: str, x: float, y: float) -> Pivot:
-        """Pivot at a point (mm) of the linkage's own frame, whose origin is the crank's axis."""
-        return Pivot(name, *self._placed(plan, x, y))
-
-    def linked(self, plan: Plan) -> Layout:
-        """The crank's pin, the roller, and the crank's sense of rotation, at input angle 0."""
+    def linked(self, plan: Plan, **fixed: tuple[float, float]) -> Layout:
+        """Fixed points of the linkage's own frame, crank pin and roller at input 0, and lengths."""
         at = cast(LinkReactions, plan.engagements[0].reactions)
         direction = sin_cos(Jet((at.middle,)))
-        pin, roller = at.path.joint(*direction), at.path.place(*direction)
+        moving = {"crank pin A": at.path.joint(*direction), "roller C": at.path.place(*direction)}
+        points = fixed | {k: (parameter(x.c[0]), parameter(y.c[0])) for k, (x, y) in moving.items()}
         return (
-            self.placed(plan, "crank pin A", *(parameter(x.c[0]) for x in pin)),
-            self.placed(plan, "roller C", *(parameter(x.c[0]) for x in roller)),
+            *(Pivot(name, *self._placed(plan, x, y)) for name, (x, y) in points.items()),
             Dimension("crank turns", "counterclockwise" if at.sense > 0.0 else "clockwise"),
+            *(Dimension(name, vars(self)[key], "mm") for name, key in self.LENGTHS.items()),
+            Dimension("angle BAC", vars(self)["point_deg"], "deg"),
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
@@ -117,19 +133,3 @@ class Linkage(PinPath, kw_only=True):
     @abstractmethod
     def holder(self, end: Moving) -> Link:
         """The link or guide that holds the carrying link at its end B, in the linkage's frame."""
-
-
-def refuse_proportions(**lengths: float) -> None:
-    """Raise GenevaError for lengths too different for a wheel to be solved for."""
-    ratio = 1e4  # of two links: beyond it the path is a point, or rounding
-    limit = ratio * reduce(smaller, lengths.values())
-
-    def error() -> GenevaError:
-        name = max(lengths, key=lengths.__getitem__)
-        return GenevaError(
-            f"{name} = {lengths[name]:g}: links differ by more than {ratio:g} times: it must be "
-            f"at most {limit:g}",
-            ("drive", name),
-        )
-
-    refuse(reduce(larger, lengths.values()) > limit, error)

@@ -116,11 +116,7 @@ def chosen(wheels: PathWheels, wanted: Array | None = None) -> Whole:
 
 
 def solve(path: LinkPath, step: HalfStep, wanted: float | None) -> tuple[Engagement, float]:
-    """Return the engagement of a path's wheel, and the centre distance in mm.
-
-    It is the gentlest wheel, or the one whose entry is nearest to the crank angle ``wanted``
-    (radians). Designs without a wheel are refused.
-    """
+    """Return the engagement of a path's wheel, and the centre distance in mm."""
     numbers = (*path.numbers, step.b, 0.0 if wanted is None else wanted)
     single = not any(np.ndim(x) for x in numbers)
     shape = np.broadcast_shapes((1, 1), *(np.shape(x) for x in numbers))

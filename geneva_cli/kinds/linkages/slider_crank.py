@@ -5,13 +5,14 @@ line passes the crank's axis at the height h. The roller C is at the distance k 
 from the line AB. The wheel's centre is solved for.
 """
 
+from collections.abc import Mapping
 from typing import Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinds.linkages.link_path import LinkPath, PointDisplacement
-from geneva_cli.kinds.linkages.linkage import Linkage, Moving, refuse_proportions
+from geneva_cli.kinds.linkages.linkage import Linkage, Moving
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link
+from geneva_cli.motion.pivots import Joint, Layout, Link
 from geneva_cli.numerics.arrays import enclosed, library, parameter
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
@@ -33,6 +34,12 @@ class SliderCrank(Linkage, kw_only=True):
     NAME: ClassVar[str] = "slider-crank"
     WORDS: ClassVar[str] = "a point of a slider-crank"
     CARRIER: ClassVar[str] = "rod"
+    LENGTHS: ClassVar[Mapping[str, str]] = {
+        "crank a": "crank_mm",
+        "rod b": "rod_mm",
+        "slider's line from the crank's axis h": "height_mm",
+        "roller from A": "point_mm",
+    }
     EXAMPLE: ClassVar[Example] = Example(
         "the roller on a slider-crank's rod",
         {
@@ -50,7 +57,6 @@ class SliderCrank(Linkage, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         a, b, h = self.crank_mm, self.rod_mm, self.height_mm
-        refuse_proportions(crank_mm=a, rod_mm=b, point_mm=self.point_mm)
         refuse(
             a + abs(h) >= b,
             lambda: GenevaError(
@@ -67,16 +73,8 @@ class SliderCrank(Linkage, kw_only=True):
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Joints at input 0, two points of the slider's line, and lengths of the links."""
-        return (
-            self.placed(plan, "slider's line, foot", 0.0, self.height_mm),
-            self.placed(plan, "slider's line, ahead", self.rod_mm, self.height_mm),
-            *self.linked(plan),
-            Dimension("crank a", self.crank_mm, "mm"),
-            Dimension("rod b", self.rod_mm, "mm"),
-            Dimension("slider's line from the crank's axis h", self.height_mm, "mm"),
-            Dimension("roller from A", self.point_mm, "mm"),
-            Dimension("angle BAC", self.point_deg, "deg"),
-        )
+        line = {"foot": (0.0, self.height_mm), "ahead": (self.rod_mm, self.height_mm)}
+        return self.linked(plan, **{f"slider's line, {end}": at for end, at in line.items()})
 
     def holder(self, end: Moving) -> Link:
         """The slider's fixed guide: its line as far as the slider can reach."""
@@ -111,10 +109,7 @@ class SlidingRod(LinkPath):
         return b, (sine * 0.0, cosine * 0.0 + 1.0)
 
     def about(self, phi: float) -> PointDisplacement:
-        """Displacement since a crank angle.
-
-        The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy).
-        """
+        """Displacement since a crank angle."""
         a, b, h, p, q = self.numbers
         m = library(phi, a, h)
         sine, cosine = m.sin(phi), m.cos(phi)

@@ -6,7 +6,7 @@ KINDS = (
     Kind(
         "geneva-pair",
         drive="kinds.series.geneva_pair:GenevaPair",
-        refuses="kinds.series.refuses:refuses",
+        refuses="kinds.series.geneva_pair:refuses",
         families={"straight": "kinds.series.family:pairs"},
     ),
 )

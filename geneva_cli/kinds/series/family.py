@@ -20,10 +20,7 @@ from geneva_cli.study.target import Target
 
 
 def pairs(target: Target, wheel: Gearing) -> Iterator[Family]:
-    """First wheels of any number of slots, which turn the crank once in ``first_z`` turns.
-
-    Their step must be as long as the crank's own motion.
-    """
+    """First wheels of any number of slots, which turn the crank once in ``first_z`` turns."""
     for first_z in range(3, int(360.0 / natural_deg(wheel)) + 1):
         spec = BARE.replace(wheel=wheel, drive=GenevaPair(first_z=first_z))
         if not is_compatible(spec):

@@ -6,12 +6,16 @@ times tan b. There is none if both motions begin together, as with four slots on
 """
 
 import math
+from collections.abc import Iterator
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import PushedCrank
+from geneva_cli.drives.refuses import of_transmission, several_rollers
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
+from geneva_cli.motion.compatible import Conflict
 from geneva_cli.motion.drive import FirstWheel, Plan
 from geneva_cli.motion.engagement import Path, Vector
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, ShaftPlace
 from geneva_cli.motion.wheels import poses
 from geneva_cli.motion.wheels.gearing import Gearing
@@ -180,3 +184,9 @@ def _running(middle: poses.PinPose, a: float) -> poses.PinPose:
     slope = (l * (s * u + c * v), l * (c * u - s * v))
     bend = (l * (c * u - s * v), -l * (s * u + c * v))
     return poses.PinPose(m.degrees(a), m.atan2(y, x), rho, slope, bend)
+
+
+def refuses(spec: Spec) -> Iterator[Conflict]:
+    """Rules of a second crank, which has one roller."""
+    yield from several_rollers(spec)
+    yield from of_transmission(spec)

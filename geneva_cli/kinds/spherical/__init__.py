@@ -10,11 +10,9 @@ KINDS = (
         drawings={
             "wheel": "kinds.spherical.drawings:wheel",
             "crank": "kinds.spherical.drawings:crank",
-            "arm": "kinds.spherical.drawings:arm",
             "assembly": "kinds.spherical.drawings:assembly",
         },
-        tables={"wheel": "kinds.spherical.dimensions:meridians_table"},
-        dimensions="kinds.spherical.dimensions:dimensions",
+        dimensions="kinds.spherical.drawings:dimensions",
         sizes="kinds.spherical.sizes:key_sizes",
         details="kinds.spherical.parts:screw_sizes",
         stressed="kinds.spherical.sizes:stressed",

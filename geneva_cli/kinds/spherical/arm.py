@@ -45,11 +45,7 @@ class CapArm(NamedTuple):
 
 
 def crank_arm(ball: Ball, sectors: Sequence[Region], size: Size) -> CapArm:
-    """Return the arm of a machine, with the locking sectors that it carries.
-
-    By default each locking sector has as many bolts as leave walls, up to two. Raises GenevaError,
-    naming the key, where the sizes leave no arm around the holes.
-    """
+    """Return the arm of a machine, with the locking sectors that it carries."""
     own = size.lock_bolts
     arm = _arm(ball, sectors, size, own or 0)
     if own is None and sectors:

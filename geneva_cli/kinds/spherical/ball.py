@@ -113,10 +113,7 @@ class Ball(NamedTuple):
         return self.radius_mm * (self.axes - self.arm - opening)
 
     def cap(self, hub_mm: float, bored_mm: float, wall_mm: float) -> float:
-        """Return the angle of the arm's cap about its sectors, or about its hub and a wall.
-
-        The wall is as thick as that of the hub, whose bore reaches to ``bored_mm``.
-        """
+        """Return the angle of the arm's cap about its sectors, or about its hub and a wall."""
         edge = hub_mm + max(hub_mm - bored_mm, wall_mm)
         return max(self.lock, math.asin(min(1.0, edge / self.arm_span_mm[0])))
 
@@ -133,10 +130,7 @@ class Ball(NamedTuple):
 
 
 def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
-    """Return the sizes without a load, for a thickness of the wheel, or else its default.
-
-    Raises GenevaError, naming the key, where they leave no wheel or no lock.
-    """
+    """Return the sizes without a load, for a thickness of the wheel, or else its default."""
     spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
     size, z, allowed = spec.size, spec.wheel.z, spec.size.allowances
     if z > Z_DRAWN:
@@ -181,11 +175,25 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     pin = pin_radius(size, radius_mm)
     refuse_wide_pin(size, pin, inside * math.sin(roller))
     refuse_edges(size, min(thick.wheel, thick.lock, thick.arm))
-    lock_mm = _lock_mm(mechanism, arm - w, abs(deepest + arm - rim), roller)
+    # the locking sectors' edge, between the wheel's rim and the rollers
+    limit, least = arm - w - allowed.lock_clearance_mm / L, abs(deepest + arm - rim)
+    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
+    lock_mm = size.lock_radius_mm
+    if not spec.has_lock:
+        lock_mm = 0.0
+    elif limit <= least:
+        raise PartDoesNotFit(
+            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
+            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
+            ("size", "lock_radius_mm"),
+        )
+    elif lock_mm is None:
+        lock_mm = L * math.sin(lock_between(least, limit, roller))
+    else:
+        require_lock_between(lock_mm, low, high)
     lock = math.asin(lock_mm / L)
-    turns = [p.crank_deg for p in (first, *others)]
-    if len(turns) == 1:
-        turns = [360.0 * i / spec.drive.rollers for i in range(spec.drive.rollers)]
+    even = [360.0 * i / spec.drive.rollers for i in range(spec.drive.rollers)]
+    turns = [first.crank_deg, *(p.crank_deg for p in others)] if others else even
     bored = 0.0
     if spec.drive.crank and pin:
         bored = arm_bore(spec, 0.0, L, L * arm - hole_radius(size, pin))
@@ -239,30 +247,8 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     return ball
 
 
-def _lock_mm(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:
-    """Return the radius of the locking sectors' edge about the crank's axis, 0 for none."""
-    size, L = mechanism.spec.size, mechanism.center_distance_mm
-    if not mechanism.spec.has_lock:
-        return 0.0
-    limit -= size.allowances.lock_clearance_mm / L
-    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
-    if limit <= least:
-        raise PartDoesNotFit(
-            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
-            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
-            ("size", "lock_radius_mm"),
-        )
-    if size.lock_radius_mm is None:
-        return L * math.sin(lock_between(least, limit, roller))
-    require_lock_between(size.lock_radius_mm, low, high)
-    return size.lock_radius_mm
-
-
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:
-    """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends.
-
-    Where a default hub would leave no wall around the bore there is none: it is the bore's.
-    """
+    """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends."""
     wall = wall_min(size, L)
     bored, hub = reach_and_hub(size, "wheel", bore, wall, end)
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub

@@ -62,10 +62,7 @@ def arm_wall(name: str, parts: SphereParts) -> Check | None:
 
 
 def passing_parts(name: str, parts: SphereParts) -> Check | None:
-    """The gap between hubs or shafts and parts that turn about the other axis.
-
-    The check of the arm's wall reports a missing arm.
-    """
+    """The gap between hubs or shafts and parts that turn about the other axis."""
     row = arm_wall(name, parts)
     if row and row.value is None:
         return None

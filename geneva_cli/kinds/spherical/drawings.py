@@ -1,4 +1,4 @@
-"""Drawings of a spherical machine: its parts laid flat, and their solids.
+"""Drawings and dimensions of a spherical machine: its parts laid flat, and their solids.
 
 A shell is projected from the centre on a tangent cone and unrolled. All walls lead to the centre.
 So a sheet that is cut by this outline and rolled up to the cone lets the roller pass as the shell
@@ -11,6 +11,7 @@ Layers: WHEEL and CRANK are cut; ROLLER is the hole of a roller; PITCH is the ro
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import partial
 from itertools import chain
 from typing import NamedTuple
@@ -32,14 +33,15 @@ from geneva_cli.geometry.shapes import (
     joined,
 )
 from geneva_cli.geometry.sheet import Annotations, Drawing
-from geneva_cli.geometry.sphere import Cap, Region, SphereArc, Vector, place
-from geneva_cli.kinds.spherical.arm import crank_arm
+from geneva_cli.geometry.sphere import Region, SphereArc
+from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.kinds.spherical.parts import SphereParts, arm_solids
+from geneva_cli.kinds.spherical.parts import SphereParts
 from geneva_cli.kinds.spherical.regions import edge, locked, rollers
+from geneva_cli.motion.pivots import Dimension
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.projection import titled
+from geneva_cli.parts.projection import Missing, or_missing, titled
 from geneva_cli.spec.written import length
 
 
@@ -48,13 +50,6 @@ class Cone(NamedTuple):
 
     Laid flat and seen from outside, its origin is the point of contact at azimuth 0. x points away
     from the pole, and y towards rising azimuths.
-
-    >>> cone = Cone(100.0, math.radians(60.0))
-    >>> round(cone.apex_mm, 9), round(cone.sector_deg, 9)
-    (173.205080757, 180.0)
-    >>> x, y = cone.point(math.radians(60.0), math.radians(180.0))
-    >>> round(x, 9), round(y, 9)  # a quarter of a turn about the apex
-    (-173.205080757, 173.205080757)
     """
 
     radius_mm: float  # of the sphere
@@ -96,12 +91,11 @@ class Cone(NamedTuple):
         return closed(layer, chain(*(self.segments(arc, about) for arc in region.boundary)))
 
     def segments(self, arc: SphereArc, about: float) -> list[Segment]:
-        """Return an arc of the sphere on the flat cone.
-
-        Azimuths are unwrapped to within half a turn of ``about``. Circles about z become arcs and
-        meridians lines; the rest becomes curves.
-        """
-        ends = [self._at(p, about) for p in (arc.start, arc.end)]
+        """Return an arc of the sphere on the flat cone."""
+        ends = []
+        for x, y, z in (arc.start, arc.end):
+            azimuth = about + math.remainder(math.atan2(y, x) - about, math.tau)
+            ends.append(self.point(math.atan2(math.hypot(x, y), z), azimuth))
         # a meridian: a great circle is at 90 degrees from its axis
         if not arc.axis[2] and abs(math.cos(arc.angle)) < 1e-12:
             return [Line(*ends)]
@@ -123,11 +117,6 @@ class Cone(NamedTuple):
         """Return the arc about the apex between two points, over an azimuth."""
         bulge = math.tan(0.25 * azimuth * math.cos(self.polar))
         return Arc(start, end, bulge) if abs(bulge) > SAME_ANGLE else Line(start, end)
-
-    def _at(self, at: Vector, about: float) -> Point:
-        x, y, z = at
-        azimuth = about + math.remainder(math.atan2(y, x) - about, math.tau)
-        return self.point(math.atan2(math.hypot(x, y), z), azimuth)
 
     def _flat(
         self, polar: Array, azimuth: Array, d_polar: Array, d_azimuth: Array
@@ -162,11 +151,6 @@ def _wall_mouth(ball: Ball) -> float:
 def crank_cone(ball: Ball) -> Cone:
     """Return the cone that touches the sphere at the rollers."""
     return Cone(ball.radius_mm, ball.arm)
-
-
-def arm_cone(ball: Ball) -> Cone:
-    """Return the cone that touches the middle of the arm's thickness at the pins."""
-    return Cone(0.5 * sum(ball.arm_span_mm), ball.arm)
 
 
 def wheel(parts: SphereParts) -> Drawing:
@@ -247,41 +231,70 @@ def crank_flat(parts: SphereParts) -> list[Shape]:
     return shapes
 
 
-def arm(parts: SphereParts) -> Drawing:
-    """Return the arm laid flat, cut open between its holes; its solid is the cap with its hub.
+def dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
+    """Yield the dimensions of the parts; for those that cannot be built, the reason."""
+    return or_missing("dimensions of the shells", lambda: _dimensions(parts))
 
-    About the crank's axis the opening is as wide as the hub. Raises GenevaError without an arm.
-    """
+
+def _dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
     ball = parts.ball
-    # the error says why there is no arm
-    arm = parts.arm or crank_arm(ball, parts.shells.crank, parts.mechanism.spec.size)
-    cone = arm_cone(ball).within(parts)
-    hub, *others = arm.holes
-    azimuths = [math.atan2(hole.axis[1], hole.axis[0]) for hole in others]
-    # in the middle of the widest gap; azimuths rise from here by a whole turn, past 0
-    around = sorted(a % math.tau for a in azimuths)
-    gaps = zip(around, [*around[1:], around[0] + math.tau], strict=True)
-    start, end = max(gaps, key=lambda pair: pair[1] - pair[0])
-    cut = 0.5 * (start + end) % math.tau - math.tau
-    # the boundary, counterclockwise from where it crosses that azimuth
-    arcs = arm.boundary.boundary
-    number, polar = next((i, p) for i, arc in enumerate(arcs) for p in arc.crossings(cut))
-    at = place(polar, cut)
-    head, tail = arcs[number]._replace(start=at), arcs[number]._replace(end=at)
-    # each arc's azimuths are unwrapped around a value near them
-    edge = cone.segments(head, cut + 0.5 * math.pi)
-    for arc in (*arcs[number + 1 :], *arcs[:number]):
-        edge += cone.segments(arc, cut + math.pi)
-    edge += cone.segments(tail, cut + 1.5 * math.pi)
-    far, near = (cone.point(hub.angle(cone.radius_mm), cut + turn) for turn in (math.tau, 0.0))
-    back = cone.level(far, near, -math.tau)
-    outline = closed("ARM", [*edge, Line(edge[-1].end, far), back, Line(near, edge[0].start)])
-    holes = []
-    for hole, azimuth in zip(others, azimuths, strict=True):
-        region = Cap(hole.axis, hole.angle(cone.radius_mm)).region
-        holes.append(cone.region("BORE", region, cut + (azimuth - cut) % math.tau))
-    low, high = ball.arm_span_mm
-    plate = Plate("arm", "ARM", outline, tuple(holes), 0.0, high - low)
-    solid = Group("arm", tuple(map(Member, arm_solids(ball, arm))))
-    title = _titled(parts, "arm", arm_cone(ball), "crank")
-    return Drawing(title, (outline, *holes), solid=plate, shells=solid)
+    yield from _lengths("shells'", ball.span_mm)
+    yield _angle("roller's cone, half angle", ball.roller)
+    yield _angle("slot, between its walls", 2.0 * ball.half_width)
+    yield _angle("slot's last round, from the wheel's axis", ball.bottom)
+    yield _angle("rim, from the wheel's axis", ball.rim)
+    yield _angle("slotted ring's inner edge, from its axis", ball.inner)
+    yield from _axle("wheel", ball.bore_mm, ball.hub_mm)
+    if ball.lock:
+        yield _angle("lock, from the crank's axis", ball.lock)
+        yield _angle("recess, from the crank's axis", ball.recess)
+        yield Dimension("locking sectors' inner radius", ball.lock_span_mm[0], "mm")
+    for k, region in enumerate(parts.shells.crank, 1):
+        rim, _, low, _ = region.boundary
+        yield _angle(f"locking sector {k}: inner edge", math.pi - low.angle)
+        start = math.atan2(rim.start[1], rim.start[0]) % math.tau
+        yield _angle(f"locking sector {k}: begins", start)
+        yield _angle(f"locking sector {k}: width", rim.sweep)
+    yield from or_missing("arm's dimensions", lambda: _arm(parts))
+    for whose, cone in (("wheel", wheel_cone(ball)), ("crank", crank_cone(ball))):
+        flat = f"{whose} laid flat"
+        yield _angle(f"{flat}: cone touches the sphere at", cone.polar)
+        yield Dimension(f"{flat}: from there to its apex", abs(cone.apex_mm), "mm")
+        yield Dimension(f"{flat}: sector", cone.sector_deg, "deg")
+
+
+def _arm(parts: SphereParts) -> Iterator[Dimension]:
+    arm, ball = parts.arm, parts.ball
+    if arm is None:
+        return
+    yield from _lengths("arm's", ball.arm_span_mm)
+    yield from _axle("arm", arm.bore.radius, arm.hub)
+    yield _angle("arm's cap, from the crank's axis", arm.cap)
+    yield _angle("arm's eyes, half angle", arm.eye)
+    yield Dimension("pins", 2.0 * ball.pin_mm, "mm")
+    yield Dimension("pins' holes in the arm", 2.0 * arm.pins[0].radius, "mm")
+    yield from _bolts("lock's bolt", arm.bolts)
+
+
+def _axle(part: str, bore: float, hub: float) -> Iterator[Dimension]:
+    if bore:
+        yield Dimension(f"{part}'s bore", 2.0 * bore, "mm")
+    if hub > bore:
+        yield Dimension(f"{part}'s hub", 2.0 * hub, "mm")
+
+
+def _bolts(name: str, holes: tuple[RoundHole, ...]) -> Iterator[Dimension]:
+    for k, bolt in enumerate(holes, 1):
+        x, y, z = bolt.axis
+        yield Dimension(f"{name} {k}: hole", 2.0 * bolt.radius, "mm")
+        yield _angle(f"{name} {k}: from the axis", math.acos(z))
+        yield _angle(f"{name} {k}: azimuth", math.atan2(y, x))
+
+
+def _lengths(whose: str, span_mm: tuple[float, float]) -> Iterator[Dimension]:
+    for end, radius in zip(("inner", "outer"), span_mm, strict=True):
+        yield Dimension(f"{whose} {end} radius", radius, "mm")
+
+
+def _angle(name: str, value: float) -> Dimension:
+    return Dimension(name, math.degrees(value), "deg")

@@ -1,23 +1,37 @@
-"""The gaps between wheel, crank and rollers on a sphere, by their positions.
+"""The gaps between wheel, crank and rollers on a sphere, and proved lower bounds of them.
 
 All walls lead to the sphere's centre, and so do the rollers' cones. So gaps are angles at the
 centre; they are returned as arc lengths on the sphere, mm.
+
+On intervals of the input angle they are bounded as on a plane (``parts.turn.bounds``). A point at
+an angle r from an axis moves at most sin r times the angle by which its part turns about it. A
+roller's path is exact: an arc about the crank's axis while the wheel rests, and a piece of the
+meridian in its own slot.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 
-from geneva_cli.geometry.sphere import Region, opposite, place
-from geneva_cli.geometry.sphere_arcs import SphereArcs
+from geneva_cli.geometry.sphere import POLE, Region, opposite, place
+from geneva_cli.geometry.sphere_arcs import (
+    Circle,
+    SphereArcs,
+    farthest,
+    from_circle,
+    short_arcs,
+)
 from geneva_cli.kinds.spherical.ball import Ball
-from geneva_cli.kinds.spherical.regions import at_mid_motion, edge
+from geneva_cli.kinds.spherical.regions import QUARTER, at_mid_motion, edge
 from geneva_cli.kinds.spherical.stops import SphereStops, about, polar
-from geneva_cli.numerics.arrays import Array
-from geneva_cli.numerics.tolerances import SAME_ANGLE
+from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.turn.pairs import Pose, Stop
+from geneva_cli.parts.turn.pairs import Bounds, Intervals, Pose, Stop, Window, raised
 
+STEP = math.radians(1.0)  # greatest turn of a piece of the crank, tested for being in the wheel
 # Fractions of an arc at which it is sampled: its start and middle, and points next to its corners.
 # A corner itself may lie on an edge where all else overlaps.
 ARC_SAMPLES = (0.0, 1e-6, 0.5, 1.0 - 1e-6)
@@ -56,27 +70,13 @@ class BallGaps:
         return Pose(self.assembly.wheel(input_deg), turn, pins)
 
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """Return the gap of each roller, mm (n, m), with the wheel turned on by ``lead`` radians.
-
-        Gaps wider than ``near`` mm, by default ``self.near``, are returned as ``near``.
-        """
+        """Return the gap of each roller, mm (n, m), at most ``near``."""
         near = self.near if near is None else near
         columns = []
         for i in range(pose.pins.shape[1]):
             away = self.to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
             columns.append(self.ball.radius_mm * (away - self.ball.roller))
         return np.minimum(np.column_stack(columns), near)
-
-    def repeats(self, count: int) -> bool:
-        """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
-        first, step = self.sectors[:1], 2.0 * np.pi / count
-        return len(self.sectors) in (0, count) and all(
-            np.abs(about(one.middle, np.full(len(one), -k * step)) - sector.middle).max()
-            < SAME_ANGLE
-            and np.abs(one.sweep - sector.sweep).max() < SAME_ANGLE
-            for one in first
-            for k, sector in enumerate(self.sectors)
-        )
 
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and on, as ``Clearances`` describes."""
@@ -117,18 +117,12 @@ class BallGaps:
         return self.ball.radius_mm * least
 
     def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, directions (n, 3).
-
-        The wheel is turned on by ``lead`` radians.
-        """
+        """Return the centre of a motion's roller in the wheel's frame, directions (n, 3)."""
         pose = self.pose(input_deg)
         return about(pose.pins[:, motion], -(pose.wheel + lead))
 
     def to_wheel(self, points: Array) -> Array:
-        """Return the distances of points in the wheel's frame from its edge, radians.
-
-        Each is turned to the first slot's sector, whose edge is nearest.
-        """
+        """Return the distances of points in the wheel's frame from its edge, radians."""
         step = 2.0 * self.ball.half_step
         back = step * np.round(np.arctan2(points[:, 1], points[:, 0]) / step)
         return self.around.signed(about(points, -back))
@@ -146,3 +140,97 @@ class BallGaps:
     def in_crank(self, points: Array, turn: Array) -> Array:
         """Return directions in the crank's frame at crank angles."""
         return about(points @ self.crank_frame.T, turn)
+
+
+class SpherePairs:
+    """Pairs of parts on a sphere, with gaps bounded up to ``target`` mm."""
+
+    def __init__(self, gaps: BallGaps, crank: Sequence[Region], target: float) -> None:
+        self.gaps, self.target, self.ball = gaps, target, gaps.ball
+        self.apart = max(target, 0.0) / self.ball.radius_mm  # up to which parts matter, radians
+        self.pieces = short_arcs(crank, STEP) if crank else None
+
+    def lock(self, window: Window, on: Intervals) -> Bounds:
+        """Return the gap of locking sectors and wheel: bounds up to ``apart``.
+
+        The wheel leaves a cap free about the middle of each recess. In the dwell and beside it, the
+        part of the sectors that is within the wheel's rim lies in that cap.
+        """
+        ball, gaps, pieces, gap = self.ball, self.gaps, self.pieces, self.gaps.locking(on.at_middle)
+        # how far points of the sectors move, and points as near to them; no point of a sphere moves
+        # farther than it turns
+        sectors_travel = math.sin(min(ball.lock + self.apart, QUARTER)) * on.crank
+        least = gap - ball.radius_mm * (on.wheel + sectors_travel)
+
+        def in_recess(which: Whole) -> Array:
+            """Return how far the sectors stay within the cap of the nearer recess, mm."""
+            assert pieces is not None  # without sectors no gap is doubtful
+            some, (wheel, crank, _) = on.at(which), on.at_middle.at(which)
+            # the middles of the recesses at both ends of the window, in the wheel's frame
+            turn = gaps.assembly.wheel(np.array((window.start, window.end)))
+            recesses = about(np.tile(gaps.crank_frame[2], (2, 1)), -turn)
+            nearer = (some.middle - window.start >= window.end - some.middle).astype(int)
+            offset = gaps.in_crank(about(recesses[nearer], wheel), crank)
+            # the pieces of the sectors that may come within the rim; an angle computed from its
+            # cosine is wrong by up to 1e-7 radians
+            height = gaps.in_crank(np.tile(POLE, (len(crank), 1)), crank) @ pieces.middle.T
+            beyond = np.arccos(np.clip(height, -1.0, 1.0)) - pieces.size - ball.rim
+            inside = beyond <= sectors_travel[which][:, None] + self.apart + 1e-7
+            far = np.where(inside, farthest(pieces, offset), 0.0)
+            moved = math.sin(ball.axes) * some.wheel + np.hypot(*offset[:, :2].T) * some.crank
+            free = gaps.to_wheel(recesses)[nearer]
+            return ball.radius_mm * (free - far.max(axis=1) - moved)
+
+        least = raised(least, least < self.target, in_recess)
+        return Bounds(gap, np.minimum(least, ball.radius_mm * self.apart))
+
+    def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
+        """Return the gap of a roller outside the slot that it drives.
+
+        It is the gap in the middle, less the roller's travel in the wheel's frame. While the wheel
+        rests, the centre is also on its circle about the crank's axis.
+        """
+        centre, ball = self._centre(roller, on.at_middle), self.ball
+        away = polar(centre)
+        # the wheel is within its rim's circle
+        beyond = ball.radius_mm * (away - ball.rim - ball.roller)
+        gap = np.maximum(self.gaps.rollers(on.at_middle)[:, roller], beyond)
+        travel = math.sin(ball.arm) * on.crank + np.sin(away) * on.wheel
+        least = gap - ball.radius_mm * travel
+
+        def on_circle(which: Whole) -> Array:
+            # the crank's axes in the frame of the resting wheel
+            lead = np.full(3, self.gaps.assembly.wheel(np.array([window.start]))[0])
+            x, y, axis = about(self.gaps.crank_frame, -lead)
+            circle = Circle(axis, x, y, ball.arm)
+            return self._along(circle, centre[which], on.crank[which], gap[which])
+
+        return Bounds(gap, raised(least, window.rests & (least < self.target), on_circle))
+
+    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds:
+        """Return the gap of a roller in its slot between two input angles: on its meridian."""
+        middle = self.gaps.pose(np.array([0.5 * (span[0] + span[1])]))
+        x, y, _ = self._centre(roller, middle)[0]
+        out = np.array((x, y, 0.0)) / math.hypot(x, y)
+        across = np.array((-out[1], out[0], 0.0))
+        circle = Circle(across, np.array(POLE), out, QUARTER)
+        gap = self.gaps.rollers(on.at_middle)[:, roller]
+        # the distance from the wheel's axis changes by no more than the roller moves
+        half = math.sin(self.ball.arm) * on.crank
+        return Bounds(gap, self._along(circle, self._centre(roller, on.at_middle), half, gap))
+
+    def _centre(self, roller: int, pose: Pose) -> Array:
+        """Return a roller's centre in the wheel's frame, (n, 3)."""
+        return about(pose.pins[:, roller], -pose.wheel)
+
+    def _along(self, circle: Circle, centre: Array, half: Array, gap: Array) -> Array:
+        """Return the gap of a roller whose centre moves along a circle, mm."""
+        off, middle = circle.seen(centre)
+        aside = np.abs(off - circle.angle)
+        from_wheel = self.ball.roller + gap / self.ball.radius_mm
+        # An arc that is shorter than its middle's distance from the edge does not cross it.
+        short = math.sin(circle.angle) * half + aside < from_wheel
+        least = np.full(len(gap), -math.inf)
+        away = from_circle(self.gaps.wheel, circle, middle[short], half[short])
+        least[short] = self.ball.radius_mm * (away - aside[short] - self.ball.roller)
+        return least

@@ -91,10 +91,7 @@ class SphereLock(NamedTuple):
 
 
 def sphere_locks(parts: Parts, sizes: Mapping[str, float]) -> Locks:
-    """A recess with each locking sector of a spherical crank, and the clearance that they need.
-
-    That is an arc; the radii that deviate are from the crank's axis, L times the sine of an angle.
-    """
+    """A recess with each locking sector of a spherical crank, and the clearance that they need."""
     assert isinstance(parts, SphereParts)
     ball, L = parts.shells.ball, parts.shells.ball.radius_mm
     halves = {

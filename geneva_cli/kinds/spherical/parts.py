@@ -29,8 +29,7 @@ from geneva_cli.geometry.sphere_arcs import RoundHole
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.spherical.arm import CapArm, crank_arm
 from geneva_cli.kinds.spherical.ball import Ball, refuse_wide
-from geneva_cli.kinds.spherical.gap_bounds import SpherePairs
-from geneva_cli.kinds.spherical.gaps import BallGaps
+from geneva_cli.kinds.spherical.gaps import BallGaps, SpherePairs
 from geneva_cli.kinds.spherical.regions import at_mid_motion, wheel_regions
 from geneva_cli.kinds.spherical.sizes import ball, fitted
 from geneva_cli.motion.mechanism import Mechanism
@@ -68,12 +67,9 @@ class Shells(NamedTuple):
 
 
 class SphereParts(Parts):
-    """The parts of a machine in the wheel's frame.
+    """The parts of a machine in the wheel's frame."""
 
-    A part that the sizes leave no place for raises GenevaError, naming the key.
-    """
-
-    LAID_FLAT: ClassVar[tuple[str, ...]] = ("wheel", "crank", "arm")
+    LAID_FLAT: ClassVar[tuple[str, ...]] = ("wheel", "crank")
 
     @cached_property
     def _shape(self) -> Shells:
@@ -159,10 +155,7 @@ class SphereParts(Parts):
 
     @cached_property
     def shafts(self) -> tuple[Member, ...]:
-        """The shafts of wheel and crank: as wide as the bores, and as long as on a plane.
-
-        There is no frame. Shafts end the arm's thickness beyond the parts that they carry.
-        """
+        """The shafts of wheel and crank: as wide as the bores, and as long as on a plane."""
         ball, size = self.ball, self.mechanism.spec.size
         outside, (under, over) = ball.span_mm[1], ball.arm_span_mm
         lowest = outside - ball.shafts_end_mm(size) - (over - under)
@@ -206,10 +199,7 @@ def wheel_shell(ball: Ball) -> Shell:
 
 
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:
-    """Return the wheel's hub: in its shell and outside it, by default out to the arm's face.
-
-    Raises GenevaError, naming the key, where it cannot be made.
-    """
+    """Return the wheel's hub: in its shell and outside it, by default out to the arm's face."""
     wide = ball.hub_mm > ball.bore_mm
     if has_shape(size, "wheel") and not (wide and ball.bore_mm):
         name = "wheel_bore" if size.wheel_keyway is None else "wheel_keyway"
@@ -230,10 +220,7 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
 
 
 def shell_body(mechanism: Mechanism) -> MassProperties:
-    """Return mass and inertia of the wheel's shell and hub, in closed form.
-
-    Raises GenevaError where the sizes leave no wheel.
-    """
+    """Return mass and inertia of the wheel's shell and hub, in closed form."""
     size, sizes = mechanism.spec.size, ball(mechanism)
     density = wheel_material(mechanism.spec).density_kgm3
     shell, hub = wheel_shell(sizes), wheel_hub(size, sizes)
@@ -250,10 +237,7 @@ def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
 
 
 def screw_sizes(mechanism: Mechanism) -> dict[str, float]:
-    """Return the screws of locking sectors by keys of ``[size]``: their number, and holes, mm.
-
-    Raises GenevaError where the sizes leave no arm, or no place for them.
-    """
+    """Return the screws of locking sectors by keys of ``[size]``: their number, and holes, mm."""
     parts = SphereParts(mechanism)
     arm, sectors = parts.arm, len(parts.shells.crank)
     if not (arm and sectors):

@@ -63,10 +63,7 @@ def wheel_regions(ball: Ball) -> list[Region]:
 
 
 def edge(ball: Ball, at: float = 0.0) -> list[SphereArc]:
-    """Return the edge about the slot at an azimuth, from the meridian before it to the next.
-
-    It is recess, rim, wall, round, wall, rim and recess, counterclockwise.
-    """
+    """Return the edge about the slot at an azimuth, from the meridian before it to the next."""
     b, w, corner = ball.half_step, ball.half_width, ball.corner
     start, end = (place(ball.between_slots, at + side * b) for side in (-1.0, 1.0))
     low, high = start, end
@@ -101,11 +98,7 @@ def edge_points(ball: Ball, each: int = 200) -> Array:
 
 
 def sectors(ball: Ball) -> list[Region]:
-    """Return the locking sectors of the crank, outside the region that the wheel sweeps.
-
-    Each lies between two rollers, and is as wide as the wheel leaves free. Raises PartDoesNotFit
-    where nothing is left of one.
-    """
+    """Return the locking sectors of the crank, outside the region that the wheel sweeps."""
     spare = min(0.25 * (ball.recess - ball.lock) + 0.1 * ball.roller, 0.1 * ball.lock)
     # A sector's inner edge is a fifth of its outer one, or farther out where the wheel needs that.
     least = 0.2 * ball.lock
@@ -135,7 +128,16 @@ def sectors(ball: Ball) -> list[Region]:
                 "part of it; 0 omits it",
                 ("size", "lock_radius_mm"),
             )
-        return _sector(ball.lock, nearest(half), middle - half, middle + half)
+        high, low, ends = ball.lock, nearest(half), (middle - half, middle + half)
+        far, inner = ([place(polar, a) for a in ends] for polar in (high, low))
+        sides = [(-math.sin(a), math.cos(a), 0.0) for a in ends]
+        boundary = (
+            SphereArc(POLE, high, far[0], far[1]),
+            SphereArc(opposite(sides[1]), QUARTER, far[1], inner[1]),
+            SphereArc(opposite(POLE), math.pi - low, inner[1], inner[0]),
+            SphereArc(sides[0], QUARTER, inner[0], far[0]),
+        )
+        return Region(boundary, POLE)
 
     return [sector(*span) for span in spans]
 
@@ -148,19 +150,6 @@ def locked(ball: Ball) -> list[tuple[float, float]]:
     pairs = zip(ball.rollers, after, strict=True)
     spans = [(a + ball.half_motion, b - ball.half_motion) for a, b in pairs]
     return [(a, b) for a, b in spans if b - a > SAME_ANGLE]
-
-
-def _sector(high: float, low: float, start: float, end: float) -> Region:
-    """Return a sector from one azimuth to another, between two angles from the axis."""
-    far, near = ([place(polar, a) for a in (start, end)] for polar in (high, low))
-    sides = [(-math.sin(a), math.cos(a), 0.0) for a in (start, end)]
-    boundary = (
-        SphereArc(POLE, high, far[0], far[1]),
-        SphereArc(opposite(sides[1]), QUARTER, far[1], near[1]),
-        SphereArc(opposite(POLE), math.pi - low, near[1], near[0]),
-        SphereArc(sides[0], QUARTER, near[0], far[0]),
-    )
-    return Region(boundary, POLE)
 
 
 def rollers(ball: Ball) -> list[Region]:

@@ -12,10 +12,7 @@ from geneva_cli.study.synth.suiting import LOCK, SIZES, USUAL, with_roller
 
 
 def ball_roller(mechanism: Mechanism) -> tuple[float, str]:
-    """Return the radius of the largest usual roller that suits a machine, or the obstacle to parts.
-
-    It is NaN for the roller of the spec, or the default.
-    """
+    """Return the largest usual roller that suits, NaN for the spec's; or the obstacle to parts."""
     L, spec = mechanism.center_distance_mm, mechanism.spec
     least, why = wall_min(spec.size, L), ""
     given = spec.size.roller_radius_mm

@@ -56,11 +56,7 @@ from geneva_cli.spec.materials import wheel_material
 
 
 def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:
-    """Return the sizes of a spherical machine, and its locking sectors.
-
-    Raises GenevaError, naming the key, where they leave no wheel or no lock. With ``advice`` the
-    message names the largest roller that fits, if there is one.
-    """
+    """Return the sizes of a spherical machine, and its locking sectors."""
 
     def fits(roller_mm: float) -> bool:
         spec = mechanism.spec.with_("size.roller_radius_mm", roller_mm)
@@ -244,10 +240,7 @@ def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) ->
 
 
 def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
-    """Return the dimensions of a spherical machine's parts.
-
-    A flat arm stands for the bent one.
-    """
+    """Return the dimensions of a spherical machine's parts."""
     size, L, (under, over) = spec.size, ball.radius_mm, ball.arm_span_mm
     thick, arm, bore = over - under, NO_ARM, ball.arm_bore_mm
     end = ball.shafts_end_mm(size) - L, thick

@@ -24,9 +24,9 @@ KINDS = (
         },
         scene="kinds.stop.scene:StopScene",
         parts_checks={
-            "stop_turns": "kinds.stop.checks:turns",
-            "stop_overlap_mm": "kinds.stop.checks:overlap",
-            "stop_stress_max_MPa": "kinds.stop.checks:stress",
+            "stop_turns": "kinds.stop.parts:turns",
+            "stop_overlap_mm": "kinds.stop.parts:overlap",
+            "stop_stress_max_MPa": "kinds.stop.parts:stress",
         },
     ),
 )

@@ -23,13 +23,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
+from geneva_cli.loads.load_case import contact_modulus_GPa, hertz_MPa
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.spec.materials import wheel_material
+from geneva_cli.verdict.checks.check import Check, compared
 from geneva_cli.verdict.quantities.batch_designs import Values
 
 if TYPE_CHECKING:
@@ -81,11 +83,7 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
 
 
 def clearances_before(outlines: Outlines, stop: WheelStop, past_deg: float = 0.0) -> Array:
-    """Return the gaps of disc and face, mm, at crank angles up to either stop and a little past it.
-
-    It is an array (2, n) of positions half a degree apart, from half a turn before a stop. The
-    first row is the way to the first stop.
-    """
+    """Return the gaps of disc and face, mm (2, n), up to either stop and a little past it."""
     assembly = outlines.assembly
     parts = Gaps(assembly, outlines.sizes, outlines.wheel, outlines.crank)
     z = assembly.full.spec.wheel.z
@@ -106,15 +104,9 @@ def stop(parts: Parts) -> Values:
     stops = wheel_stop(outlines)
     assert stops is not None  # the wheel has a convex face
     force, stress = stop_contact(parts.mechanism, stops.lever_mm, outlines.sizes.rim)
-    return {
-        "turns": stops.turns,
-        "first_deg": stops.first_deg,
-        "last_deg": stops.last_deg,
-        "overlap_mm": stops.overlap_mm,
-        "lever_mm": stops.lever_mm,
-        "force_N": force,
-        "contact_stress_MPa": stress,
-    }
+    names = "turns", "first_deg", "last_deg", "overlap_mm", "lever_mm"
+    own: Values = {name: getattr(stops, name) for name in names}
+    return own | {"force_N": force, "contact_stress_MPa": stress}
 
 
 def stop_contact(
@@ -137,3 +129,51 @@ def stop_contact(
     modulus = contact_modulus_GPa(material, material)
     radius = 1.0 / (1.0 / size.lock_edge_mm + 1.0 / face_radius_mm)
     return force, hertz_MPa(modulus, force / size.face_width_mm, radius)
+
+
+def turns(name: str, parts: FlatParts) -> Check | None:
+    """The turns from stop to stop: nothing touches before, and a degree beyond parts overlap."""
+    stop = _stop_of(parts)
+    if stop is None:
+        return None
+    outlines, z = parts.outlines, parts.mechanism.spec.wheel.z
+    before = float(clearances_before(outlines, stop).min())
+    beyond = float(clearances_before(outlines, stop, past_deg=1.0)[:, -1].max())
+    if stop.face_mm < 0.0:
+        text = "the disc meets the mouth of a slot, not the face"
+    elif before < -parts.contact:
+        text = f"disc and wheel overlap by {-before:.4g} mm before the stop"
+    elif beyond > -parts.contact:
+        text = "the disc slips past the face: a degree beyond the stop they do not overlap"
+    else:
+        text = (
+            f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from "
+            f"the middle of its first engagement: {stop.turns:.4f} turns"
+        )
+        return Check(name, stop.turns, "at most", float(z), True, text)
+    return Check(name, stop.turns, "at most", float(z), False, text)
+
+
+def overlap(name: str, parts: FlatParts) -> Check | None:
+    """How far the circles of disc and face overlap, so that wear does not free the crank."""
+    if not (stop := _stop_of(parts)):
+        return None
+    return compared(name, stop.overlap_mm, "at least", parts.outlines.sizes.wall_min)
+
+
+def stress(name: str, parts: FlatParts) -> Check | None:
+    """The Hertz stress of disc and face, where ``[limits]`` bounds it."""
+    stop, limit = _stop_of(parts), parts.mechanism.spec.limits.stop_stress_max_MPa
+    if stop is None or limit is None:
+        return None
+    force, value = stop_contact(parts.mechanism, stop.lever_mm, parts.outlines.sizes.rim)
+    if value is None:
+        needs = "lock_edge_mm in [size]: the end of the disc is sharp"
+        if force is None:
+            needs = "winding_torque_Nm in [load]"
+        return Check(name, None, "at most", limit, None, f"not known: it needs {needs}")
+    return compared(name, value, "at most", limit)
+
+
+def _stop_of(parts: FlatParts) -> WheelStop | None:
+    return wheel_stop(parts.outlines) if parts.mechanism.spec.is_flat else None

@@ -1,14 +1,8 @@
 """The impact at entry: a roller that meets its slot off the slot's axis, or a corner of its mouth.
 
-The crank's radius R and the centre distance L always have errors. The roller should enter the
-resting slot along its axis. If R/L is too large by a fraction eps, its path crosses that axis
-before the entry. The wheel is then struck backwards at about tan b sqrt(2 eps) of the input's
-speed: by the square root of the error. If R/L is too small, the roller never reaches the axis, and
-meets the mouth.
-
-Speeds are in units of the input's. Wheel angles are in radians, input angles in degrees from the
-engagement's own mid-motion. For m designs the numbers of a machine and the errors are (m, 1), and
-results are (m,).
+Of the errors of R and L: if R/L is too large by a fraction eps, the path crosses the axis before
+the entry, and strikes the wheel backwards at about tan b sqrt(2 eps) of the input's speed. Speeds
+are in units of the input's, input angles in degrees from the engagement's own mid-motion.
 """
 
 from __future__ import annotations
@@ -43,10 +37,7 @@ OCTAVES = 0.5 ** (0.5 * np.arange(64, -1, -1))
 
 
 class FirstContacts(NamedTuple):
-    """First contacts of rollers with a slot at rest, and the jumps that follow.
-
-    (m,) each; NaN if a roller touches nothing.
-    """
+    """First contacts of rollers with a slot at rest, (m,); NaN if a roller touches nothing."""
 
     at_deg: Array
     jump: Array  # of the wheel's velocity, over the input's; negative if struck backwards
@@ -56,8 +47,7 @@ class RestingAxis(NamedTuple):
     """The axis of the slot at rest, for a roller that meets it with errors of R and L.
 
     In the frame of the axis, from the wheel's centre outwards, the roller is at (1 + crank) p -
-    (crank - center) c. Here p is its true position and c the hub of the crank's arm. On a sphere
-    the shafts meet for any radius, so ``center`` must be 0.
+    (crank - center) c: p is its true position, c the hub of the arm. On a sphere ``center`` is 0.
     """
 
     engagement: Engagement
@@ -67,10 +57,7 @@ class RestingAxis(NamedTuple):
 
     @staticmethod
     def of(engagement: Engagement) -> RestingAxis | None:
-        """The axis of an engagement's straight slot.
-
-        None for a slot that is solved for, and for a crank as built, which crosses it at once.
-        """
+        """The axis of an engagement's straight slot."""
         engagement = engagement.through
         anchor = engagement.motion.entry
         if anchor is None or engagement.built is not None:
@@ -97,16 +84,11 @@ class RestingAxis(NamedTuple):
 def first_contacts(
     engagement: Engagement, crank: Number, center: Number = 0.0
 ) -> FirstContacts | None:
-    """First contacts with the axis for relative errors of the crank's radius and of L.
+    """First contacts with the axis for relative errors of the crank's radius and of L: (m, 1) each.
 
-    For m designs, or for m errors (m, 1). If no crank's arm carries the roller, only ``center`` has
-    a meaning. NaN if a roller never reaches the slot's axis, and meets the mouth, or if there are
-    no errors. None for slots and grooves that are solved for. A radial slot has sin(phi + b) = sin
-    b / l at the contact.
-
-        >>> from geneva_cli import Design, External
-        >>> first_contacts(Design(External(3)).mechanism.engagements[0], crank=1e-4)
-        FirstContacts(at_deg=array([-30.81025092]), jump=array([-0.02390983]))
+    NaN if a roller never reaches the slot's axis, and meets the mouth, or if there are no errors.
+    None for slots and grooves that are solved for. A radial slot has sin(phi + b) = sin b / l
+    there.
     """
     axis = RestingAxis.of(engagement)
     if axis is None:
@@ -135,10 +117,7 @@ def first_contacts(
 def _first_roots(
     f: Callable[[Array, Whole], tuple[Array, Array]], places: Array, passed: Mask
 ) -> Array:
-    """The roots before the first places (m, k) that are passed, (m, 1); NaN if there is none.
-
-    ``f(x, which)`` returns value and slope of some designs at places (k, 1).
-    """
+    """The roots before the first places (m, k) that are passed, (m, 1); NaN if there is none."""
     out, first = np.full((len(places), 1), np.nan), np.argmax(passed, axis=1)
     there = np.flatnonzero(passed.any(axis=1) & (first > 0))
     ends = np.sort([places[there, first[there] - k] for k in (0, 1)], axis=0)
@@ -152,11 +131,7 @@ def _first_roots(
 
 
 class _Corner(NamedTuple):
-    """A corner of the mouth, and the roller that meets it with errors of R and L.
-
-    The corner's place is from the wheel's centre: along the slot outwards, across it, and along the
-    wheel's axis, which is 0 on a plane. Lengths are over L, on a sphere its arcs.
-    """
+    """A corner of the mouth, and the roller that meets it with errors of R and L."""
 
     axis: RestingAxis
     crank: Number
@@ -194,28 +169,14 @@ def mouth_contacts(
 ) -> FirstContacts | None:
     """First contacts with the mouth's corners; NaN if the roller touches none.
 
-    ``crank`` and ``center`` are relative errors, as in ``first_contacts``. ``roller`` is the
-    roller's radius, ``clearance`` that of the slot per side, ``rounding`` the radius of the
-    corners, all over L. None for slots that are solved for. A negative jump is backwards.
-
-    A corner is met if the errors exceed the slot's clearance. The mouth lies across the slot where
-    the roller should enter, at the foot of the perpendicular from a crank's axis. An arm that is
-    too short strikes the corner on the side of the crank's axis, forwards. An arm that is too long
-    strikes the other corner, backwards. On a sharp corner the impact is about
-
-        jump / omega = tan b sqrt(2 eps) sqrt((R -+ r)/r),
-
-    less if the arm is too short. Here eps is the error of R beyond the clearance, as a fraction of
-    R. r is the roller's radius. A corner rounded by c acts like a sharp one on a roller of radius
-    r + c. The roller's centre P and the corner C keep their distance if the wheel turns at the
-    speed (P - C) . P' / (P - C) . (z x C), for any path of the roller. On a sphere P and C are
-    directions.
-
-        >>> from geneva_cli import Design, External
-        >>> [engagement] = Design(External(6)).mechanism.engagements
-        >>> contact = mouth_contacts(engagement, -1e-4, 0.0, roller=0.05, clearance=0.0)
-        >>> round(float(contact.jump[0]), 6)  # tan(30 deg) sqrt(2e-4) sqrt(9) is 0.024495
-        0.024448
+    ``crank`` and ``center`` are relative errors, ``roller`` is the roller's radius, ``clearance``
+    that of the slot per side, ``rounding`` the radius of the corners, all over L. None for slots
+    that are solved for. The mouth lies across the slot where the roller should enter. An arm that
+    is too short strikes the corner beside the crank's axis, forwards; one that is too long the
+    other, backwards. On a sharp corner the jump is about tan b sqrt(2 eps) sqrt((R -+ r)/r), eps
+    beyond the clearance. A corner rounded by c acts like a sharp one on a roller of r + c. Centre P
+    and corner C keep their distance at the speed (P - C) . P' / (P - C) . (z x C). On a sphere they
+    are directions.
     """
     axis = RestingAxis.of(engagement)
     if axis is None:
@@ -247,9 +208,11 @@ def mouth_contacts(
             places = -out / speed - span * OCTAVES[::-1]
             meets = corner.gap(places)[0] <= -1e-16  # of L²: nearer to 0 it is rounding
             places = np.broadcast_to(places, meets.shape)
-            tau = _first_roots(
-                lambda tau, which, corner=corner: taken(corner, which).gap(tau), places, meets
-            )
+
+            def gap(tau: Array, which: Whole, corner: _Corner = corner) -> tuple[Array, Array]:
+                return taken(corner, which).gap(tau)
+
+            tau = _first_roots(gap, places, meets)
             supplied = turned = 0.0 * tau
             direction = -place[1], place[0], 0.0
             for p, c, w in zip(corner.roller(tau), place, direction, strict=True):
@@ -265,11 +228,10 @@ def mouth_contacts(
 def entry_impacts(
     mechanism: Mechanism, fraction: float = 1.0, pin: PinSize | None = None
 ) -> Impacts:
-    """Impacts at entry of m designs with a ``fraction`` of the cranks' greatest errors.
+    """Impacts at entry of m designs with a ``fraction`` of the greatest errors of R and L.
 
-    Without the ``pin`` as it is drawn, forces are not known. The roller meets the slot's axis. If
-    the slot is too narrow for it to enter off the axis, it meets a corner of the mouth. The jump is
-    negative if the wheel is struck backwards.
+    Without the ``pin`` as it is drawn, forces are not known. The roller meets the slot's axis, or a
+    corner of the mouth where the slot is too narrow. A jump below 0 strikes the wheel backwards.
     """
     best = np.full((2, 1), np.nan)
     for engagement in mechanism.engagements:
@@ -283,11 +245,7 @@ def entry_impacts(
 def _errors(
     mechanism: Mechanism, engagement: Engagement, fraction: float
 ) -> Iterator[tuple[float, float]]:
-    """Greatest relative errors of R and L that act across the slot, in both directions.
-
-    A longer crank acts as a shorter centre distance. It acts as a longer one where the slot misses
-    the wheel's centre by so much that the crank's axis lies between both.
-    """
+    """Greatest relative errors of R and L that act across the slot, in both directions."""
     spec, L, axis = mechanism.spec, mechanism.center_distance_mm, RestingAxis.of(engagement)
     if axis is None:  # a slot that is solved for has no contacts
         return

@@ -1,10 +1,8 @@
 """The change of sides: the wheel coasts through its play and is struck at its end.
 
-If the wheel's torque changes its sign, the roller leaves one wall for the other. The wheel coasts
-through the play and is struck at its difference in speed.
-
-Speeds are in units of the input's. Wheel angles are in radians, input angles in degrees from the
-engagement's own mid-motion.
+If the wheel's torque changes its sign, the roller leaves one wall for the other, which then strikes
+it at their difference in speed. Speeds are in units of the input's, wheel angles in radians, input
+angles in degrees from the engagement's own mid-motion.
 """
 
 from __future__ import annotations
@@ -12,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import reduce
-from typing import NamedTuple
+from typing import TypeAlias
 
 import numpy as np
 
@@ -46,10 +44,7 @@ from geneva_cli.spec.workshops import workshop
 
 
 def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
-    """Designs and input angles (k,) at which the wheel's torque changes sign: psi2 = -drag, (m, 1).
-
-    They are inside a motion. There are none if a drag holds the roller on one wall.
-    """
+    """Designs and input angles (k,) at which the wheel's torque changes sign: psi2 = -drag."""
     motion, m = engagement.motion, len(drag)
     if engagement.paired:  # gears hold the wheel until another roller stops it
         begins = np.broadcast_to(np.ravel(motion.breaks_deg[-2]), m)
@@ -77,19 +72,11 @@ def changes(engagement: Engagement, drag: Array) -> tuple[Whole, Array]:
 def impacts_of(
     engagement: Engagement, at: tuple[Whole, Array], play: Array, drag: Array
 ) -> tuple[Array, Array]:
-    """Impacts after the changes of sides ``at``, for the play of each, (k,) in radians.
+    """Angles at which wheels are struck after changes of sides ``at``, and the speeds.
 
-    They are the angles at which wheels are struck, and the speeds against the slot; NaN if the play
-    is not used up in the motion. ``drag`` is M_r / (I w²), (m, 1). A wheel coasts from the place
-    where psi2 = -drag, slowed only by the drag. It is struck when it is ahead of the slot by the
-    play, or behind if the torque returns. If the torque returns before that, the wall that it left
-    strikes it.
-
-        >>> from geneva_cli import Design, External
-        >>> [engagement] = Design(External(3)).mechanism.engagements
-        >>> drag = np.array([[0.0]])
-        >>> impacts_of(engagement, changes(engagement, drag), np.array([1e-4]), drag)[0]
-        array([0.55220712])
+    ``play`` is that of each change, (k,) in radians; ``drag`` M_r / (I w²), (m, 1), slows the
+    coasting wheel. It is struck when it is ahead of the slot by the play; if the torque returns
+    before that, by the wall that it left. NaN if the play is not used up in the motion.
     """
     which, start = at
     if not len(start):
@@ -117,11 +104,7 @@ def impacts_of(
 def _coasts(
     motions: WheelMotion, start: Array, until: Array, play: Array, drags: Array
 ) -> tuple[Array, Array, Mask]:
-    """Impacts after changes of sides, up to the next changes ``until`` or, if NaN, to the exits.
-
-    They are radians of the input until the wheels are struck, speeds, and masks of the wheels that
-    cross their play. The others may be struck by the wall that they left.
-    """
+    """Impacts after changes of sides, up to the next changes ``until`` or, if NaN, to the exits."""
     out: Array = np.full((2, len(start)), np.nan)
     nodes, weights = rule(24)  # exact to a double over half a motion
 
@@ -184,10 +167,7 @@ def drag_over(mechanism: Mechanism) -> float:
 
 
 def lasting_drag_Nm(mechanism: Mechanism) -> float:
-    """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r.
-
-    0 if it stays there already; (m, 1) for m designs.
-    """
+    """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r."""
     inertia, w = inertia_kgm2(mechanism.spec), omega(mechanism.spec.drive.n_rpm)
     most = reduce(larger, map(braking, mechanism.engagements))
     return larger(inertia * w * w * most - resisting_torque_Nm(mechanism.spec), 0.0)
@@ -197,9 +177,8 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
     """Hardest impacts of m designs at a change of sides with the greatest play.
 
     Without the ``pin`` as it is drawn, forces are not known. The play is the clearance over the
-    lever where the wheel begins to coast: for the smallest roller in the widest slot, and of the
-    fits of the process where both have nominal sizes. Without an inertia no wheel coasts. With a
-    drag above ``lasting_drag_Nm`` the roller never changes sides.
+    lever, for the smallest roller in the widest slot, with the process's fits where both are
+    nominal.
     """
     spec, case = mechanism.spec, load_case(mechanism)
     given = spec.size.allowances.slot_clearance_mm
@@ -226,10 +205,7 @@ def reversal_impacts(mechanism: Mechanism, pin: PinSize | None = None) -> Impact
 def _reversal(
     engagement: Engagement, L: Array, drag: Array, play_mm: Array, radius: Array
 ) -> Array:
-    """Input angles, jumps and edges of one engagement's hardest impacts, (3, m).
-
-    The edge is 1 - k r, for a wall of curvature k under the roller (see ``instant``).
-    """
+    """Input angles, jumps and edges of one engagement's hardest impacts, (3, m)."""
     out = np.full((3, len(drag)), np.nan)
     of, x = at = changes(engagement, drag)
     if not len(x):
@@ -251,39 +227,23 @@ def _reversal(
     return out
 
 
-class Arrival(NamedTuple):
-    """The resisting torque, and the greatest with which the wheel reaches its dwell.
-
-    ``lag`` is the greatest lag, its place, and the place where the wheel meets the wall again, all
-    in degrees. It is None if the wheel does not reach its dwell, or nothing resists.
-    """
-
-    torque_Nm: float
-    most_Nm: float
-    lag: tuple[float, float, float] | None
+Lag: TypeAlias = tuple[float, float, float]  # degrees: the greatest, its place, the end
 
 
-def arrival(mechanism: Mechanism) -> Arrival | None:
-    """Whether the wheel follows a roller that stops it with one wall only.
+def arrival(mechanism: Mechanism) -> tuple[float, float, Lag | None] | None:
+    """Whether the wheel follows a roller that stops it with one wall only; None if there are two.
 
-    None if the slots have both walls, or without a load. If gears drive between two rollers, the
-    slot of the second one has a wall behind its roller only (see ``parts.outlines.wheel_outline``).
-    The wheel's inertia must hold it on that wall, against the torque that resists. From the
-    handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²), while the slot needs less
-    deceleration, psi'' > -m. It lags by
+    The resisting torque, the greatest with which the wheel reaches its dwell, and its greatest lag
+    with its place and where the wheel meets the wall again, degrees; None if it does not lag.
+
+    If gears drive between two rollers, the slot of the second has a wall behind its roller only.
+    From the handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²), and lags by
 
         d(x) = psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2
 
-    and meets the wall where d is 0 again. -psi'' of a straight slot has one peak, and is not 0 at
-    the exit e. So the wheel reaches its dwell, and stays on the wall until then, if
-
-        m <= -psi''(e)  and  m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
-
-    With a larger m it stops short. Angles are input angles in radians.
-
-    >>> design = Design(External(3), GearSector(sector_deg=60), load=Load(inertia_kgm2=0.01))
-    >>> round(arrival(design.mechanism).most_Nm, 6)  # tan b = 0.57735 of I w²
-    0.227929
+    until d is 0 again. -psi'' of a straight slot has one peak, and is not 0 at the exit e. So the
+    wheel reaches its dwell if m <= -psi''(e) and m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e
+    - s)².
     """
     (engagement, *_), spec = mechanism.engagements, mechanism.spec
     if not engagement.paired or not spec.is_loaded:
@@ -296,7 +256,7 @@ def arrival(mechanism: Mechanism) -> Arrival | None:
     span = (exit_deg - begin) * DEGREE
     most = unit * max(0.0, min(-last, 2.0 * (u * span - (end - start)) / (span * span)))
     if not 0.0 < torque <= most:
-        return Arrival(torque, most, None)
+        return torque, most, None
     drag = torque / unit
 
     def lags(x: float) -> tuple[float, float]:
@@ -308,4 +268,4 @@ def arrival(mechanism: Mechanism) -> Arrival | None:
     farthest = boundary(lambda x: lags(x)[1] > 0.0, begin, exit_deg)
     struck = boundary(lambda x: lags(x)[0] > 0.0, farthest, exit_deg)
     at_deg, struck_deg = (mechanism.shown_deg(engagement.mid_deg + x) for x in (farthest, struck))
-    return Arrival(torque, most, (lags(farthest)[0] / DEGREE, at_deg, struck_deg))
+    return torque, most, (lags(farthest)[0] / DEGREE, at_deg, struck_deg)

@@ -1,15 +1,10 @@
 """Impulse of a jump of the wheel's velocity, and the force of an elastic contact.
 
-A roller, which the crank carries on unmoved, strikes the wheel's inertia I at its lever. Under the
-force Q the roller is pressed into the wall and its pin is bent, together by
-
-    d = c Q^0.9 + Q / k,    c = 3.84e-5 mm / N^0.9 / b^0.8    (b: contact line, mm).
-
-The force is greatest where c Q^1.9 0.9 / 1.9 + Q² / (2 k) equals the energy I dw² / 2. The thicker
-a pin, the harder it is struck, but its stress falls: there is one diameter at which it just holds.
-Palmgren measured c for steel on steel (Ball and Roller Bearing Engineering, 3rd ed., 1959). It is
-proportional to the 0.9th power of the materials' softness. The pin bends under a force in its
-roller's middle (``pin.stiffness_N_mm``).
+A roller strikes the wheel's inertia at its lever. Under the force Q it is pressed into the wall and
+its pin is bent, by d = c Q^0.9 + Q / k with c = 3.84e-5 mm / N^0.9 / b^0.8 (contact line b, mm).
+The force is greatest where c Q^1.9 0.9 / 1.9 + Q² / (2 k) equals the energy I dw² / 2. Palmgren
+measured c for steel on steel (Ball and Roller Bearing Engineering, 3rd ed., 1959); it is
+proportional to the 0.9th power of the materials' softness.
 """
 
 from __future__ import annotations
@@ -20,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.carried import MM, inertia_kgm2
-from geneva_cli.loads.forces import contact_modulus_GPa
+from geneva_cli.loads.load_case import contact_modulus_GPa
 from geneva_cli.loads.strength.pin import Pin, PinSize, stiffness_N_mm
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
@@ -34,11 +29,7 @@ POWER, WIDTH = 0.9, 0.8
 
 
 class Impact(NamedTuple):
-    """A jump of the wheel's velocity over the input's, with its force and moment.
-
-    Both are None without an inertia; ``force_N`` is None without a drawn pin too, and
-    ``contact_stress_MPa`` if the roller meets a corner, or without a ``face_width_mm``.
-    """
+    """A jump of the wheel's velocity over the input's, and what it causes; None if unknown."""
 
     at_deg: float
     jump: float
@@ -85,20 +76,13 @@ def with_force(mechanism: Mechanism, impacts: Array, pin: PinSize | None) -> Imp
 
 
 def impulse_Nms(mechanism: Mechanism, jump: N) -> N:
-    """Moment of the impact, I dw, for a jump over the input's speed; over the lever its impulse.
-
-    The roller stays at the wall: a plastic impact, the least possible. For m designs jumps and
-    moments are (m, 1).
-    """
+    """Moment of a plastic impact, I dw, for a jump over the input's speed; (m, 1) for m designs."""
     w = omega(mechanism.spec.drive.n_rpm)
     return size(jump) * (inertia_kgm2(mechanism.spec) * w)
 
 
 def forces_N(mechanism: Mechanism, jump: Array, pin: PinSize) -> Array:
-    """Greatest forces of elastic impacts, for jumps (m, 1) of m designs: (m,).
-
-    NaN without an inertia.
-    """
+    """Greatest forces of elastic impacts, for jumps (m, 1): (m,); NaN without an inertia."""
     work, press, bend = _struck(mechanism, jump, pin)
 
     def over(force: Array, live: Whole) -> tuple[Array, Array]:
@@ -115,8 +99,8 @@ def least_pin_mm(
 ) -> Array:
     """Diameters at which pins hold impacts, for jumps (m, 1); NaN without one: (m,).
 
-    ``pin`` has the stresses at its diameter. The force that a diameter d allows grows as d³, or
-    as d² in shear, and the energy that it stores with it: one diameter stores that of the impact.
+    ``pin`` has the stresses at its diameter. A thicker pin is struck harder, but the force that it
+    allows grows as d³, or d² in shear, and the energy that it stores: one diameter just holds.
     """
     work, press, bend = _struck(mechanism, jump, PinSize(pin.diameter_mm, contact_mm))
     rows = pin.bending, math.sqrt(3.0) * pin.shear, allowed_MPa, pin.diameter_mm

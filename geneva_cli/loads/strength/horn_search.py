@@ -9,8 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.loads.contact import NEAR_CUSP, contact
-from geneva_cli.loads.forces import contact_values
+from geneva_cli.loads.contact import NEAR_CUSP, contact, contact_values
 from geneva_cli.loads.instant import bounded_loads
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.motion.batch import taken

@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.loads.contact import NEAR_CUSP
-from geneva_cli.loads.forces import contact_modulus_GPa, hertz_MPa
+from geneva_cli.loads.load_case import contact_modulus_GPa, hertz_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism

@@ -18,9 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.contact import contact
+from geneva_cli.loads.contact import LoadCase, contact
 from geneva_cli.loads.cycle_quantities import FORCE
-from geneva_cli.loads.forces import LoadCase
 from geneva_cli.loads.instant import Instant
 from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.load_functions import LoadFunctions, refuse_noise

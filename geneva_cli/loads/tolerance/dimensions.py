@@ -1,11 +1,11 @@
-"""The dimensions that deviate: the sizes of their deviations, and corners.
+"""The dimensions that deviate: the sizes of their deviations in mm and radians, and corners.
 
-Deviations are in millimetres and radians. They are jets. So one formula gives the values of a
-million machines at once (order 0), or the exact slope by one dimension (order 1).
+They are jets: of order 0 the values of many machines, of order 1 the slope by one dimension.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 from typing import NamedTuple
 
@@ -48,7 +48,7 @@ def without_effect(spec: Spec) -> dict[str, str]:
     return why
 
 
-def deviations(values: list[Number]) -> Deviations:
+def deviations(values: Sequence[Number]) -> Deviations:
     """Deviations with these values, without slopes."""
     return Deviations(*[Jet((value,)) for value in values])
 
@@ -58,10 +58,7 @@ def slope_of(number: int) -> Deviations:
     return Deviations(*[Jet((0.0, float(i == number))) for i in range(len(Deviations._fields))])
 
 
-def corners(sizes: list[float]) -> Deviations:
-    """Every combination of the ends of the nonzero tolerances: arrays of 2**n machines.
-
-    For m designs, whose tolerances may be (m, 1), the arrays may be (2**n, m, 1).
-    """
+def corners(sizes: Sequence[float]) -> Deviations:
+    """Every combination of the ends of the nonzero tolerances: (2**n,), or (2**n, m, 1) of m."""
     ends = [(0.0,) if all_true(size == 0.0) else (-size, size) for size in sizes]
     return deviations([np.array(column) for column in zip(*product(*ends), strict=True)])

@@ -1,22 +1,10 @@
-"""The play of the wheel in its lock during the dwell, for any deviations.
+"""The play of the wheel in its lock in the middle of a dwell, for any deviations.
 
-A recess of radius rho is cut into the wheel about a point at the centre distance L. The locking
-disc of radius k turns about the crank's axis at L + dL. The wheel can turn by d until one of three
-contacts stops it.
-
-A corner of a recess, at p from the wheel's axis, meets the disc:
-
-    d = chi(L, rho) - chi(L + dL, k) ,    cos chi = (L² + p² - rho²) / (2 L p) .
-
-Here chi is the corner's angle from the line of centres. For a corner rounded by e this holds for
-its centre, which is nearer by e, with rho + e and k + e.
-
-An end of the disc meets the recess, if the recess reaches farther round than the disc.
-
-The disc meets the recess between their ends, where the two centres are rho - k apart. This happens
-if the disc is too near to the recess's bottom, or if both reach farther round than 90 degrees.
-
-The play is computed in the middle of a dwell, where the disc is symmetric to the recess.
+A recess of radius rho is cut about a point at L from the wheel's axis; the disc of radius k turns
+at L + dL. The wheel turns by d until a corner of the recess, at p from the wheel's axis, meets the
+disc, at d = chi(L, rho) - chi(L + dL, k) with cos chi = (L² + p² - rho²) / (2 L p). (Of a corner
+rounded by e that holds for its centre, with rho + e and k + e.) An end of the disc meets the recess
+first if that reaches farther round; or both arcs meet where their centres are rho - k apart.
 """
 
 from __future__ import annotations
@@ -67,10 +55,7 @@ class LockContact(NamedTuple):
 
 
 class Lock(NamedTuple):
-    """One corner of a recess and one locking arc of the disc, millimetres and radians.
-
-    For m designs numbers and results are (m, 1).
-    """
+    """One corner of a recess and one locking arc of the disc, mm and radians; (m, 1) for m."""
 
     L: float
     sign: float  # +1 if the disc reaches towards the wheel's axis, -1 away from it
@@ -86,25 +71,14 @@ class Lock(NamedTuple):
         a = (self.L**2 + self.recess**2 - self.corner**2) / (2.0 * self.L * self.recess)
         return library(a).acos(larger(-1.0, smaller(1.0, self.sign * a)))
 
-    @property
-    def on_corner(self) -> Truth:
-        """Return True if the disc reaches as far round as the recess: a corner meets the disc."""
-        return _truth(self.reach <= self.half)
-
-    @property
-    def _far(self) -> float:
-        """Distance of a rounded corner's centre from the wheel's axis."""
-        return self.corner - self.sign * self.edge
-
     def __call__(self, by: Deviations) -> LockPlay:
         """Play of the wheel to one side."""
-        L, off = self.L, by.center_distance_mm
-        away, spare = off + L, by.recess_radius_mm + self.recess - (by.lock_radius_mm + self.lock)
+        L, off, far = self.L, by.center_distance_mm, self.corner - self.sign * self.edge
         lock, recess = by.lock_radius_mm + self.lock, by.recess_radius_mm + self.recess
+        away, spare = off + L, recess - lock
         with np.errstate(all="ignore"):
-            still, corner = L - 0.0 * away, self._far
-            on_corner = _at(still, corner, recess + self.edge)
-            on_corner = on_corner - _at(away, corner, lock + self.edge)
+            on_corner = _at(L - 0.0 * away, far, recess + self.edge)
+            on_corner = on_corner - _at(away, far, lock + self.edge)
             x, y = away - lock * (self.sign * np.cos(self.half)), lock * np.sin(self.half)
             on_end = _at(sqrt(x * x + y * y), L, recess) - atan2(y, x)
             # Between their ends disc and recess touch where 4 L (L + dL) sin²(d/2) = c² - dL², with
@@ -113,7 +87,7 @@ class Lock(NamedTuple):
             sine = sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 0.25))
             between = atan2(sine, sqrt(1.0 - sine * sine)) * 2.0
             on_recess = _chosen(square.c[0] > 0.0, between, between * 0.0)
-        angle = _chosen(self.on_corner, on_corner, on_end)
+        angle = _chosen(self.reach <= self.half, on_corner, on_end)
         # distance to the recess's bottom
         nearer = array(off.c[0]) * -self.sign
         left = array(spare.c[0]) - np.maximum(nearer, 0.0)
@@ -131,9 +105,11 @@ class Lock(NamedTuple):
         >>> str(Lock(100.0, -1.0, 30.0, 30.5, 86.8, 2.0).contact().on)  # an internal wheel
         'recess'
         """
-        L, corner, clearance = self.L, self.on_corner, self.recess - self.lock
+        L, clearance = self.L, self.recess - self.lock
+        # a corner meets the disc if the disc reaches as far round as the recess
+        corner, loose = _truth(self.reach <= self.half), _truth(clearance > 0.0)
         x, y = L - self.sign * self.lock * np.cos(self.half), self.lock * np.sin(self.half)
-        far = choose(corner, self._far, np.hypot(x, y))
+        far = choose(corner, self.corner - self.sign * self.edge, np.hypot(x, y))
         reach = choose(corner, self.lock + self.edge, self.recess)
         cosine = self.sign * (L * L + reach * reach - far * far) / (2.0 * L * reach)
         # if the arcs touch there is no such triangle: the angle is 90 degrees
@@ -141,7 +117,7 @@ class Lock(NamedTuple):
         with np.errstate(invalid="ignore"):
             # NaN where the recess's corner is beyond the recess, so that nothing meets it
             phi = np.arccos(choose(arcs, 0.0, cosine))
-        edge, loose = choose(corner, self.edge, 0.0), _truth(clearance > 0.0)
+        edge = choose(corner, self.edge, 0.0)
         between = self.lock * self.recess / choose(loose, clearance, 1.0)
         ended = self.lock * edge / (self.lock + edge)
         radius = choose(loose, choose(arcs, between, ended), math.inf)
@@ -173,7 +149,7 @@ def _chosen(condition: Truth, yes: Jet, no: Jet) -> Jet:
 
 
 def loosest(locks: Sequence[Lock]) -> Lock:
-    """Return the lock with the most play, of single ones.
+    """The lock with the most play, of single ones.
 
     Of equal ones, as without clearance, it is that with the least reach: it takes the most force.
     """

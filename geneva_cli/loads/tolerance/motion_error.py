@@ -1,24 +1,18 @@
 """The error of the wheel's angle during a motion of a straight slot, for any deviations.
 
 Deviations dL of the centre distance and dR of the crank's radius move the roller's centre from p to
-p + (dL, 0) + dR/R (p - hub). The slot follows it, off by the error of its own angle. It is also off
-by the clearance c between roller and wall, on one side or the other:
-
-    psi = arg p + asin((e + c) / |p|),    dpsi/dR = L sin(phi) / |p|²,  dpsi/dL = -R sin(phi) / |p|²
-
-The slopes are those of a plain crank. e is the distance of the slot's axis from the wheel's centre.
+p + (dL, 0) + dR/R (p - hub). The slot follows it, off by the error of its own angle and by the
+clearance c on one side or the other: psi = arg p + asin((e + c) / |p|).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.impacts.entry import arm_mm, first_contacts
-from geneva_cli.loads.tolerance.built_jump import built_jumps
+from geneva_cli.loads.impacts.entry import arm_mm
 from geneva_cli.loads.tolerance.dimensions import (
     Deviations,
     corners,
@@ -54,7 +48,7 @@ class WorstErrors(NamedTuple):
     side: Array
 
     def beyond(self, other: WorstErrors) -> WorstErrors:
-        """Select the greater error of this and another result, in each design."""
+        """The greater error of this and another result, in each design."""
         return choose_record(self.error > other.error, self, other)
 
 
@@ -86,21 +80,15 @@ class MotionError(NamedTuple):
         """Clearance per side, mm; negative if the roller does not fit into the slot."""
         return (by.slot_width_mm - by.roller_diameter_mm) * 0.5 + self.clearance
 
-    @property
-    def ends_deg(self) -> tuple[float, float]:
-        """Entry and exit, input angles from mid-motion."""
-        return self.engagement.entry_deg, self.engagement.exit_deg
-
     def margin_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
         """Greatest sum of errors of L and R that every random machine allows, mm.
 
-        With larger errors the roller may reach the wheel's axis, or the crank's. A normal
-        distribution has tails: deviations lie within three times the plus or minus, which is nine
-        standard deviations.
+        With larger ones the roller may reach the wheel's axis, or the crank's. Normal deviations
+        lie within three times the plus or minus, which is nine standard deviations.
         """
         times = 3.0 if spec.tolerance.distribution == "normal" else 1.0
         play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
-        entry, exit_ = map(np.ravel, self.ends_deg)
+        entry, exit_ = np.ravel(self.engagement.entry_deg), np.ravel(self.engagement.exit_deg)
         x, y = self.engagement.path(np.linspace(entry, exit_, MOTION_SAMPLES, axis=-1), 0)
         near = np.atleast_2d(np.hypot(x.c[0], y.c[0])).min(axis=-1, keepdims=True)
         nearest = self.L * (near - size(self.engagement.slot.offset))
@@ -108,11 +96,7 @@ class MotionError(NamedTuple):
         return parameter(margin if margin.size > 1 else float(margin[0, 0]))
 
     def greatest(self, by: Deviations) -> WorstErrors:
-        """Greatest error of any of the machines: (n,) for n designs, or (1,) for one.
-
-        The machines are a first axis of the deviations, (k,) or for n designs (k, n, 1).
-        """
-        # (k, n, 1), with n = 1 for one design
+        """Greatest error of any of the machines, the first axis of ``by``: (n,) for n designs."""
         values = [np.atleast_1d(jet.c[0]) for jet in by]
         each = deviations([np.reshape(z, (len(z), -1, 1)) for z in values])
         return self._greatest(
@@ -120,22 +104,21 @@ class MotionError(NamedTuple):
         )
 
     def greatest_rss(self, sizes: Sequence[float]) -> WorstErrors:
-        """Greatest root of the squared effects of the dimensions, over the motion: as ``greatest``.
-
-        ``sizes`` are the plus or minus of each dimension. The error without deviations adds to it.
-        """
+        """The nominal error and the root of the squared effects of dimensions of these sizes."""
         none, which = deviations([0.0] * len(sizes)), [i for i, x in enumerate(sizes) if np.any(x)]
 
         def root(at: Array, side: float) -> Array:
-            slopes = [array(self(slope_of(i), at, side).c[1]) * sizes[i] for i in which]
-            squares = sum((slope * slope for slope in slopes), 0.0 * at)
+            squares = 0.0 * at
+            for i in which:
+                slope = array(self(slope_of(i), at, side).c[1]) * sizes[i]
+                squares = squares + slope * slope
             return np.asarray(abs(array(self(none, at, side).c[0])) + np.sqrt(squares))
 
         return self._greatest(root)
 
     def _greatest(self, of: Callable[[Array, float], Array]) -> WorstErrors:
         """Greatest of a function of input angles (n, k) and a side, in each design."""
-        entry, exit_ = map(np.ravel, self.ends_deg)
+        entry, exit_ = np.ravel(self.engagement.entry_deg), np.ravel(self.engagement.exit_deg)
         best: WorstErrors | None = None
         for side in (1.0, -1.0):
             low, high = entry, exit_
@@ -180,21 +163,21 @@ def used(mechanism: Mechanism) -> dict[str, float]:
 
 def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
     """Greatest errors of m designs; None for curved slots, which are solved for."""
-    errors, sizes = motion_errors(mechanism), list(used(mechanism).values())
-    if not errors:
+    if mechanism.engagements[0].slot.curved:
         return None
-    m, machines = mechanism.designs, 2 ** sum(bool(np.any(size)) for size in sizes)
+    m, machines = mechanism.designs, 2 ** sum(bool(np.any(x)) for x in used(mechanism).values())
     # a million places of machines with deviations are computed together
     group = max(1, (1 << 20) // (machines * MOTION_SAMPLES))
-    return joined([_of(taken(mechanism, b), b.stop - b.start) for b in blocks(m, group)])
+    return joined([_plays(taken(mechanism, b), b.stop - b.start) for b in blocks(m, group)])
 
 
-def _of(mechanism: Mechanism, n: int) -> MotionPlays:
+def _plays(mechanism: Mechanism, n: int) -> MotionPlays:
     use = used(mechanism)
     sizes = list(use.values())
     best = WorstErrors(*np.full((3, n), -1.0))
     rss, shown = np.zeros((2, n))
     known = sum(sizes) > np.zeros((n, 1))
+    both = use["center_distance_mm"] + use["crank_radius_mm"]
     for engagement, error in zip(mechanism.engagements, motion_errors(mechanism), strict=True):
         worst = WorstErrors(*(np.resize(row, n) for row in error.greatest(corners(sizes))))
         more = worst.error > best.error
@@ -202,30 +185,6 @@ def _of(mechanism: Mechanism, n: int) -> MotionPlays:
         rss = np.maximum(rss, error.greatest_rss(sizes).error)
         at_deg = mechanism.shown_deg(parameter(engagement.mid_deg + worst.at_deg[:, None]))
         shown = np.where(more, np.ravel(at_deg), shown)
-        both = use["center_distance_mm"] + use["crank_radius_mm"]
         known = known & (both < error.margin_mm(mechanism.spec, use))
     rows = (np.degrees(best.error), np.degrees(rss), shown)
     return MotionPlays(*(np.where(known[:, 0], row, np.nan) for row in rows))
-
-
-def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array | None:
-    """Greatest jump of velocity at entry for any of the deviations, over the input's speed.
-
-    (m,) for m designs; 0 if the roller always misses the slot's axis. None for slots and grooves
-    that are solved for.
-    """
-    worst: Array | None = None
-    if built := built_jumps(mechanism):
-        sizes = [use["center_distance_mm"], use["crank_radius_mm"], *[0.0] * 5]
-        jumps = [one(corners(sizes))[0].reshape(-1, mechanism.designs) for one in built]
-        return np.asarray(np.concatenate(jumps).max(axis=0))
-    for engagement in mechanism.engagements:
-        crank = use["crank_radius_mm"] / arm_mm(mechanism, engagement)
-        center = use["center_distance_mm"] / mechanism.center_distance_mm
-        for one, other in product((-1.0, 1.0), repeat=2):
-            contacts = first_contacts(engagement, one * crank, other * center)
-            if contacts is None:
-                return None
-            jump = np.nan_to_num(abs(contacts.jump))
-            worst = jump if worst is None else np.maximum(worst, jump)
-    return worst

@@ -5,18 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.loads.impacts.entry import RestingAxis, arm_mm
-from geneva_cli.loads.tolerance.built_jump import BuiltJump, built_jumps
 from geneva_cli.loads.tolerance.dimensions import Deviations, deviations, slope_of
+from geneva_cli.loads.tolerance.entry_jump import EntryJump
 from geneva_cli.loads.tolerance.locking import CutLock
 from geneva_cli.loads.tolerance.motion_error import MotionError
-from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Mask, array
 from geneva_cli.numerics.jet import Array, Jet, Number
 from geneva_cli.numerics.sobol import Sobol
 from geneva_cli.progress import tracked
@@ -40,18 +36,15 @@ class Draws(NamedTuple):
             quantiles = sequence.points(start, 1 << (count - 1).bit_length())[:, :count]
             columns: list[Number] = [0.0] * len(self.sizes)
             for i, quantile in zip(deviate, quantiles, strict=True):
-                columns[i] = self._spread(quantile) * self.sizes[i]
+                spread: Array = 2.0 * quantile - 1.0
+                if self.normal:
+                    from scipy.special import ndtri
+
+                    # The plus or minus is three standard deviations; a quantile of 0 would be
+                    # infinite.
+                    spread = ndtri(np.maximum(quantile, 2.0**-53)) / 3.0
+                columns[i] = spread * self.sizes[i]
             yield deviations(columns)
-
-    def _spread(self, quantile: Array) -> Array:
-        """Deviations over the tolerance for quantiles of the distribution."""
-        if not self.normal:
-            return 2.0 * quantile - 1.0
-        from scipy.special import ndtri
-
-        # The plus or minus is three standard deviations; a quantile of 0 would be infinite.
-        out: Array = ndtri(np.maximum(quantile, 2.0**-53)) / 3.0
-        return out
 
 
 class RandomMachines(NamedTuple):
@@ -73,12 +66,11 @@ def random_machines(
 ) -> RandomMachines:
     """Errors of ``samples`` machines: the play of a lock, the error of a motion, the jump at entry.
 
-    ``error`` is one engagement's motion error, the input angle in degrees, and the side of the slot
-    (1 or -1) on which the roller bears. Arguments that are None are left out.
+    ``error`` is a motion's error, the input angle in degrees, and the side on which the roller
+    bears.
     """
-    start = 0
     dwell, motion, jump = (np.zeros(samples) for _ in range(3))
-    missed = jams = 0
+    start = missed = jams = 0
     for by in tracked(machines.blocks(samples, BLOCK), "blocks of machines", -(-samples // BLOCK)):
         part = slice(start, start + BLOCK)
         jam = np.zeros(len(dwell[part]), dtype=bool)
@@ -100,11 +92,7 @@ def random_machines(
 
 
 class Spread(NamedTuple):
-    """Error of the wheel's angle towards one side, degrees.
-
-    ``mean`` and ``std`` are of that angle with its sign. ``p997`` is the size that 99.7 % of the
-    machines keep. ``parts`` has the contribution of each dimension's plus or minus.
-    """
+    """Error of the wheel's angle towards one side, degrees; mean and std with its sign."""
 
     worst: float
     rss: float
@@ -125,15 +113,12 @@ def likely_place(
 ) -> tuple[MotionError, float, float]:
     """The motion, the input angle and the side with the greatest error of 99.7 % of machines.
 
-    Some thousand machines have mean and deviation at each place, but too few beyond 99.7 %. So the
-    sums of mean and some deviations name places, of which 65536 machines select one.
+    The mean and some deviations of few machines name places, of which many machines select one.
     """
-    few = next(machines.blocks(min(samples, 4096), 4096))
-    many = next(machines.blocks(min(samples, 65536), 65536))
+    few, many = (next(machines.blocks(min(samples, count), count)) for count in (4096, 65536))
     places: list[tuple[MotionError, float, float]] = []
     for one, side in product(errors, (1.0, -1.0)):
-        (entry,), (exit_,) = map(np.ravel, one.ends_deg)
-        grid = np.linspace(entry, exit_, 121)
+        grid = np.linspace(one.engagement.entry_deg, one.engagement.exit_deg, 121)
         drawn = [one(few, at_deg, side).c[0] for at_deg in grid]
         mean, deviation = (np.array([f(row) for row in drawn]) for f in (np.mean, np.std))
         # 99.7 % lie within 1.7 deviations of one uniform dimension, and 2.7 of a normal one
@@ -153,93 +138,16 @@ def spread(
     angle: Callable[[Deviations], Jet], sizes: list[float], worst: float, drawn: Array
 ) -> Spread:
     """Spread of an angle in radians; ``drawn`` has it for random machines."""
-
-    def one(number: int | None) -> float:
-        """The angle without deviations, or its slope by a dimension."""
-        by = deviations([0.0] * len(sizes)) if number is None else slope_of(number)
-        return float(np.ravel(angle(by).c[number is not None])[0])
-
-    parts = [one(i) * size if size else 0.0 for i, size in enumerate(sizes)]
+    middle = float(np.ravel(angle(deviations([0.0] * len(sizes))).c[0])[0])
+    parts = [
+        float(np.ravel(angle(slope_of(i)).c[1])[0]) * size if size else 0.0
+        for i, size in enumerate(sizes)
+    ]
     return Spread(
         math.degrees(worst),
-        math.degrees(abs(one(None)) + math.sqrt(math.fsum(part * part for part in parts))),
+        math.degrees(abs(middle) + math.sqrt(math.fsum(part * part for part in parts))),
         math.degrees(drawn.mean()),
         math.degrees(drawn.std()),
         math.degrees(_p997(drawn)),
         tuple(math.degrees(abs(part)) for part in parts),
     )
-
-
-class Branch(NamedTuple):
-    """The true path on one side of its entry, for crossings of the axis by paths with errors.
-
-    ``side`` is the side of the axis on which the true path is; the others are arrays along it.
-    """
-
-    side: float
-    root: Array  # square root of its distance from the axis, over L
-    # Speed of its approach to the axis over that root, nearly constant, and as imaginary part the
-    # wheel's lever to the roller: one search interpolates both.
-    speed_and_lever: Array
-
-
-class EntryJumpFunction(NamedTuple):
-    """The jump at one engagement's entry as a function of deviations; lengths in millimetres."""
-
-    axis: RestingAxis
-    L: float
-    arm: float
-    branches: tuple[Branch, ...]
-
-    def __call__(self, by: Deviations) -> tuple[Array, Mask]:
-        """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis.
-
-        A machine that misses it has a jump of 0: its roller meets the mouth instead.
-        """
-        crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
-        offset = np.atleast_1d(self.axis.offset(array(crank), array(center)))
-        moved = np.broadcast_to((center - crank) / (1.0 + crank) * self.axis.along, offset.shape)
-        jump, missed = np.zeros(len(offset)), offset != 0.0
-        for branch in self.branches:
-            here = np.flatnonzero(offset * branch.side > 0.0)
-            at = np.sqrt(abs(offset[here]))
-            both = np.interp(at, branch.root, branch.speed_and_lever, right=np.nan)
-            speed, lever = at * both.real, both.imag + moved[here]
-            jump[here] = np.nan_to_num(speed / lever)
-            missed[here] = np.isnan(speed)
-        return jump, missed
-
-
-EntryJump: TypeAlias = EntryJumpFunction | BuiltJump
-
-
-def entry_jumps(mechanism: Mechanism) -> list[EntryJump]:
-    """Entry jump of each engagement whose roller enters along its slot's axis, or as built."""
-    L = mechanism.center_distance_mm
-    out: list[EntryJump] = [*built_jumps(mechanism)]
-    for engagement in mechanism.engagements:
-        axis = RestingAxis.of(engagement)
-        if axis is not None:
-            # the path after the true entry counts if it is on the other side
-            before, after = _branch(axis, -1.0), _branch(axis, 1.0)
-            branches = (before,) if before.side == after.side else (before, after)
-            arm = arm_mm(mechanism, engagement)
-            out.append(EntryJumpFunction(axis, L, arm, branches))
-    return out
-
-
-def _branch(axis: RestingAxis, sense: float) -> Branch:
-    anchor = axis.anchor
-    span = 0.5 * axis.engagement.motion_deg * DEGREE
-    # In geometric progression from next to the true entry to half-way through the motion: between
-    # two places, interpolation has a relative error of 1e-6 at most.
-    tau = sense * span * np.geomspace(1e-7, 1.0, 8193)
-    along, across = anchor.displacement(tau, 1)
-    off, slope = across.arrays()
-    root = np.sqrt(abs(off))
-    first = int(np.argmax(root > 3e-8))  # the root of a distance that is not rounding
-    leaves = np.append(np.diff(root[first:]) > 0.0, False)
-    part = slice(first, first + int(np.argmin(leaves)) + 1)  # as far as it leaves the axis
-    side, root = float(np.sign(off[first])), root[part]
-    lever = anchor.along + along.arrays()[0][part]
-    return Branch(side, root, abs(slope)[part] / root + 1j * lever)

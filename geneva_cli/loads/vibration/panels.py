@@ -1,8 +1,7 @@
 """Motions as pure shapes, cut into panels on which their derivatives are polynomials.
 
 A shape is the fraction s of the step by the fraction u of the motion's time. Panels are halved
-until a Legendre series of each derivative has ended, which is all that integrals over it need. The
-panels of a batch of motions are computed together; a single motion is a batch of one.
+until a Legendre series of each derivative has ended, which is all that integrals over it need.
 """
 
 from __future__ import annotations
@@ -42,8 +41,7 @@ SERIES: Array = (_inverse + _inverse @ (np.eye(NODES) - _values @ _inverse)).ast
 class Panels(NamedTuple):
     """The panels of m motions, in the order of motions and of places: p in all.
 
-    ``smooth`` is the highest derivative of a motion that jumps neither inside nor at the ends.
-    ``greatest`` and ``variation``, (n, m), are valid up to the next derivative.
+    ``greatest`` and ``variation``, (n, m), are valid up to the derivative after ``smooth``.
     """
 
     motion: Whole  # (p,) motion of each panel
@@ -134,7 +132,6 @@ def _refined(
     """Panels of some motions for derivatives up to an order; and the motions that need too many.
 
     They are the panels' motions and ends, and the derivatives at their nodes (order, p, NODES).
-    Panels are halved until the series of each derivative has ended, or holds only rounding.
     """
     m, closed = len(breaks), []
     open_ = np.stack((breaks[which, :-1].ravel(), breaks[which, 1:].ravel()), 1)

@@ -1,14 +1,10 @@
 """A load that vibrates on its shaft during a motion and after it, to the last digits.
 
-The load vibrates as e^(p u), with u the fraction of the motion's time and
-
-    p = Omega (-zeta + i sqrt(1 - zeta²)),    Omega = 2 pi lambda.
-
-lambda is the period ratio: the motion's time over the load's natural period. The residual of a
-motion is an integral of f e^(p (1 - u)) over 0..1, where f is a derivative of the motion by u. On
-each panel, of half width h, f is a Legendre series. If |p h| exceeds the number of its terms, the
-moments of e^(p (1 - u)) with Legendre's polynomials follow from the panel's ends, by a recurrence
-(Filon's method). Otherwise Gauss's rule has them.
+It vibrates as e^(p u), u being the fraction of the motion's time, p = Omega (-zeta + i sqrt(1 -
+zeta²)), Omega = 2 pi lambda and lambda the period ratio. The residual is an integral of f e^(p (1 -
+u)), f a derivative of the motion. On a panel of half width h, f is a Legendre series. If |p h|
+exceeds the number of its terms, the moments with Legendre's polynomials follow from the panel's
+ends by a recurrence (Filon's method); otherwise Gauss's rule has them.
 """
 
 from __future__ import annotations
@@ -52,9 +48,8 @@ class Oscillator(NamedTuple):
 def residual_swing(panels: Panels, motion: Whole, swing: Oscillator) -> Complex:
     """The residual vibration of each oscillator after a motion: (n,), over the step.
 
-    It is (r' - p* r) / Im p at the end of the motion, which begins without vibration. Here r is the
-    load's angle minus the wheel's, over the step. p* is the conjugate of p, so r is its imaginary
-    part. ``motion`` (n,) are the motions of the oscillators, by their numbers among the panels'.
+    It is (r' - p* r) / Im p at the end of a motion that begins without vibration, r being the
+    load's angle minus the wheel's. ``motion`` (n,) are the oscillators' motions among the panels'.
     """
     out = np.empty(len(motion), dtype=complex)
     # the best derivative to integrate: rounding is proportional to its greatest value
@@ -129,9 +124,8 @@ def _sums(y: Complex, series: Array) -> Complex:
 def greatest_accelerations(panels: Panels, motion: Whole, swing: Oscillator) -> Array:
     """The greatest size of each load's acceleration by u over the step: (n,).
 
-    It is over the motion, with the load at rest at entry. ``motion`` (n,) are the motions of the
-    oscillators by number. A shape's second derivative is integrated over pieces of its panels,
-    which are short enough for the swing to have few terms on each.
+    The load is at rest at entry. A shape's second derivative is integrated over pieces of its
+    panels, which are short enough for the swing to have few terms on each.
     """
     most, omega, p = np.zeros(len(motion)), 2.0 * np.pi * swing.ratio, swing.p
     of, panel, first = panels.paired(motion)
@@ -193,23 +187,21 @@ def _take_most(most: Array, load: Array, of: Whole) -> None:
     np.maximum.at(most, of[near], np.abs(legendre.legval(x, series, tensor=False)))
 
 
-def local_maxima(share_at: Callable[[Array], Array], low: float, high: float) -> Array:
+def local_maxima(shares: Callable[[Array], Array], station: int, low: float, high: float) -> Array:
     """The period ratios between two at which a residual has its local maxima.
 
-    ``share_at`` gives it at ratios (k,). Its square is band-limited: over the period ratio it
-    oscillates at most once per 1. So closely spaced samples find the maxima, and a polynomial
-    between them places each to the last digits. A maximum nearer than a sample to a minimum is left
-    out: damping makes such flat ones.
+    Its square oscillates at most once per 1 of the ratio: samples find the maxima, and a polynomial
+    places each to the last digits. A maximum nearer than a sample to a minimum is left out.
     """
     count = max(64, math.ceil(16 * (high - low)))  # 16 samples for each 1 of the period ratio
     reach = (high - low) / count
     ratio = np.linspace(low - reach, high + reach, count + 3)  # one beyond each end
-    share = share_at(ratio)
+    share = shares(ratio)[station]
     middle = ratio[1:-1][(share[1:-1] >= share[:-2]) & (share[1:-1] > share[2:])]
     degree = 12  # of the polynomial between two samples about a maximum: exact to a double there
     nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
     places = middle[:, None] + reach * nodes
-    square = share_at(places.ravel()).reshape(places.shape) ** 2
+    square = shares(places.ravel())[station].reshape(places.shape) ** 2
     # at Chebyshev's nodes his coefficients are sums over them
     vander: Array = chebyshev.chebvander(nodes, degree).astype(float)
     slope = chebyshev.chebder((matrix_product(square, vander) * (2.0 / (degree + 1))).T)

@@ -1,20 +1,8 @@
 """Vibration of a load on an elastic shaft, for oscillators at several speeds or a batch of designs.
 
-The wheel turns by psi, the load by psi + r, and between them are a spring k and a damper:
-
-    r'' + 2 zeta wn r' + wn² r = -psi'',    wn² = k / I
-
-The period ratio is the motion's time over the natural period 2 pi / wn. A residual is the amplitude
-of the vibration after a motion that began at rest. Its share is the fraction of the wheel's step.
-
-    >>> import numpy as np
-    >>> from geneva_cli import External, Load, Shaft
-    >>> from geneva_cli.motion.many import many
-    >>> from geneva_cli.motion.machine_spec import Spec
-    >>> spec = Spec(External(6), load=Load(inertia_kgm2=0.2), shaft=Shaft(stiffness_Nm_rad=5e3))
-    >>> machine = many(spec, {"drive.n_rpm": np.array([60.0, 90.0])}).machine
-    >>> design_vibrations(machine)["residual_share"].round(6)
-    array([0.000708, 0.000695])
+The wheel turns by psi, the load by psi + r: r'' + 2 zeta wn r' + wn² r = -psi'', wn² = k / I. The
+period ratio is the motion's time over 2 pi / wn. A residual is the amplitude after a motion that
+began at rest; its share is the fraction of the wheel's step.
 """
 
 from __future__ import annotations
@@ -55,14 +43,11 @@ SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 2
 SLOWER, FASTER = 0.5, 2.0  # range of speeds over the design's
 AVOIDED_SHARE = 1e-4  # least share of the step that makes a speed one to avoid
 NAMES = (
-    *("period_ratio", "damping_ratio", "natural_Hz", "residual_share", "residual_deg"),
-    *("steady_share", "dynamic_factor", "windup_deg"),
+    *("period_ratio", "damping_ratio", "natural_Hz"),
+    *("residual_share", "residual_deg", "dynamic_factor", "windup_deg"),
 )
-STATION_COLUMNS = (
-    *("period_ratio", "residual_share", "residual_deg", "dynamic_factor", "windup_deg"),
-    "steady_share",
-)
-SPECTRUM_COLUMNS = ("n_rpm", "period_ratio", "residual_share", "residual_deg", "steady_share")
+STATION_COLUMNS = ("period_ratio", *NAMES[3:])
+SPECTRUM_COLUMNS = ("n_rpm", "period_ratio", "residual_share", "residual_deg")
 # a speed with a local maximum of the residual, and its range for a stiffness of +-20 %
 AVOID_COLUMNS = ("rpm", "from_rpm", "to_rpm", "residual_share")
 
@@ -127,12 +112,11 @@ def _period_ratio(mechanism: Mechanism, stiffness_Nm_rad: float, inertia_kgm2: f
 class Oscillators:
     """n oscillators on a machine: each on one of its n designs, or all on one design.
 
-    Arrays (stations, n) have a row for each engagement. The load is at rest before it, except in
-    the steady state. ``speed`` is that of each over the mechanism's.
+    Arrays (stations, n) have a row for each engagement.
     """
 
-    def __init__(self, mechanism: Mechanism, swing: Oscillator, speed: Array | float = 1.0) -> None:
-        self.mechanism, self.swing, self.speed = mechanism, swing, speed
+    def __init__(self, mechanism: Mechanism, swing: Oscillator) -> None:
+        self.mechanism, self.swing = mechanism, swing
         law, m, n = mechanism.input_law, mechanism.designs, len(swing.ratio)
         # a law without numbers that vary has one shape in all designs
         alike = law is not None and taken(law, slice(0)) is law
@@ -182,28 +166,6 @@ class Oscillators:
         ]
         return np.array(rows) * self.bent_deg
 
-    def steady_share(self) -> Array:
-        """Residuals over the step in the steady state; NaN where there is none.
-
-        A motion adds its own residual to the rest of all earlier ones: a geometric series. Without
-        damping it has no sum, and a stop ends it after z - 1 motions.
-        """
-        machine, engagements = self.mechanism, self.mechanism.engagements
-        stops = np.ravel(machine.stop_deg) * self.speed  # one in each dwell
-        exits = [np.ravel(e.mid_deg + e.exit_deg) + k * stops for k, e in enumerate(engagements)]
-        period = np.ravel(machine.period_deg) + len(exits) * stops
-        rate = self.swing.p / np.ravel(engagements[0].motion_deg)  # by degrees of the input
-        added = self.residual * self.steps
-        rows = []
-        with np.errstate(all="ignore"):
-            sum_ = -np.expm1(rate * period)
-            for own, step in zip(exits, self.steps, strict=True):
-                ages = [(own - other) % period for other in exits]
-                left = sum(a * np.exp(rate * age) for a, age in zip(added, ages, strict=True))
-                rows.append(np.abs(left / sum_) / step)
-        known = (self.swing.damping > 0.0) & (not machine.spec.wheel.stopped)
-        return np.where(known, rows, np.nan)
-
 
 def vibrations(
     own: Oscillators, requested: Collection[str] = ("dynamic_factor",)
@@ -220,7 +182,6 @@ def vibrations(
         own.swing.ratio / np.ravel(timings(own.mechanism)[0].motion_s),
         own.share.max(axis=0),
         own.residual_deg.max(axis=0),
-        own.steady_share().max(axis=0),
         own.swung_deg.max(axis=0) / windup if is_asked else np.full(len(windup), np.nan),
         windup,
     )
@@ -256,8 +217,7 @@ def design_vibrations(
 def speeds_to_avoid(own: Oscillators) -> list[tuple[float, float, float, float]]:
     """Rows of ``AVOID_COLUMNS``: speeds where one oscillator's residual has a local maximum.
 
-    The residual is at least ``AVOIDED_SHARE`` of the step. The speeds range from half to twice the
-    design's, ascending. If engagements differ, the greatest residual of all counts.
+    They range from half to twice the design's. If engagements differ, the greatest residual counts.
     """
     n_rpm, ((own_ratio,), damping) = own.mechanism.spec.drive.n_rpm, own.swing
 
@@ -277,7 +237,7 @@ def speeds_to_avoid(own: Oscillators) -> list[tuple[float, float, float, float]]
         high = min(own_ratio / SLOWER, float(omega.min()) / (2.0 * math.pi) / scale)
         if low >= high:
             continue
-        ratios = local_maxima(lambda ratio, k=k: shares(ratio)[k], low, high)
+        ratios = local_maxima(shares, k, low, high)
         every = shares(ratios)
         # a maximum within 1e-12 of the greatest residual is equal to it
         kept = (every[k] >= AVOIDED_SHARE) & (every[k] >= every.max(axis=0) * (1.0 - 1e-12))
@@ -291,25 +251,22 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     """Named values of one design, with equal names for every machine; None without a load."""
     names = (*NAMES, "speeds_to_avoid_rpm", "avoid", "stations")
     if load is None:
-        why = Notice("not-known", f"no value is computed: {NO_INERTIA}")
-        return dict.fromkeys(names) | {"warnings": (why,)}
+        note = Notice("not-known", f"no value is computed: {NO_INERTIA}")
+        return dict.fromkeys(names) | {"warnings": (note,)}
     own, lacks = Oscillators(mechanism, load), mechanism.output.lacks
     avoid, numbers = speeds_to_avoid(own), vibrations(own)
     windup = own.windup_deg
-    factor, steady = own.swung_deg / windup, own.steady_share()
-    rows = (own.ratio, own.share, own.residual_deg, factor, windup, steady)
-    each = [tuple(map(_known, row)) for row in np.array(rows)[:, :, 0].T.tolist()]
-    warnings = []
+    rows = (own.ratio, own.share, own.residual_deg, own.swung_deg / windup, windup)
+    each = np.array(rows)[:, :, 0].T.tolist()
+    warnings = list[Notice]()
     if (least := float(own.ratio.min())) < 1.0:
         text = (
             f"a motion takes only {least:.4g} natural periods of the load, too few to follow: "
             "use a stiffer shaft, less inertia or a lower speed"
         )
         warnings.append(Notice("short-motion", text))
-    if why := _never_steady(mechanism, load):
-        warnings.append(Notice("not-known", f"steady_share is not computed: {why}"))
     return {
-        **{name: None if name in lacks else _known(x.item()) for name, x in numbers.items()},
+        **{name: None if name in lacks else x.item() for name, x in numbers.items()},
         "speeds_to_avoid_rpm": tuple(row[0] for row in avoid),
         "avoid": rows_table(AVOID_COLUMNS, avoid),
         "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,
@@ -317,35 +274,17 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     }
 
 
-def _known(number: float) -> float | None:
-    return None if math.isnan(number) else number
-
-
-def _never_steady(mechanism: Mechanism, load: Oscillator) -> str:
-    """The reason why there is no steady state; empty where there is one."""
-    if mechanism.spec.wheel.stopped:
-        return "the stop blocks the crank after z - 1 motions, too few for a steady state"
-    if not load.damping.all():
-        return (
-            "without damping (damping_ratio in [shaft], or --damping) the vibration never dies "
-            "out, and there is no steady state"
-        )
-    return ""
-
-
 def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
     """Table of ``samples`` speeds from half to twice the design's, in geometric progression."""
     check_samples(samples)
-    n_rpm, is_steady = mechanism.spec.drive.n_rpm, not _never_steady(mechanism, load)
+    n_rpm = mechanism.spec.drive.n_rpm
     every = n_rpm * np.geomspace(SLOWER, FASTER, samples)
 
     def rows(begin: int, end: int) -> list[object]:
         speed = every[begin:end]
         swing = Oscillator(load.ratio * (n_rpm / speed), np.repeat(load.damping, len(speed)))
-        own = Oscillators(mechanism, swing, speed / n_rpm)
-        none = [None] * len(speed)
-        turned = own.residual_deg.max(axis=0) if mechanism.output.turns else none
-        steady = own.steady_share().max(axis=0) if is_steady else none
-        return [speed, swing.ratio, own.share.max(axis=0), turned, steady]
+        own = Oscillators(mechanism, swing)
+        turned = own.residual_deg.max(axis=0) if mechanism.output.turns else [None] * len(speed)
+        return [speed, swing.ratio, own.share.max(axis=0), turned]
 
     return computed_table(SPECTRUM_COLUMNS, samples, rows)

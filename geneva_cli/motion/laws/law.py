@@ -1,7 +1,6 @@
 """The base of the motion laws s(u): fraction of the step by fraction of the motion's time.
 
-Both run from 0 to 1. The first half of a law is s by u. The second half is the remainder 1 - s by
-the remaining time w = 1 - u. So both ends are exact, and a symmetric law is written once.
+The second half of a law is the remainder 1 - s by the time w = 1 - u left: both ends are exact.
 """
 
 from __future__ import annotations
@@ -9,7 +8,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from geneva_cli.kept import cached_property
 from geneva_cli.numerics.arrays import Array, Truth, Which, all_true, choose
@@ -17,10 +16,6 @@ from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import is_array
 from geneva_cli.spec.schema import SpecTable, fields
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.spline import Doubt
-
 
 QUANTITIES = ("velocity", "acceleration", "jerk", "power")
 
@@ -55,12 +50,7 @@ class Law(SpecTable):
         """True if a number of a table may be an array along a design axis with this law."""
         return True
 
-    @property
-    def tuned_to(self) -> float | None:
-        """Period ratio at which the law leaves a load at rest; None for a law that is not tuned."""
-        return None
-
-    def doubt(self) -> Doubt | None:
+    def doubt(self) -> tuple[int, float] | None:
         """Decimals of a law of points, and the effect of their rounding on d³s/du³; else None."""
         return None
 
@@ -131,7 +121,7 @@ class Backwards(Law):
     def may_vary(self, table: str, key: str) -> bool:
         return self.of.may_vary(table, key)
 
-    def doubt(self) -> Doubt | None:
+    def doubt(self) -> tuple[int, float] | None:
         return self.of.doubt()
 
     def first(self, u: Number, order: int) -> Jet:

@@ -1,9 +1,7 @@
 """One family of laws: the acceleration rises as a sine, is constant, and falls as a cosine.
 
-R. L. Norton, Cam Design and Manufacturing Handbook, "The SCCA family". The quarter sine, the
-constant and the quarter cosine take the fractions b, c and d of the time in which a law
-accelerates: b + c + d = 1. The other half of the motion mirrors it. Modified constant velocity adds
-a middle fraction v of the whole motion without acceleration.
+R. L. Norton, Cam Design and Manufacturing Handbook, "The SCCA family": these take the fractions b,
+c and d of the time in which a law accelerates. A middle fraction v may have constant velocity.
 """
 
 from __future__ import annotations

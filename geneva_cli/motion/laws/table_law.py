@@ -1,8 +1,4 @@
-"""The law ``table``: a motion law from the user's points u,s.
-
-It is a quintic spline through every point, four times continuously differentiable. Its four free
-conditions set velocity and acceleration to zero at both ends.
-"""
+"""The law ``table``: a quintic spline through points u,s of the user, at rest at both ends."""
 
 from __future__ import annotations
 
@@ -17,7 +13,7 @@ from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import Points
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.spline import Doubt, PiecewisePolynomial
+    from geneva_cli.numerics.spline import PiecewisePolynomial
 
 
 class TableLaw(Law):
@@ -67,8 +63,11 @@ class TableLaw(Law):
     def second(self, w: Number, order: int) -> Jet:
         return Jet(self._halves[1](w, order))
 
-    def doubt(self) -> Doubt:
-        return _doubt(self.points.pairs)
+    def doubt(self) -> tuple[int, float]:
+        from geneva_cli.numerics.spline import doubt
+
+        u, s = zip(*self.points.pairs, strict=True)
+        return doubt(u, s, 3)
 
 
 @lru_cache(4)  # advice builds one machine many times
@@ -90,11 +89,3 @@ def _halves(
     rows[0, :3] = 0.0  # at rest at the end
     starts = 1.0 - ends[::-1]
     return spline, PiecewisePolynomial(starts[1:], starts, rows)
-
-
-@lru_cache(4)
-def _doubt(points: tuple[tuple[float, float], ...]) -> Doubt:
-    from geneva_cli.numerics.spline import doubt
-
-    u, s = zip(*points, strict=True)
-    return doubt(u, s, False, 3)

@@ -1,20 +1,14 @@
 """Straight slots on a crank as it was built, whose R/L is not what the slots need.
 
-The roller's centre runs on a circle of l = R/L about the crank's axis. The slot at rest has its
-axis at an angle from the line of centres. Where the centre crosses that axis inside the rim, the
-wheel's velocity jumps from 0 to that of the slot. With a larger l there are two such crossings, w
-to either side of the perpendicular from the crank's axis:
+Where the roller's centre, on a circle of l = R/L, crosses the axis of the slot at rest inside the
+rim, the wheel's velocity jumps from 0. With l above sin b there are two crossings:
 
     w² = l² - (sin b)²,    rho = cos b -+ w,    jump = +- w / rho
 
-The roller comes from outside an external wheel. It crosses the outer one first, which strikes the
-wheel backwards; most rims end before it. With an l below sin b the centre never reaches the axis.
-The roller then turns a slot from -asin l to asin l only, and something else must turn the wheel the
-rest of its step.
-
-An offset slot is made so that it is tangent to the crank's circle at one end. This is the end at
-which it stands farther from the line of centres: sin(angle) = l + e. The other end is one step away
-and has the whole jump. Radial slots rest at b on both sides.
+The roller comes from outside an external wheel: the outer one strikes the wheel backwards. With l
+below sin b the centre never reaches the axis, and turns a slot from -asin l to asin l only. Offset
+slots are tangent to the crank's circle at the end farther from the line of centres, where
+sin(angle) = l + e; the other end, a step away, has the whole jump.
 """
 
 from __future__ import annotations
@@ -22,7 +16,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion.engagement import AsBuilt
 from geneva_cli.motion.wheels.gearing import RollerPlace
 from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, middle
@@ -32,18 +26,13 @@ AT_RIM = 1e-6  # of L: a crossing that is not farther outside is at the rim
 
 
 class RestingSlot(NamedTuple):
-    """The axis of a slot at rest, for crank radii l; lengths over the centre distance.
-
-    ``angle`` is its direction from the line of centres, radians. ``across`` is the position of the
-    roller's centre from the crank's axis across the slot, which is that of the axis. ``outer`` is
-    true for the crossing beyond the perpendicular from the crank's axis.
-    """
+    """The axis of a slot at rest, for crank radii l; lengths over the centre distance."""
 
     sign: float  # 1 for an external wheel, -1 for an internal one
     l: float
-    angle: float
-    across: float
-    outer: Truth = False
+    angle: float  # from the line of centres, radians
+    across: float  # position of the axis, and so of the roller's centre, from the crank's axis
+    outer: Truth = False  # the crossing beyond the perpendicular from the crank's axis
 
     @property
     def beyond(self) -> float:
@@ -84,14 +73,9 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     Lengths are over the centre distance. Raises GenevaError where the roller cannot pass the line
     of centres in its slot.
     """
-    refuse(
-        l + abs(e) >= 1.0,
-        lambda: GenevaError(
-            "crank_radius_mm and the slots' offset together must be below center_distance_mm: the "
-            "roller would pass beyond the wheel's axis",
-            ("size", "crank_radius_mm"),
-        ),
-    )
+    text = "crank_radius_mm and the slots' offset together must be below center_distance_mm: the "
+    text += "roller would pass beyond the wheel's axis"
+    refuse_text(l + abs(e) >= 1.0, ("size", "crank_radius_mm"), text)
     # the slot at rest before and after a motion, and if the roller's centre reaches its axis
     sin_b, radial = step.sin_cos[0], isinstance(e, float) and e == 0.0
     reaches: Truth = l >= sin_b
@@ -109,16 +93,11 @@ def place(sign: float, step: HalfStep, l: float, e: float, rim: float) -> Roller
     inside = reaches & first.is_inside(e, rim) & last.is_inside(e, rim)
     half, tilt = 0.5 * (last.angle - first.angle), 0.5 * (last.angle + first.angle)
     half = choose(reaches, step.b, half)
-    entry, exit_ = (
-        PinPose(
-            end.crank_deg,
-            wheel,
-            end.along,
-            (sign * end.across, -sign * end.beyond),
-            (-end.beyond, -end.across),
-        )
-        for end, wheel in ((first, -half), (last, half))
-    )
+    poses = []
+    for end, wheel in ((first, -half), (last, half)):
+        x, y = end.beyond, end.across
+        poses.append(PinPose(end.crank_deg, wheel, end.along, (sign * y, -sign * x), (-x, -y)))
+    entry, exit_ = poses
     mid, skew, m = middle(sign, l, 1.0 - sign * l), None, library(l, e, rim)
     if not radial:
         deepest = m.sqrt((1.0 - l - e) * (1.0 - l + e))

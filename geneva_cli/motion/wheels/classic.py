@@ -1,7 +1,4 @@
-"""The classic wheels in closed form: straight radial slots, a plain crank.
-
-b = pi p/q is half the index angle (p/q = 1/z for equal steps), l = R/L = sin b the crank radius.
-"""
+"""Plain wheels in closed form: b = pi p/q is half the index angle, l = R/L = sin b."""
 
 from __future__ import annotations
 

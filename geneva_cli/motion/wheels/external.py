@@ -3,7 +3,7 @@
 import math
 from typing import Annotated, ClassVar, Self
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import GenevaError, refuse, refuse_text
 from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
 from geneva_cli.motion.path_and_slot import AnchoredPath
 from geneva_cli.motion.pivots import Dimension, Layout
@@ -43,26 +43,19 @@ class External(Gearing):
         steps, z, key = self.steps_deg, self.z, ("wheel", "steps_deg")
         if not steps:
             return
-        text = "offset_mm and steps_deg cannot be combined: remove one of them"
-        refuse(self.offset_mm != 0.0, lambda: GenevaError(text, ("wheel", "offset_mm")))
-        n = len(steps)
+        text, n = "offset_mm and steps_deg cannot be combined: remove one of them", len(steps)
+        refuse_text(self.offset_mm != 0.0, ("wheel", "offset_mm"), text)
 
         def no_multiple() -> GenevaError:
             near = " or ".join(str(m) for m in (z // n * n, (z // n + 1) * n) if m >= 3)
-            return GenevaError(
-                f"z = {z} is not a multiple of the {n} steps in the pattern: use {near}", key
-            )
+            text = f"z = {z} is not a multiple of the {n} steps in the pattern: use {near}"
+            return GenevaError(text, key)
 
         refuse(z % n != 0, no_multiple)
         turn = math.fsum(steps) * z / n
-        refuse(
-            abs(turn - 360.0) > 1e-9,
-            lambda: GenevaError(
-                f"{z // n} times the pattern is {turn:.12g} deg, not 360: "
-                f"its steps must add up to {360.0 * n / z:.12g}",
-                key,
-            ),
-        )
+        text = "{times} times the pattern is {turn:.12g} deg, not 360: its steps must add up to "
+        values = {"times": z // n, "turn": turn, "whole": 360.0 * n / z}
+        refuse_text(abs(turn - 360.0) > 1e-9, key, text + "{whole:.12g}", **values)
         if max(steps) >= 180.0:
             raise GenevaError(f"a step of {max(steps):g} deg is too large; below 180", key)
 
@@ -97,14 +90,10 @@ class External(Gearing):
         # cos² b - |e| is positive if there is such a slot. b + |d| < 90 degrees means |e| < 1 - l;
         # at the limit e = cos b sin d, d = 90 deg - b. The double angle is exact for 3, 4, 6 slots.
         spare = 0.5 + 0.5 * sin_cos_pi(2 * step.p, step.q)[1] - abs(e)
-        refuse(
-            spare <= 0.0,
-            lambda: GenevaError(
-                f"offset_mm = {self.offset_mm:g}: the roller cannot enter this slot without shock: "
-                f"its size must be below {step.sin_cos[1] ** 2 * center_distance_mm:.6g}",
-                ("wheel", "offset_mm"),
-            ),
-        )
+        limit = step.sin_cos[1] ** 2 * center_distance_mm
+        text = "offset_mm = {e_mm:g}: the roller cannot enter this slot without shock: its size "
+        text += "must be below {limit:.6g}"
+        refuse_text(spare <= 0.0, ("wheel", "offset_mm"), text, e_mm=self.offset_mm, limit=limit)
         slot, half = skew(step, e, spare), self.half_motion_deg(step)
         return RollerPlace(step, half, slot.poses, slot.poses[2].slope[0], slot)
 

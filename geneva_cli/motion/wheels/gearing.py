@@ -20,11 +20,7 @@ if TYPE_CHECKING:
 
 
 class Output(NamedTuple):
-    """What a wheel gives out: an angle, or the travel of a rack, with the units of its rates.
-
-    ``loads`` are quantities by name, each with one of a wheel's shaft and the ratio to it.
-    ``lacks`` are quantities that only a wheel with a shaft has.
-    """
+    """What a wheel gives out: an angle, or the travel of a rack, with the units of its rates."""
 
     noun: str  # of the part that moves
     column: str  # name of its position in tables
@@ -33,8 +29,8 @@ class Output(NamedTuple):
     rate_unit: str
     rate_per_radian: float  # in that unit
     load_keys: str  # what sets a load
-    loads: dict[str, tuple[str, float]]
-    lacks: tuple[str, ...] = ()
+    loads: dict[str, tuple[str, float]]  # each with one of a wheel's shaft and the ratio to it
+    lacks: tuple[str, ...] = ()  # quantities that only a wheel with a shaft has
     invariants: str = "relative to the input"  # what velocity, acceleration and jerk are
 
     @property
@@ -48,29 +44,20 @@ class Output(NamedTuple):
 
 
 class RollerPlace(NamedTuple):
-    """A roller on the crank, and its passage through a straight slot.
-
-    ``crank_deg`` is the crank angle at which it crosses the line of centres. ``poses`` are entry,
-    middle and exit on its circle, with crank angles counted from there. ``ratio`` is its arm over
-    the centre distance. ``skew`` describes an offset slot.
-
-    On a sphere ``height`` is the pin's position along the wheel's axis: (top, fall) for top - fall
-    (1 - cos a). ``cone`` is the cosine of the pin's cone. ``hub`` is the distance over L from the
-    wheel's axis to the point about which the crank's arm turns. ``closed`` has sign, l and 1 - l
-    for the closed forms of a plain crank; None if there are none. ``built`` describes a crank as
-    built, whose R/L is not what the slots need.
-    """
+    """A roller on the crank, and its passage through a straight slot."""
 
     step: HalfStep
     half_motion_deg: float
-    poses: tuple[PinPose, PinPose, PinPose]
-    ratio: float
-    skew: Skew | None = None
-    crank_deg: float = 0.0
+    poses: tuple[PinPose, PinPose, PinPose]  # entry, middle and exit, from the line of centres on
+    ratio: float  # its arm over the centre distance
+    skew: Skew | None = None  # of an offset slot
+    crank_deg: float = 0.0  # crank angle at which it crosses the line of centres
+    # on a sphere: (top, fall) of the pin's position along the wheel's axis, top - fall (1 - cos a);
+    # the cosine of its cone; and how far from the wheel's axis the crank's arm turns, over L
     height: tuple[float, float] | None = None
     cone: float = 1.0
     hub: float = 1.0
-    closed: tuple[float, float, float] | None = None
+    closed: tuple[float, float, float] | None = None  # sign, l and 1 - l for closed forms
     built: AsBuilt | None = None
 
     @property

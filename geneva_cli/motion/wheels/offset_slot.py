@@ -1,12 +1,8 @@
 """Straight slots whose axes miss the wheel's centre by e, in units of the centre distance L.
 
-They are shockless at both ends if the slot's axis is tangent to the crank's circle. Then l = sin b
-cos d, with d = asin(e / cos b). The crank's angle of motion stays 180° - 2b. The jumps differ: l /
-cos(b - d) at entry, l / cos(b + d) at exit.
-
-At the limit |e| = cos² b, where b + |d| = 90°, the gentler of the slot's ends would meet the
-wheel's centre line. All that is small there is a product with the distance to that limit, which is
-computed once.
+They are shockless with an axis tangent to the crank's circle: l = sin b cos d, sin d = e / cos b.
+The jumps are l / cos(b - d) at entry, l / cos(b + d) at exit. What is small near the limit |e| =
+cos² b is a product with the distance to it, which is computed once.
 """
 
 from __future__ import annotations
@@ -133,17 +129,9 @@ def skew(step: HalfStep, e: float, spare: float) -> Skew:
     turn = m.atan2(size * (sin_b - cos_d * less), deepest * cos_d + abs(e) * size)
     mid = middle(1.0, l, least)
     gentle = e > 0.0  # at entry
-    poses = (
-        PinPose(
-            choose(gentle, -long, -short),
-            -step.b,
-            choose(gentle, wide, narrow),
-            (-l, 0.0),
-            (0.0, l),
-        ),
-        mid._replace(wheel=choose(gentle, turn, -turn)),
-        PinPose(
-            choose(gentle, short, long), step.b, choose(gentle, narrow, wide), (l, 0.0), (0.0, -l)
-        ),
-    )
-    return Skew(e, m.copysign(d, e), deepest, poses)
+    mid = mid._replace(wheel=choose(gentle, turn, -turn))
+    enters, along = choose(gentle, -long, -short), choose(gentle, wide, narrow)
+    entry = PinPose(enters, -step.b, along, (-l, 0.0), (0.0, l))
+    leaves, along = choose(gentle, short, long), choose(gentle, narrow, wide)
+    exit_ = PinPose(leaves, step.b, along, (l, 0.0), (0.0, -l))
+    return Skew(e, m.copysign(d, e), deepest, (entry, mid, exit_))

@@ -1,15 +1,8 @@
-"""The pin's circle as seen from the wheel, for external and internal wheels.
+"""The pin's circle as seen from the wheel, for external and internal wheels; lengths over L.
 
-The wheel's axis is the origin, the crank's axis at (1, 0): lengths are in units of the centre
-distance L. Half the index angle is b = pi/z, and l = R/L the crank radius.
-
-A pose is one moment of the motion. Its x axis is the ray from the wheel's centre to the pin at that
-moment. From there the pin moves by
-
-    sin(d) * slope + (1 - cos(d)) * bend        (d: crank angle since the pose)
-
-without cancellation. At entry and exit the pin moves only along the ray, so the slope across it is
-exactly zero. So are the wheel's angle and velocity there.
+A pose is one moment of the motion. Its x axis is the ray from the wheel's centre to the pin then.
+With the crank's angle d since then the pin moves by sin(d) slope + (1 - cos(d)) bend, without
+cancellation. At entry and exit the slope across the ray is exactly 0.
 """
 
 from __future__ import annotations

@@ -1,23 +1,16 @@
 """Peak velocity and acceleration of batches of plain wheels behind side-cranks.
 
-The general search finds the same to 2e-15 and takes six times as long. With f = atan2(sin phi,
-A + cos phi) the crank's angle, C = sqrt(1 - A² sin² f) and rho = C + A cos f there are
-
-    f1 = C / rho,   f2 = A (1-A²) sin f / rho³        (by the input angle)
-
-and the wheel's acceleration is g2 f1² + g1 f2, with g1 and g2 the wheel's derivatives by f (see
-``classic``). As functions of f all of them are smooth even where |A| is near 1. C² is
-written as a sum of squares, and rho as (1-A²)/(C - A cos f) where A cos f < 0: nothing cancels.
-
-With c = cos f, g = 1 outside and -1 inside, and D = 1 - 2 g l c + l², the acceleration is
+The general search takes six times as long. With f = atan2(sin phi, A + cos phi) the crank's angle,
+C = sqrt(1 - A² sin² f) and rho = C + A cos f, its derivatives by the input are f1 = C / rho and
+f2 = A (1-A²) sin f / rho³. With c = cos f, g = 1 outside and -1 inside, and D = 1 - 2 g l c + l²,
+the acceleration is
 
     - l sin f h / (D² rho³),    h = (1-l²) C² rho - (c - g l) D A (1-A²)
 
-and the velocity falls with f > 0 where h > 0. That holds everywhere outside, and inside for
-A <= 0: D <= 1 - l², c - l <= c and C² >= 1 - A² give h >= (1-l²) (1-A²) (rho - A c). The velocity
-is then greatest at mid-motion, and the acceleration at an end or where its slope rises through
-zero. Inside and for A >= 0 the acceleration is greatest in its jump at the ends (a test has a grid
-of it), and the velocity is left to the general search.
+and the velocity falls with f > 0 where h > 0: everywhere outside, and inside for A <= 0. It is then
+greatest at mid-motion, and the acceleration at an end or where its slope rises through zero. Inside
+and for A >= 0 the acceleration is greatest in its jump at the ends (a test has a grid of it), and
+the velocity is left to the general search.
 """
 
 from __future__ import annotations

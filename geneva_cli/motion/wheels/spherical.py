@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, NamedTuple
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import refuse_text
 from geneva_cli.motion.engagement import Displacement, Height, Slot
 from geneva_cli.motion.path_and_slot import AnchoredPath, MeridianSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot
@@ -39,16 +39,13 @@ class Spherical(Gearing):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        least = 1e-6  # degrees
-        refuse(
-            (self.axes_deg < least) | (self.axes_deg > 180.0 - least),
-            lambda: GenevaError(
-                f"axes_deg = {self.axes_deg:g}: the shafts are practically parallel: it must "
-                f"be at least {least:g} away from 0 and 180, or choose gearing "
-                '"external" or "internal"',
-                ("wheel", "axes_deg"),
-            ),
+        angle, least = self.axes_deg, 1e-6  # degrees
+        text = (
+            "axes_deg = {angle:g}: the shafts are practically parallel: it must be at least "
+            '{least:g} away from 0 and 180, or choose gearing "external" or "internal"'
         )
+        parallel = (angle < least) | (angle > 180.0 - least)
+        refuse_text(parallel, ("wheel", "axes_deg"), text, angle=angle, least=least)
 
     @property
     def own_sizes(self) -> dict[str, float]:
@@ -67,17 +64,11 @@ class Spherical(Gearing):
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         ball = sphere(step, self.axes_deg)
         top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
-        fall = ball.sin_S * ball.sin_th
-        return RollerPlace(
-            step,
-            ball.half_motion_deg,
-            poses(step, ball),
-            ball.sin_th,
-            height=(top, fall),
-            cone=ball.cos_th,
-            # the arm's plane is perpendicular to the crank's axis, cos th from the sphere's centre
-            hub=ball.sin_S * ball.cos_th,
-        )
+        height = top, ball.sin_S * ball.sin_th
+        # the arm's plane is perpendicular to the crank's axis, cos th from the sphere's centre
+        hub, half, three = ball.sin_S * ball.cos_th, ball.half_motion_deg, poses(step, ball)
+        place = RollerPlace(step, half, three, ball.sin_th, height=height, cone=ball.cos_th)
+        return place._replace(hub=hub)
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement

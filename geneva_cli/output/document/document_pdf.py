@@ -7,9 +7,8 @@ from collections.abc import Iterator, Sequence
 from geneva_cli.answer import FAILS, PASSES, WARNS
 from geneva_cli.errors import clean
 from geneva_cli.geometry.measure import mapped
-from geneva_cli.geometry.pieces import prepared
 from geneva_cli.geometry.shapes import Point, Shape
-from geneva_cli.geometry.sheet import Annotations, Drawing, extent
+from geneva_cli.geometry.sheet import Annotations, Drawing, extent, prepared
 from geneva_cli.output.document.blocks import (
     BAD,
     NO_BREAK,

@@ -6,7 +6,7 @@ import math
 import os
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.geometry.shapes import Arc, Line
+from geneva_cli.geometry.shapes import Arc
 from geneva_cli.output.foreign.drawn import Drawn
 
 BYTES_MAX = 1 << 26  # 64 MB; a machine's outline has some kilobytes
@@ -17,30 +17,13 @@ SIZE_MAX_MM = 1e6
 def read_drawing(path: str) -> Drawn:
     """Return the lines and arcs in a .dxf or .svg file, mm.
 
-    Curves that are no arcs become arcs within ``curves.CURVE_MM``. Raises GenevaError, which names
+    Curves that are no arcs become arcs within ``drawn.CURVE_MM``. Raises GenevaError, which names
     the file and the place, for a file that cannot be read or has something that is no outline.
     """
     shown = cut(path, 300)
     ending = os.path.splitext(path)[1].lower()
     if ending not in (".dxf", ".svg"):
         raise GenevaError(f"{shown}: an outline is read from a .dxf or .svg file")
-    data = _bytes(path, shown)
-    try:
-        if ending == ".dxf":
-            from geneva_cli.output.foreign.dxf_pieces import read_dxf
-
-            drawn = read_dxf(data)
-        else:
-            from geneva_cli.output.foreign.svg_pieces import read_svg
-
-            drawn = read_svg(data)
-        _require_usable(drawn.pieces)
-    except GenevaError as error:
-        raise GenevaError(f"{shown}: {error}") from None
-    return drawn
-
-
-def _bytes(path: str, shown: str) -> bytes:
     try:
         with open(path, "rb") as file:
             data = file.read(BYTES_MAX + 1)
@@ -49,19 +32,24 @@ def _bytes(path: str, shown: str) -> bytes:
         raise GenevaError(f"{shown}: cannot read: {reason}") from None
     if len(data) > BYTES_MAX:
         raise GenevaError(f"{shown}: larger than {BYTES_MAX >> 20} MB, too large for an outline")
-    return data
-
-
-def _require_usable(pieces: tuple[Line | Arc, ...]) -> None:
-    """Raise GenevaError for too many pieces, and for coordinates that no machine has."""
-    if len(pieces) > PIECES_MAX:
+    if ending == ".dxf":
+        from geneva_cli.output.foreign.dxf_pieces import read_dxf as read
+    else:
+        from geneva_cli.output.foreign.svg_pieces import read_svg as read
+    try:
+        drawn = read(data)
+    except GenevaError as error:
+        raise GenevaError(f"{shown}: {error}") from None
+    if len(drawn.pieces) > PIECES_MAX:
         raise GenevaError(
-            f"{len(pieces)} lines and arcs, more than {PIECES_MAX}: draw arcs in place of lines"
+            f"{shown}: {len(drawn.pieces)} lines and arcs, more than {PIECES_MAX}: draw arcs in "
+            "place of lines"
         )
-    for piece in pieces:
+    for piece in drawn.pieces:
         numbers = (*piece.start, *piece.end, piece.bulge if isinstance(piece, Arc) else 0.0)
         if not all(math.isfinite(v) and abs(v) <= SIZE_MAX_MM for v in numbers):
             raise GenevaError(
-                f"a piece from {piece.start} to {piece.end}: coordinates must be finite, and at "
-                f"most {SIZE_MAX_MM:g} mm"
+                f"{shown}: a piece from {piece.start} to {piece.end}: coordinates must be finite, "
+                f"and at most {SIZE_MAX_MM:g} mm"
             )
+    return drawn

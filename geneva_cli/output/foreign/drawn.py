@@ -5,13 +5,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.geometry.fit.arcs import arcs
-from geneva_cli.geometry.fit.path import Curve
 from geneva_cli.geometry.shapes import Arc, Line, Point, about
 
 CURVE_MM = 1e-4  # greatest distance of the arcs that replace a curve which is no arc
@@ -34,12 +32,6 @@ def arc_pieces(centre: Point, radius: float, start: float, sweep: float) -> list
     return [about(centre, radius, start + sweep * i / count, sweep / count) for i in range(count)]
 
 
-def bulged(points: Sequence[tuple[float, float, float]], close: bool) -> list[Line | Arc]:
-    """Return the pieces of a polyline from its points (x, y, bulge)."""
-    ends = [*points, points[0]] if close and points else list(points)
-    return [Arc(p[:2], q[:2], p[2]) if p[2] else Line(p[:2], q[:2]) for p, q in pairwise(ends)]
-
-
 def ellipse_pieces(
     centre: complex, axes: tuple[complex, complex], span: tuple[float, float], unit: float = 1.0
 ) -> list[Line | Arc]:
@@ -59,10 +51,10 @@ def ellipse_pieces(
         tangents = minor * np.cos(t) - major * np.sin(t)
         return _pairs(points), _pairs(math.copysign(1.0, sweep) * tangents / np.abs(tangents))
 
-    return fitted(curve, start, start + sweep, unit)
+    return list(arcs(curve, start, start + sweep, CURVE_MM / unit))
 
 
-def bezier_pieces(poles: Sequence[complex], unit: float = 1.0) -> list[Line | Arc]:
+def bezier_pieces(poles: Sequence[complex]) -> list[Line | Arc]:
     """Return a quadratic or cubic Bézier curve as arcs within ``CURVE_MM``."""
     if len(poles) == 3:
         a, b, c = poles
@@ -75,25 +67,19 @@ def bezier_pieces(poles: Sequence[complex], unit: float = 1.0) -> list[Line | Ar
     bend = max(abs(((x - p) * chord.conjugate()).imag) for x in (q, r))
     if abs(chord) and bend <= 1e-9 * size * abs(chord):  # all poles on the chord
         return [Line((p.real, p.imag), (s.real, s.imag))]
+    # the tangents where the first or the last handle has no length
+    ahead = next(x for x in (q, r, s) if x != p) - p
+    behind = s - next(x for x in (r, q, p) if x != s)
 
     def curve(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         u = 1.0 - t
         points = p * u**3 + 3.0 * q * u * u * t + 3.0 * r * u * t * t + s * t**3
         rate = (q - p) * u * u + 2.0 * (r - q) * u * t + (s - r) * t * t
-        near = np.where(
-            t < 0.5,
-            next(x for x in (q, r, s) if x != p) - p,
-            s - next(x for x in (r, q, p) if x != s),
-        )
+        near = np.where(t < 0.5, ahead, behind)
         rate = np.where(np.abs(rate) > 1e-12 * size, rate, near)
         return _pairs(points), _pairs(rate / np.abs(rate))
 
-    return fitted(curve, 0.0, 1.0, unit)
-
-
-def fitted(curve: Curve, start: float, end: float, unit: float) -> list[Line | Arc]:
-    """Return a smooth curve as arcs within ``CURVE_MM``; a unit of the drawing has ``unit`` mm."""
-    return list(arcs(curve, start, end, CURVE_MM / unit))
+    return list(arcs(curve, 0.0, 1.0, CURVE_MM))
 
 
 def _pairs(points: np.ndarray) -> np.ndarray:

@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 import os
 import tempfile
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.geometry.fit.arcs import arcs
 from geneva_cli.geometry.measure import mapped
 from geneva_cli.geometry.shapes import Arc, Contour, Line
 from geneva_cli.output.ezdxf_alone import Document, readfile
-from geneva_cli.output.foreign.drawn import Drawn, arc_pieces, bulged, ellipse_pieces, fitted
+from geneva_cli.output.foreign.drawn import CURVE_MM, Drawn, arc_pieces, ellipse_pieces
 
 # $INSUNITS: millimetres in one unit
 UNITS = {
@@ -32,6 +33,7 @@ PASSED = {
     "TEXT", "MTEXT", "DIMENSION", "ARC_DIMENSION", "LEADER", "MULTILEADER", "MLEADER", "HATCH",
     "POINT", "ATTDEF", "ATTRIB", "VIEWPORT", "TOLERANCE", "IMAGE", "WIPEOUT", "XLINE", "RAY",
 }  # fmt: skip
+KNOWN = ("LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "ELLIPSE", "SPLINE")
 DEEPEST = 16  # blocks in blocks
 
 Pieces = list[Line | Arc]
@@ -53,8 +55,18 @@ def read_dxf(data: bytes) -> Drawn:
     pieces: Pieces = []
     exact, unit = True, UNITS.get(code, 1.0)
     for entity in _entities(document, document.modelspace(), 0):
-        pieces += _pieces(entity, unit)
-        exact &= entity.dxftype() not in CURVED
+        kind = entity.dxftype()
+        if kind not in KNOWN:
+            raise GenevaError(
+                f"{kind} on layer {cut(entity.dxf.get('layer', '0'))} is no outline; draw it as "
+                f"one of {', '.join(KNOWN)}"
+            )
+        try:
+            pieces += _pieces(kind, entity, unit)
+        except (ArithmeticError, ValueError, LookupError, AttributeError) as error:
+            handle = entity.dxf.get("handle", "?")
+            raise GenevaError(f"{kind} with the handle {handle} cannot be read: {error}") from None
+        exact &= kind not in ("ELLIPSE", "SPLINE")
     if unit != 1.0 and pieces:
         scaled = mapped(Contour("", tuple(pieces)), lambda p: (p[0] * unit, p[1] * unit), abs)
         pieces = list(scaled.segments)  # type: ignore[arg-type]  # no cubics
@@ -79,12 +91,17 @@ def _document(data: bytes) -> Document:
 
 
 def _entities(document: Document, entities: Iterable[Any], depth: int) -> Iterator[Any]:
-    """Yield the entities that bound parts, those of blocks too."""
+    """Yield the entities that are shown and bound parts, those of blocks too."""
     if depth > DEEPEST:
         raise GenevaError(f"blocks are nested more than {DEEPEST} deep")
     for entity in entities:
         kind, layer = entity.dxftype(), entity.dxf.get("layer", "0")
-        if kind in PASSED or not _is_shown(document, entity, layer):
+        known = document.layers.get(layer) if document.layers.has_entry(layer) else None
+        line = str(entity.dxf.get("linetype", "BYLAYER")).upper()
+        if line == "BYLAYER" and known:
+            line = str(known.dxf.get("linetype", "")).upper()
+        off = layer.upper() in LAYERS or (known and (known.is_off() or known.is_frozen()))
+        if kind in PASSED or off or line.startswith(DASHED) or entity.dxf.get("invisible", 0):
             continue
         if kind != "INSERT":
             yield entity
@@ -96,72 +113,54 @@ def _entities(document: Document, entities: Iterable[Any], depth: int) -> Iterat
             yield from _entities(document, one.virtual_entities(), depth + 1)
 
 
-def _is_shown(document: Document, entity: Any, layer: str) -> bool:
-    known = document.layers.get(layer) if document.layers.has_entry(layer) else None
-    if layer.upper() in LAYERS or (known and (known.is_off() or known.is_frozen())):
-        return False
-    line = str(entity.dxf.get("linetype", "BYLAYER")).upper()
-    if line == "BYLAYER" and known:
-        line = str(known.dxf.get("linetype", "")).upper()
-    return not line.startswith(DASHED) and not entity.dxf.get("invisible", 0)
-
-
-def _pieces(entity: Any, unit: float) -> Pieces:
-    kind = entity.dxftype()
-    if kind not in READERS and kind not in CURVED:
-        known = ", ".join((*READERS, *CURVED))
-        raise GenevaError(
-            f"{kind} on layer {cut(entity.dxf.get('layer', '0'))} is no outline; draw it as one of "
-            f"{known}"
-        )
-    try:
-        return CURVED[kind](entity, unit) if kind in CURVED else READERS[kind](entity)
-    except (ArithmeticError, ValueError, LookupError, AttributeError) as error:
-        handle = entity.dxf.get("handle", "?")
-        raise GenevaError(f"{kind} with the handle {handle} cannot be read: {error}") from None
-
-
-def _line(entity: Any) -> Pieces:
-    (x0, y0, _), (x1, y1, _) = entity.dxf.start, entity.dxf.end
-    return [Line((x0, y0), (x1, y1))]
-
-
-def _arc(entity: Any) -> Pieces:
+def _pieces(kind: str, entity: Any, unit: float) -> Pieces:
+    """Return an entity's pieces; a unit of the drawing has ``unit`` mm."""
     dxf = entity.dxf
-    start = math.radians(dxf.start_angle)
-    sweep = math.radians((dxf.end_angle - dxf.start_angle) % 360.0) or math.tau
-    return _seen(entity, arc_pieces(tuple(dxf.center)[:2], dxf.radius, start, sweep))
+    if kind == "LINE":
+        (x0, y0, _), (x1, y1, _) = dxf.start, dxf.end
+        return [Line((x0, y0), (x1, y1))]
+    if kind == "ELLIPSE":
+        tool = entity.construction_tool()
+        axes = tool.center, tool.major_axis, tool.minor_axis
+        centre, major, minor = (complex(v.x, v.y) for v in axes)
+        sweep = (tool.end_param - tool.start_param) % math.tau or math.tau
+        return ellipse_pieces(centre, (major, minor), (tool.start_param, sweep), unit)
+    if kind == "SPLINE":
+        return _spline(entity.construction_tool(), unit)
+    is_flat = True
+    if kind == "CIRCLE":
+        pieces = arc_pieces(tuple(dxf.center)[:2], dxf.radius, 0.0, math.tau)
+    elif kind == "ARC":
+        start = math.radians(dxf.start_angle)
+        sweep = math.radians((dxf.end_angle - dxf.start_angle) % 360.0) or math.tau
+        pieces = arc_pieces(tuple(dxf.center)[:2], dxf.radius, start, sweep)
+    elif kind == "LWPOLYLINE":
+        points = [tuple(map(float, point)) for point in entity.get_points("xyb")]
+        pieces = _bulged(points, entity.closed)
+    else:
+        if entity.is_poly_face_mesh or entity.is_polygon_mesh:
+            raise GenevaError("POLYLINE is a mesh, not an outline")
+        # 16: points of the frame of a fitted curve
+        corners = [v for v in entity.vertices if not v.dxf.flags & 16]
+        points = [(v.dxf.location.x, v.dxf.location.y, float(v.dxf.bulge)) for v in corners]
+        pieces, is_flat = _bulged(points, entity.is_closed), entity.is_2d_polyline
+    # as seen from above: the entity may be in a plane seen from below
+    across = dxf.get("extrusion", (0.0, 0.0, 1.0))
+    if is_flat and abs(abs(across[2]) - 1.0) > 1e-9:
+        raise GenevaError(f"{kind} does not lie in the drawing's plane")
+    if is_flat and across[2] < 0.0:
+        flipped = mapped(Contour("", tuple(pieces)), lambda p: (-p[0], p[1]), abs).segments
+        pieces = [p._replace(bulge=-p.bulge) if isinstance(p, Arc) else p for p in flipped]
+    return pieces
 
 
-def _circle(entity: Any) -> Pieces:
-    return _seen(entity, arc_pieces(tuple(entity.dxf.center)[:2], entity.dxf.radius, 0.0, math.tau))
+def _bulged(points: list[Any], close: bool) -> Pieces:
+    """Return the pieces of a polyline from its points (x, y, bulge)."""
+    ends = [*points, points[0]] if close and points else points
+    return [Arc(p[:2], q[:2], p[2]) if p[2] else Line(p[:2], q[:2]) for p, q in pairwise(ends)]
 
 
-def _lwpolyline(entity: Any) -> Pieces:
-    points = [tuple(map(float, point)) for point in entity.get_points("xyb")]
-    return _seen(entity, bulged(points, entity.closed))  # type: ignore[arg-type]
-
-
-def _polyline(entity: Any) -> Pieces:
-    if entity.is_poly_face_mesh or entity.is_polygon_mesh:
-        raise GenevaError("POLYLINE is a mesh, not an outline")
-    # 16: points of the frame of a fitted curve
-    corners = [v for v in entity.vertices if not v.dxf.flags & 16]
-    points = [(v.dxf.location.x, v.dxf.location.y, float(v.dxf.bulge)) for v in corners]
-    pieces = bulged(points, entity.is_closed)
-    return _seen(entity, pieces) if entity.is_2d_polyline else pieces
-
-
-def _ellipse(entity: Any, unit: float) -> Pieces:
-    tool = entity.construction_tool()
-    axes = tool.center, tool.major_axis, tool.minor_axis
-    centre, major, minor = (complex(v.x, v.y) for v in axes)
-    sweep = (tool.end_param - tool.start_param) % math.tau or math.tau
-    return ellipse_pieces(centre, (major, minor), (tool.start_param, sweep), unit)
-
-
-def _spline(entity: Any, unit: float) -> Pieces:
-    tool = entity.construction_tool()
+def _spline(tool: Any, unit: float) -> Pieces:
     knots, degree = list(tool.knots()), tool.degree
     if degree == 1:
         points = [(v.x, v.y) for v in tool.control_points]
@@ -177,38 +176,9 @@ def _spline(entity: Any, unit: float) -> Pieces:
     # at a knot of the degree's multiplicity the curve may have a corner
     inner = sorted(set(knots[degree : len(knots) - degree]))
     corners = [k for k in inner[1:-1] if knots.count(k) >= degree]
-    places = [inner[0], *corners, inner[-1]]
     edge = 1e-12 * (inner[-1] - inner[0])
     out: Pieces = []
-    for a, b in pairwise(places):
+    for a, b in pairwise([inner[0], *corners, inner[-1]]):
         low, high = a + (edge if a in corners else 0.0), b - (edge if b in corners else 0.0)
-        out += fitted(curve, low, high, unit)
+        out += arcs(curve, low, high, CURVE_MM / unit)
     return out
-
-
-READERS: dict[str, Callable[[Any], Pieces]] = {
-    "LINE": _line,
-    "ARC": _arc,
-    "CIRCLE": _circle,
-    "LWPOLYLINE": _lwpolyline,
-    "POLYLINE": _polyline,
-}
-# curves that become arcs
-CURVED: dict[str, Callable[[Any, float], Pieces]] = {"ELLIPSE": _ellipse, "SPLINE": _spline}
-
-
-def _seen(entity: Any, pieces: Pieces) -> Pieces:
-    """Return pieces as seen from above, which an entity may have in a plane seen from below."""
-    across = entity.dxf.get("extrusion", (0.0, 0.0, 1.0))
-    if abs(abs(across[2]) - 1.0) > 1e-9:
-        raise GenevaError(f"{entity.dxftype()} does not lie in the drawing's plane")
-    if across[2] > 0.0:
-        return pieces
-    return [_flipped(piece) for piece in pieces]
-
-
-def _flipped(piece: Line | Arc) -> Line | Arc:
-    (x0, y0), (x1, y1) = piece.start, piece.end
-    if isinstance(piece, Arc):
-        return Arc((-x0, y0), (-x1, y1), -piece.bulge)
-    return Line((-x0, y0), (-x1, y1))

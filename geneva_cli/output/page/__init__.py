@@ -1,12 +1,8 @@
-"""A scene as one page of HTML without network, which moves; and as a picture of one input angle.
-
-In the picture a hole is a shape of the page's colour, behind the shapes that it opens.
-"""
+"""A scene as one page of HTML without network: moving outlines, curves, and a slider."""
 
 from __future__ import annotations
 
 import json
-import math
 import os
 import re
 from collections.abc import Iterator
@@ -14,23 +10,22 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape
-from geneva_cli.output.inks import DARK, INKS
+from geneva_cli.geometry.shapes import Shape
+from geneva_cli.output.inks import INKS
 from geneva_cli.output.plot.plot_layout import labels, ticks
-from geneva_cli.output.scene import body_pose, place_at, pose, value_at
 from geneva_cli.output.svg import element
 
 if TYPE_CHECKING:
     from geneva_cli.output.scene import Place, Scene, Track
 
-GREY, BROWN, PAGE = "#757575", "#a56752", "#ffffff"
-BODY, LINK, ROLLER = "30", "33", "66"  # opacity of fills, of 255 in hexadecimal
-
 
 def chunks(scene: Scene) -> Iterator[str]:
     """Yield the page's text; the same scene gives the same bytes."""
-    data = json.dumps(_data(scene), separators=(",", ":"), allow_nan=False)
-    x, y, wide, high, _ = _view(scene)
+    x0, y0, x1, y1 = scene.box
+    size = max(x1 - x0, y1 - y0)
+    margin = 0.02 * size
+    view = x0 - margin, -y1 - margin, x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin
+    data = json.dumps(_data(scene, size), separators=(",", ":"), allow_nan=False)
     parts = {
         "TITLE": escape(clean(scene.title)),
         "CAPTION": escape(clean(scene.caption)),
@@ -41,7 +36,7 @@ def chunks(scene: Scene) -> Iterator[str]:
         "DATA": data.replace("<", "\\u003c"),
         "MOTION": _file("motion.js"),
         "SCRIPT": _file("page.js"),
-        "VIEW": " ".join(f"{v:.6g}" for v in (x, y, wide, high)),
+        "VIEW": " ".join(f"{v:.6g}" for v in view),
     }
     for body in scene.bodies:
         shapes = [_shape(shape, shape.layer.lower()) for shape in body.shapes]
@@ -59,14 +54,6 @@ def _file(name: str) -> str:
         return file.read()
 
 
-def _view(scene: Scene) -> tuple[float, float, float, float, float]:
-    """The upper left corner, width, height and size of what the scene shows; y down."""
-    x0, y0, x1, y1 = scene.box
-    size = max(x1 - x0, y1 - y0)
-    margin = 0.02 * size
-    return x0 - margin, -y1 - margin, x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin, size
-
-
 def _id(name: str) -> str:
     return name.replace(" ", "-")
 
@@ -75,7 +62,7 @@ def _shape(shape: Shape, name: str) -> str:
     return f'<g class="{name}">{element(shape).strip()}</g>'
 
 
-def _data(scene: Scene) -> dict[str, Any]:
+def _data(scene: Scene, size: float) -> dict[str, Any]:
     return {
         "start": scene.start_deg,
         "turn": scene.turn_deg,
@@ -83,7 +70,7 @@ def _data(scene: Scene) -> dict[str, Any]:
         "seconds": scene.seconds,
         "pauses": scene.pauses,
         "stop_s": scene.stop_s,
-        "size": _view(scene)[-1],
+        "size": size,
         "bodies": [
             {
                 "id": _id(b.name),
@@ -157,75 +144,3 @@ def _ticks(low: float, high: float, most: int, unit: str = "") -> list[tuple[flo
 
 def _short(value: float) -> float:
     return float(f"{value:.5g}")
-
-
-def still_chunks(scene: Scene) -> Iterator[str]:
-    """Yield a picture's text, as SVG, legible on light and on dark pages."""
-    x, y, wide, high, size = _view(scene)
-    t = 0.12 * scene.turn_deg  # then the first roller is in its slot
-    view = " ".join(f"{v:.6g}" for v in (x, y, wide, high))
-    width_px, line = 640.0, 0.004 * size
-    yield (
-        '<?xml version="1.0" encoding="UTF-8"?>\n'
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width_px:g}" '
-        f'height="{width_px * high / wide:.6g}" viewBox="{view}" fill="none" '
-        f'stroke-width="{line:.6g}" stroke-linejoin="round" stroke-linecap="round">\n'
-        f"<title>{escape(clean(scene.title), quote=False)}</title>\n"
-        "<style>@media screen and (prefers-color-scheme: dark) "
-        f"{{ .page {{ fill: {DARK.page} }} }}</style>\n"
-        f'<rect class="page" fill="{PAGE}" x="{x:.6g}" y="{y:.6g}" '
-        f'width="{wide:.6g}" height="{high:.6g}"/>\n'
-    )
-    if scene.frame:
-        (x, y), turned = scene.frame.centre, -math.degrees(value_at(scene.frame.angle, t))
-        yield f'<g transform="rotate({turned:.6g} {x:.6g} {0.0 - y:.6g})">\n'
-    yield from _placed(scene, t, size, line)
-    yield "</g>\n</svg>\n" if scene.frame else "</svg>\n"
-
-
-def _placed(scene: Scene, t: float, size: float, line: float) -> Iterator[str]:
-    """Yield the shapes of bodies and rollers, and circles, links or bars; ``line`` is their width.
-
-    A fill is PAGE for a hole, "" for a line, otherwise the ink with an opacity.
-    """
-    here, joint = (0.0, 0.0, 0.0), 0.008 * size
-    for body in scene.bodies:
-        at = body_pose(body, t)
-        for shape in body.shapes:
-            layer = "WHEEL" if shape.layer == "HOLLOW" else shape.layer
-            ink = INKS[layer].rgb if layer in INKS else GREY
-            is_closed = isinstance(shape, Circle) or shape.closed
-            is_line = shape.layer in ("PITCH", "GROOVE", "SLOT") or not is_closed
-            fill = "" if is_line else ink + BODY
-            yield _group(shape, at, ink, PAGE if shape.layer in ("BORE", "HOLLOW") else fill)
-    for bar in scene.bars:
-        ends = [place_at(place, t) for place in bar.joints]
-        if bar.radius:
-            yield _group(Circle("", ends[0], bar.radius), here, GREY)
-            continue
-        for plate in bar.plates:
-            at = pose(bar, plate, t)
-            for k, shape in enumerate(plate.shapes):
-                yield _group(shape, at, BROWN, PAGE if k else BROWN + LINK)
-        if bar.plates:
-            continue
-        if len(ends) > 1:
-            sides = tuple(map(Line, ends, [*ends[1:], ends[0]]))
-            yield _group(Contour("LINK", sides), here, BROWN, BROWN + LINK, 2.0 * line)
-        for end in ends:
-            yield _group(Circle("", end, joint), here, GREY, PAGE)
-    ink, roller = INKS["ROLLER"].rgb, Circle("ROLLER", (0.0, 0.0), scene.roller_radius)
-    for place in scene.rollers:
-        yield _group(roller, (*place_at(place, t), 0.0), ink, ink + ROLLER)
-
-
-def _group(
-    shape: Shape, at: tuple[float, float, float], ink: str, fill: str = "", width: float = 0.0
-) -> str:
-    x, y, angle = at
-    down, turned = 0.0 - y, 0.0 - math.degrees(angle)  # y points down, and 0 has no sign
-    paint = f' stroke="{ink}"' + (f' fill="{fill}"' if fill else "")
-    paint += ' class="page"' if fill == PAGE else ""
-    paint += f' stroke-width="{width:.6g}"' if width else ""
-    place = f'transform="translate({x:.6g} {down:.6g}) rotate({turned:.6g})"'
-    return f"<g {place}{paint}>{element(shape).strip()}</g>\n"

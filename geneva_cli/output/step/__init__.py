@@ -7,143 +7,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from geneva_cli.errors import clean
-from geneva_cli.geometry.plates import Group, Member, Part, Shell, Solid, solids
+from geneva_cli.geometry.plates import Group, Part, Shell, solids
 from geneva_cli.geometry.sheet import Drawing
-from geneva_cli.output.inks import Ink, inks
+from geneva_cli.output.inks import inks
 from geneva_cli.output.solid_part import solid_part
 from geneva_cli.output.step.entities import Entities, listed, real, words
-from geneva_cli.output.step.shell import shell_solid
-from geneva_cli.output.step.solid import solid
-
-
-class Product(NamedTuple):
-    """A part's definition and its shape."""
-
-    definition: str
-    shape: str
-
-
-class Products:
-    """The products of one file; equal parts are one product in several places."""
-
-    def __init__(self, file: Entities, whole: Part) -> None:
-        self.file = file
-        self.inks = inks(tuple(dict.fromkeys(one.layer for one in solids(whole))))
-        self.known: dict[Part, Product] = {}
-        self.styled: list[str] = []
-        application = file.add("APPLICATION_CONTEXT('automotive design')")
-        file.add(
-            "APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,"
-            f"{application})"
-        )
-        self.context = file.add(f"PRODUCT_CONTEXT('',{application},'mechanical')")
-        self.design = file.add(
-            f"PRODUCT_DEFINITION_CONTEXT('part definition',{application},'design')"
-        )
-        self.space = _space(file)
-        self.product(whole)
-        file.add(
-            f"MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',{listed(self.styled)},"
-            f"{self.space})"
-        )
-
-    def product(self, part: Part) -> Product:
-        """The product of a part, written at its first use."""
-        if part not in self.known:
-            product = self._group(part) if isinstance(part, Group) else self._solid(part)
-            self.known[part] = product
-        return self.known[part]
-
-    def _solid(self, one: Solid) -> Product:
-        body = shell_solid(self.file, one) if isinstance(one, Shell) else solid(self.file, one)
-        self.styled.append(self._styled(body, self.inks[one.layer]))
-        return self._defined(
-            one.name,
-            f"ADVANCED_BREP_SHAPE_REPRESENTATION('',({self.file.origin},{body}),{self.space})",
-        )
-
-    def _group(self, group: Group) -> Product:
-        parts = [self.product(member.part) for member in group.members]
-        places = [self._place(member) for member in group.members]
-        frames = listed(list(dict.fromkeys([self.file.origin, *places])))
-        whole = self._defined(group.name, f"SHAPE_REPRESENTATION('',{frames},{self.space})")
-        for number, (member, part, place) in enumerate(
-            zip(group.members, parts, places, strict=True), 1
-        ):
-            self._put(number, member, part, place, whole)
-        return whole
-
-    def _defined(self, name: str, shape: str) -> Product:
-        file, named = self.file, words(name)
-        number = file.add(f"PRODUCT({named},{named},'',({self.context}))")
-        file.add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({number}))")
-        formation = file.add(f"PRODUCT_DEFINITION_FORMATION('','',{number})")
-        definition = file.add(f"PRODUCT_DEFINITION('design','',{formation},{self.design})")
-        product = Product(definition, file.add(shape))
-        whole = file.add(f"PRODUCT_DEFINITION_SHAPE('','',{definition})")
-        file.add(f"SHAPE_DEFINITION_REPRESENTATION({whole},{product.shape})")
-        return product
-
-    def _place(self, member: Member) -> str:
-        if member.frame:
-            axis, ahead = (self.file.direction(*v) for v in (member.frame.z, member.frame.x))
-            return self.file.placement(member.at, 0.0, axis, ahead)
-        c, s = math.cos(member.turn), math.sin(member.turn)
-        return self.file.placement(member.at, 0.0, ahead=self.file.direction(c, s))
-
-    def _put(self, number: int, member: Member, part: Product, place: str, whole: Product) -> None:
-        file = self.file
-        use = file.add(
-            f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{number}',{words(member.part.name)},'',"
-            f"{whole.definition},{part.definition},$)"
-        )
-        used = file.add(f"PRODUCT_DEFINITION_SHAPE('','',{use})")
-        moved = file.add(f"ITEM_DEFINED_TRANSFORMATION('','',{file.origin},{place})")
-        related = file.add(
-            f"(REPRESENTATION_RELATIONSHIP('','',{part.shape},{whole.shape})"
-            f"REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION({moved})"
-            "SHAPE_REPRESENTATION_RELATIONSHIP())"
-        )
-        file.add(f"CONTEXT_DEPENDENT_SHAPE_REPRESENTATION({related},{used})")
-
-    def _styled(self, body: str, ink: Ink) -> str:
-        file = self.file
-        parts = ",".join(real(int(ink.rgb[i : i + 2], 16) / 255.0, 6) for i in (1, 3, 5))
-        colour = file.shared(f"COLOUR_RGB('',{parts})")
-        fill = file.shared(f"FILL_AREA_STYLE_COLOUR('',{colour})")
-        fill = file.shared(f"FILL_AREA_STYLE('',({fill}))")
-        fill = file.shared(f"SURFACE_STYLE_FILL_AREA({fill})")
-        side = file.shared(f"SURFACE_SIDE_STYLE('',({fill}))")
-        used = file.shared(f"SURFACE_STYLE_USAGE(.BOTH.,{side})")
-        style = file.shared(f"PRESENTATION_STYLE_ASSIGNMENT(({used}))")
-        return file.add(f"STYLED_ITEM('',({style}),{body})")
-
-
-def _space(file: Entities) -> str:
-    length = file.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))")
-    angle = file.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
-    solid_angle = file.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
-    near = file.add(
-        f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-06),{length},"
-        "'distance_accuracy_value','')"
-    )
-    return file.add(
-        f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(({near}))"
-        f"GLOBAL_UNIT_ASSIGNED_CONTEXT(({length},{angle},{solid_angle}))"
-        "REPRESENTATION_CONTEXT('',''))"
-    )
+from geneva_cli.output.step.plate import plate_solid
+from geneva_cli.output.step.shell import ShellWriter
 
 
 def chunks(drawing: Drawing) -> Iterator[str]:
-    """The file's text.
+    """Yield the file's text.
 
     Raises GenevaError for a drawing without solids, and for a coordinate that is not finite.
     """
     file = Entities()
-    Products(file, solid_part(drawing, "STEP"))
+    _Products(file, solid_part(drawing, "STEP"))
     yield (
         "ISO-10303-21;\nHEADER;\n"
         f"FILE_DESCRIPTION(({words(clean(drawing.title))}),'2;1');\n"
@@ -154,3 +35,106 @@ def chunks(drawing: Drawing) -> Iterator[str]:
     for start in range(0, len(file.lines), block):
         yield "".join(file.lines[start : start + block])
     yield "ENDSEC;\nEND-ISO-10303-21;\n"
+
+
+class _Products:
+    """The products of one file; equal parts are one product in several places."""
+
+    def __init__(self, file: Entities, whole: Part) -> None:
+        self.file = file
+        self.inks = inks(tuple(dict.fromkeys(one.layer for one in solids(whole))))
+        self.known: dict[Part, tuple[str, str]] = {}  # a part's definition and its shape
+        self.styled: list[str] = []
+        application = file.add("APPLICATION_CONTEXT('automotive design')")
+        file.add(
+            "APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,"
+            f"{application})"
+        )
+        self.context = file.add(f"PRODUCT_CONTEXT('',{application},'mechanical')")
+        self.design = file.add(
+            f"PRODUCT_DEFINITION_CONTEXT('part definition',{application},'design')"
+        )
+        length = file.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))")
+        angle = file.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
+        solid_angle = file.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
+        near = file.add(
+            f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-06),{length},"
+            "'distance_accuracy_value','')"
+        )
+        self.space = file.add(
+            f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(({near}))"
+            f"GLOBAL_UNIT_ASSIGNED_CONTEXT(({length},{angle},{solid_angle}))"
+            "REPRESENTATION_CONTEXT('',''))"
+        )
+        self.product(whole)
+        file.add(
+            f"MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',{listed(self.styled)},"
+            f"{self.space})"
+        )
+
+    def product(self, part: Part) -> tuple[str, str]:
+        """The product of a part, written at its first use."""
+        if part not in self.known:
+            if isinstance(part, Group):
+                self.known[part] = self._group(part)
+            else:
+                if isinstance(part, Shell):
+                    body = ShellWriter(self.file, part).solid()
+                else:
+                    body = plate_solid(self.file, part)
+                self._style(body, self.inks[part.layer].rgb)
+                shape = f"ADVANCED_BREP_SHAPE_REPRESENTATION('',({self.file.origin},{body}),"
+                self.known[part] = self._defined(part.name, f"{shape}{self.space})")
+        return self.known[part]
+
+    def _group(self, group: Group) -> tuple[str, str]:
+        file = self.file
+        parts = [self.product(member.part) for member in group.members]
+        places = []
+        for member in group.members:
+            if member.frame:
+                axis, ahead = (file.direction(*v) for v in (member.frame.z, member.frame.x))
+                places.append(file.placement(member.at, 0.0, axis, ahead))
+            else:
+                ahead = file.direction(math.cos(member.turn), math.sin(member.turn))
+                places.append(file.placement(member.at, 0.0, ahead=ahead))
+        frames = listed(list(dict.fromkeys([file.origin, *places])))
+        whole = self._defined(group.name, f"SHAPE_REPRESENTATION('',{frames},{self.space})")
+        for i, (member, part, place) in enumerate(zip(group.members, parts, places, strict=True)):
+            use = file.add(
+                f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{i + 1}',{words(member.part.name)},'',"
+                f"{whole[0]},{part[0]},$)"
+            )
+            used = file.add(f"PRODUCT_DEFINITION_SHAPE('','',{use})")
+            moved = file.add(f"ITEM_DEFINED_TRANSFORMATION('','',{file.origin},{place})")
+            related = file.add(
+                f"(REPRESENTATION_RELATIONSHIP('','',{part[1]},{whole[1]})"
+                f"REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION({moved})"
+                "SHAPE_REPRESENTATION_RELATIONSHIP())"
+            )
+            file.add(f"CONTEXT_DEPENDENT_SHAPE_REPRESENTATION({related},{used})")
+        return whole
+
+    def _defined(self, name: str, shape: str) -> tuple[str, str]:
+        file, named = self.file, words(name)
+        number = file.add(f"PRODUCT({named},{named},'',({self.context}))")
+        file.add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({number}))")
+        formation = file.add(f"PRODUCT_DEFINITION_FORMATION('','',{number})")
+        definition = file.add(f"PRODUCT_DEFINITION('design','',{formation},{self.design})")
+        shown = file.add(shape)
+        whole = file.add(f"PRODUCT_DEFINITION_SHAPE('','',{definition})")
+        file.add(f"SHAPE_DEFINITION_REPRESENTATION({whole},{shown})")
+        return definition, shown
+
+    def _style(self, body: str, rgb: str) -> None:
+        """Give a solid its colour."""
+        file = self.file
+        parts = ",".join(real(int(rgb[i : i + 2], 16) / 255.0, 6) for i in (1, 3, 5))
+        colour = file.shared(f"COLOUR_RGB('',{parts})")
+        fill = file.shared(f"FILL_AREA_STYLE_COLOUR('',{colour})")
+        fill = file.shared(f"FILL_AREA_STYLE('',({fill}))")
+        fill = file.shared(f"SURFACE_STYLE_FILL_AREA({fill})")
+        side = file.shared(f"SURFACE_SIDE_STYLE('',({fill}))")
+        used = file.shared(f"SURFACE_STYLE_USAGE(.BOTH.,{side})")
+        style = file.shared(f"PRESENTATION_STYLE_ASSIGNMENT(({used}))")
+        self.styled.append(file.add(f"STYLED_ITEM('',({style}),{body})"))

@@ -2,32 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
-from geneva_cli.geometry.shapes import Arc, Line, Point
-from geneva_cli.output.splines import Piece
+from geneva_cli.geometry.shapes import Point
 
 LENGTH = 12  # decimals of lengths in mm: with large coordinates more than a double has
 DIRECTION = 16  # decimals of directions, which act through a length
-
-
-class SolidCorner(NamedTuple):
-    """A corner of a contour: its lower and upper vertex, and the edge between them."""
-
-    low: str
-    high: str
-    edge: str
-
-
-class WallFace(NamedTuple):
-    """The face over one piece of a contour, and its edges in the solid's lower and upper face."""
-
-    face: str
-    low: str
-    high: str
-    along: bool  # True if the edges run in the contour's direction
 
 
 class Entities:
@@ -73,6 +53,35 @@ class Entities:
             f"AXIS2_PLACEMENT_3D('',{point},{axis or self.up},{ahead or self.ahead})"
         )
 
+    def vertex(self, point: str) -> str:
+        """A vertex at a point."""
+        return self.add(f"VERTEX_POINT('',{point})")
+
+    def edge(self, start: str, end: str, curve: str, along: bool = True) -> str:
+        """An edge between two vertices, on a curve that is written once."""
+        return self.add(f"EDGE_CURVE('',{start},{end},{self.shared(curve)},{_flag(along)})")
+
+    def loop(self, edges: Sequence[tuple[str, bool]]) -> str:
+        """A loop of edges end to end, each with its orientation."""
+        sides = [self.add(f"ORIENTED_EDGE('',*,*,{edge},{_flag(along)})") for edge, along in edges]
+        return self.add(f"EDGE_LOOP('',{listed(sides)})")
+
+    def face(self, loops: list[str], surface: str, same: bool) -> str:
+        """A face on a surface; ``same`` means that the normals have the same direction."""
+        first, *inner = loops
+        bounds = [self.add(f"FACE_OUTER_BOUND('',{first},.T.)")]
+        bounds += [self.add(f"FACE_BOUND('',{loop},.T.)") for loop in inner]
+        return self.add(f"ADVANCED_FACE('',{listed(bounds)},{surface},{_flag(same)})")
+
+    def closed_solid(self, faces: list[str]) -> str:
+        """The solid within a closed shell of faces."""
+        shell = self.add(f"CLOSED_SHELL('',{listed(faces)})")
+        return self.add(f"MANIFOLD_SOLID_BREP('',{shell})")
+
+
+def _flag(value: bool) -> str:
+    return ".T." if value else ".F."
+
 
 def real(value: float, decimals: int = LENGTH) -> str:
     """A number in the format's notation, with a point and without an exponent."""
@@ -94,75 +103,3 @@ def words(text: str) -> str:
         else:
             out += f"\\X2\\{ord(c):04X}\\X0\\" if c < "\U00010000" else f"\\X4\\{ord(c):08X}\\X0\\"
     return f"'{out}'"
-
-
-def edge(file: Entities, start: str, end: str, curve: str, along: bool) -> str:
-    """An edge between two vertices, on a curve that is written once."""
-    return file.add(f"EDGE_CURVE('',{start},{end},{file.shared(curve)},{_flag(along)})")
-
-
-def loop(file: Entities, edges: list[tuple[str, bool]]) -> str:
-    """A loop of edges end to end, each with its orientation."""
-    sides = [file.add(f"ORIENTED_EDGE('',*,*,{edge},{_flag(along)})") for edge, along in edges]
-    return file.add(f"EDGE_LOOP('',{listed(sides)})")
-
-
-def face(file: Entities, loops: list[str], surface: str, same: bool) -> str:
-    """A face on a surface; ``same`` means that the normals have the same direction."""
-    first, *inner = loops
-    bounds = [file.add(f"FACE_OUTER_BOUND('',{first},.T.)")]
-    bounds += [file.add(f"FACE_BOUND('',{loop},.T.)") for loop in inner]
-    return file.add(f"ADVANCED_FACE('',{listed(bounds)},{surface},{_flag(same)})")
-
-
-def _flag(value: bool) -> str:
-    return ".T." if value else ".F."
-
-
-def closed_solid(file: Entities, faces: list[str]) -> str:
-    """The solid within a closed shell of faces."""
-    shell = file.add(f"CLOSED_SHELL('',{listed(faces)})")
-    return file.add(f"MANIFOLD_SOLID_BREP('',{shell})")
-
-
-def level(file: Entities, z: float) -> str:
-    """The plane across the axis at a height."""
-    return file.add(f"PLANE('',{file.placement((0.0, 0.0), z)})")
-
-
-def curve(file: Entities, piece: Piece, z: float) -> str:
-    """The text of a piece's curve."""
-    if isinstance(piece, Line):
-        vector = file.shared(f"VECTOR('',{file.direction(*unit_of(piece))},1.)")
-        return f"LINE('',{file.point(piece.start, z)},{vector})"
-    if isinstance(piece, Arc):
-        return circle_at(file, piece.centre, piece.radius, z)
-    points = listed([file.point(pole, z) for pole in piece.poles])
-    count, knots = knots_of(piece.knots)
-    return (
-        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{points},.UNSPECIFIED.,.F.,.F.,{count},{knots},"
-        ".UNSPECIFIED.)"
-    )
-
-
-def is_along(piece: Piece) -> bool:
-    """Return True if a piece runs as its curve does: all but arcs that turn clockwise."""
-    return not isinstance(piece, Arc) or piece.bulge > 0.0
-
-
-def knots_of(ends: Sequence[float]) -> tuple[str, str]:
-    """The multiplicity of each knot, two where a cubic is once differentiable, and the knots."""
-    count = listed(["4", *["2"] * (len(ends) - 2), "4"])
-    return count, listed([real(end / ends[-1], DIRECTION) for end in ends])
-
-
-def unit_of(line: Line) -> Point:
-    """The direction of a line."""
-    (x0, y0), (x1, y1) = line
-    length = math.dist(line.start, line.end)
-    return (x1 - x0) / length, (y1 - y0) / length
-
-
-def circle_at(file: Entities, centre: Point, radius: float, z: float) -> str:
-    """The text of a circle at a height."""
-    return f"CIRCLE('',{file.placement(centre, z)},{real(radius)})"

@@ -19,6 +19,21 @@ from geneva_cli.table import for_people
 GAP = "  "  # between two columns
 PROSE = 28  # letters to which a column of prose is narrowed before another column is omitted
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
+NUMBER = 11  # letters of the widest number, -123456.789 mm
+
+
+class Window(NamedTuple):
+    """The width of lines in letters, the look of letters, and the options for all columns.
+
+    A ``whole`` table has every column, constant ones too; a ``wide`` one exceeds the window.
+    Letters may be ``styled``, as bold ones, and without ``unicode`` they are ASCII.
+    """
+
+    columns: int
+    styled: bool = False
+    whole: bool = False
+    wide: bool = False
+    unicode: bool = True
 
 
 class ShownColumn(NamedTuple):
@@ -33,7 +48,7 @@ class ShownColumn(NamedTuple):
 
     def least(self, prose: int = PROSE) -> int:
         """Least width in letters to which it can be narrowed; of prose at least ``prose``."""
-        if not self.is_prose():
+        if not (self.is_text and any(" " in text for text in self.cells)):
             return self.natural()
         prose = min(prose, 12) if self.decides else prose
         return max([min(self.natural(), prose), *map(width_of, self._words())])
@@ -42,13 +57,17 @@ class ShownColumn(NamedTuple):
         """Width in letters of its longest cell, and of its heading broken between words."""
         return max([width_of(text) for text in (*self._words(), *self.cells)], default=0)
 
-    def is_prose(self) -> bool:
-        """Return True if its cells may be broken into several lines."""
-        return self.is_text and any(" " in text for text in self.cells)
-
     def _words(self) -> list[str]:
         cells = [word for text in self.cells for word in text.split()] if self.is_text else []
         return [*self.words.split(), self.unit, *cells]
+
+
+def window(whole: bool, is_wide: bool) -> Window:
+    """The window of standard output; COLUMNS has precedence over the terminal's own width."""
+    styled = os.environ.get("TERM", "dumb") != "dumb" and not os.environ.get("NO_COLOR")
+    # A window of fewer than 60 columns breaks lines itself.
+    columns = max(shutil.get_terminal_size().columns, 60)
+    return Window(columns, styled, whole or is_wide, is_wide)
 
 
 def width_of(text: str) -> int:
@@ -74,7 +93,12 @@ def wrapped(text: str, width: int) -> list[str]:
     lines: list[str] = []
     line: str | None = None
     for word in text.split(" "):
-        for i, part in enumerate(_parts(word, width)):
+        parts = [word]
+        if width_of(word) > width and any(map(str.isalnum, word)):
+            parts = re.split(r"(?<=[/,=])|(?<=::)", word)  # behind a sign
+        elif width_of(word) > width:
+            parts = [word[i : i + width] for i in range(0, len(word), width)]
+        for i, part in enumerate(parts):
             longer = part if line is None else line + " " * (i == 0) + part
             if line is not None and width_of(longer) > width:
                 lines += [line.rstrip()] if line.strip() else []
@@ -83,13 +107,11 @@ def wrapped(text: str, width: int) -> list[str]:
     return [*lines, line or ""]
 
 
-def _parts(word: str, width: int) -> list[str]:
-    """The pieces between which a long word may be broken; most words are one piece."""
-    if width_of(word) <= width:
-        return [word]
-    if not any(map(str.isalnum, word)):
-        return [word[i : i + width] for i in range(0, len(word), width)]
-    return re.split(r"(?<=[/,=])|(?<=::)", word)  # behind a sign
+def paragraphs(text: str, window: Window, style: str = "") -> Iterator[str]:
+    """The lines of a text of one or more paragraphs."""
+    for paragraph in text.split("\n") if text else ():
+        for line in wrapped(clean(paragraph), min(window.columns, WIDTH)):
+            yield styled(line, style, window.styled)
 
 
 def widths(columns: Sequence[ShownColumn], width: int, prose: int = PROSE) -> list[int] | None:
@@ -112,14 +134,13 @@ def fitting(
     columns: Sequence[ShownColumn], order: Sequence[str], width: int
 ) -> tuple[list[ShownColumn], list[int]]:
     """The columns that fit, the first of ``order`` kept the longest, and their widths."""
-    rank = {name: i for i, name in enumerate(order)}
     kept = list(columns)
     while True:
         others = [column for column in kept if not column.decides and column.name != order[0]]
         sizes = widths(kept, width, PROSE if len(others) > 1 else 18)
         if sizes is not None or not others:
             return kept, sizes or [column.least(PROSE) for column in kept]
-        kept.remove(max(others, key=lambda column: rank[column.name]))
+        kept.remove(max(others, key=lambda column: order.index(column.name)))
 
 
 def heads(columns: Sequence[ShownColumn], sizes: Sequence[int], is_styled: bool) -> Iterator[str]:
@@ -141,33 +162,6 @@ def row(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> 
         yield _line([cell[level] if level < len(cell) else "" for cell in cells], sizes, is_text)
 
 
-def transposed(columns: Sequence[ShownColumn], width: int) -> list[str] | None:
-    """Columns as lines, with rows side by side; None if these do not fit either."""
-    labels = [f"{c.words}, {c.unit}" if c.unit else c.words for c in columns]
-    rows = list(zip(*(column.cells for column in columns), strict=True))
-    sides = [
-        ShownColumn("", "", "", labels, True),
-        *(ShownColumn("", "", "", cells, True) for cells in rows),
-    ]
-    sizes = widths(sides, width)
-    if sizes is None:
-        return None
-    texts = zip(*(side.cells for side in sides), strict=True)
-    return [
-        line
-        for column, cells in zip(columns, texts, strict=True)
-        for line in row(cells, sizes, [True, *[column.is_text or len(rows) == 1] * len(rows)])
-    ]
-
-
-def stacked(above: ShownColumn, below: ShownColumn, width: int) -> Iterator[str]:
-    """Two columns combined, each cell of one below the other's."""
-    for one, other in zip(above.cells, below.cells, strict=True):
-        yield from wrapped(one, width)
-        for line in wrapped(other, width - len(GAP)):
-            yield GAP + line
-
-
 def _line(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> str:
     cells = []
     for text, size, left in zip(texts, sizes, is_text, strict=True):
@@ -176,12 +170,24 @@ def _line(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -
     return GAP.join(cells).rstrip()
 
 
+def transposed(columns: Sequence[ShownColumn], width: int) -> list[str] | None:
+    """Columns as lines, with rows side by side; None if these do not fit either."""
+    labels = [f"{c.words}, {c.unit}" if c.unit else c.words for c in columns]
+    rows = list(zip(*(column.cells for column in columns), strict=True))
+    sides = [ShownColumn("", "", "", cells, True) for cells in (labels, *rows)]
+    sizes = widths(sides, width)
+    if sizes is None:
+        return None
+    lines = []
+    for column, cells in zip(columns, zip(labels, *rows, strict=True), strict=True):
+        is_text = [column.is_text or len(rows) == 1] * len(rows)
+        lines += row(cells, sizes, [True, *is_text])
+    return lines
+
+
 def styled(text: str, style: str, is_styled: bool) -> str:
     """A text in a style such as bold, if the terminal supports it; an empty one stays empty."""
     return f"{style}{text}{PLAIN}" if is_styled and style and text else text
-
-
-NUMBER = 11  # letters of the widest number, -123456.789 mm
 
 
 def value(number: Any, unit: str = "") -> str:
@@ -207,44 +213,3 @@ def bare(number: Any, unit: str) -> str:
         return "practically unlimited"
     digits, e, power = for_people(number, unit).partition("e")
     return f"{digits}e{int(power)}" if e else digits
-
-
-def aligned(texts: Sequence[str]) -> Sequence[str]:
-    """Numbers with aligned decimal points, if that takes little more width."""
-    numeric = re.compile(r"-?[\d.]+|-")  # without a power of ten; or no value
-    if not all(numeric.fullmatch(text) for text in texts):
-        return texts
-    tails = [len(text) - text.find(".") if "." in text else 0 for text in texts]
-    most = max(tails)
-    padded = [text + " " * (most - tail) for text, tail in zip(texts, tails, strict=True)]
-    # A column may become three letters wider.
-    return padded if max(map(len, padded)) <= max(map(len, texts)) + 3 else texts
-
-
-class Window(NamedTuple):
-    """The width of lines in letters, the look of letters, and the options for all columns.
-
-    A ``whole`` table has every column, constant ones too; a ``wide`` one exceeds the window.
-    Letters may be ``styled``, as bold ones, and without ``unicode`` they are ASCII.
-    """
-
-    columns: int
-    styled: bool = False
-    whole: bool = False
-    wide: bool = False
-    unicode: bool = True
-
-
-def window(whole: bool, is_wide: bool) -> Window:
-    """The window of standard output; COLUMNS has precedence over the terminal's own width."""
-    styled = os.environ.get("TERM", "dumb") != "dumb" and not os.environ.get("NO_COLOR")
-    # A window of fewer than 60 columns breaks lines itself.
-    columns = max(shutil.get_terminal_size().columns, 60)
-    return Window(columns, styled, whole or is_wide, is_wide)
-
-
-def paragraphs(text: str, window: Window, style: str = "") -> Iterator[str]:
-    """The lines of a text of one or more paragraphs."""
-    for paragraph in text.split("\n") if text else ():
-        for line in wrapped(clean(paragraph), min(window.columns, WIDTH)):
-            yield styled(line, style, window.styled)

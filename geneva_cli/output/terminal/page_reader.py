@@ -26,58 +26,55 @@ INDENT = "  "  # before code
 PROSE = 20  # letters to which a column of prose is narrowed before a table becomes a list
 LINK = re.compile(r"\[([^]]+)\]\([^)]*\)")
 CODE = re.compile(r"`([^`]+)`|\*\*([^*]+)\*\*")
+START = re.compile(r"(?=[-*] |#|\||```)")  # of a block, with or without an empty line before it
+RULE = re.compile(r"\|[-:| ]+")  # the line below the headings of a table
 
 
 def chunks(text: str, window: Window) -> Iterator[str]:
     """The page, line by line."""
-    for block in _blocks(text):
-        for line in _shown(block, window):
-            yield line + "\n"
-
-
-def _blocks(text: str) -> Iterator[list[str]]:
-    """The lines of each heading, paragraph, item, table and code block, and empty ones between."""
-    start = re.compile(r"(?=[-*] |#|\||```)")  # of a block, with or without an empty line before it
     block: list[str] = []
-    for line in text.splitlines():
-        if block and block[0].startswith(FENCE):
+    for line in [*text.splitlines(), None]:
+        first = block[0] if block else ""
+        if first.startswith(FENCE) and line is not None:
             if line.startswith(FENCE):
-                yield block
+                yield from _shown(block, window)
                 block = []
             else:
                 block.append(line)
             continue
-        is_row = line.startswith("|") and block and block[0].startswith("|")
-        if block and not is_row and (not line or start.match(line) or block[0].startswith("#")):
-            yield block
+        is_row = line and line.startswith("|") and first.startswith("|")
+        if block and not is_row and (not line or START.match(line) or first.startswith("#")):
+            yield from _shown(block, window)
             block = []
         if line:
             block.append(line)
-        else:
-            yield [""]
-    if block:
-        yield block
+        elif line is not None:
+            yield "\n"
 
 
 def _shown(block: list[str], window: Window) -> Iterator[str]:
+    """The lines of a heading, a paragraph, an item, a table or a block of code."""
     first = block[0]
     if first.startswith(FENCE):
         for line in block[1:]:
-            yield from (INDENT + part for part in _broken(line, window.columns - len(INDENT)))
+            yield from (f"{INDENT}{part}\n" for part in _broken(line, window.columns - len(INDENT)))
     elif first.startswith(4 * " "):  # code without fences
         for line in block:
-            yield from _broken(line, window.columns)
+            yield from (f"{part}\n" for part in _broken(line, window.columns))
     elif first.startswith("|"):
-        yield from _table(block, window)
+        yield from (f"{line}\n" for line in _table(block, window))
     elif first.startswith("#") and window.styled:
         for line in wrapped(_bare(first.lstrip("# ")), window.columns):
-            yield f"{BOLD}{line}{PLAIN}"
+            yield f"{BOLD}{line}{PLAIN}\n"
     else:
-        is_item = first.startswith(("- ", "* "))
-        text = " ".join(line.strip() for line in block)
-        width = min(window.columns, WIDTH) - len(INDENT) * is_item
-        lines = wrapped(LINK.sub(r"\1", text), width)
-        yield _marked(("\n" + INDENT * is_item).join(lines), window)
+        indent = INDENT * first.startswith(("- ", "* "))
+        text = LINK.sub(r"\1", " ".join(line.strip() for line in block))
+        text = f"\n{indent}".join(wrapped(text, min(window.columns, WIDTH) - len(indent)))
+        if window.styled:  # code and bold words in bold, also across lines
+            text = CODE.sub(
+                lambda m: BOLD + (m[1] or m[2]).replace("\n", f"{PLAIN}\n{BOLD}") + PLAIN, text
+            )
+        yield f"{text}\n"
 
 
 def _broken(line: str, width: int) -> list[str]:
@@ -90,9 +87,8 @@ def _broken(line: str, width: int) -> list[str]:
 
 
 def _table(block: list[str], window: Window) -> Iterator[str]:
-    rows = [[_bare(cell.strip()) for cell in line.strip("|").split("|")] for line in block]
-    rule = re.compile(r"\|[-:| ]+")  # the line below the headings
-    names, *rows = [r for r, line in zip(rows, block, strict=True) if not rule.fullmatch(line)]
+    lines = [line for line in block if not RULE.fullmatch(line)]
+    names, *rows = [[_bare(cell.strip()) for cell in line.strip("|").split("|")] for line in lines]
     columns = [
         ShownColumn(name, name, "", cells, True) for name, *cells in zip(names, *rows, strict=True)
     ]
@@ -110,15 +106,3 @@ def _table(block: list[str], window: Window) -> Iterator[str]:
 
 def _bare(text: str) -> str:
     return CODE.sub(lambda match: match[1] or match[2], LINK.sub(r"\1", text))
-
-
-def _marked(text: str, window: Window) -> str:
-    """Code and bold words in bold, also across lines; unchanged on a terminal without bold."""
-    if not window.styled:
-        return text
-
-    def bold(match: re.Match[str]) -> str:
-        words = match[1] or match[2]
-        return BOLD + words.replace("\n", f"{PLAIN}\n{BOLD}") + PLAIN
-
-    return CODE.sub(bold, text)

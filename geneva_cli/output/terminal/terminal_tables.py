@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from itertools import chain
 from typing import Any
@@ -15,13 +16,11 @@ from geneva_cli.output.terminal.layout import (
     NUMBER,
     ShownColumn,
     Window,
-    aligned,
     bare,
     fitting,
     heads,
     paragraphs,
     row,
-    stacked,
     styled,
     transposed,
     value,
@@ -64,42 +63,29 @@ def _values(record: Table, window: Window) -> Iterator[str]:
     for name, cell in zip(record.names, next(record.rows(), ()), strict=True):
         if cell is not None and cell != "":
             group, _, last = name.rpartition(".")
-            shown.append((group, last, cell))
-    labels = [("  " if group else "") + spoken(last)[0] for group, last, _ in shown]
-    width = max(map(width_of, labels), default=0)
-    current = ""
-    for label, (group, last, cell) in zip(labels, shown, strict=True):
+            words, unit = spoken(last)
+            texts = [value(one) for one in cell] or ["none"] if isinstance(cell, tuple) else []
+            if isinstance(cell, tuple) and cell and all(isinstance(v, (int, float)) for v in cell):
+                texts = [f"{', '.join(bare(one, '') for one in cell)} {unit}".rstrip()]
+            shown.append((group, "  " * bool(group) + words, texts or [value(cell, unit)]))
+    width = max((width_of(label) for _, label, _ in shown), default=0)
+    free, current = window.columns - width - len(GAP), ""
+    for group, label, texts in shown:
         if group != current:
             yield styled(heading(group), BOLD, window.styled)
             current = group
-        yield from _value(label, width, _paragraphs(cell, spoken(last)[1]), window)
-
-
-def _paragraphs(cell: Any, unit: str) -> list[str]:
-    if not isinstance(cell, tuple):
-        return [value(cell, unit)]
-    if all(isinstance(one, (int, float)) for one in cell) and cell:
-        return [f"{', '.join(bare(one, '') for one in cell)} {unit}".rstrip()]
-    return [value(one) for one in cell] or ["none"]
-
-
-def _value(label: str, width: int, texts: list[str], window: Window) -> Iterator[str]:
-    """A label and its value, in several lines if it is long."""
-    free = window.columns - width - len(GAP)
-    # A long value stands below its label if fewer than 30 letters are free behind it.
-    if len(texts) == 1 and (width_of(texts[0]) <= free or free >= 30):
-        first, *more = wrapped(texts[0], free)
-        yield f"{label}{' ' * (width - width_of(label))}{GAP}{first}"
-        for line in more:
-            yield " " * (width + len(GAP)) + line
-        return
-    yield label
-    indent = " " * (len(label) - len(label.lstrip()) + len(GAP))
-    for text in texts:
-        first, *more = wrapped(text, min(window.columns, WIDTH) - len(indent) - len(GAP))
-        yield f"{indent}- {first}"
-        for line in more:
-            yield f"{indent}  {line}"
+        # A long value stands below its label if fewer than 30 letters are free behind it.
+        if len(texts) == 1 and (width_of(texts[0]) <= free or free >= 30):
+            first, *more = wrapped(texts[0], free)
+            yield f"{label}{' ' * (width - width_of(label))}{GAP}{first}"
+            yield from (" " * (width + len(GAP)) + line for line in more)
+            continue
+        yield label
+        indent = " " * (len(label) - len(label.lstrip()) + len(GAP))
+        for text in texts:
+            first, *more = wrapped(text, min(window.columns, WIDTH) - len(indent) - len(GAP))
+            yield f"{indent}- {first}"
+            yield from (f"{indent}  {line}" for line in more)
 
 
 def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[str]:
@@ -124,17 +110,14 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
     order = [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
     width = 1_000_000 if window.wide else window.columns  # a million letters: without a limit
     kept, sizes = fitting(columns, order, width)
-    lost = [
-        column
-        for column in sorted(columns, key=lambda c: order.index(c.name))
-        if column not in kept
-    ]
-    other = [] if is_long or not lost else _other_layout(columns, kept, lost, window, is_inner)
-    if other:
-        yield from other
+    lost = [column for column in columns if column not in kept]
+    # rows that may be transposed
+    few = 3 if is_inner or 3 * len(kept) < len(columns) else 1
+    if lost and not is_long and len(first) <= few and (lines := transposed(columns, width)):
+        yield from lines
         return
     if not is_long and not table.mixed:
-        pointed = [column._replace(cells=aligned(column.cells)) for column in kept]
+        pointed = [column._replace(cells=_aligned(column.cells)) for column in kept]
         sizes, kept = (wider, pointed) if (wider := widths(pointed, width)) else (sizes, kept)
     yield from heads(kept, sizes, window.styled)
     is_text, names = [column.is_text for column in kept], {column.name for column in kept}
@@ -144,42 +127,39 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
         cells = [column.cells for column in _columns(table, block) if column.name in names]
         for texts in zip(*cells, strict=True):
             yield from row(texts, sizes, is_text)
-    yield from _left_out(lost, window)
+    if lost:
+        rest = sorted((column.name for column in lost), key=order.index)
+        one = "1 more column" if len(rest) == 1 else f"{len(rest)} more columns"
+        start, shown = f"{one}: --wide, or --columns ", ""
+        while rest and width_of(start + shown + rest[0]) + len(",...") <= window.columns:
+            shown += rest.pop(0) + ","
+        line = f"{start}{shown}..." if rest else start + shown[:-1]
+        yield ""
+        yield styled(line if shown else f"{one}: --wide", DIM, window.styled)
 
 
-def _other_layout(
-    columns: list[ShownColumn],
-    kept: list[ShownColumn],
-    lost: list[ShownColumn],
-    window: Window,
-    is_inner: bool,
-) -> list[str]:
-    """The lines of columns that do not all fit, transposed or stacked."""
-    few = 3 if is_inner or 3 * len(kept) < len(columns) else 1  # rows that may be transposed
-    if len(kept[0].cells) <= few and (lines := transposed(columns, window.columns)):
-        return lines
-    if len(kept) > 1:
-        return []
-    return [*stacked(kept[0], lost[0], window.columns), *_left_out(lost[1:], window)]
-
-
-def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
-    if not columns:
-        return
-    one = "1 more column" if len(columns) == 1 else f"{len(columns)} more columns"
-    start, names, rest = f"{one}: --wide, or --columns ", "", [column.name for column in columns]
-    while rest and width_of(start + names + rest[0]) + len(",...") <= window.columns:
-        names += rest.pop(0) + ","
-    line = f"{start}{names}..." if rest else start + names[:-1]
-    yield ""
-    yield styled(line if names else f"{one}: --wide", DIM, window.styled)
+def _aligned(texts: Sequence[str]) -> Sequence[str]:
+    """Numbers with aligned decimal points, if that takes little more width."""
+    numeric = re.compile(r"-?[\d.]+|-")  # without a power of ten; or no value
+    if not all(numeric.fullmatch(text) for text in texts):
+        return texts
+    tails = [len(text) - text.find(".") if "." in text else 0 for text in texts]
+    padded = [text + " " * (max(tails) - tail) for text, tail in zip(texts, tails, strict=True)]
+    # A column may become three letters wider.
+    return padded if max(map(len, padded)) <= max(map(len, texts)) + 3 else texts
 
 
 def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
     rows = block if table.mixed else list(without_noise(block))
-    columns = []
     naming = ("quantity", "dimension", "check")  # columns whose cells are names with units
-    by_row = _units_by_row(table, rows, naming)
+    # the unit of each row's values, from its column of units or from the row's name
+    by_row = [""] * len(rows)
+    for name in ("unit", *naming, "key"):
+        if name in table.names:
+            cells = [str(row[table.names.index(name)] or "") for row in rows]
+            by_row = cells if name == "unit" else [spoken(cell)[1] for cell in cells]
+            break
+    columns = []
     for name, values in zip(table.names, zip(*rows, strict=True), strict=True):
         literal = table.reading.designs and name not in naming
         words, unit = (name, "") if literal else spoken(name)
@@ -190,17 +170,6 @@ def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
         decides = name in table.reading.decide
         columns.append(ShownColumn(name, clean(words), unit, texts, is_text, decides))
     return columns
-
-
-def _units_by_row(
-    table: Table, rows: Sequence[Sequence[Any]], naming: Sequence[str]
-) -> Sequence[str]:
-    """The unit of each row's values, from its column of units or from the row's name."""
-    for name in ("unit", *naming, "key"):
-        if name in table.names:
-            cells = [str(row[table.names.index(name)] or "") for row in rows]
-            return cells if name == "unit" else [spoken(cell)[1] for cell in cells]
-    return [""] * len(rows)
 
 
 def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownColumn], list[str]]:

@@ -10,7 +10,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.plates import Member, Plate, plate_wall
 from geneva_cli.geometry.shapes import (
     ORIGIN,
     Arc,
@@ -22,7 +22,6 @@ from geneva_cli.geometry.shapes import (
     about,
     closed,
 )
-from geneva_cli.geometry.stacks import plate_wall
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Link, Teeth
 from geneva_cli.parts.links.link_sizes import LinkSizes

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Plate, placed
+from geneva_cli.geometry.plates import Member, Plate, apart, placed, plate_wall
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Layer, Point, Shape, convex_hull
-from geneva_cli.geometry.stacks import apart, plate_wall
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array

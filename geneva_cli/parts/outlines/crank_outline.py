@@ -17,7 +17,18 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Arc, Circle, Contour, Line, Segment, Shape, about, closed
+from geneva_cli.geometry.shapes import (
+    ORIGIN,
+    Arc,
+    Circle,
+    Contour,
+    Line,
+    Segment,
+    Shape,
+    about,
+    closed,
+)
+from geneva_cli.geometry.sheet import polar
 from geneva_cli.loads.tolerance.locking import Lock, loosest
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, within_half_turn
@@ -25,7 +36,7 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.sizes import Sizes, reach_and_hub
-from geneva_cli.parts.slots.roller_paths import HornSizes, horn_corners, roller_centres
+from geneva_cli.parts.slots.roller_paths import horn_corners, roller_centres
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
 Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
@@ -87,48 +98,43 @@ def followed(around: list[Relief]) -> list[tuple[Relief, float]]:
 
 
 def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
-    """Return the reliefs as wide as the wheel's horns need, with those that touch joined."""
-    joined: list[Relief] = []
-    for one in (_widened(assembly, sizes, relief, mouths) for relief in reliefs(assembly)):
-        if not joined or one.start - joined[-1].end > SAME_ANGLE:
-            joined.append(one)
-        else:
-            joined[-1] = joined[-1]._replace(end=max(one.end, joined[-1].end))
-    if len(joined) > 1 and joined[0].start + math.tau - joined[-1].end <= SAME_ANGLE:
-        joined = [joined[0]._replace(start=joined[-1].start - math.tau), *joined[1:-1]]
-    return joined
-
-
-def _widened(assembly: Assembly, sizes: Sizes, one: Relief, mouths: Mouths) -> Relief:
-    """Return a relief that clears both horns beside the slot of its motion.
+    """Return the reliefs as wide as the wheel's horns need, with those that touch joined.
 
     A horn's corner, p from the wheel's axis, is on the circle of the disc or of the recess where it
     is chi from the line of centres: p² + L² - 2 p L cos chi = k². In the motion it comes from the
     recess, passes the line and leaves the disc. It reaches farthest round the crank by then.
     """
-    engagement, behind = assembly.motions[one.motion]
-    L, half_step, middle = assembly.L, engagement.half_step, 0.5 * (one.start + one.end)
-    # samples 1/2000 of the motion apart bring a greatest value to 1e-5 degrees
-    at = np.linspace(engagement.entry_deg, engagement.exit_deg, 2001)
-    turned = engagement.motion(at, 0).c[0]
-    start, end, spare = one.start, one.end, sizes.relief / sizes.lock
-    corners = mouths.get(engagement) or next(iter(mouths.values()))  # slots are equal
-    for side, p in zip((1.0, -1.0), corners, strict=True):
-        cosines = [(L * L + p * p - k * k) / (2.0 * L * p) for k in (sizes.lock, sizes.recess)]
-        if max(cosines) >= 1.0:  # the corner never comes into the disc
-            continue
-        leaves, rests = (math.acos(max(cosine, -1.0)) for cosine in cosines)
-        last = side * (leaves - half_step + rests)
-        corner = side * (half_step - rests) + np.append(turned, last)
-        x, y = p * np.cos(corner) - L, p * np.sin(corner)
-        crank = assembly.crank(behind + np.append(at, np.interp(last, turned, at)))
-        off = within_half_turn(np.arctan2(y, x) - crank - middle)
-        off = off[np.hypot(x, y) < sizes.lock * (1.0 + SAME_LENGTH)]
-        if off.min(initial=0.0) < -one.half - SAME_ANGLE:
-            start = min(start, middle + off.min() - spare)
-        if off.max(initial=0.0) > one.half + SAME_ANGLE:
-            end = max(end, middle + off.max() + spare)
-    return one._replace(start=float(start), end=float(end))
+    joined: list[Relief] = []
+    for one in reliefs(assembly):
+        engagement, behind = assembly.motions[one.motion]
+        L, half_step, middle = assembly.L, engagement.half_step, 0.5 * (one.start + one.end)
+        # samples 1/2000 of the motion apart bring a greatest value to 1e-5 degrees
+        at = np.linspace(engagement.entry_deg, engagement.exit_deg, 2001)
+        turned = engagement.motion(at, 0).c[0]
+        start, end, spare = one.start, one.end, sizes.relief / sizes.lock
+        corners = mouths.get(engagement) or next(iter(mouths.values()))  # slots are equal
+        for side, p in zip((1.0, -1.0), corners, strict=True):
+            cosines = [(L * L + p * p - k * k) / (2.0 * L * p) for k in (sizes.lock, sizes.recess)]
+            if max(cosines) >= 1.0:  # the corner never comes into the disc
+                continue
+            leaves, rests = (math.acos(max(cosine, -1.0)) for cosine in cosines)
+            last = side * (leaves - half_step + rests)
+            corner = side * (half_step - rests) + np.append(turned, last)
+            x, y = p * np.cos(corner) - L, p * np.sin(corner)
+            crank = assembly.crank(behind + np.append(at, np.interp(last, turned, at)))
+            off = within_half_turn(np.arctan2(y, x) - crank - middle)
+            off = off[np.hypot(x, y) < sizes.lock * (1.0 + SAME_LENGTH)]
+            if off.min(initial=0.0) < -one.half - SAME_ANGLE:
+                start = min(start, middle + float(off.min()) - spare)
+            if off.max(initial=0.0) > one.half + SAME_ANGLE:
+                end = max(end, middle + float(off.max()) + spare)
+        if not joined or start - joined[-1].end > SAME_ANGLE:
+            joined.append(one._replace(start=start, end=end))
+        else:
+            joined[-1] = joined[-1]._replace(end=max(end, joined[-1].end))
+    if len(joined) > 1 and joined[0].start + math.tau - joined[-1].end <= SAME_ANGLE:
+        joined = [joined[0]._replace(start=joined[-1].start - math.tau), *joined[1:-1]]
+    return joined
 
 
 def sectors(around: list[Relief]) -> list[tuple[float, float]]:
@@ -141,13 +147,13 @@ def keyway_direction(assembly: Assembly) -> float:
     return next((0.5 * (start + end) for start, end in sectors(reliefs(assembly))), math.pi)
 
 
-def _horns(sizes: Sizes) -> HornSizes:
-    return HornSizes(sizes.roller, sizes.half_width, sizes.recess, sizes.rim, sizes.horn_tip)
+def _horns(assembly: Assembly, own: Sizes) -> Mouths:
+    return horn_corners(assembly, own.roller, own.half_width, own.recess, own.rim, own.horn_tip)
 
 
 def lock_of(where: Assembly, size: Sizes, cut: Sequence[float] = ()) -> Lock:
     """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
-    mouths = horn_corners(where, _horns(size))
+    mouths = _horns(where, size)
     # arcs end where the motions do
     arcs = not is_whole(where, size) or where.mechanism.spec.size.relief == "arc"
     locking = sectors(reliefs(where) if arcs else widened(where, size, mouths))
@@ -179,7 +185,7 @@ def crank_contours(
         return _rings(assembly, sizes, swept, spare)
     around = reliefs(assembly)
     if relief == "sector":
-        mouths = horn_corners(assembly, _horns(sizes))
+        mouths = _horns(assembly, sizes)
         around = widened(assembly, sizes, mouths)
     if sum(one.end - one.start for one in around) > math.tau - SAME_ANGLE:
         raise GenevaError(
@@ -189,9 +195,27 @@ def crank_contours(
         )
     segments: list[Segment] = []
     for one, after in followed(around):
-        segments += [_arc(sizes, one)] if relief == "arc" else _sector(assembly, sizes, one)
+        middle = 0.5 * (one.start + one.end)
+        if relief == "sector":  # down to where the wheel never comes
+            floor = assembly.L - sizes.rim - sizes.relief
+            bottom = about(ORIGIN, floor, one.start, one.end - one.start)
+            start, end = (polar(ORIGIN, sizes.lock, at) for at in (one.start, one.end))
+            segments += [Line(start, bottom.start), bottom, Line(bottom.end, end)]
+        elif one.half > 0.5 * math.pi - SAME_ANGLE:
+            raise GenevaError(
+                f'relief = "arc": the wheel moves over {math.degrees(2.0 * one.half):.6g} deg of '
+                'the crank, but an arc relieves less than 180 deg; set relief = "sector"',
+                ("size", "relief"),
+            )
+        else:
+            # The arc meets the disc at right angles. For a radial slot entered without shock it is
+            # the triangle of wheel, crank and roller at entry, scaled down to the disc.
+            centre = polar(ORIGIN, sizes.lock / math.cos(one.half), middle)
+            half = math.pi / 2.0 - one.half
+            radius = sizes.lock * math.tan(one.half)
+            segments.append(about(centre, radius, middle + math.pi + half, -2.0 * half))
         if after - one.end > SAME_ANGLE:
-            segments.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
+            segments.append(about(ORIGIN, sizes.lock, one.end, after - one.end))
     return [closed("CRANK", segments)]
 
 
@@ -211,35 +235,6 @@ def takes_arcs(assembly: Assembly, sizes: Sizes) -> bool:
     needed = max(bore + wall if bore else 0.0, hub if size.has_hub("crank") else 0.0)
     sector = assembly.L - sizes.rim - sizes.relief
     return arc_floor(assembly, sizes.lock) >= min(needed, sector)
-
-
-def _arc(sizes: Sizes, relief: Relief) -> Segment:
-    """Return one arc that meets the disc at right angles at both ends.
-
-    For a radial slot entered without shock it is the triangle of wheel, crank and roller at entry,
-    scaled down to the disc. Its centre is L rk/R from the axis, its radius is L cos b rk/R.
-    """
-    if relief.half > 0.5 * math.pi - SAME_ANGLE:
-        raise GenevaError(
-            f'relief = "arc": the wheel moves over {math.degrees(2.0 * relief.half):.6g} deg of '
-            'the crank, but an arc relieves less than 180 deg; set relief = "sector"',
-            ("size", "relief"),
-        )
-    middle = 0.5 * (relief.start + relief.end)
-    away, radius = sizes.lock / math.cos(relief.half), sizes.lock * math.tan(relief.half)
-    centre = away * math.cos(middle), away * math.sin(middle)
-    half = math.pi / 2.0 - relief.half
-    return about(centre, radius, middle + math.pi + half, -2.0 * half)
-
-
-def _sector(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
-    """Return the whole sector, down to where the wheel never comes: L - rim less a clearance."""
-    floor = assembly.L - sizes.rim - sizes.relief
-    bottom = about((0.0, 0.0), floor, relief.start, relief.end - relief.start)
-    start, end = (
-        (sizes.lock * math.cos(at), sizes.lock * math.sin(at)) for at in (relief.start, relief.end)
-    )
-    return [Line(start, bottom.start), bottom, Line(bottom.end, end)]
 
 
 def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
@@ -282,7 +277,13 @@ def _rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list
                 f"lock_radius_mm than {sizes.lock:.6g}, may leave part of it; 0 omits it",
                 ("size", "lock_radius_mm"),
             )
-        return _ring(sizes, middle, half, *inner(half))
+        edge, floor = inner(half)
+        low, high = middle - half, middle + half
+        outer = about(ORIGIN, sizes.lock, low, 2.0 * half)
+        begin, last = polar(ORIGIN, edge, high), polar(ORIGIN, edge, low)
+        bulge = (edge * math.cos(half) - floor) / (edge * math.sin(half))
+        inwards, outwards = Line(outer.end, begin), Line(last, outer.start)
+        return closed("CRANK", [outer, inwards, Arc(begin, last, bulge), outwards])
 
     return [ring(*span) for span in sectors(reliefs(assembly))]
 
@@ -297,17 +298,6 @@ def widest(whole: float, clears: Callable[[float], bool]) -> float | None:
     halves = [(1.0 - 0.02 * k) * whole for k in range(1, 40)]
     first = bisect_left(halves, True, key=clears)
     return halves[first] if first < len(halves) else None
-
-
-def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -> Contour:
-    """Return a locking sector with an inner arc, ``edge`` from the axis at its ends."""
-    low, high = middle - half, middle + half
-    outer = about((0.0, 0.0), sizes.lock, low, 2.0 * half)
-    start, end = ((edge * math.cos(at), edge * math.sin(at)) for at in (high, low))
-    bulge = (edge * math.cos(half) - floor) / (edge * math.sin(half))
-    return closed(
-        "CRANK", [outer, Line(outer.end, start), Arc(start, end, bulge), Line(end, outer.start)]
-    )
 
 
 def _inner(

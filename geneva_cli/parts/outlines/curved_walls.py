@@ -12,7 +12,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from geneva_cli.geometry import fit
 from geneva_cli.geometry.measure import mirrored
 from geneva_cli.geometry.shapes import Contour, Segment, about, joined
 from geneva_cli.motion.engagement import Engagement
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.outlines.path_walls import Wall, walls
@@ -34,13 +34,8 @@ STEP, ARC_STEP = 2.0**-24, 2.0**-30
 REACH = 3  # samples within which two walls meet
 FAR = 80  # samples in which their crossing is searched
 
-
-class WallPiece(NamedTuple):
-    """A part of a wall between two parameters, in either direction."""
-
-    wall: Wall
-    start: float
-    end: float
+# a part of a wall between two parameters, in either direction
+WallPiece: TypeAlias = tuple[Wall, float, float]
 
 
 class WallPlace(NamedTuple):
@@ -85,32 +80,73 @@ def curved_walls(
     pieces = chain(assembly, larger, walls(assembly, larger, engagement))
     for i, piece in enumerate(pieces):
         other = len(pieces) - 1 - i
-        both = other < i and engagement.mirrored
-        # walls count as mirror images within 1e-10 of the centre distance
-        if both and _mirrors(pieces[other], piece, 1e-10 * assembly.L):
-            runs.append(mirrored(runs[other]))
-        else:
-            runs.append(_segments(piece, half, curves))
+        if other < i and engagement.mirrored:
+            # walls count as mirror images in the slot's axis within 1e-10 of the centre distance
+            (one, a, b), (two, c, d) = pieces[other], piece
+            there = points_at(one, a, b, 0.5 * (a + b))
+            back = points_at(two, d, c, 0.5 * (c + d))
+            pairs = zip(there, back, strict=True)
+            if all(math.hypot(v - x, w + y) <= 1e-10 * assembly.L for (x, y), (v, w) in pairs):
+                runs.append(mirrored(runs[other]))
+                continue
+        runs.append(_segments(piece, half, curves))
     return Contour("WHEEL", joined(itertools.chain(*runs)), closed=False)
 
 
 def chain(assembly: Assembly, sizes: Sizes, around: list[Wall]) -> list[WallPiece]:
     """Return the pieces of walls that bound a slot, from its mouth's lower corner to its upper."""
-    rim = _Rim(assembly, sizes)
-    crossings = [c for wall in around for c in rim.crossings(wall)]
-    if not crossings:
+    close = 1e-9 * assembly.L  # on the rim counts as inside
+
+    def depth(points: Array) -> Array:
+        """Return how far points lie inside the wheel."""
+        return assembly.sign * (sizes.rim - np.hypot(points[..., 0], points[..., 1]))
+
+    def crossing(wall: Wall, outside: float, inside: float) -> float:
+        """Return the parameter at which a wall crosses the rim."""
+        return boundary_by_sections(
+            lambda t: depth(wall.curve(t)[0]), float(inside), float(outside)
+        )
+
+    # where walls enter the wheel: their first samples inside, and the parameters
+    entries: list[tuple[WallPlace, float]] = []
+    for wall in around:
+        deep = depth(wall.points)
+        inside, outside = (deep > -close) & wall.free, deep <= -close
+        rises = np.flatnonzero(outside[:-1] & inside[1:]) + 1
+        falls = np.flatnonzero(inside[:-1] & outside[1:])[::-1]
+        for sense, first, samples in ((1, 0, rises), (-1, len(deep) - 1, falls)):
+            if inside[first] and deep[first] < close < deep[first + sense]:
+                entries.append((WallPlace(wall, first, sense), float(wall.t[first])))
+            for i in samples.tolist():
+                at = crossing(wall, wall.t[i - sense], wall.t[i])
+                entries.append((WallPlace(wall, i, sense), at))
+    if not entries:
         raise _lost()
-    place, t = min(crossings, key=lambda c: math.atan2(*points_at(c[0].wall, c[1])[0][::-1]))
+    place, t = min(entries, key=lambda c: math.atan2(*points_at(c[0].wall, c[1])[0][::-1]))
     pieces: list[WallPiece] = []
     for _ in range(64):  # many times the walls of any slot
-        last, leaves = rim.run(place)
+        # on to the last free sample of the wall, or to the rim
+        wall, i, sense = place
+        deep_at, free, leaves = depth(wall.points).tolist(), wall.free.tolist(), None
+        while True:
+            after = i + sense
+            if not 0 <= after < len(wall.t):
+                leaves = float(wall.t[i]) if deep_at[i] < close and i != place.i else None
+                break
+            if deep_at[after] <= -close:
+                leaves = crossing(wall, wall.t[after], wall.t[i])
+                break
+            if not free[after]:
+                break
+            i = after
         if leaves is not None:
-            pieces.append(WallPiece(place.wall, t, leaves))
+            pieces.append((wall, t, leaves))
             # shorter pieces are rounding
             return [p for p in pieces if math.dist(*points_at(*p)) > 1e-7 * assembly.L]
+        last = WallPlace(wall, i, sense)
         following = _next(around, last)
         end, begin = _joint(last, following)
-        pieces.append(WallPiece(place.wall, t, end))
+        pieces.append((wall, t, end))
         place, t = following, begin
     raise _lost()
 
@@ -121,50 +157,6 @@ def _lost() -> GenevaError:
         "reduce roller_radius_mm or increase wheel_radius_mm",
         ("size", "roller_radius_mm"),
     )
-
-
-class _Rim:
-    """The wheel's rim, as a test of the side on which points lie; on the rim counts as inside."""
-
-    def __init__(self, assembly: Assembly, sizes: Sizes) -> None:
-        self.sign, self.radius, self.close = assembly.sign, sizes.rim, 1e-9 * assembly.L
-
-    def depth(self, points: Array) -> Array:
-        """Return how far points lie inside the wheel."""
-        return self.sign * (self.radius - np.hypot(points[..., 0], points[..., 1]))
-
-    def crossings(self, wall: Wall) -> Iterator[tuple[WallPlace, float]]:
-        """Yield where a wall enters the wheel: its first sample inside, and the parameter."""
-        depth = self.depth(wall.points)
-        inside = (depth > -self.close) & wall.free
-        outside, last = depth <= -self.close, len(depth) - 1
-        rises = np.flatnonzero(outside[:-1] & inside[1:]) + 1
-        falls = np.flatnonzero(inside[:-1] & outside[1:])[::-1]
-        for sense, first, entries in ((1, 0, rises), (-1, last, falls)):
-            if inside[first] and depth[first] < self.close < depth[first + sense]:
-                yield WallPlace(wall, first, sense), float(wall.t[first])
-            for i in entries.tolist():
-                yield WallPlace(wall, i, sense), self.crossing(wall, wall.t[i - sense], wall.t[i])
-
-    def crossing(self, wall: Wall, outside: float, inside: float) -> float:
-        """Return the parameter at which a wall crosses the rim."""
-        return boundary_by_sections(
-            lambda t: self.depth(wall.curve(t)[0]), float(inside), float(outside)
-        )
-
-    def run(self, place: WallPlace) -> tuple[WallPlace, float | None]:
-        """Return the last free sample from a place on, and the parameter of leaving the rim."""
-        wall, i, sense = place
-        depth, free = self.depth(wall.points).tolist(), wall.free.tolist()
-        while True:
-            here, after = WallPlace(wall, i, sense), i + sense
-            if not 0 <= after < len(wall.t):
-                return here, here.t if depth[i] < self.close and i != place.i else None
-            if depth[after] <= -self.close:
-                return here, self.crossing(wall, wall.t[after], wall.t[i])
-            if not free[after]:
-                return here, None
-            i = after
 
 
 def _next(around: list[Wall], last: WallPlace) -> WallPlace:
@@ -219,7 +211,11 @@ def _joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
 
 def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | None:
     """Return the parameters on both walls of their crossing near two samples; None if none."""
-    one, two = _window(last, -FAR, REACH), _window(following, -REACH, FAR)
+    samples = []  # around both, in the direction of travel
+    for place, behind, ahead in ((last, -FAR, REACH), (following, -REACH, FAR)):
+        i = place.i + place.sense * np.arange(behind, ahead + 1)
+        samples.append(i[(i >= 0) & (i < len(place.wall.t))])
+    one, two = samples
     p, q = last.wall.points[one], following.wall.points[two]
     d, e = np.diff(p, axis=0), np.diff(q, axis=0)
     off = q[None, :-1] - p[:-1, None]
@@ -248,12 +244,6 @@ def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | No
     return (a, b) if math.hypot(x, y) < 1e-7 * math.hypot(px, py) else None
 
 
-def _window(place: WallPlace, behind: int, ahead: int) -> Whole:
-    """Return the indices of samples around one, in the direction of travel."""
-    indices = place.i + place.sense * np.arange(behind, ahead + 1)
-    return indices[(indices >= 0) & (indices < len(place.wall.t))]
-
-
 def points_at(wall: Wall, *t: float) -> list[list[float]]:
     """Return the points of a wall at some parameters."""
     return wall.curve(np.array(t))[0].tolist()
@@ -264,14 +254,6 @@ def _runs(wall: Wall) -> Iterator[tuple[int, int]]:
     edges = np.flatnonzero(np.diff(np.concatenate(([False], wall.free, [False])).astype(int)))
     for start, end in zip(edges[::2], edges[1::2], strict=True):
         yield int(start), int(end) - 1
-
-
-def _mirrors(one: WallPiece, other: WallPiece, near: float) -> bool:
-    """Return True if a piece is the other's mirror image in the slot's axis, run backwards."""
-    there = points_at(one.wall, one.start, one.end, 0.5 * (one.start + one.end))
-    back = points_at(other.wall, other.end, other.start, 0.5 * (other.start + other.end))
-    pairs = zip(there, back, strict=True)
-    return all(math.hypot(v - x, w + y) <= near for (x, y), (v, w) in pairs)
 
 
 def _segments(piece: WallPiece, tolerance: float, curves: str) -> list[Segment]:

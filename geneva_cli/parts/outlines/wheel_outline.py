@@ -17,14 +17,24 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import turned, turned_pieces
-from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment, about, closed, joined
+from geneva_cli.geometry.shapes import (
+    ORIGIN,
+    Arc,
+    Contour,
+    Line,
+    Point,
+    Segment,
+    about,
+    closed,
+    joined,
+)
+from geneva_cli.geometry.sheet import polar
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import array, scalar
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.slot_ends import Tip, rounded, tip
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.slots.roller_paths import corner, least_mouth, mouth, rest
+from geneva_cli.parts.slots.roller_paths import Tip, corner, least_mouth, mouth, rest, rounded, tip
 from geneva_cli.parts.turn.pairs import CONTACT
 
 CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
@@ -106,17 +116,10 @@ def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> 
     if abs(apart) < SAME_ANGLE:
         pieces: tuple[Segment, ...] = (first, Arc(first.end, last.start, -out), last)
     else:
-        if apart < 0.0:
-            raise GenevaError(
-                "the slots that start and stop the wheel cross by "
-                f"{math.degrees(-2.0 * apart):.4g} deg: increase sector_deg, or set "
-                'gear_ratio = "shockless"',
-                ("drive", "sector_deg"),
-            )
         middle = (bottom - w, 0.0)
         quarter = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
         begin = turned_pieces([first, Arc(first.end, middle, -quarter)], -apart)
-        between = about((0.0, 0.0), middle[0], -apart, 2.0 * apart)
+        between = about(ORIGIN, middle[0], -apart, 2.0 * apart)
         finish = turned_pieces([Arc(middle, last.start, -quarter), last], apart)
         pieces = (*begin, between, *finish)
     return turned(Contour("WHEEL", joined(pieces), closed=False), angle)
@@ -143,7 +146,7 @@ def wheel_contour(
             if (off := (at - start) % math.tau) < span or span == 0.0
         )
         if convex and i == len(around) // 2:
-            rims.append([_about((0.0, 0.0), walls[i][-1].end, walls[following][0].start, 1.0)])
+            rims.append([_about(ORIGIN, walls[i][-1].end, walls[following][0].start, 1.0)])
         else:
             rims.append(_rim(assembly, sizes, walls[i], walls[following], recess))
     if sizes.mouth_radius:
@@ -164,25 +167,22 @@ def _round_mouths(
 
     A mouth that is extended along the roller's circle has its corner at the rim.
     """
-    c, sign = sizes.mouth_radius, assembly.sign
-    if _is_extension(rim[0]):
-        rim[:2] = rounded(_plain(rim[0]), _plain(rim[1]), c, sign)
+
+    def is_extension(piece: Segment) -> bool:
+        return isinstance(piece, Arc) and math.hypot(*piece.centre) > 0.1 * piece.radius
+
+    def corner(one: Segment, two: Segment) -> list[Segment]:
+        assert isinstance(one, Line | Arc) and isinstance(two, Line | Arc)  # slots are straight
+        return rounded(one, two, sizes.mouth_radius, assembly.sign)
+
+    if is_extension(rim[0]):
+        rim[:2] = corner(*rim[:2])
     else:
-        before[-1], *rim[:1] = rounded(_plain(before[-1]), _plain(rim[0]), c, sign)
-    if _is_extension(rim[-1]):
-        rim[-2:] = rounded(_plain(rim[-2]), _plain(rim[-1]), c, sign)
+        before[-1], *rim[:1] = corner(before[-1], rim[0])
+    if is_extension(rim[-1]):
+        rim[-2:] = corner(*rim[-2:])
     else:
-        *rim[-1:], after[0] = rounded(_plain(rim[-1]), _plain(after[0]), c, sign)
-
-
-def _is_extension(piece: Segment) -> bool:
-    """True for an arc of a mouth about the crank's axis, and not of the rim."""
-    return isinstance(piece, Arc) and math.hypot(*piece.centre) > 0.1 * piece.radius
-
-
-def _plain(segment: Segment) -> Line | Arc:
-    assert isinstance(segment, Line | Arc)  # of a straight slot, which alone is rounded
-    return segment
+        *rim[-1:], after[0] = corner(rim[-1], after[0])
 
 
 def _rim(
@@ -193,29 +193,16 @@ def _rim(
     A mouth that the recess does not reach is extended along the roller's circle about the crank's
     axis. Horns thinner than ``horn_tip_mm`` are cut back to flats, at which the walls then end.
     """
-    axis = assembly.L * math.cos(at), assembly.L * math.sin(at)
+    L = assembly.L
     flats: list[Tip | None] = [None, None]
     if sizes.lock and sizes.horn_tip:
-        one, other = before[-1], after[0]
+        one, other, axis = before[-1], after[0], polar(ORIGIN, L, at)
         assert isinstance(one, Line) and isinstance(other, Line)
         k, flat = sizes.recess, sizes.horn_tip
-        inwards = Line(other.end, other.start)
-        flats = [tip(one, axis, k, flat), tip(inwards, axis, k, flat)]
+        flats = [tip(one, axis, k, flat), tip(Line(other.end, other.start), axis, k, flat)]
         before[-1] = one._replace(end=flats[0].wall) if flats[0] else one
         after[0] = other._replace(start=flats[1].wall) if flats[1] else other
-    return _pieces(assembly, sizes, (before[-1].end, after[0].start), flats, at)
-
-
-def _pieces(
-    assembly: Assembly,
-    sizes: Sizes,
-    mouths: tuple[Point, Point],
-    flats: list[Tip | None],
-    at: float,
-) -> list[Segment]:
-    """Return the pieces of a rim between two mouths, with the flats of its horns."""
-    start, end = mouths
-    L = assembly.L
+    start, end = before[-1].end, after[0].start
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
     if math.remainder(last - first, math.tau) <= 0.0:
         raise GenevaError(
@@ -225,7 +212,7 @@ def _pieces(
         )
     last = first + (last - first) % math.tau
     at = first + (at - first) % math.tau
-    axis = L * math.cos(at), L * math.sin(at)
+    axis = polar(ORIGIN, L, at)
     distances = math.dist(start, axis), math.dist(end, axis)
     sharp = [d for d, flat in zip(distances, flats, strict=True) if not flat]
     if sizes.lock and min(sharp, default=math.inf) <= sizes.recess:
@@ -236,34 +223,30 @@ def _pieces(
         )
     rims = [math.hypot(*start), math.hypot(*end)]
     least = least_mouth(L, sizes.recess, sizes.rim) if sizes.lock else max(rims)
-    before: list[Segment] = []
-    after: list[Segment] = []
+    rising: list[Segment] = []
+    falling: list[Segment] = []
     outside = assembly.sign > 0.0
     if outside and not flats[0] and least > rims[0] + SAME_LENGTH * L:
         rims[0], first = least, at - _opening(L, least, distances[0])
-        before.append(_about(axis, start, _on(least, first), 1.0))
+        rising.append(_about(axis, start, polar(ORIGIN, least, first), 1.0))
     if outside and not flats[1] and least > rims[1] + SAME_LENGTH * L:
         rims[1], last = least, at + _opening(L, least, distances[1])
-        after.append(_about(axis, _on(least, last), end, 1.0))
+        falling.append(_about(axis, polar(ORIGIN, least, last), end, 1.0))
     if not sizes.lock:
-        return [*before, about((0.0, 0.0), rims[0], first, last - first), *after]
+        return [*rising, about(ORIGIN, rims[0], first, last - first), *falling]
     if flats[0]:
-        before, first_edge = [Line(start, flats[0].recess)], flats[0].recess
+        rising, first_edge = [Line(start, flats[0].recess)], flats[0].recess
     else:
         low = at - _opening(L, rims[0], sizes.recess)
-        before.append(about((0.0, 0.0), rims[0], first, low - first))
-        first_edge = _on(rims[0], low)
+        rising.append(about(ORIGIN, rims[0], first, low - first))
+        first_edge = polar(ORIGIN, rims[0], low)
     if flats[1]:
-        after, last_edge = [Line(flats[1].recess, end)], flats[1].recess
+        falling, last_edge = [Line(flats[1].recess, end)], flats[1].recess
     else:
         high = at + _opening(L, rims[1], sizes.recess)
-        after.insert(0, about((0.0, 0.0), rims[1], high, last - high))
-        last_edge = _on(rims[1], high)
-    return [*before, _about(axis, first_edge, last_edge, -assembly.sign), *after]
-
-
-def _on(radius: float, angle: float) -> Point:
-    return radius * math.cos(angle), radius * math.sin(angle)
+        falling.insert(0, about(ORIGIN, rims[1], high, last - high))
+        last_edge = polar(ORIGIN, rims[1], high)
+    return [*rising, _about(axis, first_edge, last_edge, -assembly.sign), *falling]
 
 
 def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:

@@ -1,4 +1,14 @@
-"""The paths of the rollers' centres, and the slots' mouths, in the wheel and about the crank."""
+"""The paths of the rollers' centres, and the ends of slots: mouths, and horns beside recesses.
+
+A horn between slot and recess is thinnest at its tip. With ``horn_tip_mm`` a thinner tip is cut
+off, square to its slot: the flat from the slot's wall to the recess is then that long. In a frame
+along the wall the recess's centre is at the depth d below it, and the flat is
+
+    s = sqrt(k² - (d - t)²)
+
+inwards of the centre, with k the recess's radius and t the flat. With ``mouth_radius_mm`` the
+corner of wall and rim, or of wall and flat, is rounded by an arc that touches both.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +18,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.shapes import Line, Point
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry import offsets
+from geneva_cli.geometry.measure import fraction_at, segment_length
+from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.outlines.slot_ends import tip
 
 TURN_SAMPLES = 720  # input angles at which a path is sampled
 
@@ -91,58 +103,40 @@ def least_mouth(L: float, recess: float, rim: float) -> float:
     return reach + 0.2 * (rim - reach)
 
 
-def mouth_corners(
-    assembly: Assembly, r: float, recess: float, rim: float
+def horn_corners(
+    assembly: Assembly, r: float, half_width: float, recess: float, rim: float, flat: float = 0.0
 ) -> dict[Engagement, tuple[float, float]]:
-    """Return the radii of each mouth's corners where the roller comes and goes, mm."""
+    """Return the distances from the axis of each slot's horns, mm, before and after a motion.
+
+    They are those of its mouth's corners where the roller comes and goes, or of tips cut to flats.
+    """
+    L = assembly.L
     widest = {kind: mouth(assembly, kind, r) for kind in assembly.kinds}
     shift = rim - max(widest.values())
-    least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
+    least = least_mouth(L, recess, rim) if assembly.sign > 0.0 else 0.0
     out = {}
-    for kind, own in widest.items():
-        entry, exit_ = own, own
-        if kind.slot.offset:
-            entry, exit_ = (math.hypot(*corner(assembly, kind, end, r)) for end in (-1.0, 1.0))
-        out[kind] = max(entry + shift, least), max(exit_ + shift, least)
+    for kind, wide in widest.items():
+        ends = []
+        for end in (-1.0, 1.0):
+            at = math.hypot(*corner(assembly, kind, end, r)) if kind.slot.offset else wide
+            at = max(at + shift, least)
+            if flat and recess:
+                x, y = kind.slot(kind.end_deg(end), 0)
+                u, v = kind.slot(0.0, 0)
+                start, centre = (L * scalar(u.c[0]), L * scalar(v.c[0])), rest(assembly, kind, end)
+                run = L * scalar(x.c[0]) - start[0], L * scalar(y.c[0]) - start[1]
+                ux, uy = run[0] / math.hypot(*run), run[1] / math.hypot(*run)
+                off = (centre[1] - start[1]) * ux - (centre[0] - start[0]) * uy
+                side = math.copysign(half_width, off)
+                x0, y0 = start[0] - side * uy, start[1] + side * ux
+                level = math.sqrt(max(at * at - (y0 * ux - x0 * uy) ** 2, 0.0))
+                along = assembly.sign * level - (x0 * ux + y0 * uy)
+                wall = Line((x0, y0), (x0 + along * ux, y0 + along * uy))
+                cut = tip(wall, centre, recess, flat)
+                at = math.hypot(*cut.recess) if cut else at
+            ends.append(at)
+        out[kind] = ends[0], ends[1]
     return out
-
-
-class HornSizes(NamedTuple):
-    """Sizes of mouths and horns, mm."""
-
-    roller: float
-    half_width: float
-    recess: float
-    rim: float
-    tip: float  # width of the flats of thin horns
-
-
-def horn_corners(assembly: Assembly, own: HornSizes) -> dict[Engagement, tuple[float, float]]:
-    """Return the distances from the axis of each slot's horns, mm, before and after a motion."""
-    mouths = mouth_corners(assembly, own.roller, own.recess, own.rim)
-    if not (own.tip and own.recess):
-        return mouths
-    return {
-        kind: (_cut(assembly, own, kind, -1.0, entry), _cut(assembly, own, kind, 1.0, exit_))
-        for kind, (entry, exit_) in mouths.items()
-    }
-
-
-def _cut(assembly: Assembly, own: HornSizes, kind: Engagement, end: float, mouth: float) -> float:
-    """Return the distance of one horn's corner at its recess, with ``mouth`` that of its mouth."""
-    x, y = kind.slot(kind.end_deg(end), 0)
-    u, v = kind.slot(0.0, 0)
-    L, centre = assembly.L, rest(assembly, kind, end)
-    start = L * scalar(u.c[0]), L * scalar(v.c[0])
-    out = L * scalar(x.c[0]) - start[0], L * scalar(y.c[0]) - start[1]
-    long = math.hypot(*out)
-    ux, uy = out[0] / long, out[1] / long
-    side = math.copysign(own.half_width, (centre[1] - start[1]) * ux - (centre[0] - start[0]) * uy)
-    x0, y0 = start[0] - side * uy, start[1] + side * ux
-    level = math.sqrt(max(mouth * mouth - (y0 * ux - x0 * uy) ** 2, 0.0))
-    along = assembly.sign * level - (x0 * ux + y0 * uy)
-    cut = tip(Line((x0, y0), (x0 + along * ux, y0 + along * uy)), centre, own.recess, own.tip)
-    return math.hypot(*cut.recess) if cut else mouth
 
 
 def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:
@@ -170,3 +164,75 @@ def roller_reaches(assembly: Assembly) -> list[float]:
     leaders = {engagement: i for i, (engagement, _) in enumerate(assembly.rollers)}
     at = [(i, np.array([assembly.rollers[i][1]])) for i in leaders.values()]
     return [math.hypot(*(assembly.pin(i, mid) - (assembly.L, 0.0))[0]) for i, mid in at]
+
+
+class Tip(NamedTuple):
+    """A flat at a horn's tip: its ends on the slot's wall and on the recess."""
+
+    wall: Point
+    recess: Point
+
+
+def tip(wall: Line, centre: Point, recess: float, width: float) -> Tip | None:
+    """Return the flat of a horn beside a wall that runs outwards; None for a horn thick enough.
+
+    ``centre`` and ``recess`` are centre and radius of the recess, and ``width`` is the flat's.
+    """
+    (x, y), long = wall.start, math.dist(wall.start, wall.end)
+    u, v = (wall.end[0] - x) / long, (wall.end[1] - y) / long
+    foot = (centre[0] - x) * u + (centre[1] - y) * v
+    side = (centre[1] - y) * u - (centre[0] - x) * v
+    depth = abs(side) - width
+    if not width or depth >= recess:
+        return None
+    at = foot - math.sqrt(max(recess**2 - depth * depth, 0.0))
+    if at >= long:
+        return None
+    if depth <= 0.0 or at <= 0.5 * long:
+        raise GenevaError(
+            f"horn_tip_mm = {width:g}: the horns would lose more than half of the slots; "
+            "use a smaller tip, or a smaller lock_radius_mm",
+            ("size", "horn_tip_mm"),
+        )
+    across = math.copysign(width, side)
+    on_wall = x + at * u, y + at * v
+    return Tip(on_wall, (on_wall[0] - across * v, on_wall[1] + across * u))
+
+
+def rounded(before: Line | Arc, after: Line | Arc, radius: float, sign: float) -> list[Segment]:
+    """Return two pieces with an arc between them; ``sign`` is 1 with the material on the left."""
+    centre = offsets.corner(before, after, sign * radius)
+    ends = []
+    for piece in (before, after):
+        distance, (x, y) = offsets.away(piece, centre)
+        ends.append((centre[0] - distance * x, centre[1] - distance * y))
+    parts = [fraction_at(piece, end) for piece, end in zip((before, after), ends, strict=True)]
+    if not (0.0 < parts[0] <= 1.0 and 0.0 <= parts[1] < 1.0):
+        raise GenevaError(
+            f"mouth_radius_mm = {radius:g}: a mouth's corner has no space for this rounding, as "
+            "wall, rim or tip of the horn is too short beside it; use a smaller radius",
+            ("size", "mouth_radius_mm"),
+        )
+    first, last = ends
+    begin, end = (math.atan2(y - centre[1], x - centre[0]) for x, y in ends)
+    sweep = math.remainder(end - begin, math.tau)
+    return [
+        offsets.between(before, before.start, first),
+        Arc(first, last, math.tan(0.25 * sweep)),
+        offsets.between(after, last, after.end),
+    ]
+
+
+def cut_walls(walls: Contour, wheel: Contour) -> Contour:
+    """Return the walls of a straight slot at its place as the contour of the wheel has them."""
+    first, *inner, last = walls.segments
+    lines = [piece for piece in wheel.segments if isinstance(piece, Line)]
+    inwards = next((line for line in lines if line.end == first.end), first)
+    outwards = next((line for line in lines if line.start == last.start), last)
+    return walls._replace(segments=(inwards, *inner, outwards))
+
+
+def wall_lost(walls: Contour, wheel: Contour) -> float:
+    """Return by how much the walls of a straight slot end deeper than at sharp mouths, mm."""
+    cut = cut_walls(walls, wheel).segments
+    return max(segment_length(walls.segments[i]) - segment_length(cut[i]) for i in (0, -1))

@@ -158,7 +158,7 @@ def _smallest_gaps(parts: TurnedParts, earlier: Earlier) -> tuple[Gap, Gap | Non
     """Return the smallest gaps of driving rollers, of idle ones if there are any, of the lock."""
     gaps, assembly, sizes = parts.gaps, parts.assembly, parts.sizes
     # positions so dense that parts move a quarter of the thinnest feature between two
-    grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.span_deg, 721)
+    grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.turn_deg, 721)
     crank, wheel = np.unwrap(assembly.crank(grid)), assembly.wheel(grid)
     travel = sizes.arm * np.abs(np.diff(crank)) + parts.rim_lever * np.abs(np.diff(wheel))
     total = np.concatenate(([0.0], np.cumsum(travel)))
@@ -173,7 +173,7 @@ def _smallest_gaps(parts: TurnedParts, earlier: Earlier) -> tuple[Gap, Gap | Non
     ends = np.array([b + e for s, b in assembly.motions for e in (s.entry_deg, s.exit_deg)])
     offsets = np.geomspace(0.01, 15.0, 24)  # degrees of the input, on either side
     near = (ends[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
-    near = assembly.start_deg + (near - assembly.start_deg) % assembly.span_deg
+    near = assembly.start_deg + (near - assembly.start_deg) % assembly.turn_deg
     at = rising(np.concatenate((even, near)))
 
     def rollers(x: Array, idle: bool) -> Array:
@@ -267,32 +267,3 @@ def _contact(parts: TurnedParts, motion: int) -> FirstContact:
     off = float(np.linalg.norm(begins + along[:, None] * step - roller[0], axis=1).min())
     off -= parts.sizes.half_width - parts.sizes.roller
     return FirstContact(off if off > parts.contact else 0.0, x)
-
-
-def gap_about(parts: TurnedParts, shown_deg: float) -> float:
-    """Return the smallest gap of any two parts, mm, at positions around one input angle."""
-    pose = parts.gaps.pose(_about(parts, shown_deg))
-    gap = float(parts.gaps.rollers(pose).min())
-    return min(gap, float(parts.gaps.locking(pose).min())) if parts.locked else gap
-
-
-def play_about(parts: TurnedParts, shown_deg: float) -> float:
-    """Return the largest play, degrees, around an input angle while no roller is in its slot."""
-    at = _about(parts, shown_deg)
-    free = np.ones(len(at), dtype=bool)
-    for start, end, motion, rests in windows(parts):
-        here = np.flatnonzero((at >= start - SAME_INPUT_DEG) & (at <= end + SAME_INPUT_DEG))
-        if len(here) and not rests:
-            free[here] &= parts.past_mouth(motion, at[here]) <= -SAME_INPUT_DEG * parts.assembly.L
-    if not free.any():
-        return 0.0
-    return math.degrees(float(np.maximum(*free_angles(parts, at[free])).max()))
-
-
-def _about(parts: TurnedParts, shown_deg: float) -> Array:
-    """Return input angles around one, within the turn that starts at the first entry."""
-    start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
-    beside = np.geomspace(0.01, 6.0, 14)  # degrees of the input on either side
-    place = parts.assembly.place_deg(shown_deg)
-    offsets: Array = place + np.concatenate((-beside, [0.0], beside)) - start
-    return start + offsets % turn

@@ -62,18 +62,21 @@ class Gaps:
     def _sector(self) -> None:
         """Reduce a wheel whose slots are all equal to one slot and its neighbours."""
         # the outline of an internal wheel runs clockwise
-        count, sense = len(self.assembly.slots), self.assembly.sign
-        repeats = _repeats(self.wheel, count, SAME_LENGTH * self.assembly.L, sense)
-        self.pitch = math.tau / count if repeats else 0.0
+        count, wheel = len(self.assembly.slots), self.wheel
+        each, rest = divmod(len(wheel), count)
+        self.pitch = 0.0
+        if not rest:
+            corners = np.column_stack((wheel.x0, wheel.y0))
+            angle = np.full(len(wheel), math.tau / count * self.assembly.sign)
+            off = turned_points(np.roll(corners, each, axis=0), angle) - corners
+            bends = np.column_stack((wheel.sense, wheel.cos_half))
+            other = np.abs(np.roll(bends, each, axis=0) - bends).max()
+            if np.abs(off).max() < SAME_LENGTH * self.assembly.L and other < SAME_LENGTH:
+                self.pitch = math.tau / count
         middle = np.arctan2(self.wheel.y0 + self.wheel.y1, self.wheel.x0 + self.wheel.x1)
         reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
         keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
         self.around = self.wheel.subset(keep) if self.pitch else self.wheel
-
-    def repeats(self, count: int) -> bool:
-        """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
-        alike = self.crank is None or _repeats(self.crank, count, SAME_LENGTH * self.assembly.L)
-        return bool(self.pitch) and alike
 
     def _to_wheel(self, points: Array) -> Array:
         """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
@@ -180,18 +183,6 @@ class Gaps:
     def _axis(self, turn: Array) -> Array:
         """Return the crank's axis in the wheel's frame, (n, 2)."""
         return self.plane_motion.into(np.tile((self.assembly.L, 0.0), (len(turn), 1)), turn)
-
-
-def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> bool:
-    """Return True if the outline coincides with itself when turned by 1/``count`` turn."""
-    each, rest = divmod(len(outline), count)
-    if rest:
-        return False
-    corners = np.column_stack((outline.x0, outline.y0))
-    angle = np.full(len(outline), math.tau / count * sense)
-    same = np.abs(turned_points(np.roll(corners, each, axis=0), angle) - corners).max() < near
-    bends = np.column_stack((outline.sense, outline.cos_half))
-    return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME_LENGTH)
 
 
 def _places_within(place: Array, period: float, middle: Array, half: float) -> tuple[Whole, Whole]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -25,6 +25,8 @@ STEEPEST = 30.0
 SHORTEST = 1e-10  # radians of the crank: a step that is not divided any more
 FACETED = 1e-4  # mm: outlines of short lines have a larger slack
 SAME = 1e-11  # radians of the wheel: a smaller move is rounding
+
+Around: TypeAlias = Callable[[float], Range]  # the range about an angle of the wheel
 
 
 class Push(NamedTuple):
@@ -101,39 +103,37 @@ class Turner:
 
         Without ``exact`` pushes begin and end on the grid, and positions at rest are left out.
         """
-        path = _Path(self.free, way, exact)
-        last = turns * self.steps
+        path, jam = _Path(self.free, way, exact), None
+        last, k = turns * self.steps, 1
         try:
             path.begin(self.start, self.rest(wheel), wheel)
-            k = 1
             while k <= last:
                 if not exact and path.begun is None:
-                    k = self._first_blocked(path.wheel, k, last, way)
-                    path.rest_until(self._crank(k - 1, way))
+                    # on to the first position at which the resting wheel is not free
+                    at = path.rows[-1][1]
+                    places = way * np.arange(k, min(k + self.steps, last + 1)) % self.steps
+                    hit = np.flatnonzero(self.ranges.are_blocked(at)[places])
+                    k = k + int(hit[0]) if len(hit) else last + 1
+                    crank = self.start + way * math.tau * (k - 1) / self.steps
+                    path.rows.append((crank, at, math.nan, math.nan))
                     if k > last:
                         break
-                path.to(self._crank(k, way), _looker(self.ranges, way * k % self.steps))
+                crank = self.start + way * math.tau * k / self.steps
+                path.to(crank, _looker(self.ranges, way * k % self.steps))
                 k += 1
         except _Stuck as stuck:
-            return path.done(stuck.jam)
-        return path.done(None)
-
-    def _crank(self, k: int, way: int) -> float:
-        return self.start + way * math.tau * k / self.steps
-
-    def _first_blocked(self, wheel: float, k: int, last: int, way: int) -> int:
-        """Return the first position from k on at which a resting wheel is not free, or last + 1."""
-        places = way * np.arange(k, min(k + self.steps, last + 1)) % self.steps
-        hit = np.flatnonzero(self.ranges.are_blocked(wheel)[places])
-        return k + int(hit[0]) if len(hit) else last + 1
+            jam = stuck.jam
+        if path.begun is not None:
+            path.pushes.append(Push(*path.begun, *path.rows[-1][:2]))
+        return LazyTurn(*np.array(path.rows).reshape(-1, 4).T, tuple(path.pushes), jam)
 
 
-def _looker(ranges: Ranges, i: int) -> Callable[[float], Range]:
+def _looker(ranges: Ranges, i: int) -> Around:
     return lambda wheel: ranges.around(i, wheel)
 
 
 class _Path:
-    """The path of a wheel, as it comes about."""
+    """The path of a wheel, as it comes about: crank, wheel, and the free range there."""
 
     def __init__(self, free: FreeRanges, way: int, exact: bool) -> None:
         self.free, self.way, self.exact = free, way, exact
@@ -144,92 +144,71 @@ class _Path:
     def begin(self, crank: float, rest: Range, wheel: float) -> None:
         """Start from a position, pushed out of an overlap of rounding."""
         if not rest.is_free:
-            near = min((rest.low, rest.high), key=lambda end: abs(end - wheel))
+            near = _pushed(rest, wheel)
             if abs(near - wheel) > 1e-3:  # radians: more is no rounding
                 raise _Stuck(Jam(crank, wheel, rest.low, rest.high))
-            wheel = near
-            rest = Range(True, near, near)
+            wheel, rest = near, Range(True, near, near)
         self.rows.append((crank, wheel, rest.low, rest.high))
 
-    @property
-    def wheel(self) -> float:
-        """The angle of the wheel now."""
-        return self.rows[-1][1]
-
-    def rest_until(self, crank: float) -> None:
-        """Go on to a crank angle up to which nothing pushes the wheel."""
-        self.rows.append((crank, self.wheel, math.nan, math.nan))
-
-    def done(self, jam: Jam | None) -> LazyTurn:
-        """Return the motion."""
-        if self.begun is not None:
-            self.pushes.append(Push(*self.begun, *self.rows[-1][:2]))
-        crank, wheel, low, high = np.array(self.rows).reshape(-1, 4).T
-        return LazyTurn(crank, wheel, low, high, tuple(self.pushes), jam)
-
-    def to(self, crank: float, around: Callable[[float], Range]) -> None:
+    def to(self, crank: float, around: Around) -> None:
         """Go on to the next position of the crank."""
-        before, wheel = self.rows[-1][:2]
+        good, wheel = self.rows[-1][:2]
         there = around(wheel)
-        if self.begun is None:
-            if there.is_free:
+        if there.is_free:
+            if self.begun is None:
                 self.rows.append((crank, wheel, there.low, there.high))
-                return
-            first = self._first(before, crank, wheel) if self.exact else before
-            self.begun = first, wheel
-            if first != before:
-                there = self.free.at(np.array([first])).around(0, wheel)
-                self.rows.append((first, wheel, there.low, there.high))
-        elif there.is_free:
-            self._release(crank, around)
+            else:
+                self._release(crank, around)
             return
+        if self.begun is None:
+            if self.exact:
+                # the crank angle from which on the wheel is not free, just before it
+                first, bad, free = good, crank, self.free.near(good, crank, wheel, SAME)
+                # 1e-13 radians with a slack of 1e-6 mm: events of facets are not known so closely
+                while abs(bad - good) > 1e-7 * self.free.slack:
+                    places = np.linspace(good, bad, PARTS + 1)
+                    ranges, i = free.at(places[1:-1]), 0
+                    while i < PARTS - 1 and ranges.around(i, wheel).is_free:
+                        i += 1
+                    if places[i] == good and places[i + 1] == bad:
+                        break
+                    good, bad = float(places[i]), float(places[i + 1])
+                if good != first:
+                    there = self.free.at(np.array([good])).around(0, wheel)
+                    self.rows.append((good, wheel, there.low, there.high))
+            self.begun = good, wheel
         self._follow(crank, around)
 
-    def _first(self, good: float, bad: float, wheel: float) -> float:
-        """Return the crank angle from which on the wheel is not free, just before it."""
-        free = self.free.near(good, bad, wheel, SAME)
-        # 1e-13 radians with a slack of 1e-6 mm: an event of facets is not known so closely
-        while abs(bad - good) > 1e-7 * self.free.slack:
-            places = np.linspace(good, bad, PARTS + 1)
-            ranges = free.at(places[1:-1])
-            hit = [i for i in range(PARTS - 1) if not ranges.around(i, wheel).is_free]
-            i = hit[0] if hit else PARTS - 1
-            if places[i] == good and places[i + 1] == bad:
-                break
-            good, bad = float(places[i]), float(places[i + 1])
-        return good
-
-    def _follow(
-        self, crank: float, around: Callable[[float], Range], is_near: bool = False
-    ) -> None:
+    def _follow(self, crank: float, around: Around, is_near: bool = False) -> None:
         """Go on to a crank angle to which the wheel is pushed."""
         before, wheel = self.rows[-1][:2]
-        step, pushed = abs(crank - before), _pushed(around(wheel), wheel)
+        step, there = abs(crank - before), around(wheel)
+        pushed = _pushed(there, wheel)
         steepest = STEEPEST if step < 1e-4 else SLOW
         if abs(pushed - wheel) <= steepest * step + SAME:
             self._add(crank, pushed, around, is_near)
             return
         if step < SHORTEST:
-            there = around(wheel)
             raise _Stuck(Jam(before, wheel, there.low, there.high))
         places = np.linspace(before, crank, PARTS + 1)[1:]
         ranges = self.free.near(before, crank, wheel, STEEPEST * step).at(places)
         for i in range(PARTS):
             self._follow(float(places[i]), _looker(ranges, i), is_near=True)
 
-    def _add(
-        self, crank: float, wheel: float, around: Callable[[float], Range], is_near: bool = False
-    ) -> None:
+    def _add(self, crank: float, wheel: float, around: Around, is_near: bool = False) -> None:
         """Add a position that touches, with the free range on the other side, if that is known."""
         if is_near or not self.exact:
             self.rows.append((crank, wheel, math.nan, math.nan))
             return
-        sides = [around(wheel), around(wheel - SAME), around(wheel + SAME)]
-        free = [there for there in sides if there.is_free]
-        low, high = (free[0].low, free[0].high) if free else (wheel, wheel)
+        low, high = wheel, wheel
+        for at in (wheel, wheel - SAME, wheel + SAME):
+            there = around(at)
+            if there.is_free:
+                low, high = there.low, there.high
+                break
         self.rows.append((crank, wheel, low, high))
 
-    def _release(self, crank: float, around: Callable[[float], Range]) -> None:
+    def _release(self, crank: float, around: Around) -> None:
         """End a push: where the wheel is moved farthest, before or after the last position."""
         assert self.begun is not None
         before, wheel = self.rows[-1][:2]

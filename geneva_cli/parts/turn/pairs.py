@@ -131,9 +131,6 @@ class Clearances(Protocol):
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the clearance between the crank's locking surfaces and the wheel, (n,)."""
 
-    def repeats(self, count: int) -> bool:
-        """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
-
     def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and on until parts overlap by ``close`` mm.
 

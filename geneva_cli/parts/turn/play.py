@@ -56,7 +56,7 @@ def windows(parts: TurnedParts) -> Iterator[Window]:
     assembly, motions = parts.assembly, parts.assembly.motions
     for i, (engagement, behind) in enumerate(motions):
         after, later = motions[(i + 1) % len(motions)]
-        turns = assembly.span_deg if i + 1 == len(motions) else 0.0
+        turns = assembly.turn_deg if i + 1 == len(motions) else 0.0
         exit_, following = behind + engagement.exit_deg, later + turns + after.entry_deg
         yield Window(behind + engagement.entry_deg, exit_, i, False)
         if following - exit_ > SAME_INPUT_DEG:
@@ -116,7 +116,7 @@ def _play_at(parts: TurnedParts, at: Array, fits: bool) -> Play:
     back, on = wheel_stops(parts, at, fits)
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed = np.zeros(len(at))
-    last = assembly.start_deg + assembly.span_deg
+    last = assembly.start_deg + assembly.turn_deg
     for start, end, motion, rests in windows(parts):
         here = (at >= start - SAME_INPUT_DEG) & (at <= end + SAME_INPUT_DEG)
         if not here.any():

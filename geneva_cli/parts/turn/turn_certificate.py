@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, TurnedPar
 from geneva_cli.parts.turn.play import windows
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
-Parts = TypeVar("Parts", bound=TurnedParts)
 
 
 class Open(NamedTuple):
@@ -58,7 +57,6 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
 
     ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0.
     """
-    parts = one_motion(parts)
     # the greatest rounding of a distance; doubles carry 2e-16
     spare = 1e-11 * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
@@ -144,14 +142,3 @@ def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, flo
     yield (start, leaves), first
     yield (leaves, meets), None
     yield (meets, end), last
-
-
-def one_motion(parts: Parts) -> Parts:
-    """Return the parts, checked over one motion and its dwell if all rollers move alike."""
-    assembly = parts.assembly
-    motions, m = assembly.motions, assembly.mechanism.spec.drive.rollers
-    one = len(assembly.mechanism.engagements) == 1
-    alike = one and len(motions) == len(assembly.rollers) == m > 1
-    if not (alike and parts.gaps.repeats(m)):
-        return parts
-    return parts.over(assembly._replace(motions=motions[:1], span_deg=assembly.turn_deg / m))

@@ -9,9 +9,9 @@ from typing import Any
 from geneva_cli.answer import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import Design
 from geneva_cli.errors import open_warnings
-from geneva_cli.loads.indexer_formula import recommended_motor
 from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import no_load
+from geneva_cli.loads.motor import RATED_kW, recommended_motor
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.table import Table
@@ -148,9 +148,10 @@ def motor_line(design: Design) -> SummaryLine:
         text = f"{needed}: more than any standard motor has"
         return SummaryLine("motor", text, "geneva explain motor", WARNS)
     power, source = measured(motor.rated_kW, "kW"), "the next power of IEC 60072-1"
-    if motor.is_small:
+    if motor.needed_W < 1e3 * RATED_kW[0]:
         source = f"less than the smallest motor of IEC 60072-1, {power}"
-        power = f"{measured(motor.needed_W, 'W')}, {measured(motor.torque_Nm, 'N m')}"
+        torque_Nm = motor.needed_W * 60.0 / (motor.rpm * math.tau)
+        power = f"{measured(motor.needed_W, 'W')}, {measured(torque_Nm, 'N m')}"
     four_poles_rpm = 1400.0  # at full load, of small motors with four poles at 50 Hz
     geared = f"{measured(motor.rpm, 'rpm')}, gear ratio {measured(keys.ratio)}"
     if keys.gear_ratio is None and 2.0 * motor.rpm <= four_poles_rpm:  # a slow input

@@ -24,7 +24,6 @@ from geneva_cli.verdict.headline import (
     chosen_lines,
     failure_lines,
     headline,
-    input_lines,
     measured,
     tightest,
     unused_lines,
@@ -40,7 +39,7 @@ def of_report(design: Design, is_full: bool) -> Answer:
     record = design.report.table
     state, text = headline(design.checks, design.warnings)
     checks, warnings = design.checks, design.warnings
-    first = (*failure_lines(checks), *input_lines(design.with_units))
+    first = failure_lines(checks)
     lines = (*first, *key_figures(design), *warning_lines(checks, warnings))
     lines = (*lines, *unused_lines(design.unused_acceptances))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)

@@ -38,7 +38,7 @@ MOTION: Checks = {
         gear_convexity="driver_gear_convexity driven_gear_convexity",
         least_velocity="velocity_min",
         groove_pressure="groove_pressure_deg",
-        curved_slot_pressure="pressure_angle_deg",
+        pressure_angle="pressure_angle_deg",
         driven_fraction="driven_fraction",
         undercut_depth="undercut_mm",
     ),
@@ -60,7 +60,6 @@ LIMITS: Checks = {
         limited_time="dwell_min_s motion_max_s cycle_max_s",
     ),
     **_of("load_checks", limited_load="pin_force_max_N input_torque_max_Nm"),
-    **_of("motion_checks", limited_pressure="pressure_angle_deg"),
     **_of(
         "load_checks",
         limited_load="contact_stress_max_MPa",
@@ -104,8 +103,7 @@ STATIC: Checks = {
     ),
     **_of(
         "walls",
-        branches_apart="branches_apart_mm",
-        branches_crossed="branches_crossed_mm",
+        branches="branches_apart_mm branches_crossed_mm",
         wheels_apart="wheels_apart_mm",
         cranks_apart="cranks_apart_mm",
     ),
@@ -124,7 +122,7 @@ STANDING: Checks = {
 # its slot, or meets the rim next to it, and jams.
 JAMS = _of(
     "play_checks",
-    hand_over="hand_over_play_deg hand_over_play_mm",
+    play="hand_over_play_deg hand_over_play_mm",
     hand_over_pressure="hand_over_pressure_deg",
     hand_over_offset="hand_over_offset_mm",
 )
@@ -147,10 +145,10 @@ TURNING: Checks = {
         dwell_hold="dwell_hold",
         smallest_gap="gap_mm",
         idle_roller="idle_roller_mm",
-        dwell="dwell_play_deg dwell_play_mm",
+        play="dwell_play_deg dwell_play_mm",
     ),
     **JAMS,
-    **_of("play_checks", motion="motion_play_deg motion_play_mm"),
+    **_of("play_checks", play="motion_play_deg motion_play_mm"),
     **PLAYS,
     **TOLERANCES,
 }

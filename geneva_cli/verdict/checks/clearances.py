@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.stacks import plate_wall
+from geneva_cli.geometry.plates import plate_wall
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.arm import CrankArm, walls
 from geneva_cli.parts.flat_parts import FlatParts

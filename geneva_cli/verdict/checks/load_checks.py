@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import to_digits
@@ -19,7 +19,6 @@ if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
     from geneva_cli.loads.impacts.shock_force import Impact
     from geneva_cli.loads.product import ProductMotion
     from geneva_cli.loads.strength.pin import PinSize
-    from geneva_cli.verdict.strength import Strength
 
 
 def limited_load(name: str, mechanism: Mechanism) -> Check | None:
@@ -70,13 +69,28 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
         return None
     from geneva_cli.loads.impacts.entry import entry_impacts
 
-    impact = entry_impacts(mechanism, pin=_pin(mechanism)).only
+    pin = _pin(mechanism)
+    impact = entry_impacts(mechanism, pin=pin).only
     if impact is None:
         return None
     check = _force_check(name, mechanism, impact)
-    if check.passes is not False:
-        return check
-    return check._replace(reason=partial(_tolerable, mechanism, check))
+
+    def tolerable() -> str:
+        """The tolerances, reduced by one fraction, with which the force is at its limit."""
+
+        def holds(fraction: float) -> bool:
+            reduced = entry_impacts(mechanism, fraction, pin).only
+            return reduced is None or (reduced.force_N or 0.0) <= (check.limit or 0.0)
+
+        low, given = boundary(holds, 0.0, 1.0, 40), tolerance.as_dict()  # two digits are shown
+        names = [
+            f"{key} = {to_digits(low * given[key] * (1.0 + 1e-9), 2, math.floor):g}"
+            for key in ("crank_radius_mm", "center_distance_mm")
+            if given[key]
+        ]
+        return " and ".join(names) + " in [tolerance]"
+
+    return check._replace(reason=tolerable) if check.passes is False else check
 
 
 def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
@@ -150,26 +164,6 @@ def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
     return Check(name, impact.force_N, "at most", limit, None, why, impact.at_deg)
 
 
-def _tolerable(mechanism: Mechanism, check: Check) -> str:
-    """The tolerances on R and L, reduced by one fraction, with which the force is at its limit."""
-    from geneva_cli.loads.impacts.entry import entry_impacts
-
-    limit, pin = check.limit or 0.0, _pin(mechanism)
-
-    def holds(fraction: float) -> bool:
-        impact = entry_impacts(mechanism, fraction, pin).only
-        return impact is None or (impact.force_N or 0.0) <= limit
-
-    low = boundary(holds, 0.0, 1.0, 40)  # two digits of it are shown
-    tolerance = mechanism.spec.tolerance.as_dict()
-    names = [
-        f"{key} = {to_digits(low * tolerance[key] * (1.0 + 1e-9), 2, math.floor):g}"
-        for key in ("crank_radius_mm", "center_distance_mm")
-        if tolerance[key]
-    ]
-    return " and ".join(names) + " in [tolerance]"
-
-
 def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
     """The resisting torque, limited by the wheel's inertia; None for slots with two walls."""
     if not mechanism.engagements[0].paired:
@@ -179,60 +173,43 @@ def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
     stop = arrival(mechanism)
     if stop is None:
         return None
-    check = compared(name, stop.torque_Nm, "at most", stop.most_Nm)
-    if check.passes or stop.most_Nm > 0.0:
+    torque_Nm, most_Nm, _ = stop
+    check = compared(name, torque_Nm, "at most", most_Nm)
+    if check.passes or most_Nm > 0.0:
         return check
     return check._replace(why="no inertia carries the wheel on: set inertia_kgm2 in [load]")
 
 
-class Bound(NamedTuple):
-    """A limited quantity of strength or life.
-
-    ``part`` is the loaded part whose default steel limits it if the spec does not. ``size`` is the
-    dimension on which its stress depends, ``words`` its name, and ``held`` what else must stay.
-    """
-
-    limit: str  # table.key
-    quantity: str
-    part: str = ""
-    size: str = ""
-    words: str = ""
-    held: str = ""
-
-
-# A change of one size moves others, such as bores and overhangs by load.
-_DRAWN = "with the other parts as they are"
+# Each limited quantity of strength and life: the key that limits it, its whole name, and the loaded
+# part whose default steel limits it if the spec does not.
 _WHEEL, _SHAFT = "material.wheel.stress_max_MPa", "shaft.shear_stress_max_MPa"
 BOUNDS = {
     **{
-        name: Bound(f"limits.{name}", LIMITED[name])
-        for name in ("pv_max_W_m2", "roller_life_min_h")
+        name: (f"limits.{name}", LIMITED[name], "") for name in ("pv_max_W_m2", "roller_life_min_h")
     },
-    "pin_stress_MPa": Bound(
-        "material.roller.stress_max_MPa", "pin.stress_MPa", "pin", "diameter_mm", "pin_mm"
+    "pin_stress_MPa": ("material.roller.stress_max_MPa", "strength.pin.stress_MPa", "pin"),
+    "horn_stress_MPa": (_WHEEL, "strength.horn.stress_MPa", "horn"),
+    "lock_horn_stress_MPa": (_WHEEL, "strength.lock.horn_stress_MPa", "horn"),
+    "lock_stress_max_MPa": ("limits.lock_stress_max_MPa", "strength.lock.greatest_MPa", ""),
+    "lock_deflection_max_deg": (
+        *("limits.lock_deflection_max_deg", "strength.lock.deflection_deg", ""),
     ),
-    "horn_stress_MPa": Bound(_WHEEL, "horn.stress_MPa", "horn"),
-    "lock_horn_stress_MPa": Bound(_WHEEL, "lock.horn_stress_MPa", "horn"),
-    "lock_stress_max_MPa": Bound("limits.lock_stress_max_MPa", "lock.greatest_MPa"),
-    "lock_deflection_max_deg": Bound("limits.lock_deflection_max_deg", "lock.deflection_deg"),
-    **{
-        f"{part}_shaft_stress_MPa": Bound(
-            _SHAFT,
-            f"{part}_shaft.stress_MPa",
-            f"{part}_shaft",
-            "diameter_mm",
-            f"the {part}'s shaft",
-            _DRAWN,
-        )
-        for part in ("wheel", "crank")
-    },
-    "arm_stress_MPa": Bound(
-        _WHEEL, "arm.stress_MPa", "arm", "thickness_mm", "arm_thickness_mm", "with these bores"
-    ),
-    **{
-        f"{key}_pressure_MPa": Bound(_WHEEL, f"{key}.pressure_MPa", key, "length_mm", "the key")
-        for key in ("wheel_key", "crank_key")
-    },
+    "wheel_shaft_stress_MPa": (_SHAFT, "strength.wheel_shaft.stress_MPa", "wheel_shaft"),
+    "crank_shaft_stress_MPa": (_SHAFT, "strength.crank_shaft.stress_MPa", "crank_shaft"),
+    "arm_stress_MPa": (_WHEEL, "strength.arm.stress_MPa", "arm"),
+    "wheel_key_pressure_MPa": (_WHEEL, "strength.wheel_key.pressure_MPa", "wheel_key"),
+    "crank_key_pressure_MPa": (_WHEEL, "strength.crank_key.pressure_MPa", "crank_key"),
+}
+# The size on which a part's stress depends, its name, and what must stay: a change of one size
+# moves others, such as bores and overhangs by load.
+_DRAWN = "with the other parts as they are"
+SIZES = {
+    "pin": ("diameter_mm", "pin_mm", ""),
+    "wheel_shaft": ("diameter_mm", "the wheel's shaft", _DRAWN),
+    "crank_shaft": ("diameter_mm", "the crank's shaft", _DRAWN),
+    "arm": ("thickness_mm", "arm_thickness_mm", "with these bores"),
+    "wheel_key": ("length_mm", "the key", ""),
+    "crank_key": ("length_mm", "the key", ""),
 }
 
 
@@ -242,46 +219,44 @@ def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
     Loaded parts are limited by the spec, or else by their default steel. It is not proved if a key
     is missing.
     """
-    bound = BOUNDS[name]
-    table, _, key = bound.limit.rpartition(".")
+    whole, quantity, part = BOUNDS[name]
+    table, _, key = whole.rpartition(".")
     limit = own = mechanism.spec.table(table)[key]
-    if own is None and not (bound.part and mechanism.spec.is_loaded):
+    if own is None and not (part and mechanism.spec.is_loaded):
         return None
     from geneva_cli.verdict.strength import BOUND, strength
 
     of = strength(mechanism)
     # a key's allowable shear limits it, too
-    if bound.part and (own is None or bound.words == "the key"):
-        limit = of[f"strength.{bound.part}.allowed_MPa"]
-    life = bound.quantity.startswith("life.")
-    value = of[bound.quantity if life else f"strength.{bound.quantity}"]
-    must_be = "at least" if name == "roller_life_min_h" else "at most"
-    if value is not None and limit is not None:
-        placed = name in ("horn_stress_MPa", "wheel_shaft_stress_MPa", "crank_shaft_stress_MPa")
-        at_deg = of[f"strength.{bound.part}.at_deg"] if placed else None
-        check = compared(name, value, must_be, limit, at_deg)
-        return check if check.passes else check._replace(reason=partial(_needed, bound, of, check))
-    reason = of.reason(name)
-    # without a limit in the spec, a value that needs another key is not asked for
-    if reason is None or (own is None and reason != BOUND):
-        return None
-    return Check(name, None, must_be, limit, None, f"not known: it needs {reason}")
+    if part and (own is None or part.endswith("_key")):
+        limit = of[f"strength.{part}.allowed_MPa"]
+    value, must_be = of[quantity], "at least" if name == "roller_life_min_h" else "at most"
+    if value is None or limit is None:
+        reason = of.reason(name)
+        # without a limit in the spec, a value that needs another key is not asked for
+        if reason is None or (own is None and reason != BOUND):
+            return None
+        return Check(name, None, must_be, limit, None, f"not known: it needs {reason}")
+    placed = name in ("horn_stress_MPa", "wheel_shaft_stress_MPa", "crank_shaft_stress_MPa")
+    at_deg = of[f"strength.{part}.at_deg"] if placed else None
+    check = compared(name, value, must_be, limit, at_deg)
 
-
-def _needed(bound: Bound, of: Strength, check: Check) -> str:
-    """The size on which a failing stress depends, and what it must be; empty if unknown."""
-    if bound.size:
-        table = f"strength.{bound.part}"
-        size, least = of[f"{table}.{bound.size}"], of[f"{table}.least_{bound.size}"]
-        if size is None:
+    def needed() -> str:
+        """The size on which the stress depends, and what it must be; empty if unknown."""
+        if part in SIZES:
+            size, words, held = SIZES[part]
+            now, least = of[f"strength.{part}.{size}"], of[f"strength.{part}.least_{size}"]
+            if now is None:
+                return ""
+            needs = "no value is enough" if least is None else f"this load needs {least:.4g}"
+            return f"{words} is {now:.4g} mm, but {needs} {held}".rstrip()
+        # a horn's stress is in inverse proportion to the width of the contact
+        if not part or of.contact_mm is None or not limit:
             return ""
-        needs = "no value is enough" if least is None else f"this load needs {least:.4g}"
-        return f"{bound.words} is {size:.4g} mm, but {needs} {bound.held}".rstrip()
-    # a horn's stress is in inverse proportion to the width of the contact
-    if not bound.part or of.contact_mm is None or not check.value or not check.limit:
-        return ""
-    least = of.contact_mm * check.value / check.limit
-    return f"the contact is {of.contact_mm:.4g} mm wide, but this load needs {least:.4g}"
+        least = of.contact_mm * value / limit
+        return f"the contact is {of.contact_mm:.4g} mm wide, but this load needs {least:.4g}"
+
+    return check if check.passes else check._replace(reason=needed)
 
 
 def first_stress(name: str, parts: FlatParts) -> Check | None:
@@ -294,12 +269,7 @@ def first_stress(name: str, parts: FlatParts) -> Check | None:
     check = strength_limit(name.removeprefix("first_"), parts.front.mechanism)
     if check is None:
         return None
-    # its angles are counted from another motion of the first wheel
-    check = check._replace(name=name, at_deg=None)
-    return check._replace(reason=partial(_of_links, check)) if check.reason else check
-
-
-def _of_links(check: Check) -> str:
-    """The reason of a first wheel's check, whose sizes are those of links."""
+    # its angles are counted from another motion of the first wheel, and its sizes are of links
     why = check.told.why.replace("arm_thickness_mm", "link_thickness_mm")
-    return why.replace("the crank's shaft", "the first crank's shaft")
+    why = why.replace("the crank's shaft", "the first crank's shaft")
+    return check.told._replace(name=name, at_deg=None, why=why)

@@ -97,29 +97,19 @@ def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:
     return compared(name, least, "above", 0.0)
 
 
-def curved_slot_pressure(name: str, mechanism: Mechanism) -> Check | None:
-    """The pressure angle of curved slots, below 90 degrees if the spec sets no limit."""
-    has_limit = mechanism.spec.limits.pressure_angle_max_deg is not None
-    if has_limit or not mechanism.engagements[0].slot.curved:
-        return None
-    return _greatest_pressure(name, mechanism, 90.0)
-
-
-def limited_pressure(name: str, mechanism: Mechanism) -> Check | None:
-    """The pressure angle of any slots, with the spec's limit."""
+def pressure_angle(name: str, mechanism: Mechanism) -> Check | None:
+    """The pressure angle of slots, below 90 degrees for curved ones if the spec sets no limit."""
     limit = mechanism.spec.limits.pressure_angle_max_deg
-    return None if limit is None else _greatest_pressure(name, mechanism, limit)
-
-
-def _greatest_pressure(name: str, mechanism: Mechanism, limit: float) -> Check:
+    if limit is None and not mechanism.engagements[0].slot.curved:
+        return None
     from geneva_cli.verdict.quantities.batch_designs import number_of, single
     from geneva_cli.verdict.quantities.load_quantities import pressure
 
-    peak = single(mechanism).columns(pressure)
+    peak, most = single(mechanism).columns(pressure), value_or(limit, 90.0)
     value, at_deg = number_of(peak["max_deg"], 0), number_of(peak["at_deg"], 0)
     # At 90 degrees nothing turns the wheel, whatever the limit.
-    passes = keeps(value, "at most", limit) and value < 90.0
-    return Check(name, value, "at most", limit, passes, at_deg=at_deg)
+    passes = keeps(value, "at most", most) and value < 90.0
+    return Check(name, value, "at most", most, passes, at_deg=at_deg)
 
 
 def driven_fraction(name: str, mechanism: Mechanism) -> Check | None:

@@ -40,14 +40,20 @@ def dwell_hold(name: str, parts: Parts, turn: FullTurn) -> Check:
     return Check(name, float(holds), "at least", 1.0, holds)
 
 
-def dwell(name: str, parts: Parts, turn: FullTurn) -> Check | None:
-    """The play in the dwell, with which the next roller must still enter its slot."""
-    return _play(name, turn.dwell, finds_slot(parts), parts) if parts.locked else None
+def play(name: str, parts: Parts, turn: FullTurn) -> Check | None:
+    """The play in the dwell, between lock and slot, or of the roller in its slot.
 
-
-def hand_over(name: str, parts: Parts, turn: FullTurn) -> Check | None:
-    """The play between lock and slot."""
-    return _play(name, turn.hand_over, finds_slot(parts), parts) if parts.locked else None
+    Each has a name for either unit of a machine's output. With the first two the next roller must
+    still enter its slot.
+    """
+    what, _, unit = name.rpartition("_")
+    output = parts.assembly.full.output
+    if unit != output.unit or (what != "motion_play" and not parts.locked):
+        return None
+    found = {"dwell_play": turn.dwell, "hand_over_play": turn.hand_over, "motion_play": turn.motion}
+    limit = motion_play_max(parts) if what == "motion_play" else finds_slot(parts)
+    shown = found[what]._replace(deg=output.from_deg(found[what].deg))
+    return _at_most(name, shown, output.from_deg(limit))
 
 
 def hand_over_pressure(name: str, parts: Parts, turn: FullTurn) -> Check | None:
@@ -74,11 +80,6 @@ def hand_over_offset(name: str, parts: Parts, turn: FullTurn) -> Check:
     """
     offset, at_deg = turn.contact
     return compared(name, offset, "at most", 0.0, at_deg if offset else None)
-
-
-def motion(name: str, parts: Parts, turn: FullTurn) -> Check | None:
-    """The play of the roller in its slot."""
-    return _play(name, turn.motion, motion_play_max(parts), parts)
 
 
 def limited_play(name: str, parts: Parts, turn: FullTurn) -> Check | None:
@@ -117,14 +118,6 @@ def motion_play_max(parts: Parts) -> float:
     # Where the driving wall changes, the wheel falls behind by twice the play, a tenth of its step,
     # and strikes the other wall: such a slot does not determine the motion.
     return 0.05 * step
-
-
-def _play(name: str, play: Most, limit_deg: float, parts: Parts) -> Check | None:
-    """Return the check of a play; None if its name is of another unit than the machine's output."""
-    output = parts.assembly.full.output
-    if not name.endswith(f"_{output.unit}"):
-        return None
-    return _at_most(name, play._replace(deg=output.from_deg(play.deg)), output.from_deg(limit_deg))
 
 
 def _at_most(name: str, play: Most, limit: float) -> Check:

@@ -14,9 +14,8 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import turned
-from geneva_cli.geometry.plates import Member
-from geneva_cli.geometry.shapes import Arc, Circle, Line, Point, Segment, backwards, closed
-from geneva_cli.geometry.stacks import apart, beyond
+from geneva_cli.geometry.plates import apart, beyond
+from geneva_cli.geometry.shapes import Arc, Circle, Line, Segment, backwards, closed
 from geneva_cli.loads.carried import farthest_mm
 from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.numerics.arrays import Array
@@ -32,29 +31,23 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 def between_slots(name: str, parts: FlatParts) -> Check:
     """The wall between adjacent slots at its thinnest place; negative where they cut each other."""
-    outlines = parts.outlines
+    outlines, L = parts.outlines, parts.outlines.assembly.L
     around, near = outlines.assembly.slots, math.inf
     for i, (engagement, direction) in enumerate(around):
         following, ahead = around[(i + 1) % len(around)]
         walls = turned(outlines.slots[engagement], direction)
-        ends = walls.segments[-1].end, walls.segments[0].start
-        slot = closed(walls.layer, [*walls.segments, _mouth(*ends, engagement.apart > 0.0)])
+        (u, v), (x, y) = walls.segments[-1].end, walls.segments[0].start
+        mouth: Segment = Line((u, v), (x, y))
+        if engagement.apart > 0.0:  # along the rim for a pair, which a chord might cut
+            back = (math.atan2(v, u) - math.atan2(y, x)) % math.tau
+            mouth = Arc((u, v), (x, y), -math.tan(0.25 * back))
+        slot = closed(walls.layer, [*walls.segments, mouth])
         inside = Polyarc([backwards(slot) if outlines.assembly.sign > 0.0 else slot])
-        points = Polyarc([turned(outlines.slots[following], ahead)]).samples(
-            1e-6 * outlines.assembly.L, 0.01 * outlines.assembly.L
-        )
+        points = Polyarc([turned(outlines.slots[following], ahead)]).samples(1e-6 * L, 0.01 * L)
         near = min(near, float(inside.signed(points).min()))
         if all(s is engagement for s, _ in around):
             break
     return _wall(name, near, outlines.sizes)
-
-
-def _mouth(start: Point, end: Point, wide: bool) -> Segment:
-    """The segment that closes a slot; along the rim for a pair, which a chord might cut."""
-    if not wide:
-        return Line(start, end)
-    back = (math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])) % math.tau
-    return Arc(start, end, -math.tan(0.25 * back))
 
 
 def rollers_apart(name: str, parts: FlatParts) -> Check | None:
@@ -75,7 +68,7 @@ def wheel_bore(name: str, parts: FlatParts) -> Check | None:
     if not size.wheel_bore:
         return None
     hub = wheel_hub(parts.outlines.assembly, size)
-    wall = size.slot_end - size.wheel_bore - _around_shaft(parts)
+    wall = size.slot_end - size.wheel_bore - parts.mechanism.spec.size.allowances.around_shaft_mm
     return _wall(name, min(wall, size.wheel_hub - size.wheel_reach) if hub else wall, size)
 
 
@@ -97,13 +90,13 @@ def crank_bore(name: str, parts: FlatParts) -> Check | None:
     size = outlines.sizes
     if not (size.crank_bore and outlines.crank and is_whole(outlines.assembly, size)):
         return None
-    wall = outlines.relief_depth - size.crank_bore - _around_shaft(parts)
+    wall = (
+        outlines.relief_depth
+        - size.crank_bore
+        - parts.mechanism.spec.size.allowances.around_shaft_mm
+    )
     in_hub = size.crank_hub - size.crank_reach
     return _wall(name, min(wall, in_hub) if parts.crank_hub else wall, size)
-
-
-def _around_shaft(parts: FlatParts) -> float:
-    return parts.mechanism.spec.size.allowances.around_shaft_mm
 
 
 def _wall(name: str, value: float, sizes: Sizes) -> Check:
@@ -128,102 +121,68 @@ def dial(name: str, parts: FlatParts) -> Check | None:
     return compared(name, min(walls), "at least", outlines.sizes.wall_min)
 
 
-def branches_apart(name: str, parts: FlatParts) -> Check | None:
-    """The greatest distance of entry and exit branch where both are on their own sides.
+def branches(name: str, parts: FlatParts) -> Check | None:
+    """The greatest distance of entry and exit branch of a curved slot, apart or where they crossed.
 
-    If it exceeds the slot's width, an island between them falls out.
+    If it exceeds the slot's width where both are on their own sides, an island falls out.
     """
-    return _greatest_gap(name, parts, 1.0)
-
-
-def branches_crossed(name: str, parts: FlatParts) -> Check | None:
-    """The greatest distance where the branches have crossed."""
-    return _greatest_gap(name, parts, -1.0)
-
-
-def _greatest_gap(name: str, parts: FlatParts, side: float) -> Check | None:
-    """The greatest distance of the branches of a curved slot; ``side`` is -1 where they crossed."""
     outlines = parts.outlines
-    engagement = outlines.assembly.slots[0][0]
+    engagement, L = outlines.assembly.slots[0][0], outlines.assembly.L
     if not engagement.slot.curved:
         return None
-    samples = 400
+    side, samples = 1.0 if name == "branches_apart_mm" else -1.0, 400
     t = engagement.entry_deg * (1.0 - np.arange(samples) / samples)
     (x, y), (u, v) = (engagement.slot(at, 0) for at in (t, opposites(engagement, t)))
     turn = np.remainder(
         np.arctan2(y.c[0], x.c[0]) - np.arctan2(v.c[0], u.c[0]) + np.pi, 2.0 * np.pi
     )
-    gap = 2.0 * outlines.assembly.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
+    gap = 2.0 * L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
     i = int(np.nanargmax(gap))  # NaN where the longer branch has no opposite
     at_deg = outlines.assembly.shown_deg(engagement.mid_deg + float(t[i]))
-    return compared(
-        name, max(0.0, float(gap[i])), "at most", 2.0 * outlines.sizes.half_width, at_deg
-    )
+    most = 2.0 * outlines.sizes.half_width
+    return compared(name, max(0.0, float(gap[i])), "at most", most, at_deg)
 
 
 def cranks_apart(name: str, parts: FlatParts) -> Check | None:
     """The least gap between two cranks, and where it is."""
     if len(parts.mechanism.crank_places) < 2:
         return None
-    edge = _edge(parts)
-    pairs = combinations(parts.cranks, 2)
-    gap, at_deg = min(_least(edge, one, other) for one, other in pairs)
-    return compared(name, gap, "at least", 0.0, parts.mechanism.shown_deg(at_deg))
-
-
-def _edge(parts: FlatParts) -> tuple[Array, Array]:
-    """Return complex points of a crank in its own frame, and how far it reaches about each, mm."""
     outlines = parts.outlines
-    L, sizes = outlines.assembly.L, outlines.sizes
-    near = 1e-5 * L  # chords of arcs miss the outline by less
+    # points of a crank in its own frame, and how far it reaches about each, mm
+    near = 1e-5 * outlines.assembly.L  # chords of arcs miss the outline by less
     contours = [*outlines.crank, *([parts.arm.outline] if parts.arm else [])]
-    x, y = Polyarc(contours).samples(near, L).T if contours else np.empty((2, 0))
-    centres = [0.0, *(complex(*at) for at in roller_centres(outlines.assembly))]
-    reach = [parts.axle_radius("crank"), *[sizes.roller] * (len(centres) - 1)]
-    return np.append(x + 1j * y, centres), np.append(np.full(len(x), near), reach)
-
-
-def _least(edge: tuple[Array, Array], one: Member, other: Member) -> tuple[float, float]:
-    """Return a lower bound of the gap of two cranks, mm, and its input angle, degrees."""
+    edge = Polyarc(contours).samples(near, outlines.assembly.L) if contours else np.empty((0, 2))
+    centres = [(0.0, 0.0), *roller_centres(outlines.assembly)]
+    points = np.concatenate((edge, centres))
+    rollers = [outlines.sizes.roller] * (len(centres) - 1)
+    about = np.array([*[near] * len(edge), parts.axle_radius("crank"), *rollers])
     # directions: the bound is less than a thousandth of the axes' distance below the gap
     count = 3600
     step = math.tau / count
-    around: Array = step * np.arange(count, dtype=np.float64)
-    between = complex(*other.at) - complex(*one.at)
-    opposite: Array = around - (other.turn - one.turn) + math.pi
-    taken = _support(edge, around) + _support(edge, opposite)
-    # in each interval of the direction of the other's axis, from its middle to both ends
-    gap, quarter = np.full(count, -math.inf), count // 4
-    wrapped = np.concatenate((taken[-quarter:], taken, taken[:quarter]))
-    spread = float(np.ptp(taken))
-    for off in range(quarter + 1):
-        least = abs(between) * math.cos((off + 0.5) * step)
-        # what is taken varies by the spread: no direction so far off gives a greater gap
-        if least < abs(between) * math.cos(0.5 * step) - spread:
-            break
-        for start in (quarter - off, quarter + off):
-            np.maximum(gap, least - wrapped[start : start + count], out=gap)
-    i = int(np.argmin(gap))
-    seen = math.atan2(between.imag, between.real) - one.turn  # at input angle 0
-    # rounded far below the step of the directions
-    return float(gap[i]), round(math.degrees(math.remainder(around[i] - seen, math.tau)), 6)
+    around = step * np.arange(count, dtype=np.float64)
 
+    def reach(directions: Array) -> Array:
+        """How far a crank reaches from its axis in directions of its own frame, mm."""
+        some = np.split(np.stack((np.cos(directions), np.sin(directions)), axis=1), count // 100)
+        return np.concatenate([(way @ points.T + about).max(axis=1) for way in some])
 
-def _support(edge: tuple[Array, Array], around: Array) -> Array:
-    """Return how far a crank reaches from its axis in directions of its own frame, mm."""
-    points, reach = edge
-    out = []
-    for some in np.split(around, len(around) // 100):
-        middle = np.exp(1j * some[len(some) // 2])
-        ahead = (points * middle.conjugate()).real + reach
-        i = ahead.argmax()
-        # turning by an angle brings a point ahead of the i-th by their distance times its chord
-        chord = np.abs(np.exp(1j * some[[0, -1]]) - middle).max()
-        may_lead = ahead[i] - ahead <= chord * np.abs(points - points[i]) + 1e-9  # mm: rounding
-        x, y = points.real[may_lead], points.imag[may_lead]
-        along = np.outer(np.cos(some), x) + np.outer(np.sin(some), y)
-        out.append((along + reach[may_lead]).max(axis=1))
-    return np.concatenate(out)
+    found = []
+    ahead = reach(around)
+    for one, other in combinations(parts.cranks, 2):
+        between = complex(*other.at) - complex(*one.at)
+        taken = ahead + reach(around - (other.turn - one.turn) + math.pi)
+        # in each interval of the direction of the other's axis, from its middle to both ends
+        gap = np.full(count, -math.inf)
+        for off in range(-(count // 4), count // 4 + 1):
+            least = abs(between) * math.cos((abs(off) + 0.5) * step)
+            gap = np.maximum(gap, least - np.roll(taken, -off))
+        i = int(np.argmin(gap))
+        seen = math.atan2(between.imag, between.real) - one.turn  # at input angle 0
+        # rounded far below the step of the directions
+        at_deg = round(math.degrees(math.remainder(around[i] - seen, math.tau)), 6)
+        found.append((float(gap[i]), at_deg))
+    least_mm, at_deg = min(found)
+    return compared(name, least_mm, "at least", 0.0, parts.mechanism.shown_deg(at_deg))
 
 
 def wheels_apart(name: str, parts: FlatParts) -> Check | None:

@@ -16,7 +16,7 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.load_limits import LIMITED, limits_by_key
 
 if TYPE_CHECKING:
-    from geneva_cli.loads.forces import LoadCase
+    from geneva_cli.loads.contact import LoadCase
     from geneva_cli.numerics.arrays import Array, Mask, Number
     from geneva_cli.table import Table
 
@@ -91,29 +91,13 @@ class Designs:
 
     @cached_property
     def loaded(self) -> Array:
-        """1 if something resists the wheel and its loads keep their digits, else NaN."""
-        return np.where(self.resisted & ~self.too_fast, 1.0, np.nan)
+        """1 if something resists the wheel, else NaN."""
+        return np.where(self.resisted, 1.0, np.nan)
 
     @cached_property
     def resisted(self) -> Mask:
         """True for designs with a load."""
         return np.asarray(np.ravel(self.load_case.inertia_Nm + self.load_case.resists_Nm > 0.0))
-
-    @cached_property
-    def too_fast(self) -> Mask:
-        """True for loaded designs of a batch whose loads would be rounding.
-
-        Raises GenevaError for a single design of that kind.
-        """
-        from geneva_cli.loads.load_functions import refuse_rounding, too_fast
-
-        resisted = self.resisted
-        if not resisted.any():
-            return resisted
-        if self.single:
-            refuse_rounding(self.machine.engagements)
-            return ~resisted
-        return np.logical_and(resisted, too_fast(self.machine.engagements))
 
 
 class BatchMember(Designs):

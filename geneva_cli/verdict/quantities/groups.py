@@ -184,7 +184,6 @@ _REPORT = (
         "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s index_mm",
         "motion_quantities:timing",
     ),
-    _alone("timing", "shortest_motion_s", "shortest_motion"),
     _batch("timing", "k_r", "motion_quantities:timing"),
     _batch(
         "input_stop",
@@ -220,12 +219,12 @@ _REPORT = (
     _alone(
         "vibration",
         "none period_ratio damping_ratio natural_Hz residual_share residual_deg "
-        "steady_share dynamic_factor windup_deg",
+        "dynamic_factor windup_deg",
         "vibration",
     )._replace(batch="verdict.quantities.load_quantities:vibration", one_by_one=("none",)),
     _batch(
         "product",
-        "travel_mm chord_mm friction_needed swing_mm "
+        "travel_mm chord_mm friction_needed "
         "speed_m_s,acceleration_m_s2,tangential_m_s2,centripetal_m_s2,jerk_m_s3.{max at_deg}",
         "motion_quantities:product",
     ),
@@ -346,8 +345,7 @@ STUDY = (
         "sizing",
         "inertia_kgm2 acceleration_rad_s2 inertia_torque_Nm friction_torque_Nm total_torque_Nm "
         "design_torque_Nm input_torque_Nm power_W Am Vm Qm energy_fluctuation_J flywheel_kgm2 "
-        "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2 "
-        "coasting_speed_share input_torque_ratio",
+        "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2",
         "load_quantities:sizing",
     ),
     *(

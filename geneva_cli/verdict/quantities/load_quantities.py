@@ -6,11 +6,15 @@ import numpy as np
 
 from geneva_cli.loads.carried import inertia_kgm2
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS, sources
-from geneva_cli.loads.highest_speed import greatest_pressure, kinetic_power_W
 from geneva_cli.loads.impacts.entry import entry_impacts
 from geneva_cli.loads.impacts.reversal import lasting_drag_Nm, reversal_impacts
 from geneva_cli.loads.impacts.shock_force import Impacts
-from geneva_cli.loads.load_peaks import LoadSummary, load_summaries, reported_peaks
+from geneva_cli.loads.load_peaks import (
+    LoadSummary,
+    greatest_pressure,
+    load_summaries,
+    reported_peaks,
+)
 from geneva_cli.loads.positive_drive import positive_drives
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.numerics.arrays import Array, Number, parameter
@@ -30,6 +34,8 @@ def greatest(of: Designs) -> Columns:
         most, at_deg = peaks.get(name, (np.inf, np.inf))
         out |= {f"{name}.max": most * of.loaded, f"{name}.at_deg": at_deg * of.loaded}
     if "kinetic_power_W" in requested:
+        from geneva_cli.loads.sizing import kinetic_power_W
+
         power = worst_peaks(of.machine, ["power"])["power"].max
         kinetic = np.ravel(kinetic_power_W(of.machine, parameter(power[:, None])))
         moved = np.ravel(of.load_case.inertia_Nm) > 0.0
@@ -62,8 +68,8 @@ def summaries(of: Designs) -> Columns:
     requested = {load: own for load, own in ends.items() if load in known}
     if not requested:
         return out
-    sums = {end for own in requested.values() for end in own} & {"mean", "rms"}
-    for load, one in load_summaries(of.machine, list(requested), sums).items():
+    means = any({"mean", "rms"} & set(own) for own in requested.values())
+    for load, one in load_summaries(of.machine, list(requested), means).items():
         values, moves = one._asdict(), known[load][0] in OF_MOTION
         for end in requested[load]:
             out[f"{load}.{end}"] = _where_loaded(of, values[end], moves)
@@ -73,7 +79,7 @@ def summaries(of: Designs) -> Columns:
 def _where_loaded(of: Designs, values: Array, is_motion: bool) -> Array:
     """Values of loads, infinite without one; those of the ``motion`` need none."""
     without = np.ones(1, dtype=bool) if is_motion else of.resisted
-    return np.where(of.too_fast, np.nan, np.where(without, values, np.inf))
+    return np.where(without, values, np.inf)
 
 
 def sizing(of: Designs) -> Columns:
@@ -107,11 +113,7 @@ def vibration(of: Designs) -> Columns:
     from geneva_cli.loads.vibration.vibration import NAMES, design_vibrations
 
     shaken = design_vibrations(of.machine, of.requested("vibration"))
-    if shaken is None:
-        return dict.fromkeys(NAMES)
-    # without damping there is no steady state; without a period ratio the design says why
-    steady, ratio = shaken["steady_share"], shaken["period_ratio"]
-    return {**shaken, "steady_share": np.where(np.isnan(steady), ratio + np.inf, steady)}
+    return {**dict.fromkeys(NAMES), **(shaken or {})}
 
 
 def entry(of: Designs) -> Columns:
@@ -140,7 +142,8 @@ def tolerances(of: Designs) -> Columns:
     None for racks, whose deviations are not studied. The jump at entry is computed as a batch if
     all designs have tolerances, none of which is too wide.
     """
-    from geneva_cli.loads.tolerance.motion_error import entry_jumps_worst, motion_plays, used
+    from geneva_cli.loads.tolerance.entry_jump import entry_jumps_worst
+    from geneva_cli.loads.tolerance.motion_error import motion_plays, used
 
     plays = motion_plays(of.machine) if of.machine.output.turns else None
     if plays is None:

@@ -9,7 +9,6 @@ import numpy as np
 
 from geneva_cli.loads.product import ProductMotion, product_motion
 from geneva_cli.motion.many import worst_peaks
-from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peak_search import QUANTITIES
 from geneva_cli.motion.timing import timings
 from geneva_cli.motion.wheels.gearing import Output
@@ -83,11 +82,20 @@ def peaks(of: Designs) -> Columns:
     flat = np.ravel(output.rate_per_radian)  # one for each design
     output = output._replace(rate_per_radian=cast("float", flat))
     out: dict[str, Number | None] = {}
-    derivatives = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
+    engagements = of.machine.engagements
     for name, peak in worst_peaks(of.machine, requested).items():
-        ends = _ends(of.machine, derivatives[name]) if name in derivatives else ()
-        if name == "velocity":
-            ends = _jumps(of.machine)
+        ends: list[Array] = []
+        if name == "velocity":  # the greatest jumps at an entry, and at an exit, with their signs
+            for each in zip(*(engagement.jumps for engagement in engagements), strict=True):
+                rows = np.broadcast_arrays(*map(np.ravel, each))
+                jumps = np.stack([np.where(np.isnan(row), np.inf, row) for row in rows])
+                i = abs(jumps).argmax(axis=0)[None]
+                ends.append(np.take_along_axis(jumps, i, axis=0)[0])
+        order = {"acceleration": 2, "jerk": 3}.get(name, 0)  # derivatives of the wheel's angle
+        for end in ("entry_deg", "exit_deg") if order else ():
+            at = [one.motion(getattr(one.motion, end), order).arrays() for one in engagements]
+            sizes = [np.ravel(abs(derivatives[order])) for derivatives in at]
+            ends.append(np.max(np.broadcast_arrays(*sizes), axis=0))
         out |= peak_values(name, output, w, tuple(peak), ends)
     return out
 
@@ -117,26 +125,6 @@ def peak_values(
     if name == "acceleration":
         for unit, size in own.items():
             out[f"{name}.entry_{unit}{end}"] = None if size is None else ends[0] * size
-    return out
-
-
-def _ends(machine: Mechanism, order: int) -> list[Array]:
-    """The greatest sizes of a derivative just after an entry, and just before an exit."""
-    ends: list[Array] = []
-    for name in ("entry_deg", "exit_deg"):
-        motions = (e.motion for e in machine.engagements)
-        sizes = [np.ravel(abs(m(getattr(m, name), order).arrays()[order])) for m in motions]
-        ends.append(np.max(np.broadcast_arrays(*sizes), axis=0))
-    return ends
-
-
-def _jumps(machine: Mechanism) -> list[Array]:
-    """The greatest jumps of the velocity at an entry, and at an exit, with their signs."""
-    out = []
-    for each in zip(*(engagement.jumps for engagement in machine.engagements), strict=True):
-        rows = np.broadcast_arrays(*map(np.ravel, each))
-        jumps = np.stack([np.where(np.isnan(row), np.inf, row) for row in rows])
-        out.append(np.take_along_axis(jumps, abs(jumps).argmax(axis=0)[None], axis=0)[0])
     return out
 
 

@@ -5,6 +5,7 @@ Every command that takes a quantity resolves its name here, without making a mac
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 
@@ -28,19 +29,14 @@ def group_of() -> Mapping[str, QuantityGroup]:
     return {name: group for group in GROUPS for name in group.names}
 
 
-@cache
-def _batched() -> frozenset[str]:
-    """The quantities that a batch can compute."""
-    return frozenset(name for group in GROUPS for name in group.batched)
-
-
 def in_batch(names: Iterable[str]) -> bool:
     """Return True if all these quantities can be computed for a batch of designs.
 
     >>> in_batch(["timing.dwell_s", "jerk.max"]), in_batch(["sizes.ratio"])
     (True, False)
     """
-    return all(name in _batched() for name in names)
+    known = group_of()
+    return all(name in known and name in known[name].batched for name in names)
 
 
 def is_motion(name: str) -> bool:
@@ -86,16 +82,17 @@ def _readings(typed: str) -> Iterator[list[str]]:
     yield [synonyms[typed]] if typed in synonyms else []
     others = [name for name in group_of() if not name.startswith(INPUTS)]
     quantities = [name for name in others if not name.startswith(CHECKS)]
-    yield [name for name in quantities if _spelled(name) == typed]
+    yield [name for name in quantities if name.replace(".", "_") == typed]
     for names in (quantities, others):
+        # of a value of the report's cycle that is among the loads under its name, the load's
         names = [name for name in names if not _is_repeated(name)]
         yield [name for name in names if name.endswith(f".{typed}")]
-        yield [name for name in names if typed in {_spelled(end) for end in _ends(name)}]
-
-
-def _is_ambiguous(end: str) -> bool:
-    """Return True if the end of a name may be several quantities."""
-    return end not in group_of() and len(next(filter(None, _readings(end)), [])) > 1
+        yield [
+            name
+            for name in names
+            if name.replace(".", "_").endswith(f"_{typed}")
+            and typed in {end.replace(".", "_") for end in _ends(name)}
+        ]
 
 
 def _is_repeated(name: str) -> bool:
@@ -109,11 +106,6 @@ def _is_repeated(name: str) -> bool:
     return table == "cycle" and f"loads.{own}" in group_of() and not is_size
 
 
-def _spelled(name: str) -> str:
-    """A name with underscores, as in the columns of ``table`` and ``synth``."""
-    return name.replace(".", "_")
-
-
 def _ends(name: str) -> list[str]:
     """The name without its first parts, the longest first.
 
@@ -125,23 +117,17 @@ def _ends(name: str) -> list[str]:
 
 
 def _nearest(typed: str) -> str:
-    """A question `` (did you mean "..."?)`` with the nearest whole name or end of one.
-
-    A whole name behind an extra word (``peaks.velocity.max``) comes first, and a key of the spec by
-    its own name.
-    """
+    """A question `` (did you mean "..."?)`` with the nearest whole name or end of one."""
     known = group_of()
-    behind = [name for name in known if typed.endswith(f".{name}")]
-    keys = [name for name in known if name.startswith(INPUTS) and name.endswith(f".{typed}")]
-    if behind or keys:
-        best = max(behind or keys, key=len)
-        return nearest(best, [best])
+    # a whole name behind an extra word, as peaks.velocity.max, or a key of the spec
+    whole = [name for name in known if typed.endswith(f".{name}")]
+    whole += [name for name in known if name.startswith(INPUTS) and name.endswith(f".{typed}")]
     own = [name for name in known if not name.startswith(INPUTS)]
     own.sort(key=lambda name: name.startswith(CHECKS))  # a check gives way to a quantity
-    ends = [end for name in own for end in (name, *_ends(name))]
-    ends = [end for end in dict.fromkeys(ends) if not _is_ambiguous(end)]
+    counts = Counter(end for name in own for end in _ends(name))
+    ends = [e for name in own for e in (name, *_ends(name)) if e in known or counts[e] == 1]
     begun = [end for end in ends if end.startswith(typed)] if len(typed) > 2 else []
-    if begun:  # the shortest name; of its values the first, which is the greatest
-        best = min(begun, key=lambda end: len(end.partition(".")[0]))
-        return nearest(best, [best])
-    return nearest(typed, dict.fromkeys([*known, *ends]))
+    # the shortest name; of its values the first, which is the greatest
+    begun.sort(key=lambda end: len(end.partition(".")[0]))
+    best = [*sorted(whole, key=len, reverse=True), *begun][:1]
+    return nearest(best[0], best) if best else nearest(typed, dict.fromkeys([*known, *ends]))

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import cache, partial
-from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -40,8 +41,6 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.horn_search import HornStress, Sides, Sizes
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.motion.mechanism import Mechanism
-
-T = TypeVar("T")
 
 
 class LockSizes(NamedTuple):
@@ -97,9 +96,14 @@ class UnderLoad:
         bare = Spec(
             of.wheel, drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
         )
-        if designs_in(bare) == 1:  # designs that differ in speed and loads only have the same
-            return [_unloaded(build(taken(bare, 0)))] * count
-        return [_unloaded(one) for one in self.designs.each]
+        # designs that differ in speed and loads only have the same
+        alike = designs_in(bare) == 1
+        out: list[Unloaded | None] = []
+        for one in [build(taken(bare, 0))] if alike else self.designs.each:
+            out.append(None)
+            with suppress(GenevaError):  # which the check of the parts reports
+                out[-1] = unloaded(assembly(one)) if one.spec.is_flat else None
+        return out * count if alike else out
 
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
@@ -170,8 +174,16 @@ class UnderLoad:
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
             bent = horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
-        loads = map(self.part_loads.of, range(len(machines)))
-        return list(map(_loaded, self._unloaded, machines, loads, bent))
+        out: list[Layout | None] = []
+        for i, (parts, machine) in enumerate(zip(self._unloaded, machines, strict=True)):
+            out.append(None)
+            if parts is None:
+                continue
+            where = parts.assembly._replace(full=machine)
+            with suppress(GenevaError):
+                sizes = loaded(parts._replace(assembly=where), self.part_loads.of(i), bent[i])
+                out[-1] = where, sizes
+        return out
 
     @cached_property
     def lock(self) -> LockUnderTorque | None:
@@ -189,8 +201,12 @@ class UnderLoad:
         own: Callable[[Mechanism], Stressed | None] | None
         own = thing(self.machine.spec.wheel.NAME, "stressed")
         if own:
-            each = (one if one.spec.has_parts else None for one in self.designs.each)
-            return batched([_or_none(own, one) if one else None for one in each])
+            each: list[Stressed | None] = []
+            for one in self.designs.each:
+                each.append(None)
+                with suppress(GenevaError):
+                    each[-1] = own(one) if one.spec.has_parts else None
+            return batched(each)
         return batched([stressed(*one) if one else None for one in self.layouts])
 
     @property
@@ -247,30 +263,6 @@ class UnderLoad:
         sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
         force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
         return np.nan_to_num(np.ravel(force)), torque
-
-
-def _unloaded(machine: Mechanism) -> Unloaded | None:
-    """The parts of a design without its load; None for one without flat parts."""
-    return _or_none(lambda: unloaded(assembly(machine))) if machine.spec.is_flat else None
-
-
-def _loaded(
-    parts: Unloaded | None, machine: Mechanism, loads: PartLoads, bent_MPa: float | None
-) -> Layout | None:
-    """Assembly and sizes of a design under its load; None for one without flat parts."""
-    if parts is None:
-        return None
-    where = parts.assembly._replace(full=machine)
-    sizes = _or_none(loaded, parts._replace(assembly=where), loads, bent_MPa)
-    return (where, sizes) if sizes else None
-
-
-def _or_none(make: Callable[..., T], *of: object) -> T | None:
-    """The result of a function; None for an error, which the check of the parts reports."""
-    try:
-        return make(*of)
-    except GenevaError:
-        return None
 
 
 def batched(

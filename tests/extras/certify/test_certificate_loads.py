@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 from geneva_cli import Design, External, Load, Size
 from geneva_cli.cli.app import app
 from geneva_cli.design import load
-from geneva_cli.extras.certify.certified_loads import LOADS
+from geneva_cli.extras.certify.certificate import LOADS
 from geneva_cli.loads.load_case import load_case
 
 LOADED = Design(External(6), load=Load(0.4, 15))

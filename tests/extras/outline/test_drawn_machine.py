@@ -18,9 +18,8 @@ from geneva_cli.cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.extras.outline.checks import lag_deg
-from geneva_cli.extras.outline.impacts import impacts
 from geneva_cli.extras.outline.pictures import drawn_scene
-from geneva_cli.extras.outline.turning import turned
+from geneva_cli.extras.outline.turning import impacts, turned
 from geneva_cli.geometry.measure import mapped
 from geneva_cli.geometry.shapes import Arc, Line, closed
 from geneva_cli.geometry.sheet import Drawing

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
-from geneva_cli.extras.servo.cam_files import cam, rounded_up
+from geneva_cli.extras.servo.electronic_cam import cam, rounded_up
 from geneva_cli.manual import page
 from geneva_cli.output.formats import CONTROLLERS
 
@@ -41,14 +41,6 @@ def codesys(text):
     return BPoly.from_derivatives(x, np.stack([y, v, a], axis=1)), x
 
 
-def beckhoff(text):
-    """Master and slave from a table of pairs."""
-    body = text.partition("Begintable\n")[2].partition("EndTable")[0]
-    pairs = np.array([line.split() for line in body.splitlines()], int)
-    assert f"Lines = {len(pairs)}\n" in text
-    return pairs.T
-
-
 @pytest.mark.parametrize("file", DESIGNS, ids=lambda file: file.stem)
 @pytest.mark.sampled(6)
 def test_polynomials_keep_the_tolerance(file):
@@ -73,20 +65,6 @@ def test_codesys_points_keep_the_tolerance(name):
     assert rows == len(x)
     assert (np.diff(x) > 0.0).all()
     assert 0.9 * error_deg <= off <= error_deg <= TOLERANCE
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("name", SOME)
-def test_beckhoff_pairs(name):
-    """At most 360 pairs, 0.1 degrees apart, and straight lines as near as the file says."""
-    design = load(f"designs/{name}.toml")
-    text, rows, error_deg = cam(design, "beckhoff", None, TOLERANCE)
-    pairs = beckhoff(text)
-    master, slave = true_motion(design)
-    off = abs(np.interp(master, *(1e-4 * pairs)) - slave).max()
-    assert rows == pairs.shape[1] <= 360
-    assert (np.diff(pairs[0]) >= 1000).all()
-    assert 0.94 * error_deg <= off <= error_deg
 
 
 def test_a_whole_revolution():
@@ -117,10 +95,9 @@ def test_rows_at_each_jump():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("siemens", None, 1e-4), "--for siemens: it must be one of polynomial, codesys, beckhoff"),
+        (("siemens", None, 1e-4), "--for siemens: it must be one of polynomial, codesys"),
         (("codesys", 0, 1e-4), "--turns 0: must be at least 1, at most 1000"),
         (("codesys", 1, 0.0), "--tolerance 0: must be at least 1e-12"),
-        (("beckhoff", 2, 1e-4), "its table covers one turn of the input"),
     ],
 )
 def test_refused(arguments, message):
@@ -140,8 +117,7 @@ def test_the_manual_shows_these_numbers(controller):
 @pytest.mark.parametrize(
     ("arguments", "status", "said"),
     [
-        ("--for beckhoff", 0, "degrees of the wheel\n"),
-        ("--for beckhoff --tolerance 1e-9", 1, "more than --tolerance 1e-09: its table has 360"),
+        ("--for codesys", 0, "degrees of the wheel\n"),
         ("--for codesys --tolerance 1e-9", 1, "more than --tolerance 1e-09: a jump becomes a ramp"),
         ("--tolerance 1e-12", 0, "degrees of the wheel\n"),
     ],

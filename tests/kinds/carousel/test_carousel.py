@@ -21,22 +21,15 @@ from geneva_cli import (
     Mass,
     Motor,
     Product,
-    Shaft,
     Size,
     Spherical,
     Support,
 )
 from geneva_cli.geometry.plates import plates
-from geneva_cli.loads.highest_speed import kinetic_power_W
-from geneva_cli.loads.product import product_motion
 from geneva_cli.loads.sizing import sizing
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import many
 from geneva_cli.motion.mechanism import build
-from geneva_cli.output.scene import place_at, value_at
-from geneva_cli.study.animation.turning_scene import scene
 from geneva_cli.verdict.quantities.groups import GROUPS
-from geneva_cli.verdict.strength import strength
 
 WHEELS = [External(3), External(4), External(6), External(12), Internal(3), Internal(6)]
 every = pytest.mark.parametrize("wheel", WHEELS, ids=lambda w: f"{w.NAME}-{w.z}")
@@ -166,32 +159,6 @@ def test_loads_by_newton_s_law(wheel, fraction):
     assert here.input_torque_Nm[0] == pytest.approx(float(torque), rel=1e-11)
 
 
-@pytest.mark.sampled(6)
-@every
-def test_the_greatest_torque_and_the_mean_square(wheel):
-    """Summaries of the whole cycle against a dense scan of closed forms."""
-    I, n = 0.02, 60.0
-    design = Design(wheel, Carousel(n_rpm=n), load=Load(inertia_kgm2=I))
-    w = n * math.pi / 30.0
-    half = math.radians(witness_of(wheel).half_deg())
-    a = np.linspace(-half, half, 400_001)
-    g, l = wheel.SIGN, math.sin(math.pi / wheel.z)
-    D = 1.0 - 2.0 * g * l * np.cos(a) + l * l
-    V = l * (np.cos(a) - g * l) / D
-    A = -l * (1.0 - l * l) * np.sin(a) / D**2
-    Q = I * w * w * A * (V + g)
-    torque = design.loads["input_torque_Nm"]
-    assert torque.max == pytest.approx(Q.max(), rel=1e-8)  # of the scan's spacing
-    assert torque.min == pytest.approx(Q.min(), rel=1e-8)
-    mean_square = np.trapezoid(Q * Q, a) / (2.0 * math.pi)
-    assert torque.rms == pytest.approx(math.sqrt(mean_square), rel=1e-8)
-    # the energy of the wheel from the ground, J/2 (1 +- psi')², must come and go
-    energy = I * w * w / 2.0 * (1.0 + g * V) ** 2
-    swing = sizing(design.cycle)[0]["energy_fluctuation_J"]
-    assert swing == pytest.approx(energy.max() - energy.min(), rel=1e-8)
-    assert kinetic_power_W(design.mechanism, 0.0) == pytest.approx(w * abs(Q).max(), rel=1e-8)
-
-
 def test_resistance_acts_between_wheel_and_carrier():
     """A torque alone loads the input as on a plain crank."""
     loaded = Load(torque_Nm=3.0, friction=0.1, efficiency=0.8)
@@ -212,15 +179,6 @@ def test_losses_count_where_the_input_drives():
     Q = lossless.cycle.states(x).input_torque_Nm
     expected = np.where(Q > 0.0, Q / 0.7, Q)
     assert lossy.cycle.states(x).input_torque_Nm == pytest.approx(expected, rel=1e-12)
-
-
-def test_inertia_ratio_counts_from_the_ground():
-    """At rest on the carrier the wheel has the carrier's speed."""
-    motor = Motor(inertia_kgm2=0.02)
-    for wheel, fastest in ((External(6), 2.0), (Internal(6), 1.0)):  # psi' is 1 and 1/3 at most
-        loaded = Load(inertia_kgm2=0.01)
-        values = sizing(Design(wheel, Carousel(), load=loaded, motor=motor).cycle)[0]
-        assert values["inertia_ratio"] == pytest.approx(0.5 * fastest**2, rel=1e-13)
 
 
 SEVERAL = [(3, 2), (3, 5), (4, 3), (5, 3), (8, 2)]  # slots, wheels
@@ -319,82 +277,6 @@ def test_centrifugal_force_by_newton_s_law():
     assert values_of(Design(wheel, Carousel()))["carousel.centrifugal_N"] is None
 
 
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    "design",
-    [
-        Design(External(4), Carousel(wheels=3), load=Load(inertia_kgm2=0.1)),
-        Design(External(6), Carousel(rollers=2)),
-        Design(Internal(5), Carousel()),
-    ],
-    ids=["several", "two fingers", "inside"],
-)
-def test_the_page_turns_the_carrier_about_fingers_that_stand(design):
-    """Seen from the ground: fingers at rest, pivots on their orbit, wheels as the witness turns."""
-    shown, witness = scene(design), witness_of(design.spec.wheel)
-    g, L = design.spec.wheel.SIGN, design.mechanism.center_distance_mm
-    wheels = [body for body in shown.bodies if body.name.startswith("wheel")]
-    (crank,) = (body for body in shown.bodies if body.name == "crank")
-    pivot = complex(*shown.frame.centre)
-    assert pivot == L
-    behind, stands = 360.0 / len(wheels), None
-    half = design.mechanism.engagements[0].exit_deg
-
-    def ground(place, t):
-        return pivot + (complex(*place) - pivot) * np.exp(1j * value_at(shown.frame.angle, t))
-
-    for t in np.linspace(1.0, 359.0, 73):
-        c = shown.start_deg + t
-        fingers = [ground(place_at(place, t), t) for place in shown.rollers]
-        here = [*fingers, value_at(crank.angle, t) + value_at(shown.frame.angle, t)]
-        stands = here if stands is None else stands
-        assert here == pytest.approx(stands, abs=1e-3)  # mm; a screen shows 2e-6 of L
-        for k, body in enumerate(wheels):
-            at = c - behind * k
-            expected = pivot - L * np.exp(1j * g * math.radians(at))
-            assert ground(body.centre, t) == pytest.approx(expected, abs=1e-9 * L)
-            turn = value_at(body.angle, t) + value_at(shown.frame.angle, t)
-            nearest = (at + 180.0 / len(fingers)) % (360.0 / len(fingers)) - 180.0 / len(fingers)
-            if abs(nearest) < half:  # in motion: from the nearest finger's mid-motion on
-                own = float(witness.slot(mp.radians(mp.mpf(nearest)))) - math.radians(nearest)
-                slots = turn - g * math.radians(at) - g * own
-                assert math.remainder(slots, math.tau / witness.z) == pytest.approx(0.0, abs=1e-6)
-    for push in shown.pushes:  # at the finger's roller, whose radius is L/20
-        for t, x, y in zip(push.at, push.x, push.y, strict=True):
-            off = min(abs(ground((x, y), t) - ground(place_at(p, t), t)) for p in shown.rollers)
-            assert off == pytest.approx(L / 20.0, rel=1e-3)
-    assert len(shown.pushes) == (len(wheels) if design.spec.is_loaded else 0)
-    assert sum(phase.moves for phase in shown.states) == len(wheels) * len(shown.rollers)
-
-
-@pytest.mark.sampled(6)
-@every
-def test_what_a_product_feels_at_any_place_on_the_wheel(wheel):
-    """Against second differences of places all round the wheel, over a turn of the carrier."""
-    L, r, n = 0.1, 0.03, 40.0
-    w = n * math.pi / 30.0
-    orbit = Design(wheel, Carousel(n_rpm=n), product=Product(radius_mm=1000.0 * r))
-    felt = product_motion(orbit.mechanism)
-    half = witness_of(wheel).half_deg()
-    a = np.radians(np.linspace(-half, half, 20_001))
-    g, l = wheel.SIGN, math.sin(math.pi / wheel.z)
-    D = 1.0 - 2.0 * g * l * np.cos(a) + l * l
-    V, A = l * (np.cos(a) - g * l) / D, -l * (1.0 - l * l) * np.sin(a) / D**2
-    speed = acceleration = 0.0
-    for phase in np.linspace(0.0, math.tau, 721):
-        # the place is L + r e^(i angle) in axes that turn with the carrier
-        arm = r * np.exp(1j * phase)
-        rate = 1.0 + g * V
-        moves = w * abs(1j * L + 1j * rate * arm)
-        jerks = w * w * abs(-L + (1j * g * A - rate**2) * arm)
-        speed, acceleration = max(speed, moves.max()), max(acceleration, jerks.max())
-    rest = w * (L + r), w * w * (L + r)
-    # the grid of phases, half a degree apart, misses a cosine by 1e-5
-    assert felt.speed_m_s.max[0] == pytest.approx(max(speed, rest[0]), rel=3e-5)
-    assert felt.acceleration_m_s2.max[0] == pytest.approx(max(acceleration, rest[1]), rel=3e-5)
-    assert felt.friction_needed[0] == pytest.approx(felt.acceleration_m_s2.max[0] / 9.80665)
-
-
 @pytest.mark.parametrize(("z", "most"), [(3, 5), (4, 3), (5, 3), (6, 2), (8, 2), (24, 2)])
 def test_only_one_wheel_moves_at_a_time(z, most):
     """Wheels that would move together would also meet: 2 L sin(180°/n) against 2 L cos b."""
@@ -449,63 +331,6 @@ def test_wheels_pass_each_other_and_the_disc():
             assert one.intersection(lock).area < 1e-3 * lock.area
     (check,) = (c for c in design.checks if c.name == "wheels_apart_mm")
     assert nearest >= check.value > 0.0
-
-
-@pytest.mark.long
-def test_a_batch_of_carriers_with_several_fingers():
-    """Seen from the carrier, each finger moves the wheel as a roller of a plain crank does."""
-    distances = {"size.center_distance_mm": np.array([100.0, 110.0])}
-    wheel, angles = External(8), (0.0, 170.0)
-    for of in ({"wheel.z": np.array([8, 9, 10])}, distances):
-        fingers = many(Spec(wheel, Carousel(roller_angles_deg=angles)), of)
-        rollers = many(Spec(wheel, Crank(roller_angles_deg=angles)), of)
-        assert fingers.refused.tolist() == rollers.refused.tolist()
-        pairs = zip(fingers.machine.engagements, rollers.machine.engagements, strict=True)
-        for one, other in pairs:
-            x = 0.3 * one.entry_deg
-            assert np.array_equal(one.motion(x).c[1], other.motion(x).c[1])
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("count", [POINTS, 1])
-def test_the_wheel_s_shaft_bears_its_bodies(count):
-    """Newton's law for the points: the force of pin and bodies on the pivot is within the bound.
-
-    The bound adds sizes, so that it is above the vector sum, by half of it at most.
-    """
-    wheel, mass, n, L, a = External(5), 0.7, 120.0, 0.25, 0.04
-    bodies = Mass("point", mass_kg=mass, count=count, radius_mm=1000.0 * HELD)
-    design = Design(
-        wheel,
-        Carousel(n_rpm=n),
-        mass=(bodies,),
-        size=Size(center_distance_mm=1000.0 * L),
-        shaft=Shaft(wheel_overhang_mm=1000.0 * a, bending_factor=1.0),
-    )
-    witness, w = witness_of(wheel), mp.mpf(n) * mp.pi / 30
-    places = design.cycle.mechanism.engagements
-    greatest = 0.0
-    for one in places:
-        for fraction in np.linspace(-0.98, 0.98, 25):
-            c = mp.radians(mp.mpf(float(fraction * one.exit_deg)))
-            total = mp.mpc(0)
-            for k in range(count):
-                angle = mp.mpf(2 * k) * mp.pi / POINTS
-                total += mass * mpmath.diff(
-                    lambda x, angle=angle: L * mp.expj(x) - HELD * mp.expj(witness.slot(x) + angle),
-                    c,
-                    2,
-                )
-            pin = design.cycle.states(np.array([one.mid_deg + float(mp.degrees(c))])).pin_force_N[0]
-            slot = 1j * mp.expj(witness.slot(c))
-            # on the pivot: the pin's force, on either wall, less what speeds the bodies up
-            inert = w**2 * total
-            sums = (abs(pin * slot - inert), abs(pin * slot + inert))
-            greatest = max(greatest, *map(float, sums))
-    moment = strength(design.mechanism)["strength.wheel_shaft.moment_Nm"]
-    torque = design.loads["wheel_torque_Nm"]
-    assert greatest * a * 0.9999 <= moment
-    assert moment <= 1.5 * math.hypot(greatest * a, max(torque.max, -torque.min))
 
 
 @pytest.mark.long

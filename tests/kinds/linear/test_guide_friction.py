@@ -10,8 +10,9 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from load_states import integrals
 
-from geneva_cli import Design, EllipticalGears, Linear, Load, NoncircularGears, Size
+from geneva_cli import Design, Linear, Load, Size
 
 R, r, CLEARANCE = 50.0, 6.0, 0.1
 SIZE = Size(center_distance_mm=R, roller_radius_mm=r, slot_clearance_mm=CLEARANCE)
@@ -28,9 +29,6 @@ CASES = [
     (4.0, 5.0, 0.6, 0.05),  # both ends bear on one side near mid-motion
     (4.0, 30.0, 1.4, 0.02),  # friction in the slot turns the rack the other way
 ]
-
-
-LOCKED = {"friction-holds-the-wheel"}
 
 
 def design(mass: float, force: float, mu: float, nu: float | None, **more: float) -> Design:
@@ -93,48 +91,9 @@ def test_greatest_force_on_the_guide_and_work(case):
     loads = loaded.loads_table.to_dict()
     assert loads["pin_force_N.max"] == pytest.approx(abs(forces).max(), rel=1e-6)
     assert loads["pin_force_N.min"] == pytest.approx(max(forces.min(), 0.0), rel=1e-6)
-    (work,) = loaded.cycle.integrals(lambda at: at.input_torque_Nm)
+    (work,) = integrals(loaded.cycle, lambda at: at.input_torque_Nm)
     step = math.pi / 9_999
     assert work == pytest.approx(np.trapezoid(torques, dx=step), rel=1e-5)  # jumps of one step
     mean = np.trapezoid(torques**2, dx=step) / (2.0 * math.pi)
     assert loads["input_torque_Nm.rms"] == pytest.approx(math.sqrt(mean), rel=1e-5)
     assert values["guide.length_mm"] == pytest.approx(2.0 * HALF)
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("no_advice")
-def test_a_guide_that_locks_leaves_no_bound():
-    """At entry it takes all of the push from nu = h/(R - x0) on."""
-    locks = HALF / (R - MIDDLE)
-    loads = {nu: design(4.0, 30.0, 0.0, nu) for nu in (0.999 * locks, 1.001 * locks)}
-    forces = [one.loads_table.to_dict()["pin_force_N.max"] for one in loads.values()]
-    push = 4.0 * 0.05 * (2.0 * math.pi) ** 2 + 30.0
-    assert forces == [pytest.approx(push / 0.001, rel=1e-9), None]
-    rows = [{row.name: row for row in one.checks} for one in loads.values()]
-    assert [row["guide_locks"].passes for row in rows] == [True, False]
-    (text,) = [one for one in loads[1.001 * locks].warnings if one.name in LOCKED]
-    assert "in the guide holds the rack at -90°" in text
-    assert "wheel_shaft_stress_MPa" not in rows[1]  # a rack has no shaft, with or without a bound
-
-
-GEARED = EllipticalGears(eccentricity=0.3)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("drive", [GEARED, NoncircularGears(A=-0.4)])
-def test_behind_gears_the_guide_takes_as_much_at_each_angle_of_the_crank(drive):
-    """A force alone: the pin's force is that of a plain crank there, the input's torque g' times.
-
-    64 ulp, and those of the crank's angle behind the gears.
-    """
-    plain = design(0.0, 30.0, 0.2, 0.15)
-    geared = Design(Linear(6), drive, size=SIZE, load=plain.spec.load)
-    one = geared.mechanism.engagements[0]
-    x = one.entry_deg * np.array([0.95, 0.5, 0.1, -0.3, -0.8])
-    rate = -one.carrier(x, 0).c[0]
-    angle = np.degrees(np.arcsin(np.clip(one.motion(x, 0).c[0], -1.0, 1.0)))
-    here, there = geared.cycle.states(x), plain.cycle.states(angle)
-    assert here.pin_force_N == pytest.approx(there.pin_force_N, rel=1e-12)
-    assert here.input_torque_Nm == pytest.approx(there.input_torque_Nm * rate, rel=1e-12)
-    values = geared.report.table.to_dict()["guide.force_N"]
-    assert values == pytest.approx(plain.report.table.to_dict()["guide.force_N"], rel=1e-9)

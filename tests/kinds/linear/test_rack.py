@@ -5,7 +5,6 @@ Its proof and its play are in test_rack_turn.py.
 
 import math
 
-import numpy as np
 import pytest
 import repo
 from other_shape import with_shape
@@ -76,21 +75,6 @@ def test_a_ring_that_reaches_the_axis_collides():
     """The horns pass the axis at mid-motion, at R - rho from it on either side."""
     s = sizes_of(slot_clearance_mm=0.5, lock_clearance_mm=0.5)
     assert smallest_gap(s._replace(floor=0.5 * (R - s.recess))) < -0.5
-    assert smallest_gap(s._replace(lock=s.recess + 0.1)) == pytest.approx(-0.1, rel=1e-6)
-
-
-def test_a_rack_beyond_the_axis_meets_the_roller_before_it_enters():
-    """At d before entry the roller is R (1 - cos d) off the slot, whose corner is e beyond R.
-
-    There the gap is that to the wall, and further out that to the corner.
-    """
-    d = np.radians(np.linspace(0.0, 10.0, 1_000_001))
-    off, out = R * (1.0 - np.cos(d)), R * np.sin(d)
-    for e in (1.0, 3.0):
-        s = sizes_of(lock_radius_mm=0.0, wheel_radius_mm=R + e)
-        overlap = np.where(out <= e, off, r - np.hypot(out - e, r - off))
-        # the turn halves its samples down to 1e-9 mm
-        assert smallest_gap(s) == pytest.approx(-overlap.max(), abs=1e-9)
 
 
 @pytest.mark.long
@@ -108,26 +92,6 @@ def test_checks():
     assert "gap_mm" in free
     thin = {one.name: one for one in design(lock_radius_mm=43.9).checks}
     assert thin["rack_horn_mm"].passes is False
-
-
-def test_area_of_the_arm():
-    """Two discs, of hub and eye, and the quadrilaterals between their common tangents.
-
-    With c = (hub - eye)/R the tangents touch at acos(c) on both, so the hull has the area
-    hub² (pi - acos c) + eye² acos c + R (hub + eye) sqrt(1 - c²).
-    """
-    s = sizes_of(slot_clearance_mm=0.1)
-    shapes = design(slot_clearance_mm=0.1, arm_eye_mm=20.0, lock_bolts=2).drawing("arm").shapes
-    hub, eye = s.lock, 10.0
-    touch = math.acos((hub - eye) / R)
-    area = hub**2 * (math.pi - touch) + eye**2 * touch + R * (hub + eye) * math.sin(touch)
-    assert moments(shapes[0]).area == pytest.approx(area, rel=1e-12)
-    shaft, pin, *bolts = shapes[1:]
-    assert shaft.centre == (0.0, 0.0)
-    assert pin.centre == (R, 0.0)
-    assert [(one.centre[0] < 0.0, one.radius) for one in bolts] == [
-        (True, 0.8)
-    ] * 2  # M2, to be tapped
 
 
 PARTS = {"slot_clearance_mm": 0.1, "pin_gap_mm": 0.5}

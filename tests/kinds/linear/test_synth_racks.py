@@ -9,7 +9,7 @@ import math
 
 import pytest
 
-from geneva_cli import Carousel, Design, External, GenevaError, Internal, Linear, Load, Size
+from geneva_cli import Carousel, External, GenevaError, Internal
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.timing import timings
@@ -49,28 +49,6 @@ def test_times_and_the_peak_in_metres():
     assert row.spec.drive.n_rpm == pytest.approx(50.0, rel=1e-14)
     assert row.candidate.acceleration_max_m_s2 == pytest.approx(0.02 * w * w, rel=1e-13)
     assert row.candidate.acceleration_max_rad_s2 is None
-
-
-@pytest.mark.long
-def test_no_drive_lowers_the_peak_of_a_rack():
-    """All that synth tries have 1 at least, in units of R w²."""
-    for tau in ("0.3..0.45", "0.55..0.7"):  # without the plain crank, which is the best
-        rows = rows_of(linear=True, tau=tau)
-        assert {row.spec.drive.NAME for row in rows} == {"side-crank", "elliptical-gears"}
-        assert min(row.candidate.acceleration_max for row in rows) >= 1.0 - 1e-12
-    with pytest.raises(GenevaError, match=r"nearest 1\)"):
-        rows_of(linear=True, subject_to=["acceleration.max <= 0.99"])
-
-
-@pytest.mark.long
-def test_a_rack_of_a_spec_keeps_its_sizes_and_loads():
-    size, load = Size(center_distance_mm=50.0, slot_clearance_mm=0.1), Load(mass_kg=0.4)
-    frame = Spec(Linear(8), size=size, load=load)
-    for row in rows_of(frame=frame, tau="0.45"):
-        assert row.spec.wheel == Linear(8)
-        assert row.spec.load == load
-        assert row.spec.size.center_distance_mm == 50.0
-        assert not [one for one in Design.of(row.spec).checks if one.passes is False]
 
 
 @pytest.mark.parametrize("inside", [False, True])

@@ -21,7 +21,6 @@ from geneva_cli import (
     GearSector,
     GenevaPair,
     Internal,
-    Load,
     Motion,
     NoncircularGears,
     SCurve,
@@ -30,21 +29,16 @@ from geneva_cli import (
 )
 from geneva_cli.drives.retimed import retimed
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.measure import bounds
-from geneva_cli.loads.load_peaks import LoadSummary, load_summaries
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.many import many, worst_peaks
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.assembly import links_at
-from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.specfile.tree import spec_of
 
 GEARS = EllipticalGears(eccentricity=0.2, gear_distance_mm=50.0)
 PLANET = Epicyclic(planet_ratio="shockless")
-PAIR = GenevaPair(first_z=4, first_distance_mm=80.0)
 COUPLER = FourBar(
     crank_mm=40.0,
     ground_mm=90.0,
@@ -101,39 +95,6 @@ def test_speed_and_jump_scale_with_the_ratio_of_the_gears(drive):
     jump = own.motion(own.entry_deg).derivatives()[2] * ratio**2
     assert here.motion(here.entry_deg).derivatives()[2] == pytest.approx(jump, rel=1e-14, abs=1e-14)
     assert both.center_distance_mm == one.center_distance_mm
-
-
-@pytest.mark.parametrize(
-    "drive, key, values",
-    [
-        (PLANET, "drive.before.eccentricity", (0.0, 0.1, 0.3, 1.5)),
-        (COUPLER, "drive.point_mm", (160.0, 161.5, 163.0)),
-        (GearSector(sector_deg=40.0), "drive.sector_deg", (30.0, 60.0)),
-        (Cam(), "motion.alpha0_deg", (0.0, 8.0)),
-        (Crank(rollers=2), "drive.before.eccentricity", (0.0, 0.3)),
-    ],
-    ids=lambda value: value if isinstance(value, str) else "",
-)
-def test_a_batch_has_the_numbers_of_single_designs(drive, key, values):
-    law = Motion(Cycloidal()) if drive.NAME in ("cam", "crank") else None
-    wheel = External(8 if law and drive.rollers > 1 else 4)
-    spec = Spec(wheel, drive, law, drive_before=GEARS)
-    batch = many(spec, {key: np.array(values)})
-    built = [x for x, refused in zip(values, batch.refused.tolist(), strict=True) if not refused]
-    assert built == [x for x in values if x != 1.5]
-    for i, value in enumerate(built):
-        single = build(spec.with_(key, value))
-        for one, of in zip(single.engagements, batch.machine.engagements, strict=True):
-            places = (of.mid_deg, of.entry_deg, of.exit_deg)
-            mid, entry, exit_ = (np.broadcast_to(x, (len(built), 1))[i, 0] for x in places)
-            # a batch solves a linkage in long doubles
-            wanted = (one.mid_deg, one.entry_deg, one.exit_deg)
-            assert (mid, entry, exit_) == pytest.approx(wanted, rel=1e-13, abs=1e-13)
-            x = np.linspace(0.9 * one.entry_deg, 0.9 * one.exit_deg, 7)
-            for a, b in zip(of.motion(x, 3).arrays(), one.motion(x, 3).arrays(), strict=True):
-                a = np.broadcast_to(a, (len(built), 7))[i]
-                # 1e-14: some ten roundings of each derivative
-                assert abs(a - b).max() <= 1e-14 * abs(b).max()
 
 
 LAWFUL = (
@@ -218,87 +179,6 @@ def test_the_roller_of_the_links_is_on_the_path(drive):
     assert np.hypot(joint[0] - px, joint[1] - py).max() <= 1e-11 * machine.center_distance_mm
 
 
-SIDE = SideCrank(A=0.3, input_crank_mm=15.0)
-SERIES = (
-    *(spec.replace(drive_before=SIDE) for spec in LAWFUL),
-    Spec(Internal(8), motion=Motion(Cycloidal()), drive_before=SIDE),
-    Spec(External(4), PLANET, drive_before=SIDE),
-    Spec(External(6), Epicyclic(planet_ratio=0.07, fixed="ring"), drive_before=SIDE),
-    Spec(External(4), COUPLER, drive_before=SIDE),
-)
-
-
-@pytest.mark.parametrize("spec", SERIES, ids=lambda spec: f"{spec.wheel.NAME}-{spec.drive.NAME}")
-def test_the_coulisse_turns_with_the_crank(spec):
-    """Seen from the crank's shaft, coulisse and crank keep their angle through a whole turn.
-
-    Where a linkage or the crank's arm carries the roller, the crank's direction is that of its pin.
-    """
-    machine = build(spec)
-    x = np.linspace(-179.0, 179.0, 359)
-    *own, crank, coulisse = links_at(machine, x)
-    assert (crank.name, coulisse.name) == ("input crank", "coulisse")
-    assert np.hypot(*(a - b for a, b in zip(crank.joints[1], coulisse.joints[1], strict=True))) == (
-        pytest.approx(0.0, abs=1e-12)
-    )
-    L = machine.center_distance_mm
-    if own and spec.drive.NAME != "gear-sector":
-        px, py = own[0].joints[1] if len(own[0].joints) > 1 else own[-1].joints[1]
-    else:
-        passage, ahead = machine.engagements[0].passages[0]
-        px, py = (L * c.c[0] for c in passage.path(x + ahead, 0))
-    (ax, ay), (bx, by) = coulisse.joints
-    turned = (px - L + 1j * py) / (bx - ax + 1j * (by - ay))
-    unit = turned / abs(turned)
-    # 1e-9: the roller in a cam's groove passes the dwell on an arc that is eased in
-    assert abs(unit - unit[0]).max() <= 1e-9
-    r, (x0, y0) = SIDE.input_crank_mm, crank.joints[0]
-    assert abs(x0 - L).max() == pytest.approx(0.3 * r, rel=1e-12)
-    assert np.hypot(crank.joints[1][0] - x0, crank.joints[1][1] - y0) == pytest.approx(r, rel=1e-12)
-
-
-@pytest.mark.long
-def test_an_input_crank_passes_the_spacers_of_a_sun():
-    """The coulisse below a sun sweeps a circle, and four spacers stand around it: by hand."""
-    design = Design.of(SERIES[4])
-    spec = design.spec
-    flat = design.parts.flat
-    away = min(
-        math.dist(one.at, (design.mechanism.center_distance_mm, 0.0)) for one in flat.spacers
-    )
-    outline = next(one.part.outline for one in flat.links.cut if one.part.name == "coulisse")
-    reach = bounds(outline).x1  # its far end is round, about a point of its axis
-    radius = flat.spacers[0].part.outline.radius
-    gap = planes(flat.outlines, flat.links, flat.spacers)[0].gap
-    # 1e-3: the gap is sampled at 1441 angles, and its error is quadratic in their distance
-    assert gap == pytest.approx(away - radius - reach, abs=1e-3)
-    long = Design.of(spec.with_("drive.before.input_crank_mm", 30.0))
-    assert [c.name for c in long.checks if c.passes is False] == ["link_gap_mm"]
-
-
-@pytest.mark.long
-def test_gears_before_stand_on_the_shaft_that_they_turn():
-    """On the input crank's axis of a side-crank, and on the first crank's of two wheels."""
-    for drive, x in ((SideCrank(A=0.4, input_crank_mm=40.0), 100.0 - 16.0), (PAIR, 100.0 + 80.0)):
-        design = Design(External(4), drive, drive_before=GEARS)
-        driven, driver = design.parts.flat.gear_pair
-        assert (driven.at, driver.at) == ((x, 0.0), (x + 50.0, 0.0))
-        assert {"driver gear axis"} <= {one.name for one in design.mechanism.layout}
-        assert all(check.passes for check in design.checks), drive.NAME
-
-
-def test_a_batch_of_pairs_behind_a_side_crank():
-    """At mid-motion all three ratios are greatest: l/(1-l) of both wheels, and 1/(1+A)."""
-    spec = Spec(External(4), GenevaPair(first_z=4), drive_before=SideCrank(A=0.3))
-    batch = many(spec, {"drive.first_z": np.array([3, 4, 5])})
-    assert batch.refused.tolist() == [False, False, True]  # 36 deg to either side, but 45 needed
-    l = np.sin(np.pi / np.array([3.0, 4.0]))
-    slow = math.sqrt(0.5) / (1.0 - math.sqrt(0.5)) / 1.3
-    peaks = worst_peaks(batch.machine, ("velocity",))["velocity"]
-    # 1e-13: 1 - l of three slots has lost a digit
-    np.testing.assert_allclose(peaks.max, l / (1.0 - l) * slow, rtol=1e-13)
-
-
 @pytest.mark.parametrize("A", [0.684, 0.352, -0.31, 0.1])
 @pytest.mark.parametrize(("cruise", "ramp"), [(0.49, 0.166), (0.47, 0.0), (0.1, 0.4)])
 def test_peaks_are_seen_on_both_sides_of_a_jump_of_the_law(A, cruise, ramp):
@@ -337,32 +217,3 @@ def test_peaks_are_seen_on_both_sides_of_a_jump_of_the_law(A, cruise, ramp):
         begin, speed, gain = begin + length, v[-1], a[-1]
     for name, greatest in sizes.items():
         assert getattr(peaks, name).max == pytest.approx(greatest, rel=1e-6), name
-
-
-@pytest.mark.parametrize("friction", [0.0, 0.1])
-@pytest.mark.parametrize("eccentricity", [0.0, 0.3])
-def test_loads_on_both_sides_of_a_jump_at_mid_motion(eccentricity, friction):
-    """The law of constant acceleration reverses it at its middle: loads have a limit on each side.
-
-    On a plain crank the torque is (I w² psi'' + M) psi', psi' = 1 and psi'' = +-3/pi for 60 in 120
-    degrees: 2 +- 12 pi. Otherwise lines through the values beside mid-motion have the limits.
-    """
-    law = Motion(SCurve(cruise=0.0, ramp=0.0), ratio="matched")
-    before = EllipticalGears(eccentricity=eccentricity) if eccentricity else None
-    loaded = Load(inertia_kgm2=1.0, torque_Nm=2.0, friction=friction)
-    design = Design.of(Spec(External(6), motion=law, load=loaded, drive_before=before))
-    names = ["input_torque_Nm", "wall_force_N"]  # both with signs
-    both = load_summaries(design.mechanism, names, ())
-    torque, force = (LoadSummary(*(float(row[0]) for row in both[n][:4])) for n in names)
-    if not (eccentricity or friction):
-        # 1e-9: the digits of a matched R/L
-        assert torque.max == pytest.approx(2.0 + 12.0 * math.pi, rel=1e-9)
-        assert torque.min == pytest.approx(2.0 - 12.0 * math.pi, rel=1e-9)
-    mid = design.mechanism.engagements[0].mid_deg
-    states = design.cycle.states(mid + np.array([-2e-3, -1e-3, 1e-3, 2e-3]))
-    for row, one in ((states.input_torque_Nm, torque), (states.pin_force_N, force)):
-        # 1e-7: what a line over 1e-3 degrees leaves of a curve
-        assert one.max >= (2.0 * row[1] - row[0]) * (1.0 - 1e-7)
-        assert one.min <= (2.0 * row[2] - row[3]) * (1.0 - 1e-7)
-        if not (eccentricity or friction):  # else another place has the greatest one
-            assert one.min == pytest.approx(2.0 * row[2] - row[3], rel=1e-7)

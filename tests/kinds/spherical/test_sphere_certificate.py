@@ -12,14 +12,11 @@ import pytest
 import repo
 from other_shape import with_shape
 from sampling import some
-from scipy.spatial import cKDTree
-from turn_witness import ROUNDING, TO_MM, check_bounds, check_proof, least_gap, turn_of
+from turn_witness import ROUNDING, TO_MM, check_bounds, check_proof
 from words import load
 
 from geneva_cli import Crank, Design, Size, Spherical
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.sphere import Rotation
-from geneva_cli.geometry.sphere_arcs import Circle, farthest, from_circle
 from geneva_cli.kinds.spherical.gaps import BallGaps
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
@@ -64,49 +61,9 @@ def spoilt(parts, **larger_mm):
     return with_shape(parts, ball=ball, gaps=BallGaps(parts.assembly, ball, parts.shells.crank))
 
 
-def with_sectors(parts, turn):
-    """The parts with their locking sectors turned about the crank's axis by an angle."""
-    c, s = math.cos(turn), math.sin(turn)
-    about = Rotation((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0))
-    crank = [region.turned(about) for region in parts.shells.crank]
-    return with_shape(parts, crank=crank, gaps=BallGaps(parts.assembly, parts.ball, crank))
-
-
-def dense_points(arcs, each):
-    every = np.linspace(0.0, 1.0, each)
-    points = [arcs.at(np.full(each, i), every * arcs.sweep[i]) for i in range(len(arcs))]
-    return np.concatenate(points)
-
-
 def angles(points, tree):
     chord, _ = tree.query(points)
     return 2.0 * np.arcsin(0.5 * chord)
-
-
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("name", DESIGNS)
-def test_nearest_and_farthest_distances_against_dense_points(name):
-    """Points of the wheel's edge lie at most 1e-3 radians apart, and those of an arc 1e-4."""
-    wheel = named(name).gaps.wheel
-    edge = dense_points(wheel, 3000)
-    tree = cKDTree(edge)
-    rng = np.random.default_rng(1)
-    points = rng.normal(size=(50, 3))
-    points /= np.linalg.norm(points, axis=1)[:, None]
-    far = math.pi - angles(-points, tree)
-    assert np.allclose(farthest(wheel, points).max(axis=1), far, atol=1e-3)
-    assert (farthest(wheel, points).max(axis=1) >= far - ROUNDING).all()
-    x, y, axis = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    circle = Circle(axis, x, y, 0.7)
-    arcs = some(300, 20)
-    middle, half = rng.uniform(-9.0, 9.0, arcs), rng.uniform(0.0, 0.05, arcs)
-    along = middle[:, None] + half[:, None] * np.linspace(-1.0, 1.0, 1001)
-    away = angles(circle.at(along.ravel()), tree).reshape(along.shape).min(axis=1)
-    clear = away > 0.01  # arcs that cross no edge
-    assert clear.sum() > arcs // 3
-    least = from_circle(wheel, circle, middle[clear], half[clear])
-    assert (least <= away[clear] + ROUNDING).all()
-    assert np.allclose(least, away[clear], atol=1e-3)
 
 
 @pytest.mark.sampled(2)
@@ -146,21 +103,3 @@ def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
             assert found.least_mm <= -depth
         else:
             assert -depth - ROUNDING <= found.open.gap_mm < -TO_MM
-
-
-@pytest.mark.long
-def test_sectors_out_of_their_place_are_never_proved_free():
-    """A sector that is turned ahead meets a horn for a moment, at entry or exit."""
-    rng = random.Random(5)
-    collides = free = 0
-    for name in DESIGNS:
-        for _ in range(some(60, 2)):
-            parts = with_sectors(named(name), math.radians(10.0 ** rng.uniform(-4.0, 0.5)))
-            gap = least_gap(parts, turn_of(parts, some(8_000, 1_000)))
-            found = certificate(parts, 0.0, TO_MM)
-            collides += gap < -TO_MM
-            free += found.proved
-            assert not (found.proved and gap < found.least_mm)
-            assert found.proved or gap < TO_MM
-    assert collides
-    assert free

@@ -1,0 +1,119 @@
+"""Blocks of a sheet, and how they are placed side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias
+
+from geneva_cli.geometry.measure import mapped
+from geneva_cli.geometry.shapes import Contour, Point, Shape
+from geneva_cli.geometry.sheet import Label, Measure
+
+Box: TypeAlias = tuple[float, float, float, float]  # x0, y0, x1, y1
+
+
+class Block(NamedTuple):
+    """A part of a sheet that is placed as a whole, and its bounding box."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+    shapes: tuple[Shape, ...]
+    labels: tuple[Label, ...]
+    measures: tuple[Measure, ...] = ()
+
+    @property
+    def width(self) -> float:
+        """Width, mm."""
+        return self.x1 - self.x0
+
+    @property
+    def height(self) -> float:
+        """Height, mm."""
+        return self.y1 - self.y0
+
+    def moved(self, dx: float, dy: float) -> Block:
+        """Return the block, moved by (dx, dy)."""
+
+        def point(p: Point) -> Point:
+            return p[0] + dx, p[1] + dy
+
+        measures = []
+        for one in self.measures:
+            lines = mapped(Contour("", one.lines, closed=False), point).segments
+            moved = one._replace(points=tuple(map(point, one.points)), lines=lines)
+            label = one.label._replace(at=point(one.label.at))
+            arrows = tuple(a._replace(tip=point(a.tip)) for a in one.arrows)
+            measures.append(moved._replace(label=label, arrows=arrows))
+        return Block(
+            self.x0 + dx,
+            self.y0 + dy,
+            self.x1 + dx,
+            self.y1 + dy,
+            tuple(mapped(s, point) for s in self.shapes),
+            tuple(label._replace(at=point(label.at)) for label in self.labels),
+            tuple(measures),
+        )
+
+
+def is_overfull(blocks: Sequence[Block], area: Box) -> bool:
+    """Return True if blocks need more than an area, so that ``packed`` cannot place them."""
+    x0, y0, x1, y1 = area
+    apart = 7.9  # mm, a little less than ``packed`` keeps between blocks, and to the edge
+    needed = sum((block.width + apart) * (block.height + apart) for block in blocks)
+    return needed > (x1 - x0 - apart) * (y1 - y0 - apart)
+
+
+def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[Block] | None:
+    """Return the blocks at free positions in an area, clear of the ``taken`` ones.
+
+    None where they do not fit.
+    """
+    orders: tuple[Callable[[Block], float], ...] = (
+        lambda block: -block.width * block.height,
+        lambda block: -block.height,
+        lambda block: -block.width,
+    )
+    for order in orders:
+        result = None
+        for apart in (8.0, 12.0, 18.0, 27.0, 40.0):  # mm between blocks
+            wider = packed_apart(blocks, taken, area, order, apart)
+            if wider is None:
+                break
+            result = wider
+        if result is not None:
+            return result
+    return None
+
+
+def packed_apart(
+    blocks: Sequence[Block],
+    taken: Sequence[Block],
+    area: Box,
+    order: Callable[[Block], float],
+    apart: float,
+) -> list[Block] | None:
+    """Return the blocks as ``packed`` does, the least by ``order`` first, ``apart`` mm apart."""
+    x0, y0, x1, y1 = area
+    placed: dict[int, Block] = {}
+    around = [(b.x0, b.y0, b.x1, b.y1) for b in taken]
+    gap = 0.999 * apart
+    for i in sorted(range(len(blocks)), key=lambda k: order(blocks[k])):
+        block = blocks[i]
+        lefts = sorted({x0 + apart, *(box[2] + apart for box in around)})
+        tops = sorted({y1 - apart, *(box[1] - apart for box in around)}, reverse=True)
+        for top, left in ((top, left) for top in tops for left in lefts):
+            low, right = top - block.height, left + block.width
+            if right > x1 - apart or low < y0 + apart:
+                continue
+            if all(
+                right + gap <= a or c + gap <= left or top + gap <= b or d + gap <= low
+                for a, b, c, d in around
+            ):
+                break
+        else:
+            return None
+        placed[i] = block.moved(left - block.x0, top - block.y1)
+        around.append((left, low, right, top))
+    return [placed[i] for i in range(len(blocks))]
