@@ -1,7 +1,6 @@
-"""All parts of a flat machine at their positions, at input angle 0.
+"""All parts of a flat machine at their positions, at input angle 0, each built on first use.
 
-The wheel's axis is the origin, and the crank's is on the x axis. Each part is built once, on first
-use. Drawing, solid, list of parts, sheet and the checks of shafts are projections of them.
+The wheel's axis is the origin, and the crank's is on the x axis.
 """
 
 from __future__ import annotations
@@ -52,9 +51,8 @@ if TYPE_CHECKING:
 class FlatParts(EdgedParts):
     """The parts of a flat machine in the wheel's frame.
 
-    A part that the sizes leave no place for raises GenevaError, naming the key. A wheel with too
-    many slots is not drawn: then there are links and gears, with shafts and frame, and the rollers
-    on links.
+    A wheel with too many slots is not drawn: then there are links and gears, with shafts and frame,
+    and the rollers on links.
     """
 
     @cached_property

@@ -1,9 +1,8 @@
 """The frame: one plate with a hole for every shaft that reaches it, and four mounting holes.
 
-It lies below all moving parts. External wheels that orbit have a carrier instead, which turns on
-the finger's shaft. A shaft that ends above the frame has its bearing elsewhere: an internal
-wheel's, or a side-crank's, whose input crank turns over the axis of the crank's shaft. That one is
-borne by a bridge over the crank, on two posts beside all that turns about the crank's axis.
+It lies below all moving parts. Wheels that orbit have a carrier instead. A shaft that ends above
+the frame has its bearing elsewhere; that of a side-crank, whose input crank turns over the crank's
+axis, in a bridge over the crank, on two posts beside all that turns.
 """
 
 from __future__ import annotations

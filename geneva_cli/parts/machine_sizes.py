@@ -1,7 +1,6 @@
 """The usual sizes of the parts, in millimetres: those of the spec, or defaults without a load.
 
-Default bores are those of standard bearings, other default sizes rounded numbers. The rim is where
-the roller enters. On a smaller wheel the roller would lose its slot, on a larger one it would touch
+The rim is where the roller enters: on a smaller wheel it would lose its slot, on a larger one touch
 the rim. The locking disc reaches past the rim and leaves a horn next to the slot.
 """
 

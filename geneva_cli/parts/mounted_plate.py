@@ -24,8 +24,8 @@ def mounted_plate(
 ) -> Plate:
     """Return a frame with its holes, around circles that it contains.
 
-    Four mounting holes are in its corners, whose radius is ``eye``, if there is a screw for them.
-    ``span`` has its lower and upper face.
+    Mounting holes are in its corners, whose radius is ``eye``. ``span`` has its lower and upper
+    face.
     """
     inside = list(within)
     low, high = (

@@ -1,7 +1,6 @@
 """The parts of one machine and their full turn, each computed once, on first use.
 
-A kind derives its own from ``Parts`` and names them in its record. What builds them is imported at
-its first use: most runs need few of the parts.
+A kind names its own in its record. What builds them is imported at its first use.
 """
 
 from __future__ import annotations

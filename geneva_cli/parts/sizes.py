@@ -121,8 +121,7 @@ def hub_and_eye(
 ) -> tuple[float, float]:
     """Return the radii of an arm about the ``bore`` of its shaft and about the ``hole`` of a pin.
 
-    ``passing`` is the largest eye that passes the wheel, ``standing`` the radius of a disc on the
-    hub.
+    ``passing`` is the largest eye that passes the wheel, ``standing`` that of a disc on the hub.
     """
     deep = bore_of(size, "crank", bore).reach
     hub = arm_hub(size, deep, bore, wall, standing)

@@ -60,11 +60,7 @@ class LoadedShaft(NamedTuple):
 
 
 def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
-    """Shear stress of a round shaft under an equivalent torque: 16 T/(pi d³).
-
-    >>> round(shear_MPa(100.0, 20.0), 6)
-    63.661977
-    """
+    """Shear stress of a round shaft under an equivalent torque: 16 T/(pi d³)."""
     return 16e3 * moment_Nm / (math.pi * diameter_mm**3)
 
 
@@ -74,10 +70,9 @@ def on_wheel(i: Instant[Jet], overhang: Number) -> tuple[Jet, Jet]:
 
 
 class OnCarrier(NamedTuple):
-    """The loads of the shaft of a wheel on a carrier, which also bears its bodies' inertia.
+    """The loads of the shaft of a wheel on a carrier, which also bears its bodies' m L w².
 
-    The bodies press away from the carrier's axis with m L w². That is added to the roller's force
-    as if both had one direction and one plane: an upper bound.
+    That is added to the roller's force as if both had one direction and one plane: an upper bound.
     """
 
     orbiting_N: float  # m L w²
@@ -186,10 +181,8 @@ def shafts_under_load(
     """Shafts of m designs under the forces and torques of a cycle: columns (m,) by their names.
 
     ``moment_Nm`` is the greatest sqrt((Kb M)² + (Kt T)²), at ``at_deg``; ``twist_deg`` the greatest
-    over overhang and span. What has no bound is infinite, and what needs unknown dimensions is left
-    out. Shafts are searched together, as most of the work is common to them. What is held loads a
-    shaft in the dwell, from the first motion's end on. A shaft of which no design has an overhang
-    or a load has no columns.
+    over overhang and span. What needs unknown dimensions is left out, and all of a shaft without an
+    overhang or a load. What is held loads a shaft in the dwell, from the first motion's end on.
     """
     table, own = mechanism.spec.shaft, dict[str, LoadQuantity]()
     for i, one in enumerate(shafts):

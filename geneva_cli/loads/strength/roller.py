@@ -1,13 +1,11 @@
 """The roller as a bearing in its slot: work, turns and life.
 
-Over a motion the roller rolls along its wall under a force N. If it did not turn in the body that
-carries it, it would slide at the speed v_s. A bearing that carries N and turns by |v_s|/r per
-second has the life that it has under the constant force (ISO 281, roller bearings)
+Over a motion it rolls along its wall under a force N, and turns by |v_s|/r per second, v_s being
+the speed at which it would slide. By ISO 281 (roller bearings) the life is that under
 
     P = (∫ N^p |v_s| dt / ∫ |v_s| dt)^(1/p),  p = 10/3,  L10 = 10^6 (C/P)^p revolutions.
 
-Motions are cut where torque, sliding or the speed along the slot change sign, or the motion has a
-break. Between the cuts they are integrated to the last digits.
+Between changes of sign and breaks of the motion the integrals are exact to the last digits.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
-"""The noncircular gears in front of a crank, at input angle 0, and their shafts.
+"""The noncircular gears in front of a crank, at input angle 0, up to their pitch curves.
 
-The driven gear is on the crank's axis, the driver at the distance C from it. They are blanks up to
-their pitch curves.
+The driven gear is on the crank's axis, the driver at the distance C from it.
 """
 
 from __future__ import annotations
@@ -45,9 +44,8 @@ def gear_pair(
 ) -> tuple[Member, ...]:
     """Return both gears up to their pitch curves; none without noncircular gears.
 
-    ``parts`` are the outlines of wheel and crank, if they are drawn, and ``on_crank`` is the radius
-    of the crank's shaft if it does not follow from them. ``writer`` returns a function that fits
-    curves within a tolerance, mm. Raises GenevaError for a bore larger than its gear.
+    ``on_crank`` is the radius of the crank's shaft if it does not follow from the outlines
+    ``parts``. ``writer`` returns a function that fits curves within a tolerance, mm.
     """
     pair = mechanism.spec.gears
     if pair is None:

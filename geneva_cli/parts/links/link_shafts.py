@@ -1,8 +1,5 @@
 """What shafts of links carry, and the gaps of round parts to the links that they pass.
 
-Fixed shafts end in the frame's lower face. A planet's shaft moves, and joins the parts on it. A
-link without a bore is one piece with its shaft, which ends at the link's faces.
-
 Each plane below the wheel's has one link, or gears. Through it pass the wheel's hub and shaft,
 spacers on pins that join links of distant planes, pivots and spacers on the frame where another
 drive is below, and the crank's shaft, which leaves the machine below all links, or above.

@@ -1,8 +1,7 @@
-"""Shafts and pivots with what sits on them, the crank's hub, and bores of parts on a shaft.
+"""Shafts and pivots, the crank's hub, and bores of parts on a shaft.
 
-The crank's hub is drawn if the spec has one of its sizes. Shafts end in the frame's lower face, and
-above with the part that they carry. A wheel with ``wheel_hub_mm = 0`` has its shaft only above it,
-unless that carries a gear below.
+Shafts end in the frame's lower face, and above with the part that they carry. A wheel with
+``wheel_hub_mm = 0`` has its shaft only above it, unless that carries a gear below.
 """
 
 from __future__ import annotations
