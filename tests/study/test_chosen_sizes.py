@@ -208,8 +208,6 @@ def test_a_sweep_says_that_each_row_has_its_own_sizes(turret):
     strong = run("sweep", "turret.toml", *vary, "--pick", "strength.crank_shaft.diameter_mm")
     assert "sizes that its own load needs, the spec crank shaft 12" in strong.stderr
     assert run("sweep", "turret.toml", *vary, "--pick", "velocity.max").stderr == ""
-    best = run("sweep", "turret.toml", *vary, "--best", "min:timing.motion_s")
-    assert "# sizes chosen anew: crank shaft 12 → 17 mm" in best.stdout
 
 
 def test_a_comparison_says_which_columns_have_other_sizes(turret):
