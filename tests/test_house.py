@@ -168,12 +168,12 @@ def beside_designs(text):
 ASKS = {
     "drives.refuses": ["spec.wheel.NAME not in able"],
     "specfile.template": ["name != Crank.NAME"],
-    "study.synth.reading": ["field.key == 'stop'"],
+    "study.synth.reading": ["f.key == 'stop'"],
 }
 # Keys and tables of a kind that stand in the core.
 NAMED = {
     "specfile.template": {"stop"},  # to be an example of the kind
-    "study.synth.reading": {"linear", "stop"},  # --linear; the key of a wheel
+    "study.synth.reading": {"stop"},  # the key of a wheel
     "study.target": {"stop"},  # the key of a wheel
     "verdict.headline": {"stop"},  # a label
 }

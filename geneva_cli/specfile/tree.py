@@ -226,15 +226,17 @@ def _refuse_foreign(
     values: dict[str, Any], own: Sequence[Field], kinds: KindTable, of: str
 ) -> None:
     """Raise GenevaError for a key of another kind; capitals make no difference to whose it is."""
-    known = {field.key.casefold(): field.key for field in own}
+    known = {field.key.casefold() for field in own}
+    foreign = [key for key in values if key.casefold() not in known]
+    if not foreign:  # the keys of all kinds are a dozen imports
+        return
     theirs: dict[str, str] = {}  # the first kind that has a key
     for name, keys in kinds.keys.items():
         for field in keys:
             theirs.setdefault(field.key, name)
     by_small = {key.casefold(): key for key in theirs}
-    for key in values:
-        meant = by_small.get(key.casefold())
-        if key.casefold() not in known and meant:
+    for key in foreign:
+        if meant := by_small.get(key.casefold()):
             fault = key
             if key not in theirs:
                 hint = nearest(key, [meant])

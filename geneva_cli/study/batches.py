@@ -16,36 +16,21 @@ from geneva_cli.motion.many import many, may_vary
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import Array, Number, Whole
 from geneva_cli.spec.schema import SpecTable, fields
-from geneva_cli.study.rows import Cell, Column, Rows, cells_of
+from geneva_cli.study.rows import Cell, Rows, cells_of
 from geneva_cli.verdict.quantities.batch_designs import Designs
 from geneva_cli.verdict.quantities.quantity_names import group_of, in_batch
 
 Batch: TypeAlias = tuple[Whole, Mechanism]  # the numbers of some designs, and their machine
 
 
-def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | None]:
-    """The quantities ``names`` of each spec, as ``columns`` computes them.
-
-    None for a spec that cannot be built, or whose engagements have no common number.
-    """
-    rows: list[list[float] | None] = [None] * len(specs)
-    for members, machine in batch_machines(specs):
-        values = columns(machine, names, len(members))
-        if values is not None:
-            for i, row in zip(members.tolist(), np.column_stack(values).tolist(), strict=True):
-                rows[i] = row
-    return rows
-
-
-def number_columns(batches: Iterable[Batch], names: Sequence[str], count: int) -> Array:
+def numbers(batches: Iterable[Batch], names: Sequence[str], count: int) -> Array:
     """The quantities ``names`` (q, n) of n = ``count`` designs of batches, as ``columns`` does.
 
     NaN for a design of no batch, or whose engagements have no common number.
     """
     out = np.full((len(names), count), np.nan)
     for members, machine in batches:
-        values = columns(machine, names, len(members))
-        if values is not None:
+        if values := columns(machine, names, len(members)):
             out[:, members] = values
     return out
 
@@ -78,7 +63,11 @@ def batch_rows(
     which tells which of their numbers may be arrays; the rows of a batch share the others too.
     """
     each = rows.columns
-    numbers = [k for k, column in enumerate(each) if not _has_words(column)]
+    numbers = [
+        k
+        for k, column in enumerate(each)
+        if not (isinstance(column, list) and any(isinstance(cell, str) for cell in column))
+    ]
 
     def first_spec(members: Whole) -> Spec | None:
         for i in members[:20].tolist():
@@ -87,7 +76,15 @@ def batch_rows(
         return None
 
     def groups(members: Whole, wide: Sequence[int]) -> Iterator[Whole]:
-        return _equal(members, [column for k, column in enumerate(each) if k not in wide])
+        """The members in groups that are equal in all columns but these."""
+        codes = np.zeros(len(members), dtype=np.intp)
+        for k, column in enumerate(rows.taken(members).columns):
+            if k not in wide:
+                known: dict[object, int] = {}
+                own = [known.setdefault(cell, len(known)) for cell in cells_of(column)]
+                codes = np.unique(codes * len(known) + own, return_inverse=True)[1]
+        order = np.argsort(codes, kind="stable")
+        yield from np.split(members[order], np.flatnonzero(np.diff(codes[order])) + 1)
 
     for kind in groups(np.arange(len(rows)), numbers):
         wide = []
@@ -100,21 +97,6 @@ def batch_rows(
                 own = rows.taken(members).columns
                 varied = {keys[k]: np.asarray(own[k]) for k in wide}
                 yield from _built(spec, varied, members)
-
-
-def _has_words(column: Column) -> bool:
-    return isinstance(column, list) and any(isinstance(cell, str) for cell in column)
-
-
-def _equal(members: Whole, columns: Sequence[Column]) -> Iterator[Whole]:
-    """The members in groups that are equal in all columns."""
-    codes = np.zeros(len(members), dtype=np.intp)
-    for column in Rows(columns).taken(members).columns if columns else ():
-        known: dict[object, int] = {}
-        own = [known.setdefault(cell, len(known)) for cell in cells_of(column)]
-        codes = np.unique(codes * len(known) + own, return_inverse=True)[1]
-    order = np.argsort(codes, kind="stable")
-    yield from np.split(members[order], np.flatnonzero(np.diff(codes[order])) + 1)
 
 
 def _built(spec: Spec, varied: Mapping[str, Array], members: Whole) -> Iterator[Batch]:
@@ -148,7 +130,13 @@ def split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, f
     before = type(spec.drive_before)
     kinds = (type(spec.wheel), type(spec.drive), before, spec.motion and spec.motion.law)
     if kinds not in keys:
-        keys[kinds] = [*_keys(spec)]
+        keys[kinds] = []
+        for table in ("wheel", "drive", BEFORE, "motion"):  # where machines of a requirement differ
+            part: SpecTable | None = vars(spec)[attribute_of(table)]
+            for field in fields(type(part)) if part else ():
+                name = f"{table}.{field.key}"
+                key = BatchKey(table, field.attribute, name, may_vary(spec, name))
+                keys[kinds].append(key)
     own, tables = {}, vars(spec)
     shape: list[Any] = [kinds, *(tables[name] for name in _SHARED)]
     for table, attribute, name, varies in keys[kinds]:
@@ -158,16 +146,6 @@ def split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, f
         else:
             shape.append((name, value))
     return tuple(shape), own
-
-
-def _keys(spec: Spec) -> Iterator[BatchKey]:
-    """The keys in which machines of one kind may differ; a law includes its own keys."""
-    # where the machines of a requirement differ
-    for table in ("wheel", "drive", BEFORE, "motion"):
-        part: SpecTable | None = vars(spec)[attribute_of(table)]
-        for field in fields(type(part)) if part else ():
-            name = f"{table}.{field.key}"
-            yield BatchKey(table, field.attribute, name, may_vary(spec, name))
 
 
 def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array] | None:

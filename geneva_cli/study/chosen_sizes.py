@@ -35,24 +35,16 @@ def sized_text(design: Design) -> tuple[str, str]:
     Comments and order are those of the file. Where a text has no line for a table or a value, all
     its tables are written anew; then the note says so.
     """
-    kept = _in_its_text(design)
-    return (written(design.sized.spec, design.chosen), KEPT) if kept is None else (kept, "")
-
-
-def _in_its_text(design: Design) -> str | None:
-    """The text of the design's file with what options set, then with the chosen sizes."""
-    if design.text is None:
-        return None
-    text: str | None = design.text.text
-    keys = {one.path: Written(one.value) for one in design.text.set_keys}
+    text = design.text.text if design.text else None
+    keys = {one.path: Written(one.value) for one in design.text.set_keys} if design.text else {}
     for key, size in design.chosen.items():
         keys[tuple(key.split("."))] = Written(size.value, size.why)
     for table in dict.fromkeys(path[:-1] for path in keys):
         own = {str(path[-1]): one for path, one in keys.items() if path[:-1] == table}
-        if text is None or not table or not all(isinstance(name, str) for name in table):
-            return None
-        text = inserted(text, ".".join(map(str, table)), own)
-    return text
+        is_plain = table and all(isinstance(name, str) for name in table)
+        if text is not None:
+            text = inserted(text, ".".join(map(str, table)), own) if is_plain else None
+    return (written(design.sized.spec, design.chosen), KEPT) if text is None else (text, "")
 
 
 def written(spec: Spec, sizes: Mapping[str, Chosen]) -> str:

@@ -1,23 +1,28 @@
-"""Comparison of designs: one column for each design, one row for each quantity."""
+"""Designs side by side: several files, or one spec with keys varied; a row for each quantity."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import itertools
+import os
+from collections.abc import Collection, Sequence
 
-from geneva_cli.errors import GenevaError
-from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.design import Design
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.tolerances import same
-from geneva_cli.parts.chosen import OF_SIZES, ByLoad, Chosen, by_load
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import PLAIN
+from geneva_cli.specfile.reader import Text, read, shown_name
+from geneva_cli.specfile.settings import setting
 from geneva_cli.specfile.writer import keys_in, values_of
 from geneva_cli.study.fields import pick, values
 from geneva_cli.study.rows import Cell
-from geneva_cli.study.spec_texts import designs_of, spec_texts
 from geneva_cli.study.sweep.constraints import is_number
+from geneva_cli.study.sweep.values import axis, refuse_twice
 from geneva_cli.table import Reading, Table, rows_table
 from geneva_cli.verdict.quantities.groups import INPUTS, MACHINE
 from geneva_cli.verdict.quantities.quantity_names import group_of
+
+DESIGNS_MAX = 100  # in one comparison
 
 
 def compare(
@@ -30,32 +35,31 @@ def compare(
 ) -> Table:
     """Return the comparison: ``quantity``, one column for each design, and ``differs`` for several.
 
-    Either one design is varied through values of keys (``vary``, texts ``KEY=VALUES``), or several
-    specs are compared. ``picks`` are the quantities to show. Without them all that need no parts
-    are shown, and the keys of wheel, drives and motion in which the specs differ. ``ratio`` divides
-    numbers by those of the first design. Numbers differ if they do so by more than rounding.
-    ``reverse`` adds a column for each design turning the other way. The table's prose says which
-    sizes the loads of varied designs choose anew.
-
-    Raises GenevaError for a design that cannot be read or built.
+    The designs are those of ``designs_of``. ``picks`` are the quantities to show. Without them all
+    that need no parts are shown, and the keys of wheel, drives and motion in which the specs
+    differ. ``ratio`` divides numbers by those of the first design. Numbers differ if they do so by
+    more than rounding.
     """
-    texts = spec_texts(paths, settings, vary, ("quantity", "differs"))  # the table's own columns
-    designs = designs_of(texts, reverse)
-    for design in designs.values():
-        _refuse_drawings(design.spec)
+    # the table's own columns
+    designs = designs_of(paths, settings, vary, reverse, ("quantity", "differs"))
     picked = pick(picks) if picks else None
-    has_sizes = not picks or any(name.startswith(OF_SIZES) for name in picks)
     each: list[dict[str, Cell]] = []
-    sizes: list[Mapping[str, Chosen]] = []
     for design in designs.values():
-        machine = design.mechanism
+        spec, machine = design.spec, design.mechanism
+        if spec.outline.is_given:
+            raise GenevaError(
+                f"{spec.path}: [outline]: a comparison is of formulas, and turns no drawings; "
+                "`geneva check` and `geneva peaks` take each"
+            )
         if picked:
             each.append(dict(zip(picked.names, picked.of(machine), strict=True)))
-        else:
-            first = dict.fromkeys(MACHINE.names)
-            each.append({**first, **_shape(machine.spec), **values(parts_of(machine))})
-        # while the loads of this machine are known
-        sizes.append(by_load(machine) if vary and has_sizes else {})
+            continue
+        own: dict[str, Cell] = dict.fromkeys(MACHINE.names)
+        for table, keys in keys_in(spec).items():
+            for row in values_of(spec, table) if table not in PLAIN else ():
+                shape = {f"{table}.{key.key}": row[key.key] for key in keys}
+                own |= {k: x for k, x in shape.items() if isinstance(x, (str, float, int))}
+        each.append({**own, **values(parts_of(machine))})
     rows = []
     for quantity in dict.fromkeys(name for own in each for name in own):
         if quantity.startswith(INPUTS) and not picks:  # the spec or the columns' names show these
@@ -71,38 +75,13 @@ def compare(
     names = ("quantity", *designs, "differs")
     if len(designs) == 1:  # nothing to differ from
         names, rows = names[:-1], [row[:-1] for row in rows]
-    table = rows_table(names, rows, mixed=True)
-    return table.replaced(prose=_chosen_anew([*designs], sizes), reading=Reading(designs=True))
-
-
-def _chosen_anew(names: Sequence[str], sizes: Sequence[Mapping[str, Chosen]]) -> str:
-    """The sizes that the loads of varied designs choose other than that of the first, in words."""
-    changes = [ByLoad(own, sizes[0]).changes for own in sizes]
-    texts = [f"{name}: {text}" for name, text in zip(names, changes, strict=True) if text]
-    return f"sizes chosen anew, against {names[0]}: {'; '.join(texts)}" if texts else ""
-
-
-def _refuse_drawings(spec: Spec) -> None:
-    if spec.outline.is_given:
-        raise GenevaError(
-            f"{spec.path}: [outline]: a comparison is of formulas, and turns no drawings; "
-            "`geneva check` and `geneva peaks` take each"
-        )
-
-
-def _shape(spec: Spec) -> dict[str, Cell]:
-    shape: dict[str, Cell] = {}
-    for table, keys in keys_in(spec).items():
-        for own in values_of(spec, table) if table not in PLAIN else ():
-            shape |= {f"{table}.{key.key}": own[key.key] for key in keys}
-    return {key: value for key, value in shape.items() if isinstance(value, (str, float, int))}
+    return rows_table(names, rows, mixed=True).replaced(reading=Reading(designs=True))
 
 
 def differing(table: Table) -> Table:
     """The rows of a comparison whose cells differ; none of a single design."""
     rows = [row for row in table.rows() if row[-1]] if "differs" in table.names else []
-    kept = rows_table(table.names, rows, mixed=True)
-    return kept.replaced(prose=table.prose, reading=table.reading)
+    return rows_table(table.names, rows, mixed=True).replaced(reading=table.reading)
 
 
 def over(cell: Cell, first: Cell) -> Cell:
@@ -110,3 +89,53 @@ def over(cell: Cell, first: Cell) -> Cell:
     if isinstance(cell, bool) or not is_number(cell):
         return cell
     return cell / first if is_number(first) and first else None
+
+
+def designs_of(
+    paths: Sequence[str],
+    settings: Sequence[str] = (),
+    vary: Sequence[str] = (),
+    reverse: bool = False,
+    taken: Collection[str] = (),
+) -> dict[str, Design]:
+    """The designs of specs, by a short name each that is not one of ``taken``.
+
+    ``settings``, texts ``KEY=VALUE``, replace keys of each spec. With ``vary``, texts
+    ``KEY=VALUES``, there is one spec, and a design for each combination of values. With ``reverse``
+    each also turns the other way.
+    """
+    texts: dict[str, Text] = {}
+    if vary and len(paths) > 1:
+        raise GenevaError("--vary is for one SPEC; leave it out to compare several")
+    if vary:
+        text, axes = read(paths[0], settings), [axis(v) for v in vary]
+        refuse_twice(axes, text.set_keys)
+        for one in itertools.product(*[a.values for a in axes]):
+            words = [f"{a.key}={v}" for a, v in zip(axes, one, strict=True)]
+            changes = tuple(setting(s, "--vary") for s in words)
+            texts[" ".join(words)] = text._replace(set_keys=(*text.set_keys, *changes))
+            if len(texts) > DESIGNS_MAX:
+                raise GenevaError(
+                    f"--vary makes more than {DESIGNS_MAX} designs: `geneva sweep` has a row for "
+                    "each"
+                )
+    else:
+        paths = list(paths)
+        twice = next((p for p in paths if paths.count(p) > 1), None)
+        if twice:
+            raise GenevaError(
+                f"{cut(shown_name(twice))}: given twice; use --vary to compare changes of one spec"
+            )
+        if len(paths) > DESIGNS_MAX:
+            raise GenevaError(f"{len(paths)} designs; at most {DESIGNS_MAX} can be compared")
+        # a file's name without folder and ending, if no other file shares it
+        stems = [os.path.splitext(os.path.basename(path))[0] for path in paths]
+        for stem, path in zip(stems, paths, strict=True):
+            is_short = stems.count(stem) == 1 and stem not in taken
+            texts[stem if is_short else path] = read(path, settings)
+    designs: dict[str, Design] = {}
+    for name, text in texts.items():
+        designs[name] = Design.of(text.spec(), text)
+        if reverse:
+            designs[f"{name} backwards"] = designs[name].backwards
+    return designs

@@ -31,9 +31,14 @@ from geneva_cli.output.document.blocks import (
 )
 from geneva_cli.output.finite import only
 from geneva_cli.specfile.writer import keys_in, values_of
-from geneva_cli.study.summary.greatest_loads import PARTS, greatest_loads, parts_of
 from geneva_cli.study.summary.load_lines import title_of
-from geneva_cli.study.summary.report_summary import key_figures, machine_lines
+from geneva_cli.study.summary.report_summary import (
+    PARTS,
+    greatest_loads,
+    key_figures,
+    machine_lines,
+    parts_of,
+)
 from geneva_cli.table import Table, in_digits
 from geneva_cli.verdict.headline import headline
 from geneva_cli.verdict.strength import OF_LIFE
@@ -83,13 +88,7 @@ def short_document(design: Design) -> Document:
 
 
 def document(design: Design) -> Document:
-    """The whole document of a design. Raises GenevaError for a spec that makes no machine.
-
-    >>> from geneva_cli.study.document import document
-    >>> page = document(Design(External(6)))
-    >>> page.title, page.state, page.verdict
-    ('Geneva wheel of 6 slots', 'passes', 'All 16 checks pass')
-    """
+    """The whole document of a design."""
     table = design.report.table
     # the title, the verdict, the key figures and the spec show these
     shown = {"spec", "title", "passes", "chosen", "warnings", "checks_failed", "not_proved"}
@@ -263,11 +262,7 @@ def _fact(name: str, value: Any = None) -> Fact:
 
 
 def capital(text: str) -> str:
-    """A text that begins with a capital, unless it begins with a symbol.
-
-    >>> capital("slot width"), capital("k, time of motion")
-    ('Slot width', 'k, time of motion')
-    """
+    """A text that begins with a capital, unless it begins with a symbol."""
     is_symbol = len(text.partition(",")[0].partition("_")[0]) < 2
     return text if is_symbol else text[:1].upper() + text[1:]
 

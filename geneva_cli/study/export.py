@@ -68,12 +68,8 @@ def trade_of(name: str | None) -> Trade:
 def export_files(design: Design, trade: Trade) -> tuple[list[ExportFile], list[Missing]]:
     """The files of a design for a trade, and parts that cannot be built.
 
-    A spherical machine has no bed of parts, and outlines of wheel and crank laid flat. Neither it
-    nor a rack has a sheet.
-
-    >>> files, _ = export_files(Design(External(6)), trade_of("laser"))
-    >>> [file.name for file in files][:3]
-    ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
+    A spherical machine has no bed of parts, and outlines of wheel and crank laid
+    flat. Neither it nor a rack has a sheet.
     """
     design.refuse_drawn("the files for a shop are those")
     files: list[ExportFile] = []

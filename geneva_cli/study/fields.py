@@ -82,8 +82,5 @@ class Pick(NamedTuple):
 
 
 def pick(requested: Sequence[str]) -> Pick:
-    """The quantities of these names, as ``whole_name`` resolves them; each once.
-
-    Raises GenevaError for a name that is no quantity, or may be several.
-    """
+    """The quantities of these names, as ``whole_name`` resolves them; each once."""
     return Pick(tuple(dict.fromkeys(map(whole_name, requested))))

@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME, LeftOut, figure
 from geneva_cli.specfile.columns import read_columns
-from geneva_cli.study.spec_texts import designs_of, spec_texts
+from geneva_cli.study.compare import designs_of
 from geneva_cli.verdict.quantities.quantity_names import whole_name
 
 POINTS_MARKED = 40  # marks of more points of a curve would touch
@@ -27,15 +27,8 @@ def of_specs(
 
     With ``vary``, texts ``KEY=VALUES``, there is one spec, drawn for each combination of values.
     With ``reverse`` each design also turns the other way.
-
-    Raises GenevaError for a spec that cannot be read or built, and as ``figure`` does.
-
-    >>> cycles, *_ = of_specs(["designs/internal-z6.toml", "designs/turret.toml"], (), ["jerk"])
-    >>> [curve.name for curve in cycles.panels[0].curves]
-    ['internal-z6', 'turret']
     """
-    texts = spec_texts(paths, tuple(settings), vary)
-    designs = designs_of(texts, reverse)
+    designs = designs_of(paths, tuple(settings), vary, reverse)
     names = []
     for name in pick:  # acceleration shows acceleration.max
         try:
@@ -52,8 +45,6 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
     """Columns of a CSV file over another column, one panel for each.
 
     Numbers that ascend make a curve, divided where a row has none; others are points.
-
-    Raises GenevaError for a file that cannot be read, and for a column without numbers.
     """
     table = read_columns(path)
     if not x or not ys:

@@ -26,8 +26,7 @@ def mapped(
 ) -> Iterator[R]:
     """Yield ``work`` of each item, in order, from several processes or, for 1 worker, this one.
 
-    ``what`` is the plural noun for the items in messages. Raises GenevaError if a process is ended
-    from outside.
+    ``what`` is the plural noun for the items in messages.
     """
     if workers < 2:
         yield from map(work, items)

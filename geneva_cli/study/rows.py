@@ -40,14 +40,27 @@ class Rows:
 
     def taken(self, which: Mask | Whole) -> Rows:
         """Some of the rows, by a mask (n,) or by their numbers."""
-        return Rows([_taken(column, which) for column in self.columns])
+        numbers = np.flatnonzero(which) if which.dtype == bool else which
+        each = numbers.tolist()
+        return Rows(
+            [[c[i] for i in each] if isinstance(c, list) else c[numbers] for c in self.columns]
+        )
 
     def replaced(self, which: Whole, rows: Sequence[Sequence[Cell]]) -> Rows:
         """The rows with those of these numbers replaced."""
-        new = zip(*rows, strict=True)
-        return Rows(
-            [_replaced(column, which, own) for column, own in zip(self.columns, new, strict=True)]
-        )
+        columns: list[Column] = []
+        for column, cells in zip(self.columns, zip(*rows, strict=True), strict=True):
+            new = column_of(cells)
+            if isinstance(column, list) or isinstance(new, list) or column.dtype != new.dtype:
+                changed = [*cells_of(column)]
+                for i, cell in zip(which.tolist(), cells, strict=True):
+                    changed[i] = cell
+                columns.append(changed)
+            else:
+                array = column.copy()
+                array[which] = new
+                columns.append(array)
+        return Rows(columns)
 
 
 def rows_of(rows: Sequence[Sequence[Cell]]) -> Rows:
@@ -57,9 +70,14 @@ def rows_of(rows: Sequence[Sequence[Cell]]) -> Rows:
 
 def joined(several: Sequence[Rows]) -> Rows:
     """The rows of several, at least one, with equal columns."""
-    return Rows(
-        [_joined(columns) for columns in zip(*[rows.columns for rows in several], strict=True)]
-    )
+    out: list[Column] = []
+    for columns in zip(*[rows.columns for rows in several], strict=True):
+        arrays = [column for column in columns if not isinstance(column, list)]
+        if len(arrays) == len(columns) and len({array.dtype for array in arrays}) == 1:
+            out.append(np.concatenate(arrays))
+        else:
+            out.append([cell for column in columns for cell in cells_of(column)])
+    return Rows(out)
 
 
 def column_of(cells: Sequence[Cell]) -> Column:
@@ -87,30 +105,3 @@ def without_infinity(column: Column) -> Column:
     """The column as a table has it: with None, not infinity, for no value."""
     has_all = isinstance(column, list) or np.isfinite(column).all()
     return column if has_all else cells_of(column)
-
-
-def _taken(column: Column, which: Mask | Whole) -> Column:
-    if not isinstance(column, list):
-        return column[which]
-    numbers = np.flatnonzero(which) if which.dtype == bool else which
-    return [column[i] for i in numbers.tolist()]
-
-
-def _replaced(column: Column, which: Whole, cells: Sequence[Cell]) -> Column:
-    new = column_of(cells)
-    if isinstance(column, list) or isinstance(new, list) or column.dtype != new.dtype:
-        changed = [*cells_of(column)]
-        for i, cell in zip(which.tolist(), cells, strict=True):
-            changed[i] = cell
-        return changed
-    array = column.copy()
-    array[which] = new
-    return array
-
-
-def _joined(columns: Sequence[Column]) -> Column:
-    arrays = [column for column in columns if not isinstance(column, list)]
-    if len(arrays) == len(columns) and len({array.dtype for array in arrays}) == 1:
-        whole: Array = np.concatenate(arrays)
-        return whole
-    return [cell for column in columns for cell in cells_of(column)]

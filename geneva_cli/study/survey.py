@@ -28,10 +28,7 @@ SOLVED_MAX = 1_000  # rows without a closed form, whose peaks take milliseconds 
 
 
 def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
-    """One row for each z in a text like ``6``, ``3..12`` or ``3,4,6``.
-
-    Raises GenevaError, naming the option, for a value out of its range.
-    """
+    """One row for each z in a text like ``6``, ``3..12`` or ``3,4,6``."""
     if n_rpm not in SPEED:
         raise GenevaError(f"--n {n_rpm:g}: the speed must be {SPEED}")
     if not -1.0 < A < 1.0:

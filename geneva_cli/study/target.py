@@ -19,14 +19,13 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.path_and_motion import MOTION_MIN
-from geneva_cli.motion.wheels.gearing import Gearing, Output
+from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.load_limits import LIMITED
-from geneva_cli.spec.tables import DISTANCE_MM
 from geneva_cli.study.sweep.constraints import Constraint, Objective
 from geneva_cli.verdict.quantities.quantity_names import in_batch
 
-GEARINGS = ("external", "internal", "spherical")  # wheels; racks are searched alone
+GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
 PEAK = "acceleration.max"
 SPACE = 3.0  # centre distances that a linkage may take by default
@@ -51,8 +50,6 @@ class Target(NamedTuple):
     bounds: tuple[Constraint, ...] = ()
     space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
     bounded: frozenset[str] = frozenset()  # names of the ranges that bounds have narrowed
-    # numbers of wheels on a carrier; without any, cranks on the ground are sought
-    wheels: tuple[int, ...] = ()
 
     @property
     def timed(self) -> bool:
@@ -62,25 +59,7 @@ class Target(NamedTuple):
     @property
     def peak(self) -> str:
         """The name of the peak acceleration, the default goal; per s² if times are required."""
-        per_s2 = f"{PEAK}_{self.output.rate_unit}_s2"
-        return per_s2 if self.timed else PEAK
-
-    @property
-    def output(self) -> Output:
-        """What the machines give out: an angle or a travel."""
-        return self.wheel(self.gearings[0], self.z[0]).output(1.0)
-
-    def center_distance_mm(self, own: float | None) -> float | None:
-        """The centre distance for the required step of a rack, two crank radii.
-
-        Of a range of steps it is the shortest, with the lowest peaks; of one without a lower end it
-        is the nearest to ``own``, that of the frame, which is None for the default.
-        """
-        if "index_mm" not in self.spans:
-            return own
-        low, high = self.spans["index_mm"]
-        usual = self.frame.given_distance_mm if self.frame else DISTANCE_MM
-        return 0.5 * (low if low > 0.0 else min(2.0 * usual, high))
+        return f"{PEAK}_rad_s2" if self.timed else PEAK
 
     def wheel(self, gearing: str, z: int) -> Gearing:
         """A wheel of a gearing and a number of slots, with a stop if the frame's has one."""
@@ -285,11 +264,7 @@ class AllowedSpan(NamedTuple):
         return AllowedSpan(self.low * factor, self.high * factor)
 
     def within(self, other: AllowedSpan) -> AllowedSpan:
-        """The common part of two ranges; numbers that differ only by rounding are equal.
-
-        >>> AllowedSpan(1.0, 3.0).within(AllowedSpan(2.0, 4.0))
-        AllowedSpan(low=2.0, high=3.0)
-        """
+        """The common part of two ranges; numbers that differ only by rounding are equal."""
         low, high = max(self.low, other.low), min(self.high, other.high)
         if low > high and math.isclose(low, high, rel_tol=ROUNDED):
             return self if self.exact else other if other.exact else AllowedSpan(low, low)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
-from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
+from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.parts.chosen import ByLoad
@@ -103,14 +103,14 @@ def checks_record(verdicts: Sequence[Verdict]) -> Table:
     """
     warnings = [(v.path, w.name, w.plain, w.accepted or None) for v in verdicts for w in v.warnings]
     errors = [(v.path, v.error) for v in verdicts if v.error]
-    paths, chosen = [v.path for v in verdicts], [v.chosen.record for v in verdicts]
+    chosen = {v.path: v.chosen.record for v in verdicts}
     rows = checks_table(verdicts)
     return record_table(
         {
             "rows": (rows, rows_table(("spec", "error"), errors)) if errors else rows,
             "passes": all(v.passes for v in verdicts),
             "warnings": rows_table(("spec", "name", "text", "accepted"), warnings),
-            "chosen": chosen[0] if len(chosen) == 1 else dict(zip(paths, chosen, strict=True)),
+            "chosen": verdicts[0].chosen.record if len(verdicts) == 1 else chosen,
         }
     )
 
@@ -124,49 +124,34 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     table = checks_table(verdicts)
     data = checks_record(verdicts) if as_json else table
     judged = [v for v in verdicts if not v.error]
-    if len(verdicts) == len(judged) == 1:
-        (verdict,) = verdicts
-        lines = (*_lines(verdict), *proof_lines(verdict.checks), *tightest(verdict.checks))
-        lines += (*chosen_lines(verdict.chosen, verdict.path),)
-        summaries = [_head(verdict)._replace(lines=lines)]
-    else:
-        each = ((v.path, (*_lines(v), *anew_lines(v.chosen))) for v in judged)
-        details = [Summary(path, lines) for path, lines in each if lines]
-        unread = len(verdicts) - len(judged)
-        summaries = [*map(_head, judged), _count(judged, unread), *_sized(judged), *details]
-    return Answer(tuple(summaries), table if page else None, data)
-
-
-def _head(verdict: Verdict) -> Summary:
-    state, text = headline(verdict.checks, verdict.warnings)
-    return Summary(f"{verdict.path}: {text}", state=state)
-
-
-def _lines(verdict: Verdict) -> tuple[SummaryLine, ...]:
-    checks = verdict.checks
-    warnings = warning_lines(checks, verdict.warnings)
-    return (*failure_lines(checks), *warnings, *unused_lines(verdict.unused))
-
-
-def _count(judged: Sequence[Verdict], unread: int) -> Summary:
-    states = [headline(v.checks, v.warnings)[0] for v in judged]
-    failed, warned = states.count(FAILS), states.count(WARNS)
-    many = len(states) + unread
-    passed = many - failed - unread
-    text = (
-        f"{failed} of {many} specs fail{'s' * (failed == 1)}"
-        if failed
-        else f"{passed} of {many} specs pass{'es' * (passed == 1)}"
-        if unread
-        else f"all {many} specs pass"
-    )
-    text += f", {unread} cannot be read" if unread else ""
-    text += f", {warned} with warnings" if warned else ""
-    return Summary(text, state=FAILS if failed or unread else WARNS if warned else PASSES)
-
-
-def _sized(judged: Sequence[Verdict]) -> list[Summary]:
-    """How many specs have sizes that their loads chose; nothing without any."""
-    sized = sum(bool(v.chosen.sizes) for v in judged)
-    said = f"chosen by load in {sized} of {len(judged)} specs (geneva size SPEC writes them)"
-    return [Summary(f"sizes {said}")] if sized else []
+    is_single = len(verdicts) == len(judged) == 1
+    heads, details = list[Summary](), list[Summary]()
+    for v in judged:
+        state, text = headline(v.checks, v.warnings)
+        lines = (
+            *failure_lines(v.checks),
+            *warning_lines(v.checks, v.warnings),
+            *unused_lines(v.unused),
+        )
+        if is_single:
+            lines += (*proof_lines(v.checks), *tightest(v.checks), *chosen_lines(v.chosen, v.path))
+        elif own := (*lines, *anew_lines(v.chosen)):
+            details.append(Summary(v.path, own))
+        heads.append(Summary(f"{v.path}: {text}", lines if is_single else (), state=state))
+    if not is_single:
+        many, unread = len(verdicts), len(verdicts) - len(judged)
+        failed, warned = (sum(head.state == state for head in heads) for state in (FAILS, WARNS))
+        passed = many - failed - unread
+        text = f"all {many} specs pass"
+        if failed:
+            text = f"{failed} of {many} specs fail{'s' * (failed == 1)}"
+        elif unread:
+            text = f"{passed} of {many} specs pass{'es' * (passed == 1)}"
+        text += f", {unread} cannot be read" if unread else ""
+        text += f", {warned} with warnings" if warned else ""
+        state = FAILS if failed or unread else WARNS if warned else PASSES
+        heads.append(Summary(text, state=state))
+        if sized := sum(bool(v.chosen.sizes) for v in judged):
+            of = f"in {sized} of {len(judged)} specs (geneva size SPEC writes them)"
+            heads.append(Summary(f"sizes chosen by load {of}"))
+    return Answer((*heads, *details), table if page else None, data)

@@ -52,13 +52,11 @@ def wheel(name, text, *wants):
 NOT_TOML = [
     case("not-toml", "[wheel]\nz = six\n", 2, "not TOML"),
     case("open-string", '[wheel]\nz = 6\ntitle = "six\n', 3, "without its quotation mark"),
-    case("table-twice", "[wheel]\nz = 6\n[wheel]\n", 3, "set above already; keep one"),
     case("yaml", "wheel:\n  z: 6\n", 1, "not TOML", "write [table], or KEY = VALUE as in z = 6"),
     case("no-value", "[wheel]\nz =\n", 2, "the value is missing; write one behind the sign"),
     case("not-utf-8", b"[wheel]\nz = 6\n# gr\xfc\xdfe\n", 3, "not UTF-8", "save"),
     case("utf-16", "[wheel]\nz = 6\n".encode("utf-16"), 1, "not UTF-8", "-o FILE"),
     case("deep-lists", "a = " + "[" * 50_000, 0, "nested too deep"),
-    case("5000-digits", "[wheel]\nz = " + "1" * 5000 + "\n", 0),
     case("two-megabytes", "# " + "x" * (1 << 21) + "\n" + WHEEL, 0, "larger than", "bytes"),
 ]
 
@@ -73,9 +71,7 @@ HEX = "0x" + "f" * 5000  # Python writes no decimal number of so many digits
 LONG = "very " * 20_000
 HUGE = [
     case("hex", f"[wheel]\nz = {HEX}\n", 2, "z = 0xff", "at most 1000000"),
-    case("hex-key", f"{HEX} = 1\n" + WHEEL, 1, "unknown key 0xff", "known: "),
     wheel("hex-list", f"steps_deg = [{HEX}]\nz = 6", "steps_deg = 0xff", "below 360"),
-    key("long-key", f'[drive]\n"{LONG}" = 1\n', 2, "unknown key very", "known: "),
     key("long-table", f'["{LONG}"]\n', 1, "unknown table", "known: "),
     key("long-law", f'[motion]\nlaw = "{LONG}"\n', 2, "law must be one of", "and 6 more"),
     key("long-file", TABLE.replace("law.csv", LONG), 3, "cannot read", "too long"),
@@ -85,46 +81,32 @@ HUGE = [
 UNKNOWN = [
     key("table", "[whel]\n", 1, "unknown table", "whel", '"wheel"'),
     case("key-at-the-top", "z = 6\n", 1, "z belongs to [wheel]; write it below that line"),
-    key("key-of-another-table", "n_rpm = 40\n", 1, "n_rpm in [wheel]; it belongs to [drive]"),
     key("key-of-two-tables", "friction = 1\n", 1, "belongs to [load] or [support] or [product]"),
     case("key", "[wheel]\nz = 6\nzz = 7\n", 3, "unknown key zz", '"z"'),
-    key("key-of-the-kind", SIDE + "a = 0.5\n", 3, "unknown key a", "A"),
     key("capital", "[size]\nCenter_distance_mm = 5\n", 2, '"center_distance_mm"'),
     key("unit", "[load]\ntorque_Nmm = 5\n", 2, 'did you mean "torque_Nm"?'),
     key("word-of-a-meaning", "[drive]\nspeed = 5\n", 2, '"n_rpm", constant speed of the input'),
     key("large-clearance", "[size]\nslot_clearance_mm = 60\n", 2, "below 50, the smaller of the"),
-    key("size-or-deviation", "[size]\nroller_diameter_mm = 8\n", 2, "twice roller_radius_mm)"),
     key("gearing-as-a-key", "internal = true\n", 1, 'did you mean gearing = "internal"?'),
     key("inches", '[size]\ncenter_distance_mm = 8"\n', 2, 'write "8 in"'),
-    wheel("inner", 'gearing = "inner"', 'did you mean "internal"?'),
     key("law", '[motion]\nlaw = "cycloid"\n', 2, "law must be one of", 'did you mean "cycloidal"?'),
     key("key-of-another-kind", "[drive]\nA = 0.5\n", 2, "A belongs", '"side-crank"'),
 ]
 
 TYPES = [
     wheel("text", 'z = "6"', "z must be a whole number", '"6"'),
-    wheel("list", "z = [6]", "z must be a whole number", "list"),
     wheel("float", "z = 6.5", "whole number", "6 or 7"),
-    wheel("float-nan", "z = nan", "whole number"),
     case("title", "title = 5\n" + WHEEL, 1, "title must be text"),
-    case("wheel-number", "\nwheel = 6\n", 2, "wheel must be a table", "[wheel]"),
     key("kind-number", "[drive]\nkind = 5\n", 2, "kind must be one of"),
-    key("ratio-list", CURVED + "ratio = [0.5]\n", 3, "ratio must be"),
 ]
 
 VALUES = [
     wheel("z-2", "z = 2", "z = 2", "at least 3"),
-    wheel("z-billion", "z = 1_000_000_000", "at most 1000000"),
     key("speed-negative", "[drive]\nn_rpm = -60\n", 2, "n_rpm = -60", "above 0", "--reverse"),
-    key("speed-nan", "[drive]\nn_rpm = nan\n", 2, "n_rpm = nan", "above 0"),
     key("A-1", SIDE + "A = 1\n", 3, "A = 1", "below 1"),
-    key("A-400-digits", SIDE + "A = 1" + "0" * 400 + "\n", 3, "A = 1", "below 1"),
     key("alpha0-high", CURVED + "alpha0_deg = 120\n", 3, "alpha0_deg = 120", "below 120"),
-    key("alpha0-no-law", "[motion]\nalpha0_deg = 5\n", 2, "alpha0_deg needs a law"),
     key("ratio-1", CURVED + "ratio = 1\n", 3, "ratio = 1", "below 1"),
-    key("lambda-other-law", CURVED + "lambda = 0.1\n", 3, "lambda", '"sine-group"'),
     key("rollers-3", "[drive]\nrollers = 3\n", 2, "rollers = 3", "at most 2"),
-    key("rollers-curved", SIDE + "A = 0.5\nrollers = 2\n" + CURVED, 4, "rollers", "slot"),
     case(
         "rollers-internal",
         '[wheel]\nz = 6\ngearing = "internal"\n[drive]\nrollers = 2\n',
@@ -132,26 +114,20 @@ VALUES = [
         "internal",
         "one roller",
     ),
-    key("size-0", "[size]\ncenter_distance_mm = 0\n", 2, "above 0"),
     key("efficiency-high", "[load]\nefficiency = 1.01\n", 2, "at most 1"),
-    key("limit-angle", "[limits]\npressure_angle_max_deg = 91\n", 2, "at most 90"),
 ]
 
 # The same mistakes where the line is hard to find.
 PLACES = [
     case("dotted-key", "\nwheel.z = 2\n", 2, "at least 3"),
-    case("inline", "\nwheel = {z = 2}\n", 2, "at least 3"),
     case("quoted-key", '[wheel]\n\n"z" = 2\n', 3, "at least 3"),
-    case("key-in-a-comment", "# z = 2\n[wheel] # z\n# z = 2\nz = 2\n", 4, "at least 3"),
     case(
         "key-in-the-title",
         'title = """\n[wheel]\nz = 2\n"""\n[drive]\n[wheel]\nz = 2\n',
         7,
         "at least 3",
     ),
-    case("windows-lines", "# one\r\n[wheel]\r\nz = 2\r\n", 3, "at least 3"),
     case("byte-order-mark", "\ufeff[wheel]\nz = 2\n", 2, "at least 3"),
-    case("no-last-newline", "[wheel]\nz = 2", 2, "at least 3"),
 ]
 
 SPECS = [*NOT_TOML, *HUGE, *MISSING, *UNKNOWN, *TYPES, *VALUES, *PLACES]
@@ -304,31 +280,18 @@ OPTIONS = [
             "synth --tau",
         )
     ],
-    (f"synth --rollers {ZEROS} --tau 1/3", "at most 60"),
     (f"synth --rollers -{ZEROS} --tau 1/3", "at least 1"),
-    (f"synth --write {ZEROS} --tau 1/3 --z 6 --external --space 0.1", "rows 1 to"),
     ("table --z 2", "at least 3"),
-    ("table --z 6.5", "whole number", "3..12"),
     ("table --z 3,,5", "whole number"),
-    ("table --z ٦", "whole number"),
     ("table --z 12..3", "backwards", "3..12"),
-    ("table --z 3..1000000000", "at most"),
     ("table --z " + "9" * 5000, "at most"),
-    ("table --n 0", "above 0"),
     ("table --n nan", "above 0"),
-    ("table --n fast", "not a number"),
     ("table --n", "requires an argument"),
-    ("table --A 1", "below 1"),
     ("table --rollers 0", "at least 1"),
-    ("table --z 6 --rollers 3", "rollers = 3", "at most 2"),
     ("table --z 6 --internal --rollers 2", "rollers = 2", "one roller"),
-    ("table --rollers 3 --A 0.5", "spec", "geneva report"),
     ("table --zz 6", "--z"),
-    ("motion --samples 1 spec.toml", "at least 2"),
     ("motion --samples " + "9" * 5000 + " spec.toml",),
-    ("peaks --format xml spec.toml", "csv"),
     ("profile --tolerance 0 spec.toml", "above 0"),
-    ("profile --tolerance 1e-300 curved.toml", "mm"),
     ("laws --lambda nan",),
 ]
 

@@ -210,16 +210,6 @@ def test_a_sweep_says_that_each_row_has_its_own_sizes(turret):
     assert run("sweep", "turret.toml", *vary, "--pick", "velocity.max").stderr == ""
 
 
-def test_a_comparison_says_which_columns_have_other_sizes(turret):
-    vary = "--vary", "drive.n_rpm=40,41,90", "--format", "md"
-    strong = run("compare", "turret.toml", *vary, "--pick", "strength.crank_shaft.diameter_mm")
-    assert strong.stdout.startswith(
-        "sizes chosen anew, against drive.n_rpm=40: drive.n_rpm=90: crank shaft 12 → 17 mm\n"
-    )
-    plain = run("compare", "turret.toml", *vary, "--pick", "velocity.max")
-    assert plain.stdout.startswith("| quantity")
-
-
 def test_the_table_and_the_file(turret):
     table = run("size", "turret.toml")
     assert table.stdout.startswith("Turret: 16 sizes chosen, 5 of them by the load\n")

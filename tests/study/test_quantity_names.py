@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 from geneva_cli import GenevaError, load
 from geneva_cli.cli.app import app
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
-from geneva_cli.study.batches import numbers
+from geneva_cli.study.batches import batch_machines, numbers
 from geneva_cli.study.fields import pick
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import GROUPS
@@ -59,7 +59,7 @@ def test_what_loads_shows_is_a_quantity(name):
     # the cycle searches more functions together: places and sums may differ by rounding
     for value, (key, own) in zip(alone, shown.items(), strict=True):
         assert value == (own and pytest.approx(own, rel=1e-14, abs=1e-13)), key
-    (together,) = numbers([design.spec], [*shown])
+    together = numbers(batch_machines([design.spec]), [*shown], 1)[:, 0].tolist()
     for value, (key, own) in zip(together, shown.items(), strict=True):
         if own is None:  # a wheel has no loads of a rack, nor a rack those of a wheel
             assert value == math.inf, key

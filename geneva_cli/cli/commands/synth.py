@@ -28,7 +28,6 @@ def run(
     motion_s: Annotated[str, option("S", "Seconds of motion.", WANTED)] = "",
     dwell_s: Annotated[str, option("S", "Seconds of dwell.", WANTED)] = "",
     cycle: Annotated[str, option("S", "Seconds from step to step.", WANTED)] = "",
-    index_mm: Annotated[str, option("MM", "Travel of a rack per step.", WANTED)] = "",
     subject_to: Annotated[
         list[str] | None,
         option("BOUND", 'Of any quantity, as "jerk.max <= 5"; repeat.', WANTED),
@@ -37,8 +36,6 @@ def run(
     internal: Annotated[bool, flag("--internal", "Internal wheels.", MACHINES)] = False,
     external: Annotated[bool, flag("--external", "External wheels.", MACHINES)] = False,
     spherical: Annotated[bool, flag("--spherical", "Spherical wheels.", MACHINES)] = False,
-    linear: Annotated[bool, flag("--linear", "Racks alone.", MACHINES)] = False,
-    carousel: Annotated[str, option("N", "Wheels on a carrier alone: 3, or 1..4.", MACHINES)] = "",
     rollers: Annotated[
         int | None, option("M", "Rollers; without it, any number.", MACHINES)
     ] = None,
@@ -78,13 +75,10 @@ def run(
         motion_s=motion_s,
         dwell_s=dwell_s,
         cycle=cycle,
-        index_mm=index_mm,
         z=z,
         internal=internal,
         external=external,
         spherical=spherical,
-        linear=linear,
-        carousel=carousel,
         rollers=rollers,
         law=law,
         frame=read_frame(from_, settings or ()) if from_ else None,
@@ -106,17 +100,15 @@ def _inputs(target: "Target") -> Sequence[str]:
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import is_watched, show
     from geneva_cli.output.formats import is_for_people
-    from geneva_cli.study.synth.shown import for_people, for_terminal
+    from geneva_cli.study.synth.shown import for_people
     from geneva_cli.study.synth.synth_table import synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
-    people = is_for_people(output, format)
     table = synthesis_table(target, check, buildable)
-    if is_watched(output, format):
-        table = for_terminal(table, max(check, 20))  # no fewer than are turned by default
-    elif people:
-        table = for_people(table)
+    if is_for_people(output, format):
+        # a terminal shows no fewer than are turned by default
+        table = for_people(table, max(check, 20) if is_watched(output, format) else None)
     show(table, output, format, _inputs(target))
 
 

@@ -8,7 +8,6 @@ KINDS = (
         drive="kinds.carousel.motion:Carousel",
         gearings=("external", "internal"),
         refuses="kinds.carousel.motion:refuses",
-        families={"carrier": "kinds.carousel.family:carousels"},
         quantities=(
             Quantities(
                 "carousel",

@@ -35,7 +35,6 @@ KINDS = (
             ),
         ),
         horn_sizes="kinds.linear.frame:horn_sizes",
-        roller="kinds.linear.roller:rack_roller",
         load_case="kinds.linear.guide:with_guide",
         scene="kinds.linear.drawings:RackScene",
         motion_checks={"rack_horn_mm": "kinds.linear.refuses:rack_horn"},

@@ -22,8 +22,8 @@ from geneva_cli.parts.projection import (
     with_frame,
 )
 from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.bodies import WheelScene
 from geneva_cli.study.animation.tracks import still
+from geneva_cli.study.animation.turning_scene import WheelScene
 
 if TYPE_CHECKING:
     from geneva_cli.parts.outlines.outlines import Outlines

@@ -228,13 +228,10 @@ def _driven(
     r, half = (roller * L / rho)[which], b[which]
     place = (returns - centre[which]) / (p - centre)[which]
     d, angle = np.abs(place), np.abs((np.angle(place) + half) % (2.0 * half) - half)
-    along_slot, across = d * np.cos(angle), d * np.sin(angle)
-    corner = np.where(
-        along_slot >= 1.0, np.hypot(along_slot - 1.0, r - across), r - across
-    )  # in front of a slot
-    gap = (
-        np.where(across < r * along_slot, corner, d - np.hypot(1.0, r)) - r
-    )  # before a slot or not
+    ahead, across = d * np.cos(angle), d * np.sin(angle)
+    corner = np.where(ahead >= 1.0, np.hypot(ahead - 1.0, r - across), r - across)
+    # in front of a slot its mouth's corner is nearest, else the rim
+    gap = np.where(across < r * ahead, corner, d - np.hypot(1.0, r)) - r
     touch = 1e-6  # a roller that leaves its slot is this near to it
     passes = np.all((gap >= -touch) & (d > 1.0), axis=1)
     _, ground, coupler, *_ = links.numbers

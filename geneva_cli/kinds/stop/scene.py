@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.kinds.stop.parts import wheel_stop
 from geneva_cli.study.animation.animated_turn import MachineTurn
-from geneva_cli.study.animation.bodies import WheelScene
+from geneva_cli.study.animation.turning_scene import WheelScene
 
 if TYPE_CHECKING:
     from geneva_cli.parts.outlines.outlines import Outlines

@@ -26,12 +26,6 @@ def track(
     """The track of consecutive smooth functions, each on its own stretch, within ``error``.
 
     ``start`` is the input angle at the track's 0.
-
-    >>> from numpy import cos, radians, sin
-    >>> from geneva_cli.study.animation.tracks import track
-    >>> def wave(x): return sin(radians(x)), radians(cos(radians(x)))
-    >>> len(track([(0.0, 180.0, wave)], 1e-6, 0.0).at)
-    31
     """
     columns: tuple[list[float], ...] = ([], [], [])
     for a, b, moving in pieces:

@@ -8,11 +8,15 @@ import math
 from collections.abc import Iterator
 from contextlib import suppress
 
+import numpy as np
+
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import at, bounds
-from geneva_cli.geometry.shapes import Circle, Shape
+from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, polygon
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.angles import radians
 from geneva_cli.output.scene import (
     Bar,
@@ -25,33 +29,24 @@ from geneva_cli.output.scene import (
     Track,
     pose,
 )
+from geneva_cli.parts.gears.gear_curves import gears_table
+from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.animated_turn import MachineTurn, pushes
-from geneva_cli.study.animation.bodies import (
-    bodies,
-    wheels_of,
-)
+from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.summary.load_lines import title_of
 from geneva_cli.verdict.report import words
 
 
 def scene(design: Design) -> Scene:
-    """The machine over a whole turn of its crank, with curves, forces and the wheel's states.
-
-    Raises GenevaError for a spec that makes no machine.
-
-    >>> from geneva_cli.study.animation.turning_scene import scene
-    >>> shown = scene(Design(External(6)))
-    >>> [body.name for body in shown.bodies], shown.turn_deg, len(shown.states)
-    (['wheel', 'crank'], 360.0, 2)
-    """
+    """The machine over a whole turn of its crank, with curves, forces and the wheel's states."""
     mechanism = design.mechanism
     turn = MachineTurn(mechanism)
-    parts = tuple(body for body in bodies(design, turn) if body.shapes)
+    parts = tuple(body for body in _bodies(design, turn) if body.shapes)
     outlines = None
     with suppress(GenevaError):  # no flat parts
         outlines = design.parts.outlines
-    bars, rollers = tuple(turn.bars(outlines)), turn.rollers()
+    bars, rollers = turn.bars(outlines), turn.rollers()
     spec, title = design.spec, title_of(design)
     frame = _frame_rotation(mechanism, turn.start, turn.turn_deg)
     wheels = wheels_of(spec)
@@ -82,6 +77,52 @@ def scene(design: Design) -> Scene:
         stop_s=spec.drive.stop_s,
         frame=frame,
     )
+
+
+def _bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
+    """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
+    L = turn.L
+    # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
+    shapes = _shapes(design, "wheel") if turn.mechanism.axes else ()
+    if rims := tuple(s for s in shapes if isinstance(s, Circle) and s.layer == "WHEEL"):
+        # an internal wheel: its rim first, then what is cut out of the plate
+        cuts = (s for s in shapes if s not in rims)
+        hollow = (s._replace(layer="HOLLOW") if s.layer == "WHEEL" else s for s in cuts)
+        shapes = (*rims, *hollow)
+    yield from wheels_of(design.spec).bodies(shapes, turn)
+    if shapes:
+        carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
+        carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
+        for place in turn.mechanism.crank_places:
+            name = f"crank {place.number}" if place.number > 1 else "crank"
+            yield Body(name, carried, place.at, turn.crank(place))
+        yield Body("groove", _shapes(design, "groove"), (L, 0.0), still())
+        if turn.mechanism.frame > 0.0:
+            yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still())
+    machine = turn.mechanism
+    if machine.spec.gears:
+        gears, (x, sense) = machine.spec.gears, machine.gear_shaft
+        before = machine.spec.drive_before
+        # the gears turn the shaft of the drive
+        first = before is not None and before.gears is not None
+        table = gears_table(machine, 0.001, 241).to_dict()
+        for name in ("driver", "driven"):  # the table turns as an external wheel does
+            u, v = -table[f"{name}_x_mm"][:-1], sense * table[f"{name}_y_mm"][:-1]
+            curve = polygon("GEAR", list(zip(u.tolist(), v.tolist(), strict=True)))
+            if name == "driver":
+                at = x + gears.distance_mm
+                alone = first or before is None
+                angle = turn.input_shaft(-sense) if alone else turn.own_shaft(-sense)
+            else:
+                at, angle = x, turn.own_shaft(sense) if first else turn.crank_from_mid()
+            yield Body(f"{name} gear", (curve,), (at, 0.0), angle)
+
+
+def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
+    """The shapes of a part in its own frame; none if the machine lacks it."""
+    with suppress(GenevaError):
+        return design.drawing(part).shapes
+    return ()
 
 
 def _pauses(turn: MachineTurn) -> Iterator[float]:
@@ -186,3 +227,41 @@ def _frame_rotation(mechanism: Mechanism, start: float, whole: float) -> Rotatio
     ends = rate * start, rate * (start + whole)
     angle = Track((0.0, whole), ends, (rate, rate), ends[1] - ends[0])
     return Rotation((mechanism.center_distance_mm, 0.0), angle)
+
+
+class WheelScene:
+    """What a page shows of wheels that turn without end."""
+
+    def bodies(self, shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
+        """All wheels; without shapes, as symbols."""
+        one, machine = turn.passages[0], turn.mechanism
+        # distances of the first roller from the wheel's axis in its slot
+        reach = np.hypot(*turn.assembly.driving(0, np.linspace(one.entry, one.exit, 181)).T)
+        least, most = float(reach.min()), float(reach.max())
+        if not shapes:  # a disc with a line along each slot
+            angles = np.arange(machine.spec.wheel.z) * math.tau / machine.spec.wheel.z
+            along = [(math.cos(a), math.sin(a)) for a in angles.tolist()]
+            ends = [((least * c, least * s), (most * c, most * s)) for c, s in along]
+            lines = [Contour("WHEEL", (Line(*both),), closed=False) for both in ends]
+            shapes, dot = (Circle("WHEEL", (0.0, 0.0), 1.02 * most), *lines), 1.01 * least
+        else:
+            dot = 0.78 * least
+        # a dot behind the end of the first slot tells the slots apart
+        wheel = (*shapes, Circle("PITCH", (dot, 0.0), 0.012 * turn.L))
+        for place in turn.mechanism.wheel_places:
+            name = f"wheel {place.number}" if place.number > 1 else "wheel"
+            yield Body(name, wheel, place.at, turn.wheel(place))
+
+    def view(self, wheel: Body, box: Box, turn: MachineTurn) -> Box:
+        """The box that a page shows; ``box`` bounds all that turns."""
+        return box
+
+    def stops(self, outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float] | None:
+        """Input angles, degrees from the start, between which the machine moves; None for all."""
+        return None
+
+
+def wheels_of(spec: Spec) -> WheelScene:
+    """What a page shows of a machine's wheels."""
+    wheels: WheelScene = (thing(spec.wheel.NAME, "scene") or WheelScene)()
+    return wheels

@@ -38,8 +38,19 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
         return
     yield motor_line(design)
     yield from cycle_lines(design)
-    if design.spec.drive.stop_s:
-        yield _brake_line(design)
+    if design.spec.drive.stop_s:  # what braking and starting the rotor in each dwell takes
+        names = ("brake_torque_Nm", "start_torque_Nm", "energy_J", "power_W", "inertia_kgm2")
+        values = design.report.table.to_dict()
+        brake, start, energy, power, inertia = (values[f"input_stop.{name}"] for name in names)
+        took = [f"{what} {measured(torque, 'N m')}"
+                for what, torque in (("stops with", brake), ("starts with", start))
+                if torque is not None]  # fmt: skip
+        text = "not known: set inertia_kgm2 in [motor]"
+        if inertia is not None:
+            took.append(f"{measured(energy, 'J')} each time, {measured(power, 'W')}")
+            text = ", ".join(took)
+            text += "; set brake_s and start_s in [drive] for both torques" * (len(took) < 3)
+        yield SummaryLine("brake", text)
     yield from flywheel_line(design)
     yield from chosen_lines(design.chosen_by_load, design.spec.path)
 
@@ -53,23 +64,6 @@ def flywheel_line(design: Design) -> Iterator[SummaryLine]:
         text = f"{measured(whole, 'kg m²')} on the input for a speed variation of {variation}"
         text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
         yield SummaryLine("flywheel", text)
-
-
-def _brake_line(design: Design) -> SummaryLine:
-    """What braking and starting the rotor in each dwell takes."""
-    names = ("brake_torque_Nm", "start_torque_Nm", "energy_J", "power_W", "inertia_kgm2")
-    values = design.report.table.to_dict()
-    brake, start, energy, power, inertia = (values[f"input_stop.{name}"] for name in names)
-    if inertia is None:
-        return SummaryLine("brake", "not known: set inertia_kgm2 in [motor]")
-    torques = [
-        f"{what} {measured(torque, 'N m')}"
-        for what, torque in (("stops with", brake), ("starts with", start))
-        if torque is not None
-    ]
-    abrupt = "" if len(torques) == 2 else "; set brake_s and start_s in [drive] for both torques"
-    took = f"{measured(energy, 'J')} each time, {measured(power, 'W')}"
-    return SummaryLine("brake", f"{', '.join([*torques, took])}{abrupt}")
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
@@ -208,19 +202,11 @@ def summary_of(design: Design, lines: Iterable[SummaryLine], warnings: Sequence[
 
 
 def title_of(design: Design) -> str:
-    """The title of a design, or else its description.
-
-    >>> title_of(Design(External(6)))
-    'Geneva wheel of 6 slots'
-    """
+    """The title of a design, or else its description."""
     return design.spec.title or design.spec.wheel.title
 
 
 def counted(warnings: Sequence[str]) -> str:
-    """The number of warnings behind a headline; empty without any.
-
-    >>> counted(["a", "b"]), counted([])
-    (': 2 warnings', '')
-    """
+    """The number of warnings behind a headline; empty without any."""
     many = len(open_warnings(warnings))
     return f": {many} warning{'s' * (many != 1)}" if many else ""

@@ -8,16 +8,19 @@ from typing import Any
 from geneva_cli.answer import Answer, Summary, SummaryLine
 from geneva_cli.design import Design
 from geneva_cli.errors import is_warning
+from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.names import spoken
-from geneva_cli.study.summary.greatest_loads import greatest_loads, parts_of
+from geneva_cli.output.finite import only
 from geneva_cli.study.summary.load_lines import (
     cycle_lines,
     flywheel_line,
+    greatest,
     motor_line,
     record_answer,
     title_of,
 )
-from geneva_cli.table import Table, record_table
+from geneva_cli.table import Reading, Table, record_table, rows_table
+from geneva_cli.verdict.checks.all_checks import LIMITS
 from geneva_cli.verdict.headline import (
     bare,
     below_summary,
@@ -29,6 +32,45 @@ from geneva_cli.verdict.headline import (
     unused_lines,
     warning_lines,
 )
+
+LOADS = (
+    *("alpha_rad_s2", "rack_acceleration_m_s2", "wheel_torque_Nm", "rack_force_N", "pin_force_N"),
+    *("contact_stress_MPa", "input_torque_Nm", "power_W", "wheel_bearing_N", "crank_bearing_N"),
+    "guide_force_N",
+)
+UNITS = {"N", "N m", "MPa", "W", "W/m²"}  # of checks that bound a load
+COLUMNS = ("load", "value", "unit", "at_deg", "must_be", "limit", "passes")
+PARTS = ("name", "count", "material", "thickness_mm", "size_x_mm", "size_y_mm", "mass_kg")
+
+
+def greatest_loads(design: Design) -> Table:
+    """Return a row for each load: its greatest size, where it is, and the limit of its check.
+
+    Loads of the cycle come first, then those that only a check has, such as stresses of parts.
+    """
+    checks = {check.name: check for check in design.checks}
+    rows: list[tuple[Any, ...]] = []
+    for name in LOADS if design.cycle.is_loaded else ():
+        axis, known = AXIS_BY_NAME[name], greatest(design.loads[name])
+        stem, _, unit = name.rpartition("_")
+        if known:  # else the row of its check says that it has no bound
+            check = checks.pop(f"{stem}_max_{unit}", None)
+            bound = (check.must_be, check.limit, check.passes) if check else (None, None, None)
+            size, at_deg = known
+            rows.append((axis.label, size, axis.unit, at_deg, *bound))
+    for name, check in checks.items():
+        words, unit = spoken(name)
+        if check.value is not None and (name in LIMITS or unit in UNITS):
+            bound = (check.must_be, check.limit, check.passes)
+            rows.append((words[:1].upper() + words[1:], check.value, unit, check.at_deg, *bound))
+    first = ("load", "value", "limit", "unit", "must_be", "at_deg")
+    return rows_table(COLUMNS, rows).replaced(reading=Reading(first, decide=("passes",)))
+
+
+def parts_of(design: Design) -> Table | None:
+    """Return count, material, size and mass of each part; None if there are none."""
+    table: Table | None = design.report.table["parts_list.part"]
+    return only(table, PARTS) if table else None
 
 
 def of_report(design: Design, is_full: bool) -> Answer:
@@ -80,7 +122,15 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
     if design.spec.drive.stop_s:
         text += f", at rest for {measured(design.spec.drive.stands_s, 's')} of each dwell"
     yield SummaryLine("cycle", text)
-    yield _size(values)
+    size = f"sphere of radius {measured(values['sizes.sphere_radius_mm'], 'mm')}"
+    if values["sizes.center_distance_mm"] is not None:
+        size = f"centre distance {measured(values['sizes.center_distance_mm'], 'mm')}"
+        if values["timing.index_mm"] is not None:  # a rack has no axis
+            size = f"crank radius {measured(values['sizes.crank_radius_mm'], 'mm')}"
+        if (rim := values["sizes.wheel_radius_mm"]) is not None:
+            size += f", wheel Ø {measured(2.0 * rim, 'mm')}"
+    roller = measured(2.0 * values["sizes.roller_radius_mm"], "mm")
+    yield SummaryLine("size", f"{size}, roller Ø {roller}")
     if design.cycle.is_loaded:
         yield from cycle_lines(design)
         yield from tightest(design.checks)
@@ -97,21 +147,6 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
             yield SummaryLine(name, f"{size} at {measured(values[f'{name}.at_deg'], 'deg')}")
         yield from tightest(design.checks)
         yield SummaryLine("motor", f"not known: set {design.spec.load_keys}")
-
-
-def _size(values: dict[str, Any]) -> SummaryLine:
-    """Centre distance and wheel, or a sphere's radius, and the roller."""
-    roller = f", roller Ø {measured(2.0 * values['sizes.roller_radius_mm'], 'mm')}"
-    if values["sizes.center_distance_mm"] is None:
-        radius = measured(values["sizes.sphere_radius_mm"], "mm")
-        return SummaryLine("size", f"sphere of radius {radius}{roller}")
-    across = "centre distance", values["sizes.center_distance_mm"]
-    if values["timing.index_mm"] is not None:  # a rack has no axis
-        across = "crank radius", values["sizes.crank_radius_mm"]
-    text = f"{across[0]} {measured(across[1], 'mm')}"
-    rim = values["sizes.wheel_radius_mm"]
-    text += "" if rim is None else f", wheel Ø {measured(2.0 * rim, 'mm')}"
-    return SummaryLine("size", f"{text}{roller}")
 
 
 def of_vibration(design: Design, record: Table) -> Answer:

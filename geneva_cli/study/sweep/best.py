@@ -29,8 +29,7 @@ def best_spec(outcome: Outcome, row_blocks: Iterable[Rows]) -> list[str]:
 
     The spec's own design is tried too, if its values are among those varied. ``outcome`` counts the
     rows and the spec's own design. The keys that vary in a span are refined: first by clouds of
-    designs that shrink about the best places, then by an optimiser from the best of these. Raises
-    GenevaError if no design keeps the bounds; the message says how near the designs come.
+    designs that shrink about the best places, then by an optimiser from the best of these.
     """
     request = outcome.request
     sweep, search = request.sweep, _SweepSearch(request)

@@ -61,13 +61,7 @@ def is_number(value: object) -> TypeGuard[float]:
 
 
 def constraint(text: str) -> Constraint:
-    """Return the bound in a text such as ``"dwell_s >= 0.8"``, with the whole name of its quantity.
-
-    Raises GenevaError for another text, and for a name that is no quantity, or may be several.
-
-    >>> constraint("dwell_s >= 0.8")
-    Constraint(name='timing.dwell_s', sign='>=', bound=0.8)
-    """
+    """Return the bound in a text such as ``"dwell_s >= 0.8"``, with its quantity's whole name."""
     match = re.fullmatch(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*", text)
     option = f"--subject-to {cut(text.strip())!r}"
     if not match:
@@ -154,10 +148,7 @@ class Objective(NamedTuple):
 
 
 def objective(text: str, option: str) -> Objective:
-    """Return the objective of ``min:acceleration.max``, with the whole name of its quantity.
-
-    Raises GenevaError for another text, and for a name that is no quantity, or may be several.
-    """
+    """Return the objective of ``min:acceleration.max``, with the whole name of its quantity."""
     sense, _, name = text.strip().partition(":")
     sign = {"min": 1.0, "max": -1.0}.get(sense)
     if sign is None or not name:

@@ -19,7 +19,7 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
-from geneva_cli.study.batches import Batch, batch_rows, number_columns
+from geneva_cli.study.batches import Batch, batch_rows, numbers
 from geneva_cli.study.fields import Pick, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.rows import Cell, Column, Rows, rows_of
@@ -155,7 +155,7 @@ class Sweep(NamedTuple):
     def known(self, keys: Sequence[Column]) -> Array:
         """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
         names, designs = self.pick.batched, Rows(keys)
-        return number_columns(self._batches(designs) if names else (), names, len(designs))
+        return numbers(self._batches(designs) if names else (), names, len(designs))
 
     def _batches(self, designs: Rows) -> Iterator[Batch]:
         def spec(values: Sequence[Cell]) -> Spec:
@@ -247,10 +247,7 @@ class Sweep(NamedTuple):
 
 
 def sweep(text: Text, plan: SweepPlan, picks: Sequence[str] = DEFAULT) -> Sweep:
-    """Return the sweep of a spec.
-
-    Raises GenevaError for an unknown quantity, and if no design of a sample can be built.
-    """
+    """Return the sweep of a spec."""
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
     names = tuple(name for name in pick(picks).names if name not in varied)
     run, size, most = Sweep(text, plan, Pick(names)), len(plan), 1000  # designs of the sample

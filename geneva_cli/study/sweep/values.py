@@ -61,11 +61,7 @@ class VariedKey(NamedTuple):
 def axis(text: str, random: bool = False) -> VariedKey:
     """Return the varied key and its values from a text ``KEY=VALUES``.
 
-    With ``random`` values are drawn, and LOW..HIGH of a key that takes fractions is a span. Raises
-    GenevaError, naming the option, for another text.
-
-    >>> list(axis("drive.A=0..0.9:0.3").values)
-    [0.0, 0.3, 0.6, 0.9]
+    With ``random`` values are drawn, and LOW..HIGH of a key that takes fractions is a span.
     """
     key, sign, values = text.partition("=")
     option = f"--vary {cut(text.strip())}"
@@ -76,13 +72,7 @@ def axis(text: str, random: bool = False) -> VariedKey:
 
 
 def numbers(text: str, option: str) -> list[float]:
-    """The numbers of a list with ranges, in their order, for an option that is no key.
-
-    Raises GenevaError, naming the option, for another text.
-
-    >>> numbers("30,45,-10..10:10", "--at")
-    [30.0, 45.0, -10.0, 0.0, 10.0]
-    """
+    """The numbers of a list with ranges, in their order, for an option that is no key."""
     option = f"{option} {cut(text.strip())}"
     values = _axis("", text.strip(), option, random=False).values
     _refuse_many(option, len(values), 1_000_000)
@@ -107,7 +97,6 @@ def refuse_twice(axes: Sequence[VariedKey], settings: Sequence[Setting]) -> None
 def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
     parts = text.split(",")
     if len(parts) == 1 and (ends := range_text(text, option)):
-        ends = _ends_in_unit_of(key, ends, option)
         if random and not ends.step and not (_whole(ends[:2]) and is_whole(key)):
             low, high = float(_decimal(ends.low, option)), float(_decimal(ends.high, option))
             if low >= high:
@@ -117,11 +106,7 @@ def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
     values: list[Value] = []
     for part in parts:
         ends = range_text(part, option)
-        more: Sequence[Value] = (
-            _range(_ends_in_unit_of(key, ends, option), option)
-            if ends
-            else (_one(key, part, option),)
-        )
+        more: Sequence[Value] = _range(ends, option) if ends else (_one(key, part, option),)
         _refuse_many(option, len(values) + len(more), 1_000_000)  # all of them are in memory
         values += more
     return VariedKey(key, tuple(values))
@@ -154,11 +139,7 @@ def _range(ends: RangeText, option: str) -> Sequence[float]:
 
 
 def _in_unit_of(key: str, text: str, option: str) -> str:
-    """A text with a unit as the number in the key's unit, and any other text unchanged.
-
-    >>> _in_unit_of("size.pin_mm", "1/2 in", ""), _in_unit_of("size.pin_mm", "12", "")
-    ('12.7', '12')
-    """
+    """A text with a unit as the number in the key's unit, and any other text unchanged."""
     if not text.strip()[-1:].isalnum() or not unit_key(key):
         return text
     with suppress(ValueError):
@@ -168,15 +149,6 @@ def _in_unit_of(key: str, text: str, option: str) -> str:
         return repr(in_unit_of(key, text))
     except GenevaError as error:
         raise GenevaError(f"{option}: {error}") from None
-
-
-def _ends_in_unit_of(key: str, ends: RangeText, option: str) -> RangeText:
-    """A range whose numbers have units as plain numbers."""
-    plain = RangeText(*(_in_unit_of(key, part, option) for part in ends))
-    changed = [new != old for new, old in zip(plain, ends, strict=True) if old]
-    if any(changed) and not all(changed):
-        raise GenevaError(f"{option}: give each number of a range its unit, as 4 in..8 in:0.5 in")
-    return plain
 
 
 def _one(key: str, text: str, option: str) -> Value:

@@ -27,21 +27,10 @@ from geneva_cli.verdict.quantities.quantity_names import in_batch
 FamilyMachine: TypeAlias = tuple[Spec, Family]
 SOFT = 1e-60  # weight of the limits of a frame, which matter less than any bound
 BROKEN = 1e-40  # a violation below it is of such limits, or rounding
-GRID = 24  # intervals of the span of one number, sampled first
+GRID, TRACKS = 24, 3  # intervals of a span, sampled first; the best places that are improved
 QUARTERS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])[:, None] / 4.0
-# Of one number: samples on both sides of the best, each time four times as close.
+# Samples on both sides of the best, each time four times as close.
 LINE = Zoom(lambda number: QUARTERS, 1.0 / GRID, 0.25, 0.25, 20)
-MIDDLES = (np.arange(10) + 0.5) / 10  # places of the second of two numbers, sampled first
-
-
-def _ring(number: int) -> Array:
-    """Places about the best at its step, half and a quarter of it, rotated each time."""
-    count = np.arange(24)
-    turn, far = math.tau * (count + 0.382 * number) / 24, 0.5 ** (count % 3)
-    return np.stack((far * np.cos(turn), far * np.sin(turn)), axis=-1)
-
-
-RING = Zoom(_ring, 0.1, 1.4, 0.5, 40)
 
 
 def best(
@@ -51,31 +40,28 @@ def best(
 
     The others break the bounds least, with ``how_near`` to the last digit.
     """
-    chosen: dict[int, tuple[Sequence[float], bool]] = {}
-    searched = {i: f for i, f in enumerate(families) if f.keys and f.is_free and math.isnan(f.best)}
-    for freedom in (1, 2):
-        some = [i for i, f in searched.items() if len(f.low) == freedom]
-        if some:
-            free = FamilyCosts([families[i] for i in some], target)
-            found = _best_places(free, freedom, how_near)
-            for of, at, broken in zip(found.of.tolist(), found.at, found.violation, strict=True):
-                if broken < BROKEN or freedom == 1:
-                    place = free.places(np.array([of]), at[None])[0].tolist()
-                    chosen[some[of]] = place, bool(broken < BROKEN)
+    places = [*(f.low or () if math.isnan(f.best) else (f.best,) for f in families)]
+    searched = [i for i, f in enumerate(families) if f.is_free and math.isnan(f.best)]
+    found: dict[int, bool] = {}  # those that keep the bounds, or not
+    if searched:
+        free = FamilyCosts([families[i] for i in searched], target)
+        best_places = _best_places(free, how_near)
+        numbers = free.places(best_places.of, best_places.at)[:, 0].tolist()
+        broken = (best_places.violation >= BROKEN).tolist()
+        for of, x, is_broken in zip(best_places.of.tolist(), numbers, broken, strict=True):
+            places[searched[of]], found[searched[of]] = (x,), not is_broken
     kept: list[FamilyMachine] = []
     broken_ones: list[FamilyMachine] = []
-    for i, f in enumerate(families):
-        if i in searched and i not in chosen:
-            continue
-        place, keeps = chosen.get(i, (f.low if math.isnan(f.best) else (f.best,), True))
-        alike = zip(place, f.known, f.low, f.high, strict=False)
-        is_known = f.known and all(abs(x - y) <= 1e-4 * (b - a) for x, y, a, b in alike)
-        if not is_known and (spec := f.at(place)):  # known: of another family
-            (kept if keeps else broken_ones).append((spec, f))
+    for i, (f, place) in enumerate(zip(families, places, strict=True)):
+        # without a machine, or with that of another family
+        known = zip(place, f.known, f.low, f.high, strict=False)
+        is_known = f.known and all(abs(x - y) <= 1e-4 * (b - a) for x, y, a, b in known)
+        if (i in found or i not in searched) and not is_known and (spec := f.at(place)):
+            (kept if found.get(i, True) else broken_ones).append((spec, f))
     return kept, broken_ones
 
 
-def _best_places(free: FamilyCosts, freedom: int, how_near: bool) -> Places:
+def _best_places(free: FamilyCosts, how_near: bool) -> Places:
     """The best place of each family, from the plain crank's and the tops of a grid."""
     every = np.arange(len(free.families))
     with np.errstate(all="ignore"):
@@ -83,23 +69,17 @@ def _best_places(free: FamilyCosts, freedom: int, how_near: bool) -> Places:
     inside = ((plain >= 0.0) & (plain <= 1.0)).all(axis=1)
     nearest = sampled(free, every[inside], plain[inside])
     done = nearest.take((nearest.cost == 0.0) & (nearest.violation == 0.0) & free.is_nearest)
-    if len(done.of) == len(every):
-        return done
-    if freedom == 1:
-        axes, how, most = [np.arange(GRID + 1) / GRID], LINE, 3
-    else:
-        is_exact = (free.low == free.high)[:, 0].all()
-        axes = [np.array([1.0]) if is_exact else np.array([0.0, *MIDDLES, 1.0]), MIDDLES]
-        # a bound, or another goal than the peak, may have several minima
-        how, most = RING, 3 if free.bounds or free.goal.name != free.peak else 1
     left = np.setdiff1d(every, done.of)
-    first = tops(lambda of, at: free(left[of], at), len(left), axes, most)
+    if not len(left):
+        return done
+    grid = [np.arange(GRID + 1) / GRID]
+    first = tops(lambda of, at: free(left[of], at), len(left), grid, TRACKS)
     first = first._replace(of=left[first.of])
-    tracks = first.joined(nearest.take(np.isin(nearest.of, left))).best(most)
+    tracks = first.joined(nearest.take(np.isin(nearest.of, left))).best(TRACKS)
     # at equal costs the plain crank's place, which may be another family's machine
     settled = np.where(np.isfinite(nearest.cost), SETTLED * np.abs(nearest.cost), 0.0)
     plainly = nearest._replace(cost=nearest.cost - settled)
-    return zoom(free, tracks, how, patient=how_near).joined(done, plainly).best(1)
+    return zoom(free, tracks, LINE, patient=how_near).joined(done, plainly).best(1)
 
 
 class FamilyCosts:
@@ -117,9 +97,8 @@ class FamilyCosts:
         self.bounds = [b for b in target.bounds if in_batch([b.name])]
         self.soft = [*target.soft_bounds.values()]
         self.names = [self.goal.name, *(b.name for b in (*self.bounds, *self.soft))]
-        missing = (math.nan,) * len(families[0].low)
-        each = [(f.low, f.high, f.plain or missing, f.scale) for f in families]
-        self.low, self.high, self.plain, self._scale = map(np.array, zip(*each, strict=True))
+        each = [(f.low, f.high, f.plain or (math.nan,)) for f in families]
+        self.low, self.high, self.plain = map(np.array, zip(*each, strict=True))
         keys: dict[Any, list[BatchKey]] = {}
         own = [split(f.spec, keys) for f in families]
         shapes = {shape: i for i, (shape, _) in enumerate(own)}
@@ -138,8 +117,7 @@ class FamilyCosts:
         values = self._numbers(of, places)
         cost = self.goal.sign * values[:, 0]
         if self.is_nearest:
-            off = (places - self.plain[of]) / self._scale[of]
-            far = np.sqrt((off * off).sum(axis=1))
+            far = np.abs(places - self.plain[of])[:, 0]
             cost = np.where(np.isnan(far), cost, far)
         violation = np.zeros(len(of))
         for i, bound in enumerate((*self.bounds, *self.soft)):

@@ -11,19 +11,18 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import Array
-from geneva_cli.study.batches import batch_machines, columns
+from geneva_cli.study.batches import batch_machines, columns, numbers
 from geneva_cli.study.synth.families.family import Family, allows
 from geneva_cli.study.synth.suiting import with_one_roller, with_rollers
 from geneva_cli.study.target import Target
 
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
-TIMES = ("motion_deg", "dwell_deg", "tau", "k", "motion_s", "dwell_s", "index_mm")
+TIMES = ("motion_deg", "dwell_deg", "tau", "k", "motion_s", "dwell_s")
 # Keys of wheel and drive that only some machines have, and that describe a row.
 OWN_KEYS = (
     *("A", "eccentricity", "phase", "axes_deg", "offset_mm", "planet_ratio", "fixed"),
     *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
-    *("sector_deg", "first_z", "wheels"),
+    *("sector_deg", "first_z"),
 )
 
 
@@ -67,25 +66,12 @@ class Candidate(NamedTuple):
     entry_deg: float | None
     sector_deg: float | None
     first_z: int | None
-    index_mm: float | None  # of a rack
-    acceleration_max_m_s2: float | None
-    wheels: int | None  # on a carrier
 
     @property
     def peak(self) -> float:
-        """The greatest acceleration, in rad/s² or m/s² if the speed is required."""
-        rates = self.acceleration_max_rad_s2, self.acceleration_max_m_s2, self.acceleration_max
-        return next(rate for rate in rates if rate is not None)
-
-    @property
-    def is_driven(self) -> bool:
-        """Return True if a side-crank or gears drive the crank."""
-        return self.A is not None or self.eccentricity is not None
-
-    @property
-    def of_two_numbers(self) -> bool:
-        """Return True if both the drive and the wheel differ from the plain machine."""
-        return self.is_driven and bool(self.axes_deg not in (None, 90.0) or self.offset_mm)
+        """The greatest acceleration, in rad/s² if the speed is required."""
+        per_s2 = self.acceleration_max_rad_s2
+        return self.acceleration_max if per_s2 is None else per_s2
 
 
 class MachineRow(NamedTuple):
@@ -117,13 +103,18 @@ def rows(
     limits = target.soft_bounds
     alone = [with_one_roller(spec) for spec in specs]
     each = [*dict.fromkeys(alone)]
-    costs = dict(zip(each, quantities(each, COSTS), strict=True))
+    costs: dict[Spec, list[float]] = {}  # and R/L
+    for members, machine in batch_machines(each):
+        values = columns(machine, COSTS, len(members)) or []
+        ratio = np.broadcast_to(np.ravel(machine.ratio), (len(members),))
+        own = np.column_stack((*values, ratio)).tolist() if values else ()
+        costs.update(zip((each[i] for i in members.tolist()), own, strict=False))
     names = [*(f"timing.{name}" for name in TIMES), *(b.name for b in limits.values())]
-    known = quantities(specs, names)
+    known = numbers(batch_machines(specs), names, len(specs)).T.tolist()
     out: list[MachineRow] = []
     for i, (spec, family) in enumerate(machines):
-        one, own = costs[alone[i]], known[i].tolist()
-        if not np.isfinite([one[1], own[0]]).all():
+        one, own = costs.get(alone[i]), known[i]
+        if one is None or not np.isfinite([one[1], own[0]]).all():
             try:
                 build(spec)
             except GenevaError as error:
@@ -132,23 +123,13 @@ def rows(
         motion = target.motion_for(spec.drive.rollers / spec.drive.turns)
         if motion is not None and not allows(motion, own[0]):
             continue
-        values = zip(limits.items(), own[len(TIMES) : -1], strict=True)
-        over = [key for (key, bound), x in values if not (np.isnan(x) or bound.kept(x))]
+        held = zip(limits.items(), own[len(TIMES) :], strict=True)
+        over = [key for (key, bound), x in held if not (np.isnan(x) or bound.kept(x))]
         with_roller, entry = sized[i]
         if over and entry and not entry.startswith("no"):
             entry = f"no: {', '.join(over)}"
-        candidate = _candidate(target, spec, one.tolist(), own, entry)
+        candidate = _candidate(target, spec, one, own, entry)
         out.append(MachineRow(with_roller, candidate, (), family))
-    return out
-
-
-def quantities(specs: Sequence[Spec], names: Sequence[str]) -> Array:
-    """The quantities and, last, R/L of each spec (n, q + 1); NaN for one that cannot be built."""
-    out = np.full((len(specs), len(names) + 1), np.nan)
-    for members, machine in batch_machines(specs):
-        if values := columns(machine, names, len(members)):
-            out[members, :-1] = np.column_stack(values)
-            out[members, -1] = np.ravel(machine.ratio)
     return out
 
 
@@ -161,11 +142,10 @@ def _candidate(
     known = zip(TIMES, times, strict=False)
     own |= {name: x if np.isfinite(x) or name == "k" else None for name, x in known}
     own |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=False)}
-    own |= dict.fromkeys(("n_rpm", "acceleration_max_rad_s2", "acceleration_max_m_s2"))
+    own |= dict.fromkeys(("n_rpm", "acceleration_max_rad_s2"))
     if target.timed:
-        output, n = target.output, spec.drive.n_rpm
-        rate = costs[1] * omega(n) ** 2 * spec.output.rate_per_radian
-        own |= {"n_rpm": n, f"acceleration_max_{output.rate_unit}_s2": rate}
+        n = spec.drive.n_rpm
+        own |= {"n_rpm": n, "acceleration_max_rad_s2": costs[1] * omega(n) ** 2}
     else:
         own |= {"motion_s": None, "dwell_s": None}
     motion = spec.motion

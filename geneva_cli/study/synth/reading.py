@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.records import KINDS
 from geneva_cli.motion.registry import STANDARD_LAWS as LAWS
 from geneva_cli.spec.rules import POSITIVE, Range, range_text
 from geneva_cli.spec.schema import fields
@@ -29,47 +28,36 @@ SPANS = {
     "motion_s": (POSITIVE, "a motion of", " s"),
     "dwell_s": (POSITIVE, "a dwell of", " s"),
     "cycle": (Range(1e-6, 1e6), "a cycle of", " s"),
-    "index_mm": (POSITIVE, "a step of", " mm"),
 }
 
 
 def read_target(
     *,
-    tau: str = "",
-    motion_deg: str = "",
-    dwell_deg: str = "",
-    motion_s: str = "",
-    dwell_s: str = "",
-    cycle: str = "",
-    index_mm: str = "",
     z: str = "",
     internal: bool = False,
     external: bool = False,
     spherical: bool = False,
-    linear: bool = False,
-    carousel: str = "",
     rollers: int | None = None,
     law: str = "modified-sine",
     frame: Spec | None = None,
     sort: str = "",
     subject_to: Sequence[str] = (),
     space: str = "",
+    **wanted: str,
 ) -> Target:
     """Return the requirement that the options state as text; an empty text is an option not given.
 
-    Numbers may be fractions (``1/3``), and those of ``SPANS`` ranges (``0.8..``). Raises
-    GenevaError, naming the option, for contradictions and for values out of range.
+    ``wanted`` are those of ``SPANS``: numbers, fractions (``1/3``) or ranges (``0.8..``).
     """
-    texts = (tau, motion_deg, dwell_deg, motion_s, dwell_s, cycle, index_mm)
     spans = {
-        name: span(f"--{name.replace('_', '-')}", text, rule)
-        for (name, (rule, *_)), text in zip(SPANS.items(), texts, strict=True)
-        if text
+        name: span(f"--{name.replace('_', '-')}", wanted[name], rule)
+        for name, (rule, *_) in SPANS.items()
+        if wanted.get(name)
     }
     if not (spans or subject_to or frame):
         raise GenevaError(
             "no requirement; give one or more of --tau, --motion-deg, --dwell-deg, --motion-s, "
-            "--dwell-s, --cycle, --index-mm and --subject-to"
+            "--dwell-s, --cycle and --subject-to"
         )
     phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
@@ -79,22 +67,18 @@ def read_target(
     phrases += [str(bound) for bound in bounds]
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     requested = tuple(g for g, is_chosen in chosen.items() if is_chosen)
-    wheels = _wheels(carousel, frame)
-    racks = linear or bool(index_mm) or (frame is not None and not frame.output.turns)
-    gearings = _gearings(requested, racks, wheels, frame)
     words = ", ".join(phrases) or "the spec alone"
     target = Target(
         words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
-        _slots(z or ("6" if racks and frame is None else ""), frame),
-        gearings,
-        _rollers(rollers, racks, frame),
+        _slots(z, frame),
+        _gearings(requested, frame),
+        _rollers(rollers, frame),
         _laws(law),
         spans,
         frame,
         objective(sort, "--sort") if sort else None,
         bounds,
         number("--space", space, Range(0.1, 100.0)) if space else SPACE,
-        wheels=wheels,
     )
     loads = [name for name in target.names if name.startswith("loads.")]
     if loads and not (target.frame and target.frame.is_loaded):
@@ -107,10 +91,7 @@ def read_target(
 
 
 def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
-    """Return the spec with whose sizes, loads and limits other machines are sought.
-
-    Raises GenevaError where a search has nothing to choose, or does not know the drive.
-    """
+    """Return the spec with whose sizes, loads and limits other machines are sought."""
     from geneva_cli.specfile.reader import read  # TOML, which a search without a spec does not need
 
     text = read(path, settings)
@@ -122,62 +103,27 @@ def read_frame(path: str, settings: Sequence[str] = ()) -> Spec:
                 "[drive.before] would change: remove it; `geneva sweep --best` varies both drives",
                 ("drive", "before"),
             )
+        if not spec.output.turns or spec.drive.wheels_on_carrier:
+            raise GenevaError(
+                "--from: synth finds wheels on axes that stand; `geneva sweep --best` varies racks "
+                "and carousels too",
+                ("wheel", "gearing"),
+            )
     return spec
 
 
-def _wheels(carousel: str, frame: Spec | None) -> tuple[int, ...]:
-    own = frame.drive.wheels_on_carrier if frame else 0
-    if not carousel:
-        return (own,) if own else ()
-    if frame and not own:
-        raise GenevaError(
-            f'--carousel: the spec has kind = "{frame.drive.NAME}": set kind = "carousel" in it'
-        )
-    low, high = span("--carousel", carousel, Range(1, 24))
-    if not (low.is_integer() and high.is_integer()):
-        raise GenevaError(f"--carousel {cut(carousel)}: write a number of wheels, or LOW..HIGH")
-    return tuple(range(int(low), int(high) + 1))
-
-
-def _gearings(
-    chosen: tuple[str, ...], racks: bool, wheels: tuple[int, ...], frame: Spec | None
-) -> tuple[str, ...]:
-    """The gearings to try: racks alone, or wheels."""
-    if racks:
-        if chosen or wheels:
-            other = f"--{chosen[0]}" if chosen else "--carousel"
-            raise GenevaError(f"{other}: racks are searched alone: leave it out, or the rack")
-        if frame is not None and frame.output.turns:
-            raise GenevaError(
-                "--from: the spec has a wheel: leave out --linear and --index-mm, or take the spec "
-                "of a rack"
-            )
-        return ("linear",)
-    if wheels:
-        able = tuple(g for kind in KINDS if "carrier" in kind.families for g in kind.gearings)
-        if not able:
-            raise GenevaError("--carousel: no drive with wheels on a carrier is installed")
-        wrong = next((name for name in chosen if name not in able), None)
-        if wrong:
-            raise GenevaError(f"--{wrong}: a carrier has {' or '.join(able)} wheels")
-        return chosen or able
+def _gearings(chosen: tuple[str, ...], frame: Spec | None) -> tuple[str, ...]:
     if frame is None or not frame.wheel.stopped:
         return chosen or GEARINGS
-    several = chosen or GEARINGS
-    keys = {name: fields(registry.gearing(name)) for name in several}
-    stopped = tuple(g for g in several if any(field.key == "stop" for field in keys[g]))
-    if not stopped:
-        raise GenevaError(f"--{chosen[0]}: the spec has a stop, which this wheel cannot have")
-    return stopped
+    able = tuple(g for g in GEARINGS if any(f.key == "stop" for f in fields(registry.gearing(g))))
+    wrong = next((name for name in chosen if name not in able), None)
+    if wrong:
+        raise GenevaError(f"--{wrong}: the spec has a stop, which this wheel cannot have")
+    return chosen or able
 
 
-def _rollers(rollers: int | None, racks: bool, frame: Spec | None) -> int | None:
+def _rollers(rollers: int | None, frame: Spec | None) -> int | None:
     """The number of rollers: None for any, 1 for a frame that has a stop."""
-    if racks and rollers not in (None, 1):
-        raise GenevaError(
-            f"--rollers {cut(rollers)}: a rack moves for half a turn, so that a second roller "
-            "would leave no dwell: leave it out"
-        )
     if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")
     if frame is None or not frame.wheel.stopped:
@@ -198,22 +144,14 @@ def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:
 
 
 def _laws(name: str) -> tuple[str, ...]:
-    if name == "all":
-        return tuple(LAWS)
-    if name not in LAWS:
-        hint = nearest(name, (*LAWS, "all"))
-        raise GenevaError(
-            f'--law "{cut(name)}": unknown{hint}; it must be all or {few(name, LAWS)}'
-        )
-    return (name,)
+    if name == "all" or name in LAWS:
+        return tuple(LAWS) if name == "all" else (name,)
+    hint = nearest(name, (*LAWS, "all"))
+    raise GenevaError(f'--law "{cut(name)}": unknown{hint}; it must be all or {few(name, LAWS)}')
 
 
 def span(option: str, text: str, rule: Range) -> AllowedSpan:
-    """Return the range in an option's text. Raises GenevaError, naming the option, for others.
-
-    >>> span("--dwell-s", "0.8..", Range(0.0))
-    AllowedSpan(low=0.8, high=inf)
-    """
+    """Return the range in an option's text."""
     ends = range_text(text, f"{option} {cut(text)}")
     if not ends:
         x = number(option, text, rule)
@@ -231,10 +169,7 @@ def span(option: str, text: str, rule: Range) -> AllowedSpan:
 
 
 def number(option: str, text: str, rule: Range) -> float:
-    """Return a number or a fraction of two.
-
-    Raises GenevaError, naming the option, for another text.
-    """
+    """Return a number or a fraction of two."""
     above, slash, below = text.partition("/")
     try:
         x = float(above) / float(below) if slash else float(text)

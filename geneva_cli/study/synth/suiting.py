@@ -31,7 +31,7 @@ from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
 
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L
 SPARE = 1.001  # times the least roller, for what lies between the samples
-SAMPLES = 240  # of a motion, and of a turn of the crank
+SAMPLES = 120  # of a motion, and of a turn of the crank
 UNDERCUT_SAMPLES, UNDERCUT_STEP = 96, 4  # of half a motion; the walls are tested at every fourth
 
 # Entries of the table for parts that pass a full turn, and for parts that were not turned.
@@ -81,8 +81,8 @@ def slot_paths(machine: Mechanism) -> SlotPaths:
     least = np.zeros(n)
     if engagement.slot.curved:
         least = 0.5 * np.hypot(x - x[:, ::-1], y - y[:, ::-1]).max(axis=1)
-    # every fourth sample suffices where places of two slots are compared
-    u, v = x[:, ::4, None], y[:, ::4, None]
+    # every third sample suffices where places of two slots are compared
+    u, v = x[:, ::3, None], y[:, ::3, None]
     step = np.reshape(math.tau / np.asarray(machine.spec.wheel.z), (-1, 1, 1))
     c, s = np.cos(step), np.sin(step)
     over, up = np.swapaxes(c * u - s * v, 1, 2), np.swapaxes(s * u + c * v, 1, 2)

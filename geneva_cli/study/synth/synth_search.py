@@ -8,6 +8,8 @@ from functools import partial
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
+import numpy as np
+
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
@@ -15,7 +17,7 @@ from geneva_cli.motion.records import families_of_kinds
 from geneva_cli.motion.wheels.classic import rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.progress import tracked
-from geneva_cli.study.batches import numbers
+from geneva_cli.study.batches import batch_machines, numbers
 from geneva_cli.study.fields import Pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.rows import Cell, rows_of
@@ -57,10 +59,7 @@ class Ranking(NamedTuple):
 
 
 def search(target: Target) -> Ranking:
-    """The machines that meet the requirement, in order; no part has been turned yet.
-
-    Raises GenevaError, saying what is within reach, if there is none.
-    """
+    """The machines that meet the requirement, in order; no part has been turned yet."""
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
     found = _all_groups(narrowed, target.names, False)
@@ -71,8 +70,7 @@ def search(target: Target) -> Ranking:
     if not every:
         raise GenevaError(_out_of_reach(target, [e for *_, errors in found for e in errors]))
     ranking = Ranking([], narrowed, target)
-    kept = _worthwhile(ranking, bounded(target, every))
-    kept.sort(key=ranking.rank)
+    kept = sorted(bounded(target, every), key=ranking.rank)
     # without a search for the goal or a bound a family has several rows: the first of each kind,
     # and the first that may be built
     every_kind, can_be = in_batch(target.names), dict[object, bool]()
@@ -93,7 +91,7 @@ def _all_groups(
     """The rows of all independent groups of machines, in order, from all cores.
 
     They are straight slots, and laws, of each gearing; those of kinds. Each has some of the numbers
-    of slots. If the target has wheels on a carrier: the carousels of each gearing.
+    of slots.
     """
     count = max(len(target.z) // GROUP, 1)
     ends = [-(-len(target.z) * i // count) for i in range(count + 1)]
@@ -104,8 +102,6 @@ def _all_groups(
         *((straight, one) for one in each),
         *((with_laws, one._replace(laws=(law,))) for law in target.laws for one in each),
     ]
-    if target.wheels:
-        tasks = [(kind, one) for kind in families_of_kinds("carrier") for one in each]
     # a small search ends before a second process has started
     is_small = len(target.gearings) * len(target.z) * len(target.laws) <= 6
     workers = 1 if is_small else min(len(tasks), cores())
@@ -126,12 +122,12 @@ def _group(
     machines, near = best(families, target, how_near)
     # the bounds that do not depend on the roller; what no batch computes may keep them
     bounds = [b for b in target.bounds if in_batch([b.name]) and not b.name.startswith("loads.")]
-    values = numbers([spec for spec, _ in machines], [b.name for b in bounds]) if bounds else []
-    broken = {
-        i
-        for i, own in enumerate(values)
-        if own and not all(b.kept(x) for b, x in zip(bounds, own, strict=True))
-    }
+    specs = [spec for spec, _ in machines]
+    values = numbers(batch_machines(specs), [b.name for b in bounds], len(specs))
+    is_broken = np.full(len(specs), False)
+    for bound, own in zip(bounds, values, strict=True):
+        is_broken |= ~(bound.kept_by(own) | np.isnan(own))
+    broken = {*np.flatnonzero(is_broken).tolist()}
     shown = [one for i, one in enumerate(machines) if i not in broken]
     keeps = bool(shown)
     if how_near:
@@ -146,18 +142,15 @@ def with_batch_values(names: Sequence[str], found: Sequence[MachineRow]) -> list
     if not (names and in_batch(names)):
         return list(found)
     out = []
-    for row, own in zip(found, numbers([row.spec for row in found], names), strict=True):
-        is_known = own and not any(map(math.isnan, own))
-        cells = [None if math.isinf(x) else x for x in own or ()]
-        out.append(row._replace(extra=tuple(cells)) if is_known else row)
+    values = numbers(batch_machines([row.spec for row in found]), names, len(found))
+    for row, own in zip(found, values.T.tolist(), strict=True):
+        cells = tuple(None if math.isinf(x) else x for x in own)
+        out.append(row if any(map(math.isnan, own)) else row._replace(extra=cells))
     return out
 
 
 def bounded(target: Target, found: Sequence[MachineRow]) -> list[MachineRow]:
-    """The rows, with the requested quantities, that keep the bounds.
-
-    Raises GenevaError, saying how near they come, if there is none.
-    """
+    """The rows, with the requested quantities, that keep the bounds."""
     names = target.names
     if not names:
         return list(found)
@@ -198,39 +191,6 @@ def _values(of: Pick, spec: Spec) -> tuple[Cell, ...] | None:
         return None
 
 
-def _worthwhile(ranking: Ranking, found: list[MachineRow]) -> list[MachineRow]:
-    """The rows without machines of two numbers that are hardly better than one of one number."""
-    target = ranking.requested
-    nearest = target.with_times().any_motion and not target.sort
-
-    def value(row: MachineRow) -> float:
-        if not target.sort:
-            return row.candidate.peak
-        own = row.extra[target.names.index(target.sort.name)]
-        return target.sort.sign * float(own) if is_number(own) else math.nan
-
-    one = [row for row in found if not row.candidate.of_two_numbers]
-    kept = []
-    for row in found:
-        own = row.candidate
-        rivals = [
-            other
-            for other in (one if own.of_two_numbers else ())
-            if (own.z, own.rollers, None)
-            == (other.candidate.z, other.candidate.rollers, other.candidate.law)
-            and (
-                own.drive == other.candidate.drive
-                or (own.gearing == other.candidate.gearing and not other.candidate.is_driven)
-            )
-        ]
-        # a hundredth is the least gain over a machine of one number
-        if not rivals or (
-            not nearest and all(value(row) < value(x) - 0.01 * abs(value(row)) for x in rivals)
-        ):
-            kept.append(row)
-    return kept
-
-
 def _out_of_reach(target: Target, errors: list[str]) -> str:
     """The error message if no machine was found: what would be within reach."""
     counts = target.counts
@@ -257,16 +217,8 @@ def _out_of_reach(target: Target, errors: list[str]) -> str:
             "a wheel rests so long only behind a first wheel. That turns the crank once in "
             f"{TURNS[0]} to {TURNS[-1]} turns: none of these rests so long"
         )
-    elif target.wheels:
-        return (
-            f"{target.words}: out of reach on a carrier: its wheels have straight radial slots, "
-            "whose number gives the motion. Several wheels share one finger, and each must leave "
-            f"it before the next one arrives{first}"
-        )
     else:
         drives = f"no drive goes beyond A or eccentricity {MOST}"
-        if not target.output.turns:
-            return f"{target.words}: out of reach of a rack: {drives}{first}"
         return (
             f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: "
             "curved slots turn an internal wheel at most half as fast as the crank"

@@ -130,8 +130,7 @@ def _turned(ranking: Ranking, buildable: bool, row: MachineRow) -> MachineRow:
 def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[MachineRow, str]:
     """Row ``number``, and the text of its spec with comments, as ``turned`` shows it.
 
-    The parts are turned through a whole turn, unless they are known to be impossible. Raises
-    GenevaError if there is no such row.
+    The parts are turned through a whole turn, unless they are known to be impossible.
     """
     if not 1 <= number <= len(ranking.rows):
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(ranking.rows)}")

@@ -37,8 +37,8 @@ from geneva_cli.study.synth.families.family import (
 from geneva_cli.study.synth.suiting import suiting
 from geneva_cli.study.target import AllowedSpan, Target
 
-MORE = 6  # rollers that are tried where nothing demands more
-PARTS, ROUNDS = 5, 5  # of a range of motions: its division, and how often a part is divided again
+MORE = 4  # rollers that are tried where nothing demands more
+PARTS, ROUNDS = 4, 5  # of a range of motions: its division, and how often a part is divided again
 
 
 def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
@@ -55,7 +55,8 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
             lines, spans = list[_LawLine](), list[AllowedSpan]()
             for wheel in wheels if wheels[0].FLAT else ():
                 for m in several:
-                    one = _LawLine(target, wheel, law, is_cam, m)
+                    is_extra = m > max(rollers_max(natural_deg(wheel)), several[0])
+                    one = _LawLine(target, wheel, law, is_cam, m, is_extra)
                     if span := one.motions():
                         lines.append(one)
                         spans.append(span)
@@ -71,6 +72,7 @@ class _LawLine(NamedTuple):
     law: Law
     is_cam: bool
     m: int  # rollers
+    is_extra: bool  # more than the plain wheel takes: the longest motion alone is tried
 
     def motions(self) -> AllowedSpan | None:
         """The allowed motions; of a cam those below that of a slot parallel to the crank."""
@@ -117,7 +119,8 @@ def _longest(lines: Sequence[_LawLine], spans: Sequence[AllowedSpan]) -> list[fl
     every = np.arange(len(lines))
     able = _buildable(lines, high)
     found = np.where(able, high, math.nan)
-    left, top, step = every[~able & (low < high)], high, (high - low) / PARTS
+    is_tried = [not own.is_extra for own in lines]
+    left, top, step = every[~able & (low < high) & is_tried], high, (high - low) / PARTS
     for _ in range(ROUNDS):
         tried = top[left, None] - step[left, None] * np.arange(1, PARTS + 1)
         each = [lines[i] for i in left.tolist() for _ in range(PARTS)]
@@ -134,12 +137,11 @@ def _buildable(lines: Sequence[_LawLine], motions: Array) -> Mask:
     able = np.zeros(len(lines), dtype=bool)
     if not lines:
         return able
-    naturals = [natural_deg(own.wheel) for own in lines]
     first = lines[0]._replace(m=1).spec(motions[0])
-    alpha0 = [_alpha0(a, b) for a, b in zip(naturals, motions.tolist(), strict=True)]
+    alpha0 = np.array([natural_deg(own.wheel) for own in lines]) - motions
     z, rollers = (np.array(x) for x in zip(*((one.wheel.z, one.m) for one in lines), strict=True))
     try:
-        batch = many(first, {"wheel.z": z, "motion.alpha0_deg": np.array(alpha0)})
+        batch = many(first, {"wheel.z": z, "motion.alpha0_deg": alpha0})
     except GenevaError:  # a frame that allows no such machine
         return able
     if batch.machine:

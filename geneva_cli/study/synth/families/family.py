@@ -30,13 +30,12 @@ Keys: TypeAlias = Callable[[Array], dict[str, Array]]
 
 
 class Family(NamedTuple):
-    """Machines that differ in one number or more, or a single one.
+    """Machines that differ in one number, or a single one.
 
-    ``spec`` is one of them. ``keys`` returns the values (n,) of its keys at places (n, d) between
+    ``spec`` is one of them. ``keys`` returns the values (n,) of its keys at places (n, 1) between
     ``low`` and ``high``; NaN where there is no machine. At ``plain`` a machine moves as the plain
-    crank does; the distance of other places from it is measured in ``scale``. At ``known`` it is a
-    machine of another family. At ``best`` it is the best, if that is not NaN. All can be passed to
-    another process.
+    crank does. At ``known`` it is a machine of another family. At ``best`` it is the best, if that
+    is not NaN. All can be passed to another process.
     """
 
     spec: Spec
@@ -44,7 +43,6 @@ class Family(NamedTuple):
     low: tuple[float, ...] = ()
     high: tuple[float, ...] = ()
     plain: tuple[float, ...] = ()
-    scale: tuple[float, ...] = (1.0,)
     known: tuple[float, ...] = ()
     best: float = math.nan
 
@@ -74,7 +72,7 @@ def pieces(families: Sequence[Family], most: int) -> list[Family]:
 
     No family has more than 8 pieces.
     """
-    free = [f.keys is not None and len(f.low) == 1 and f.is_free for f in families]
+    free = [f.is_free for f in families]
     count = max(1, min(8, most // max(sum(free), 1)))
     out: list[Family] = []
     for f, is_free in zip(families, free, strict=True):
@@ -108,7 +106,7 @@ def machine(
     """
     own, made = target.frame or BARE, drive(target.n_rpm(m, motion_deg))
     size = own.size
-    L = target.center_distance_mm(size.center_distance_mm)
+    L = size.center_distance_mm
     if L is None and not made.ONE_ARM:  # it has no crank of one radius: the frame's distance
         L = size.derived_distance_mm
     as_built = L is not None and size.crank_radius_mm is not None  # a candidate has its own R/L

@@ -1,10 +1,7 @@
 """Straight slots: the plain crank, also with offset slots, and drives in front of the crank.
 
 A side-crank, gears and a planet with the roller have one roller: several would move the wheel
-differently. On a sphere the angle between the shafts determines the motion. With a side-crank in
-front of inclined shafts, two free numbers are gentler than either alone. With elliptical gears the
-motion depends on its length only, not on the shafts' angle, as the tangents of the quarters of both
-angles have a constant ratio: they are tried if more than times and peaks is required.
+differently. On a sphere the angle between the shafts determines the motion.
 
 A natural motion phi_2 is that of the plain crank, 180 deg - 2b outside and 180 deg + 2b inside;
 phi_1 is the required one. All angles are input angles in degrees. Sources: the law of sines in the
@@ -45,7 +42,6 @@ from geneva_cli.study.synth.families.family import (
     speeds,
 )
 from geneva_cli.study.target import AllowedSpan, Target
-from geneva_cli.verdict.quantities.quantity_names import is_motion
 
 AXES = AllowedSpan(1.0, 179.0)  # angles between the shafts of a spherical wheel, degrees
 MOST = 0.9999  # greatest |A| and eccentricity: beyond, the drive nearly stops or jumps
@@ -107,7 +103,7 @@ def gears_motion(natural_deg: float, e: float) -> float:
 
 
 class _InFront(NamedTuple):
-    """A drive before the crank: its key, and its parameter for two motion angles."""
+    """A drive before the crank: its key, and its parameter and its motion by each other."""
 
     drive: Drive
     key: str
@@ -115,22 +111,10 @@ class _InFront(NamedTuple):
     motion: Callable[[float, float], float]
     low: float = -MOST
     high: float = MOST
-    distance: str = ""  # the key of its own centre distance: as far apart as wheel and crank
-
-    def spec(self, target: Target, wheel: Gearing) -> Spec:
-        def drive(n_rpm: float) -> Drive:
-            return self.drive.replace(n_rpm=n_rpm)
-
-        spec = machine(target, wheel, drive, 1, natural_deg(wheel))
-        apart = spec.given_distance_mm
-        return spec.with_(f"drive.{self.distance}", apart) if self.distance else spec
-
-    def size(self, parameter: Array) -> Array:
-        """The value of the key: the size of an eccentricity, whose sign is the phase."""
-        return parameter if self.low * self.high else abs(parameter)
 
 
 SIDE_CRANK = _InFront(SideCrank(A=0.0), "drive.A", side_crank, side_crank_motion)
+# of gears the sign of the eccentricity is the phase
 GEARS = tuple(
     _InFront(
         EllipticalGears(eccentricity=0.1, phase=phase),
@@ -138,7 +122,6 @@ GEARS = tuple(
         eccentricity,
         gears_motion,
         *span,
-        "gear_distance_mm",
     )
     for phase, span in (("slow", (0.0, MOST)), ("quick", (-MOST, 0.0)))
 )
@@ -214,11 +197,13 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
         c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
         least = -l / (1.0 + c if c > 0.0 else teeth) * (1.0 - 1e-6)
         span = AllowedSpan(least, l / (c * c - 1.0) * (1.0 - 1e-9))
-        yield line(planet(fixed, span.high), _planet, span, known=(0.0,))
+        yield line(
+            planet(fixed, span.high), partial(_key, "drive.planet_ratio"), span, known=(0.0,)
+        )
 
 
-def _planet(at: Array) -> dict[str, Array]:
-    return {"drive.planet_ratio": at[:, 0]}
+def _key(name: str, at: Array) -> dict[str, Array]:
+    return {name: at[:, 0]}
 
 
 def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -233,17 +218,25 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
         span = AllowedSpan(*(one.parameter(natural, x) for x in motion))
         span = span.within(AllowedSpan(one.low, one.high))
         if not span.empty:
+
+            def drive(n_rpm: float, kind: Drive = one.drive) -> Drive:
+                return kind.replace(n_rpm=n_rpm)
+
+            spec = machine(target, wheel, drive, 1, natural)
+            if one in GEARS:  # as far apart as wheel and crank
+                spec = spec.with_("drive.gear_distance_mm", spec.given_distance_mm)
             keys = partial(_in_front, target, natural, one)
-            yield line(one.spec(target, wheel), keys, span, known=known, plain=(0.0,))
+            yield line(spec, keys, span, known=known, plain=(0.0,))
 
 
 def _in_front(target: Target, natural: float, one: _InFront, at: Array) -> dict[str, Array]:
     motions = [one.motion(natural, x) for x in at[:, 0].tolist()]
-    return {one.key: one.size(at[:, 0]), **speeds(target, 1, motions)}
+    size = at[:, 0] if one.low * one.high else abs(at[:, 0])
+    return {one.key: size, **speeds(target, 1, motions)}
 
 
 def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
-    """Plain cranks on shafts that are not at right angles, and drives in front of them."""
+    """Plain cranks on shafts that are not at right angles."""
     z = wheel.z
     least = 2.0 * half_motion_deg(1.0, 1, z)
     for m in [target.rollers] if target.rollers else range(1, rollers_max(least) + 1):
@@ -255,24 +248,8 @@ def inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
             right = (90.0,) if allows(free, 180.0) else ()
             keys = partial(_on_axes, target, z, m)
             yield line(plain(target, wheel, m), keys, span, known=right, plain=(90.0,))
-    motion = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
-    if target.rollers in (None, 1) and motion:
-        low, high = zip(motion, AXES, strict=True)
-        moved = all(map(is_motion, target.names))
-        scale, at_right = (180.0, AXES.high - AXES.low), (natural_deg(wheel), 90.0)
-        for one in (SIDE_CRANK,) if moved else (SIDE_CRANK, *GEARS):
-            keys, spec = partial(_both, target, z, one), one.spec(target, wheel)
-            yield Family(spec, keys, low, high, at_right, scale, known=at_right)
 
 
 def _on_axes(target: Target, z: int, m: int, at: Array) -> dict[str, Array]:
     motions = [axes_motion(z, x) for x in at[:, 0].tolist()]
     return {"wheel.axes_deg": at[:, 0], **speeds(target, m, motions)}
-
-
-def _both(target: Target, z: int, one: _InFront, at: Array) -> dict[str, Array]:
-    """A drive in front of inclined shafts, at motion angles and angles of the shafts."""
-    x = np.array([one.parameter(axes_motion(z, axes), m) for m, axes in at.tolist()])
-    x = np.where((x >= one.low) & (x <= one.high), x, np.nan)
-    motions = speeds(target, 1, at[:, 0].tolist())
-    return {one.key: one.size(x), "wheel.axes_deg": at[:, 1], **motions}
