@@ -117,7 +117,8 @@ def gears(parts: EdgedParts) -> Drawing:
     if mechanism.spec.gears or not mechanism.spec.drive.round_gears:
         pair = required_gears(mechanism)
         name = "pitch curves of the gears"
-        parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
+        fine = FINE[parts.curves] * pair.distance_mm
+        parts = parts.within(min(parts.tolerance or fine, fine), parts.curves)
     L = mechanism.center_distance_mm
     members = (*parts.round_gears, *parts.gear_pair)
     about_crank = [one._replace(at=(one.at[0] - L, one.at[1])) for one in members]

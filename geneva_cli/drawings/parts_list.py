@@ -25,7 +25,6 @@ from geneva_cli.motion.records import thing
 from geneva_cli.motion.rollers import places
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.projection import Missing, alike, built_of, or_missing, outlines_of
-from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.materials import material_names, roller_material, wheel_material
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Reading, Table, rows_table
@@ -160,9 +159,6 @@ def _dimensions(parts: Parts) -> list[Dimension | Missing]:
     with suppress(GenevaError):  # the rows of what cannot be built have the reason
         screws = parts.built.screws if spec.has_parts else ()
         entries += (Dimension(one.name, one.text) for one in screws)
-    for _, build in parts.all_built:
-        with suppress(GenevaError):
-            entries += (Dimension(FIX, name) for name in build().to_fix)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     own = thing(spec.wheel.NAME, "dimensions")
     entries += own(parts) if own else ()

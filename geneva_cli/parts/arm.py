@@ -1,8 +1,7 @@
-"""The crank arm, the plate that carries the rollers' pins, and the crank's solids.
+"""The crank arm, which carries the rollers' pins, and the crank's solids, in the crank's frame.
 
-Its frame is the crank's. Its outline is the convex hull of circles: a hub about the crank's shaft,
-and an eye about each pin and each bolt. An internal wheel's shaft ends in the arm, and its hub is a
-disc that carries the locking sectors.
+The arm's outline is the convex hull of a hub about the crank's shaft, and of eyes about pins and
+bolts. An internal wheel's shaft ends in the arm, whose hub carries the locking sectors.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """The positions of wheel, crank, rollers and links through a whole turn, in mm and radians.
 
-The wheel's axis is the origin, and the crank's axis is at (L, 0). A drive in front of the crank
-changes when the crank reaches a position, but not which positions it goes through. So such a
-machine is turned by its crank, like a plain one.
+The wheel's axis is the origin, and the crank's is at (L, 0). A drive in front of the crank does not
+change which positions it goes through: such a machine is turned by its crank, like a plain one.
 """
 
 from __future__ import annotations

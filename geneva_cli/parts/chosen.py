@@ -1,7 +1,6 @@
 """The sizes that a rule or a load chose: what a spec leaves out, with the reason of each.
 
-A size that the spec has stays. One that it leaves out follows from its rule, or is as large as the
-load of the run needs. ``chosen`` has all of them, ``by_load`` those that another load changes.
+``chosen`` has all of them, ``by_load`` those that another load changes.
 """
 
 from __future__ import annotations

@@ -26,8 +26,7 @@ Values = dict[str, float | str]
 def detail_sizes(mechanism: Mechanism) -> Values:
     """Return the sizes of a machine's details by keys of ``[size]``: mm, diameters, or counts.
 
-    Only details that the machine has are among them; none where its parts cannot be drawn, which
-    the checks report.
+    None where its parts cannot be drawn, which the checks report.
     """
     own_details = thing(mechanism.spec.wheel.NAME, "details")
     out: Values = {}

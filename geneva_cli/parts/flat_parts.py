@@ -1,7 +1,6 @@
-"""All parts of a flat machine at their positions, at input angle 0.
+"""All parts of a flat machine at their positions, at input angle 0, each built on first use.
 
-The wheel's axis is the origin, and the crank's is on the x axis. Each part is built once, on first
-use. Drawing, solid, list of parts, sheet and the checks of shafts are projections of them.
+The wheel's axis is the origin, and the crank's is on the x axis.
 """
 
 from __future__ import annotations
@@ -29,11 +28,9 @@ from geneva_cli.parts.arm import (
     locking_plates,
     roller_plates,
 )
-from geneva_cli.parts.links.link_shafts import links_to_fix
 from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import dial_circle, wheel_part, wheel_plate
@@ -54,9 +51,8 @@ if TYPE_CHECKING:
 class FlatParts(EdgedParts):
     """The parts of a flat machine in the wheel's frame.
 
-    A part that the sizes leave no place for raises GenevaError, naming the key. A wheel with too
-    many slots is not drawn: then there are links and gears, with shafts and frame, and the rollers
-    on links.
+    A wheel with too many slots is not drawn: then there are links and gears, with shafts and frame,
+    and the rollers on links.
     """
 
     @cached_property
@@ -352,19 +348,6 @@ class FlatParts(EdgedParts):
         return (*turning, *self.links.cut, self.frame)
 
     @property
-    def to_fix(self) -> tuple[str, ...]:
-        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        named = {plate.name: [plate.name] for plate in self.links.plates}
-        on_crank = named.setdefault("crank", [])
-        if self.drawn and self.arm:
-            on_crank.append("arm")
-        bolted = bool(self.drawn and self.arm and self.arm.bolts)  # the disc to the arm
-        bored = self.drawn and self.sizes.crank_bore > 0.0 and is_whole(self.assembly, self.sizes)
-        if bored and self.locking and not bolted:
-            on_crank.append("locking disc")
-        return tuple(one for name in self._framed.to_fix for one in named.get(name, [name]))
-
-    @property
     def linked(self) -> tuple[Member, ...]:
         """The links, with the pins and rollers between and on them."""
         own = *self.links.cut, *self.links.joined
@@ -419,11 +402,6 @@ class FrontParts(FlatParts):
     def screws(self) -> tuple[Screws, ...]:
         """The screws between the parts; none."""
         return ()
-
-    @property
-    def to_fix(self) -> tuple[str, ...]:
-        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        return tuple(links_to_fix(self.links, self.mechanism))
 
     @property
     def members(self) -> tuple[Member, ...]:

@@ -1,9 +1,8 @@
 """The frame: one plate with a hole for every shaft that reaches it, and four mounting holes.
 
-It lies below all moving parts. External wheels that orbit have a carrier instead, which turns on
-the finger's shaft. A shaft that ends above the frame has its bearing elsewhere: an internal
-wheel's, or a side-crank's, whose input crank turns over the axis of the crank's shaft. That one is
-borne by a bridge over the crank, on two posts beside all that turns about the crank's axis.
+It lies below all moving parts. Wheels that orbit have a carrier instead. A shaft that ends above
+the frame has its bearing elsewhere; that of a side-crank, whose input crank turns over the crank's
+axis, in a bridge over the crank, on two posts beside all that turns.
 """
 
 from __future__ import annotations
@@ -17,11 +16,12 @@ from geneva_cli.geometry.distance import Polyarc, farthest
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
-from geneva_cli.parts.links.link_shafts import carried, crank_stop, link_shafts, outside_links
+from geneva_cli.parts.links.link_shafts import carried, crank_stop, outside_links
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
 from geneva_cli.parts.mounted_plate import (
@@ -35,10 +35,9 @@ from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_circles import wheel_hub
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, tapped
 from geneva_cli.parts.shafts.shaft import (
-    Ends,
-    Seat,
     Shaft,
     crank_shaft_radius,
+    shaft_ends,
     shafts,
     wheel_shaft_radius,
 )
@@ -64,9 +63,9 @@ def framed(
     lows += [gear.plate.low for gear in bars.gears]
     lows += [base.low] if base else []
     if mechanism.spec.gears:
-        from geneva_cli.parts.gears.gear_pair import gear_seats
+        from geneva_cli.parts.gears.gear_pair import gear_span
 
-        lows += [seat.low for seat in gear_seats(mechanism, outlines)]
+        lows.append(gear_span(mechanism, outlines)[0])
     arm = outlines.sizes.arm_thickness if outlines and outlines.has_arm else 0.0
     lows.append(-size.allowances.pin_gap_mm - arm)
     hub = wheel_hub(outlines.assembly, outlines.sizes) if outlines else None
@@ -121,14 +120,11 @@ def framed(
         # a frame contains every axis, drilled or not
         within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
         plate = mounted_plate(holes, within, eye, (top - thick, top))
-    whole = {name for axis in bars.axes for name in axis.one_piece}
-    to_fix = [name for one in own for name in one.to_fix if name not in whole]
     return FrameAndShafts(
         plate,
         tuple(outside_links(axles, bars, L)),
         tuple(spacers),
         tuple((hole, part.name) for hole, part in fixed),
-        tuple(dict.fromkeys(to_fix)),
         Member(bridge, (L, 0.0)) if bridge else None,
         tuple((one.name, _why_above(one, mechanism, bars, top)) for one in hanging),
     )
@@ -203,27 +199,20 @@ def _all_shafts(
     lowest: float,
     first: Sequence[Member],
 ) -> Iterator[Shaft]:
-    """Yield all shafts and pivots; ``lowest`` is the frame's lower face."""
-    stop, has_one = None, (False, False)
-    L = mechanism.center_distance_mm
+    """Yield all shafts and pivots; ``lowest`` is the frame's lower face.
 
-    def on(at: Point) -> tuple[Seat, ...]:
-        """Return what a shaft carries, from the lowest up, but for wheel and crank."""
-        here = (axis for axis in bars.axes if same(axis.at, at, L))
-        seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
-        if mechanism.spec.gears and same(at, mechanism.gear_shaft.at, L):
-            from geneva_cli.parts.gears.gear_pair import gear_seats
-
-            seats += gear_seats(mechanism, outlines)[:1]
-        return tuple(sorted(seats, key=lambda seat: seat.low))
-
+    ``first`` are plates of two wheels in series that turn with a link.
+    """
+    size, L, stop = mechanism.spec.size, mechanism.center_distance_mm, None
+    known: list[Point] = []  # axes whose shafts carry wheel or crank
     if outlines:
         stop = crank_stop(outlines, bars)
-        has_one = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
+        known += [(L, 0.0)] if crank_shaft_radius(outlines) > 0.0 else []
+        known += [ORIGIN] if wheel_shaft_radius(outlines) > 0.0 else []
         _, *wheels = mechanism.wheel_places
         _, *cranks = mechanism.crank_places
         half = mechanism.engagements[0].half_step
-        for one in shafts(outlines, lowest, stop, on):
+        for one in shafts(outlines, lowest, stop):
             yield one
             if same(one.at, ORIGIN, L):
                 yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in wheels)
@@ -234,10 +223,30 @@ def _all_shafts(
                     crank = outlines.assembly.crank(np.array([-place.behind_deg, 0.0]))
                     turn = one.turn + place.turn + float(crank[0] - crank[1])
                 yield one._replace(at=place.at, turn=turn)
-    top = drawn_thicknesses(mechanism.spec.size, L, outlines.sizes if outlines else None).wheel
-    ends = Ends(lowest, top, stop, *has_one)
-    yield from link_shafts(mechanism, bars, ends, on)
+    wheel = drawn_thicknesses(size, L, outlines.sizes if outlines else None).wheel
+    for axis in bars.axes:
+        if any(same(axis.at, at, L) for at in known):
+            continue
+        here = (one for one in bars.axes if same(one.at, axis.at, L))
+        spans = [span for one in here for span in carried(bars, one, first, L)]
+        if mechanism.spec.gears and same(axis.at, mechanism.gear_shaft.at, L):
+            from geneva_cli.parts.gears.gear_pair import gear_span
+
+            spans.append(gear_span(mechanism, outlines))
+        low, high = min(low for low, _ in spans), max(high for _, high in spans)
+        bore, direction = axis.bore.bore, axis.bore.direction
+        if axis.stands:
+            turns, on_wheel = Joint.SHAFT in axis.kinds, same(axis.at, ORIGIN, L)
+            on_crank = same(axis.at, (L, 0.0), L)
+            whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
+            low = stop if on_crank and stop is not None else lowest
+            low, high = shaft_ends(size, whose, low, wheel if on_wheel else high)
+            name = f"{whose}'s {'shaft' if turns else 'pivot'}"
+            yield Shaft(name, whose, bore, low, high, axis.at, direction, turns=turns)
+        elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those are pins between links
+            name = f"shaft of {', '.join(axis.names)}"
+            yield Shaft(name, axis.names[0], bore, low, high, axis.at, turns=False)
     if mechanism.spec.gears:
         from geneva_cli.parts.gears.gear_pair import gear_shafts
 
-        yield from gear_shafts(mechanism, outlines, ends)
+        yield from gear_shafts(mechanism, outlines, lowest, (L, 0.0) in known)

@@ -1,7 +1,6 @@
 """The usual sizes of the parts, in millimetres: those of the spec, or defaults without a load.
 
-Default bores are those of standard bearings, other default sizes rounded numbers. The rim is where
-the roller enters. On a smaller wheel the roller would lose its slot, on a larger one it would touch
+The rim is where the roller enters: on a smaller wheel it would lose its slot, on a larger one touch
 the rim. The locking disc reaches past the rim and leaves a horn next to the slot.
 """
 
@@ -28,7 +27,6 @@ from geneva_cli.parts.sizes import (
     hole_radius,
     pin_radius,
     reach_and_hub,
-    refuse_stepped_shaft,
     refuse_thin_hub,
     refuse_wide_pin,
     wheel_bore,
@@ -305,8 +303,14 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
             f"{sizes.slot_end:.6g} mm; it must be below {2.0 * sizes.slot_end:.6g}",
             ("size", "wheel_bore_mm"),
         )
-    if assembly.full.spec.drive.ONE_ARM:
-        refuse_stepped_shaft(size, sizes.crank_bore, assembly.L)
+    own, through = size.arm_bore_mm, 2.0 * sizes.crank_bore  # of one shaft; 0 ends it in the arm
+    stepped = own and through and abs(own - through) > 2.0 * SAME_LENGTH * assembly.L
+    if assembly.full.spec.drive.ONE_ARM and stepped:
+        raise GenevaError(
+            f"arm_bore_mm = {own:g}: the shaft runs through the arm and on, so crank_bore_mm = "
+            f"{through:g} must be equal, or 0 to end it in the arm",
+            ("size", "arm_bore_mm"),
+        )
     if sizes.lock and sizes.crank_bore >= sizes.lock:
         raise GenevaError(
             f"crank_bore_mm = {2.0 * sizes.crank_bore:g}: it must be below the locking disc's "

@@ -24,8 +24,8 @@ def mounted_plate(
 ) -> Plate:
     """Return a frame with its holes, around circles that it contains.
 
-    Four mounting holes are in its corners, whose radius is ``eye``, if there is a screw for them.
-    ``span`` has its lower and upper face.
+    Mounting holes are in its corners, whose radius is ``eye``. ``span`` has its lower and upper
+    face.
     """
     inside = list(within)
     low, high = (
@@ -78,7 +78,6 @@ class FrameAndShafts(NamedTuple):
     shafts: tuple[Member, ...]
     spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
     screwed: tuple[tuple[Circle, str], ...] = ()  # clearance holes of screws, and what they fix
-    to_fix: tuple[str, ...] = ()  # names of what the shafts turn, and nothing holds on them
     bridge: Member | None = None  # bears the crank's shaft from above
     unborne: tuple[tuple[str, str], ...] = ()  # shafts that do not reach it, and why
 

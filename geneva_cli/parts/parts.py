@@ -1,7 +1,6 @@
 """The parts of one machine and their full turn, each computed once, on first use.
 
-A kind derives its own from ``Parts`` and names them in its record. What builds them is imported at
-its first use: most runs need few of the parts.
+A kind names its own in its record. What builds them is imported at its first use.
 """
 
 from __future__ import annotations
@@ -49,11 +48,6 @@ class Parts(TurnedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws between the parts; none without."""
-        return ()
-
-    @property
-    def to_fix(self) -> tuple[str, ...]:
-        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
         return ()
 
     @property
@@ -154,11 +148,6 @@ class Parts(TurnedParts):
         vars(finer).update({k: v for k, v in vars(self).items() if k == "_shape"})
         return finer
 
-    def finer(self, tolerance: float) -> Self:
-        """Return these parts with curves that are at least so accurate, mm."""
-        own = self.tolerance
-        return self.within(tolerance if own is None else min(tolerance, own), self.curves)
-
     @property
     @abstractmethod
     def members(self) -> tuple[Member, ...]:
@@ -210,11 +199,6 @@ class EdgedParts(Parts):
     def frame_threads(self) -> tuple[Circle, ...]:
         """The tapped holes of the frame."""
         return self._framed.threads
-
-    @property
-    def to_fix(self) -> tuple[str, ...]:
-        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        return tuple({"crank": "arm"}.get(name, name) for name in self._framed.to_fix)
 
     @property
     def unborne(self) -> tuple[tuple[str, str], ...]:

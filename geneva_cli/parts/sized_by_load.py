@@ -1,13 +1,9 @@
 """Default sizes under a load: thicknesses, pin, bores and hubs as large as the load needs.
 
-The loads never depend on these sizes, but that a stiffer pin is struck harder where the roller
-changes sides; with friction on the pin it stays the usual one. The sizes are computed one after the
-other: the wheel's thickness from its horns, then the pin, then for each thickness of the arm the
-shafts, until the arm holds. Each is the first preferred number that keeps the allowable stress,
-from the usual size on. If there is none, it is the largest that fits, and a check fails.
-
-The first of two wheels in series carries the second's crank. Its load is the greatest torque in the
-shaft of that crank. Then it is a machine of its own, sized as any other.
+They are computed one after the other: the wheel's thickness from its horns, then the pin, then for
+each thickness of the arm the shafts, until the arm holds. Each is the first preferred number that
+keeps the allowable stress, from the usual size on, or else the largest that fits, and a check
+fails. The first of two wheels in series bears the greatest torque in the second's crank shaft.
 """
 
 from __future__ import annotations
@@ -32,9 +28,8 @@ from geneva_cli.loads.strength.arm_and_key import (
 )
 from geneva_cli.loads.strength.horn import horns
 from geneva_cli.loads.strength.horn_search import HornStress, greatest_stress, single_stress
-from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa, single_loads
 from geneva_cli.loads.strength.pin import PinSize, pin
-from geneva_cli.loads.strength.shaft_stress import shear_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
@@ -161,10 +156,9 @@ def _thick(
 def horn_MPa(
     machine: Mechanism, half_width: float, by: Lock, known: HornStress | None = None
 ) -> Array:
-    """Return the greatest stress in the horns of wheels 1 mm thick, (m,) for m designs.
+    """Return the greatest stress in horns 1 mm thick, (m,), under the roller or the dwell's torque.
 
-    Under the roller, or under the torque in the dwell. ``known`` is that under the roller, if
-    computed already.
+    ``known`` is that under the roller, if computed already.
     """
     search = single_stress if isinstance(machine.design, int) else greatest_stress
     own = known or search(horns, machine, (half_width, by.recess))
@@ -240,9 +234,8 @@ def pin_that_holds(
     """Return the radius of the first pin from the usual one on that holds, or the largest.
 
     It holds the greatest force of the cycle, and the impact at a change of sides. The largest
-    leaves a wall of the roller, which is ``roller`` thick at least, about its hole, and fits an arm
-    of the radius ``eye``. The wheel is ``wide`` mm thick. With friction on the pin it stays the
-    usual one, on which the loads depend.
+    leaves a wall of the roller, and fits an arm of the radius ``eye``. The wheel is ``wide`` mm
+    thick.
     """
     spec, size = mechanism.spec, mechanism.spec.size
     on_pin = spec.load.friction and not spec.load.rubs_in_slot

@@ -9,7 +9,6 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.preferred import bore_radius, rounded_below, rounded_radius
-from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.shafts.bores import bore_of, has_shape, reach_or_bore
 from geneva_cli.spec.default_sizes import Thicknesses, half_or, value_or
 from geneva_cli.spec.least_wall import eye_about
@@ -121,8 +120,7 @@ def hub_and_eye(
 ) -> tuple[float, float]:
     """Return the radii of an arm about the ``bore`` of its shaft and about the ``hole`` of a pin.
 
-    ``passing`` is the largest eye that passes the wheel, ``standing`` the radius of a disc on the
-    hub.
+    ``passing`` is the largest eye that passes the wheel, ``standing`` that of a disc on the hub.
     """
     deep = bore_of(size, "crank", bore).reach
     hub = arm_hub(size, deep, bore, wall, standing)
@@ -181,17 +179,6 @@ def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
     """
     diameter = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
     return half_or(diameter, bore_radius(min(L / 20.0, 0.35 * space)))
-
-
-def refuse_stepped_shaft(size: Size, crank_bore: float, L: float) -> None:
-    """Raise GenevaError where the arm's bore is not as wide as the crank's: they have one shaft."""
-    own = size.arm_bore_mm
-    if own and crank_bore and abs(0.5 * own - crank_bore) > SAME_LENGTH * L:
-        raise GenevaError(
-            f"arm_bore_mm = {own:g}: the shaft runs through the arm and on, so crank_bore_mm = "
-            f"{2.0 * crank_bore:g} must be equal, or 0 to end it in the arm",
-            ("size", "arm_bore_mm"),
-        )
 
 
 def within_hub(size: Size, part: str) -> float:

@@ -1,8 +1,7 @@
 """The dimensions of the parts that their strength depends on: pin, shafts, arm and keys.
 
-A shaft's bearing is in the middle of the frame, below all that turns, or of a bridge above the
-crank. Its overhang is the distance of that bearing from the middle of the wheel's thickness, unless
-the spec has one.
+A shaft's bearing is in the middle of the frame, or of a bridge above the crank. Its overhang is the
+distance from there to the middle of the wheel's thickness, unless the spec has one.
 """
 
 from __future__ import annotations

@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     """Return mass and inertia of the wheel and its hub, if it has one; None without a thickness.
 
-    They are those of its outline, with curved walls as the full turn has them. Chamfers and
-    roundings of edges are not counted. On a sphere they are those of the shell and its hub. Raises
-    GenevaError where the machine has no parts, or its sizes leave none.
+    Curved walls are those of the full turn. Raises GenevaError where the machine has no parts.
     """
     spec = mechanism.spec
     if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:

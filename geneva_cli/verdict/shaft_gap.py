@@ -24,7 +24,7 @@ from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.gears.gear_curves import pitch_radii
-from geneva_cli.parts.gears.gear_pair import gear_seats
+from geneva_cli.parts.gears.gear_pair import gear_span
 from geneva_cli.parts.outlines.outlines import Outlines
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
@@ -95,9 +95,9 @@ def gear_rings(mechanism: Mechanism, drawn: Outlines | None) -> Iterator[Ring]:
     if pair is None:
         return
     places = x, x + pair.distance_mm
-    gears = zip(gear_seats(mechanism, drawn), places, pitch_radii(pair), strict=True)
-    for seat, place, (_, pitch) in gears:
-        yield Ring("PITCH", (place, 0.0), 0.0, pitch, seat.low, seat.high)
+    span = gear_span(mechanism, drawn)
+    for place, (_, pitch) in zip(places, pitch_radii(pair), strict=True):
+        yield Ring("PITCH", (place, 0.0), 0.0, pitch, *span)
 
 
 def rings_of(members: Iterable[Member]) -> list[Ring]:

@@ -15,7 +15,6 @@ from geneva_cli.loads.load_case import load_case
 from geneva_cli.loads.strength.roller import (
     LIFE_EXPONENT,
     Life,
-    by_roller,
     lives,
     passage,
     passages,
@@ -30,7 +29,7 @@ RUBS = Load(0.02, 3.0, friction=0.1)
 
 
 def life(mechanism):
-    return Life(*only_of(lives(mechanism, by_roller(mechanism))))
+    return Life(*only_of(lives(mechanism, passages(mechanism, by_roller=True))))
 
 
 def exact_case():

@@ -36,7 +36,6 @@ from geneva_cli.motion.pivots import Dimension, Pivot
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.projection import alike
 from geneva_cli.parts.shafts.fits import Fits
-from geneva_cli.parts.shafts.shaft import FIX
 from geneva_cli.spec.written import length, number
 
 
@@ -130,7 +129,7 @@ def _layout(mechanism: Mechanism) -> list[Block]:
 def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterator[View]:
     """Yield the view of each part."""
     mechanism, bars = parts.mechanism, parts.links
-    process, to_fix = mechanism.spec.size.process, parts.to_fix
+    process = mechanism.spec.size.process
     unborne = {name for name, _ in parts.unborne}
 
     def begin(*names: str, thick: bool = True) -> View:
@@ -146,8 +145,6 @@ def _views(rows: list[dict[str, Any]], parts: FlatParts, scale: float) -> Iterat
                 titles.append(f"{i} {row['name']}" + f", t = {length(row['thickness_mm'])}" * thick)
         view = View("; ".join(titles) or names[0], scale, fits)
         for name in names:
-            if name in to_fix and FIX not in view.notes:  # a round bore does not hold it
-                view.notes.append(FIX)
             if name in unborne:
                 view.notes.append("no bearing: hold it from above")
         return view

@@ -17,7 +17,7 @@ from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kinds.linear.rack import RackSizes, crank_arm, rack_bore, rack_sizes, slot_places
 from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.parts.gears.gear_pair import gear_seats, gear_shafts
+from geneva_cli.parts.gears.gear_pair import gear_shafts, gear_span
 from geneva_cli.parts.mounted_plate import (
     FrameAndShafts,
     corner_radius,
@@ -27,7 +27,7 @@ from geneva_cli.parts.mounted_plate import (
 )
 from geneva_cli.parts.shafts.bores import bore_of, reach_or_bore
 from geneva_cli.parts.shafts.screws import bolt_radius, tapped
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, shaft_ends
+from geneva_cli.parts.shafts.shaft import Shaft, shaft_ends
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.stressed import ShaftSize, Stressed, key_of, shaft_of
 from geneva_cli.spec.default_sizes import value_or
@@ -50,7 +50,7 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
     size, R = mechanism.spec.size, mechanism.center_distance_mm
     thick, gap = drawn_thicknesses(size, R), size.allowances.pin_gap_mm
     arm = -gap - thick.arm
-    low = gear_seats(mechanism, None)[0].low if mechanism.spec.gears else arm
+    low = gear_span(mechanism, None)[0] if mechanism.spec.gears else arm
     top = low - size.washer_mm
     stands = 0.0 - gap  # no -0.0
     return RackFrame(top - thick.arm, top, low, arm, stands, thick.wheel, thick.arm)
@@ -62,16 +62,13 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     L, axis, radius = 2.0 * sizes.arm, mechanism.crank_shaft.at, rack_bore(mechanism)  # z = 6
     own: list[Shaft] = []
     if radius:  # the crank's shaft, up to the arm's upper face
-        driven = gear_seats(mechanism, None)[:1] if mechanism.spec.gears else []
-        seats = (*driven, Seat("crank", heights.arm, heights.stands))
         low, high = shaft_ends(size, "crank", heights.plain, heights.stands)
         bore = bore_of(size, "crank", radius)
         # the keyway is on the side of the locking sector, as in the arm
-        crank = Shaft("crank's shaft", "crank", bore, seats, low, high, axis, math.pi, math.pi)
+        crank = Shaft("crank's shaft", "crank", bore, low, high, axis, math.pi, math.pi)
         own.append(crank)
     if mechanism.spec.gears:
-        ends = Ends(heights.plain, heights.rack, crank_has_one=True)
-        own += gear_shafts(mechanism, None, ends, radius)
+        own += gear_shafts(mechanism, None, heights.plain, True, radius)
     axles = tuple(one.member for one in own)
     bored = list(shaft_holes(size, axles, heights.top))
     if not radius:
@@ -81,8 +78,7 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     within = [*bored, *(tapped(hole) for hole, _ in screwed)]
     holes, screwed = [one for one in within if one.radius], screwed if _bolt(sizes) else ()
     frame = mounted_plate(holes, within, corner_radius(size, L), (heights.plain, heights.top))
-    to_fix = tuple(name for one in own for name in one.to_fix)
-    return FrameAndShafts(frame, axles, screwed=screwed, to_fix=to_fix)
+    return FrameAndShafts(frame, axles, screwed=screwed)
 
 
 def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:

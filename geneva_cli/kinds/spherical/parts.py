@@ -38,7 +38,7 @@ from geneva_cli.parts.assembly import Assembly, assembled
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
-from geneva_cli.parts.shafts.shaft import Seat, Shaft, shaft_ends
+from geneva_cli.parts.shafts.shaft import Shaft, shaft_ends
 from geneva_cli.parts.sizes import refuse_thin_hub
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.materials import wheel_material
@@ -169,28 +169,16 @@ class SphereParts(Parts):
     def _axles(self, lowest: float) -> Iterator[tuple[Shaft, Rotation | None]]:
         """Yield the shafts and the frames of their axes."""
         ball, size, arm = self.ball, self.mechanism.spec.size, self.arm
-        (inside, outside), (under, over) = ball.span_mm, ball.arm_span_mm
+        (inside, outside), under = ball.span_mm, ball.arm_span_mm[0]
         if ball.bore_mm:
             hub = ball.hub_mm > ball.bore_mm
             bore, high = bore_of(size, "wheel", ball.bore_mm), outside - inside
-            seat = Seat("wheel", high - ball.hub_length_mm(size) if hub else 0.0, high)
-            low, high = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
-            yield (
-                Shaft("wheel's shaft", "wheel", bore, (seat,), low, high, ORIGIN, ball.half_step),
-                None,
-            )
+            ends = shaft_ends(size, "wheel", lowest if hub else 0.0, high)
+            yield Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, ball.half_step), None
         if arm:
-            seat = Seat("crank", outside - over, outside - under)
-            low, high = shaft_ends(size, "crank", lowest, outside - under)
-            one = Shaft("crank's shaft", "crank", arm.bore, (seat,), low, high, ORIGIN, arm.keyway)
+            ends = shaft_ends(size, "crank", lowest, outside - under)
+            one = Shaft("crank's shaft", "crank", arm.bore, *ends, ORIGIN, arm.keyway)
             yield one, at_mid_motion(ball)
-
-    @property
-    def to_fix(self) -> tuple[str, ...]:
-        """Names of the parts that turn with a shaft in a round bore, which holds nothing."""
-        wheel = "wheel's hub" if self.ball.hub_mm > self.ball.bore_mm else "wheel"
-        names = {"wheel": wheel, "crank": "arm's hub"}
-        return tuple(names[name] for shaft, _ in self._axles(0.0) for name in shaft.to_fix)
 
     @property
     def members(self) -> tuple[Member, ...]:

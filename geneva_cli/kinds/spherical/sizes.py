@@ -18,12 +18,12 @@ from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.loads.strength.arm_and_key import NO_ARM, ArmDimensions
 from geneva_cli.loads.strength.horn_search import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
-from geneva_cli.loads.strength.part_loads import single_loads
-from geneva_cli.loads.strength.shaft_stress import (
+from geneva_cli.loads.strength.part_loads import (
     LoadedShaft,
     ShaftForces,
     crank_forces,
     shafts_under_load,
+    single_loads,
     wheel_forces,
 )
 from geneva_cli.motion.machine_spec import Spec

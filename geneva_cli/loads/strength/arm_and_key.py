@@ -73,11 +73,7 @@ def arm_stress_MPa(dimensions: ArmDimensions, force_N: Number) -> Array:
 
 
 def torsion_MPa(torque_Nmm: Number, width: Number, height: Number) -> Array:
-    """The greatest shear stress of a rectangle in torsion, in the middle of its longer side.
-
-    Roark, Formulas for Stress and Strain, table of torsion: its polynomial in the ratio of the
-    sides is within 0.3 % of the series.
-    """
+    """The greatest shear stress of a rectangle in torsion: Roark's polynomial, within 0.3 %."""
     a, b = np.maximum(width, height), np.minimum(width, height)
     k = b / a
     sides = 1.0 + 0.6095 * k + 0.8865 * k**2 - 1.8023 * k**3 + 0.91 * k**4
@@ -133,9 +129,9 @@ def key_stress(
 def shear_allowed_MPa(shaft: Shaft, keyway: bool = False) -> Number:
     """The shear stress that shafts and keys allow: that of the spec, or of the default steel.
 
-    The ASME code of ``shafts`` allows 0.3 of the yield strength of the default steel (see
-    ``Stock``). Its other bound, 0.18 of the tensile strength, is higher. A keyway leaves three
-    quarters for the shaft. Another steel, known by its modulus, has no default: it is infinite.
+    The ASME code allows 0.3 of the yield strength of the default steel (``Stock``), and three
+    quarters of that at a keyway. Another steel, known by its modulus, has no default: it is
+    infinite.
 
     >>> round(shear_allowed_MPa(Shaft()), 6), round(shear_allowed_MPa(Shaft(), keyway=True), 6)
     (82.5, 61.875)

@@ -37,9 +37,8 @@ class Pin(NamedTuple):
     def equivalent(self) -> Number:
         """Greatest von Mises stress of the section.
 
-        Let u be the height over the neutral axis over the radius. Bending is proportional to u and
-        shear to 1 - u². The sum sigma² u² + 3 tau² (1 - u²)² is convex in u². So it is greatest at
-        the outer fibre or at the neutral axis.
+        At the height u over the axis, over the radius, it is sigma² u² + 3 tau² (1 - u²)², which is
+        convex in u²: greatest at the outer fibre or at the neutral axis.
         """
         return cast("Number", np.maximum(self.bending, math.sqrt(3.0) * self.shear))
 
@@ -47,15 +46,13 @@ class Pin(NamedTuple):
 def moment_mm(support: str, width: Number, gap: Number) -> Number:
     """Greatest bending moment per newton, N mm, spread evenly over the contact line.
 
-    ``width`` is the line's length b and ``gap`` the free length g between it and a plate, mm. The
-    moment of a ``cantilever``, fixed in one plate, is g + b/2 at the plate. That of a ``supported``
-    pin, which turns in two plates, is b/8 + g/2 in the middle. That of a ``fixed`` pin, held in two
-    plates s = b + 2 g apart, is (3 s² - b²)/(24 s) at the plates.
+    ``width`` is the line's length b and ``gap`` the free length g between it and a plate, mm. At a
+    ``cantilever``'s plate it is g + b/2. In the middle of a ``supported`` pin, which turns in two
+    plates, it is b/8 + g/2. At the plates of a ``fixed`` one, s = b + 2 g apart, it is
+    (3 s² - b²)/(24 s).
 
-    >>> moment_mm("cantilever", 24.0, 0.0), moment_mm("supported", 24.0, 0.0)
-    (12.0, 3.0)
-    >>> moment_mm("fixed", 24.0, 0.0)
-    2.0
+    >>> moment_mm("cantilever", 24.0, 0.0), moment_mm("fixed", 24.0, 0.0)
+    (12.0, 2.0)
     """
     if support == "cantilever":
         return gap + width / 2.0
@@ -68,9 +65,8 @@ def moment_mm(support: str, width: Number, gap: Number) -> Number:
 def stiffness_N_mm(size: Size, width: Number, d: Number, modulus_GPa: Number) -> Number:
     """Stiffness of a pin of diameter d under a force in the middle of its roller, N/mm.
 
-    With the contact line's length b and the gap g, a = b/2 + g is the distance to a plate. It is
-    3 E I/a³ for a ``cantilever``, 48 E I/(2 a)³ for a ``supported`` pin and 192 E I/(2 a)³ for a
-    ``fixed`` one. The plates are rigid, and shear is neglected.
+    At the distance a = b/2 + g from rigid plates it is 3 E I/a³ for a ``cantilever``, 48 E I/(2 a)³
+    for a ``supported`` pin and 192 E I/(2 a)³ for a ``fixed`` one; shear is neglected.
 
     >>> from geneva_cli import Size
     >>> round(stiffness_N_mm(Size(), 20.0, 10.0, 210.0))
@@ -82,11 +78,7 @@ def stiffness_N_mm(size: Size, width: Number, d: Number, modulus_GPa: Number) ->
 
 
 def pin_diameter_mm(mechanism: Mechanism) -> float:
-    """Diameter of the roller's pin, by default r, rounded to a preferred number.
-
-    With ``pin_mm = 0`` the roller is its own pin. A load may need a thicker default
-    (``parts.sizes``).
-    """
+    """Diameter of the roller's pin, by default r, rounded; the roller itself for 0."""
     size, r = mechanism.spec.size, mechanism.roller_radius_mm
     if size.pin_mm is None:
         if isinstance(r, float | int):

@@ -1,13 +1,11 @@
 """The roller as a bearing in its slot: work, turns and life.
 
-Over a motion the roller rolls along its wall under a force N. If it did not turn in the body that
-carries it, it would slide at the speed v_s. A bearing that carries N and turns by |v_s|/r per
-second has the life that it has under the constant force (ISO 281, roller bearings)
+Over a motion it rolls along its wall under a force N, and turns by |v_s|/r per second, v_s being
+the speed at which it would slide. By ISO 281 (roller bearings) the life is that under
 
     P = (∫ N^p |v_s| dt / ∫ |v_s| dt)^(1/p),  p = 10/3,  L10 = 10^6 (C/P)^p revolutions.
 
-Motions are cut where torque, sliding or the speed along the slot change sign, or the motion has a
-break. Between the cuts they are integrated to the last digits.
+Between changes of sign and breaks of the motion the integrals are exact to the last digits.
 """
 
 from __future__ import annotations
@@ -106,26 +104,19 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     return SlotPassage(*map(parameter, np.where(requested, total, np.inf)))
 
 
-def passages(mechanism: Mechanism) -> list[SlotPassage]:
-    """Passage of each engagement of a period: (m,) for m designs."""
-    return [_passage(mechanism, one, 0.0) for one in mechanism.under_load.engagements]
+def passages(mechanism: Mechanism, by_roller: bool = False) -> list[SlotPassage]:
+    """Passage of each engagement of a period: (m,) for m designs.
 
-
-def by_roller(mechanism: Mechanism) -> list[SlotPassage]:
-    """Passages of each roller; an engagement has two if one starts and another stops the wheel."""
-    return [
-        _passage(mechanism, one, half)
-        for one in mechanism.under_load.engagements
-        for half in ((-1.0, 1.0) if one.paired else (0.0,))
-    ]
-
-
-def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> SlotPassage:
-    """Passage of a machine's engagement; raises GenevaError where a single design's is rounding."""
-    found = passage(engagement, load_case(mechanism), half)
-    if isinstance(mechanism.design, int):
-        refuse_noise([array(row) for row in found])
-    return found
+    ``by_roller`` makes two of one in which a roller starts and another stops the wheel. Raises
+    GenevaError where the numbers of a single design are rounding.
+    """
+    case, out = load_case(mechanism), []
+    for one in mechanism.under_load.engagements:
+        for half in (-1.0, 1.0) if by_roller and one.paired else (0.0,):
+            out.append(passage(one, case, half))
+            if isinstance(mechanism.design, int):
+                refuse_noise([array(row) for row in out[-1]])
+    return out
 
 
 def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:

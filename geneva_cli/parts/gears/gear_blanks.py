@@ -1,7 +1,6 @@
 """Round gears as plates up to their pitch circles: whole, in sectors about a hub, or as a ring.
 
-Teeth stand out of the pitch circle about as much as their gaps go into it. So a blank's mass is a
-gear's within a few percent. A gear that stands still is screwed to the frame.
+A blank's mass is a gear's within a few percent. A gear that stands still is screwed to the frame.
 """
 
 from __future__ import annotations

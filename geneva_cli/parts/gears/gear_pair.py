@@ -1,7 +1,6 @@
-"""The noncircular gears in front of a crank, at input angle 0, and their shafts.
+"""The noncircular gears in front of a crank, at input angle 0, up to their pitch curves.
 
-The driven gear is on the crank's axis, the driver at the distance C from it. They are blanks up to
-their pitch curves.
+The driven gear is on the crank's axis, the driver at the distance C from it.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from geneva_cli.parts.links.link_sizes import link_sizes
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import Bore, round_bore
-from geneva_cli.parts.shafts.shaft import Ends, Seat, Shaft, ShaftBore, bore_at, shaft_ends
+from geneva_cli.parts.shafts.shaft import Shaft, ShaftBore, bore_at, shaft_ends
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Writer
@@ -32,10 +31,9 @@ if TYPE_CHECKING:
 FINE = {"arcs": 8e-9, "cubics": 2e-9}
 
 
-def gear_seats(mechanism: Mechanism, parts: Outlines | None) -> list[Seat]:
-    """Return where driven gear and driver sit on their shafts, in a plane below all links."""
-    ends = link_sizes(mechanism, [], parts).span(gear_plane(mechanism))
-    return [Seat(name, *ends) for name in GEARS]
+def gear_span(mechanism: Mechanism, parts: Outlines | None) -> tuple[float, float]:
+    """Return lower and upper face of both gears, in a plane below all links."""
+    return link_sizes(mechanism, [], parts).span(gear_plane(mechanism))
 
 
 def gear_pair(
@@ -46,25 +44,39 @@ def gear_pair(
 ) -> tuple[Member, ...]:
     """Return both gears up to their pitch curves; none without noncircular gears.
 
-    ``parts`` are the outlines of wheel and crank, if they are drawn, and ``on_crank`` is the radius
-    of the crank's shaft if it does not follow from them. ``writer`` returns a function that fits
-    curves within a tolerance, mm. Raises GenevaError for a bore larger than its gear.
+    ``on_crank`` is the radius of the crank's shaft if it does not follow from the outlines
+    ``parts``. ``writer`` returns a function that fits curves within a tolerance, mm.
     """
     pair = mechanism.spec.gears
     if pair is None:
         return ()
-    write, members = writer(FINE["cubics"] * pair.distance_mm), []
+    write, span = writer(FINE["cubics"] * pair.distance_mm), gear_span(mechanism, parts)
     curves = pitch_curves(pair, mechanism.gear_shaft.sense)
-    seats, bores = gear_seats(mechanism, parts), _bores(mechanism, parts, on_crank)
-    for seat, curve, (at, on) in zip(seats, curves, bores, strict=True):
+    (axis, wide), (other, radius), bored = _shafts(mechanism, parts, on_crank)
+    own = round_bore(mechanism.spec.size, radius if bored else 0.0)
+    bores = (axis, bore_at(mechanism, axis, wide)), (other, ShaftBore(own))
+    keys, members = ("arm_bore_mm", "link_bore_mm"), []
+    for name, curve, (at, on), (least, _), key in zip(
+        GEARS, curves, bores, pitch_radii(pair), keys, strict=True
+    ):
+        if on.bore.reach >= least:
+            raise GenevaError(
+                f"no blank of the {name} is left: its bore of {2.0 * on.bore.reach:.6g} mm must be "
+                f"below {2.0 * least:.6g}, twice its least radius; reduce {key}",
+                ("size", key),
+            )
         holes = (on.hole(),) if on.bore.radius else ()
         outline = closed("PITCH", list(write(curve, -np.pi, np.pi)))
-        members.append(Member(Plate(seat.part, "PITCH", outline, holes, seat.low, seat.high), at))
+        members.append(Member(Plate(name, "PITCH", outline, holes, *span), at))
     return tuple(members)
 
 
 def gear_shafts(
-    mechanism: Mechanism, parts: Outlines | None, ends: Ends, on_crank: float = 0.0
+    mechanism: Mechanism,
+    parts: Outlines | None,
+    lowest: float,
+    crank_has_one: bool,
+    on_crank: float = 0.0,
 ) -> Iterator[Shaft]:
     """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
@@ -74,15 +86,14 @@ def gear_shafts(
     if mechanism.spec.gears is None:
         return
     (first, wide), (at, radius), bored = _shafts(mechanism, parts, on_crank)
-    driven, driver = gear_seats(mechanism, parts)
+    under, over = gear_span(mechanism, parts)
     at_crank = same(first, mechanism.crank_shaft.at, mechanism.center_distance_mm)
-    if at_crank and not (ends.crank_has_one or _on_links(mechanism, parts)):
-        reach = shaft_ends(mechanism.spec.size, "crank", ends.lowest, driven.high)
+    if at_crank and not (crank_has_one or _on_links(mechanism, parts)):
+        reach = shaft_ends(mechanism.spec.size, "crank", lowest, over)
         on = bore_at(mechanism, first, wide)
-        yield Shaft("crank's shaft", "crank", on.bore, (driven,), *reach, first, on.direction)
-    name, bore = driver.part, Bore(radius)
-    seats, top = ((driver,), driver.high) if bored else ((), driver.low)  # or one piece with it
-    yield Shaft(f"{name}'s shaft", name, bore, seats, ends.lowest, top, at)
+        yield Shaft("crank's shaft", "crank", on.bore, *reach, first, on.direction)
+    top = over if bored else under  # or one piece with it
+    yield Shaft("driver gear's shaft", "driver gear", Bore(radius), lowest, top, at)
 
 
 def _shafts(
@@ -105,22 +116,3 @@ def _on_links(mechanism: Mechanism, parts: Outlines | None) -> float:
     """Return the radius of the driven gear's shaft where links are on it; 0 without links."""
     L = mechanism.center_distance_mm
     return drawn_links(mechanism, parts).shaft(mechanism.gear_shaft.at, L)
-
-
-def _bores(
-    mechanism: Mechanism, parts: Outlines | None, on_crank: float
-) -> list[tuple[Point, ShaftBore]]:
-    """Return position and bore of driven gear and driver; of radius 0 for none."""
-    pair, size = required_gears(mechanism), mechanism.spec.size
-    (axis, wide), (other, radius), bored = _shafts(mechanism, parts, on_crank)
-    bores = bore_at(mechanism, axis, wide), ShaftBore(round_bore(size, radius if bored else 0.0))
-    keys = "arm_bore_mm", "link_bore_mm"
-    for name, one, (least, _), key in zip(GEARS, bores, pitch_radii(pair), keys, strict=True):
-        reach = one.bore.reach
-        if reach >= least:
-            raise GenevaError(
-                f"no blank of the {name} is left: its bore of {2.0 * reach:.6g} mm must be below "
-                f"{2.0 * least:.6g}, twice its least radius; reduce {key}",
-                ("size", key),
-            )
-    return [(axis, bores[0]), (other, bores[1])]

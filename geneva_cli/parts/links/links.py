@@ -1,8 +1,7 @@
 """The links of a machine, cut out of plates, and the pins, washers and rollers between them.
 
 A link's own frame has its first joint as origin, and x through its second. Its outline is the
-convex hull of an eye about each hole. A pin that slides along a link has a block, and the link has
-a slot as long as the pin's path. Links on one axis have one shaft.
+convex hull of an eye about each hole; a pin that slides along it has a block in a slot.
 """
 
 from __future__ import annotations

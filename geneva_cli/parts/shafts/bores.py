@@ -1,7 +1,7 @@
 """Bores for shafts: round, round with a keyway, with one flat ("D"), or hexagonal.
 
-A nominal radius is that of the shaft: of the circle, or of that inside a hexagon. The bore is cut
-wider by the fit. It has the direction of the keyway, of the flat, or of one side of the hexagon.
+A nominal radius is that of the shaft, or of the circle inside its hexagon; the bore is wider by the
+fit. Its direction is that of the keyway, of the flat, or of one side of the hexagon.
 """
 
 from __future__ import annotations
@@ -29,11 +29,7 @@ from geneva_cli.spec.written import length
 
 
 class Bore(NamedTuple):
-    """A bore, and the section of the shaft in it; lengths in mm.
-
-    >>> round_bore(Size(shaft_fit_mm=0.4), 6.0).reach
-    6.2
-    """
+    """A bore, and the section of the shaft in it; lengths in mm."""
 
     radius: float  # of the shaft
     loose: float = 0.0  # by which the bore's is greater
@@ -144,11 +140,7 @@ def bore_of(size: Size, part: str, radius: float) -> Bore:
 
 
 def round_bore(size: Size, radius: float) -> Bore:
-    """Return the round bore for a shaft or pin; none where its radius is 0.
-
-    >>> round_bore(Size(process="print"), 6.0)[:3]
-    (6.0, 0.2, 'round')
-    """
+    """Return the round bore for a shaft or pin; none where its radius is 0."""
     return Bore(radius, size.allowances.around_shaft_mm if radius else 0.0)
 
 

@@ -1,7 +1,6 @@
 """Limits of the fits (ISO 286) that the drawings use, and clearances of parts that slide.
 
-H7 is for holes, g6 and h6 for shafts in them. A pin is h6: parts pressed on it are P7, parts that
-turn on it are F7 (shaft-basis fits, ISO 286-1).
+H7 is for holes, g6 and h6 for shafts. A pin is h6: parts on it are P7 if pressed, F7 if they turn.
 """
 
 from __future__ import annotations

@@ -1,47 +1,28 @@
-"""Shafts and pivots with what sits on them, the crank's hub, and bores of parts on a shaft.
+"""Shafts and pivots, the crank's hub, and bores of parts on a shaft.
 
-The crank's hub is drawn if the spec has one of its sizes. Shafts end in the frame's lower face, and
-above with the part that they carry. A wheel with ``wheel_hub_mm = 0`` has its shaft only above it,
-unless that carries a gear below.
+Shafts end in the frame's lower face, and above with the part that they carry. A wheel with
+``wheel_hub_mm = 0`` has its shaft only above it, unless that carries a gear below.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import Member, Part, Plate
+from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, Shape
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import assembled, links_at, same
 from geneva_cli.parts.outlines.crank_outline import crank_circles, is_whole, keyway_direction
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import about_axis, wheel_hub
+from geneva_cli.parts.outlines.wheel_circles import about_axis
 from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape, round_bore
 from geneva_cli.spec.tables import Size
-
-# what the sheet and the list of parts say of a part in a round bore that turns with its shaft
-FIX = "fix on the shaft: pin, key or adhesive"
-
-
-class Seat(NamedTuple):
-    """Where a part sits on its shaft: its name, its lower and its upper face."""
-
-    part: str
-    low: float
-    high: float
-    held: bool = True  # it turns with the shaft; False if it turns on it, or stands still
-
-
-def seat_of(part: Part, held: bool = True) -> Seat:
-    """Return where a plate sits."""
-    assert isinstance(part, Plate)
-    return Seat(part.name, part.low, part.high, held)
 
 
 class Shaft(NamedTuple):
@@ -50,18 +31,12 @@ class Shaft(NamedTuple):
     name: str
     part: str  # whose keys of [size] set its ends
     bore: Bore  # of the parts on it
-    seats: tuple[Seat, ...]  # from the lowest up
     low: float
     high: float
     at: Point
     direction: float = 0.0  # of the bore's keyway or flat
     turn: float = 0.0
     turns: bool = True  # in a bearing of the frame
-
-    @property
-    def to_fix(self) -> list[str]:
-        """The names of parts that turn with the shaft, but that nothing holds on it."""
-        return [seat.part for seat in self.seats if seat.held and self.bore.is_plain]
 
     @property
     def member(self) -> Member:
@@ -77,16 +52,6 @@ class Shaft(NamedTuple):
         section = self.bore.section("SHAFT", self.direction)
         plate = Plate(self.name, "SHAFT", section, (), self.low, self.high)
         return Member(plate, self.at, self.turn)
-
-
-class Ends(NamedTuple):
-    """Ends of the shafts of wheel and crank, as far as links share them."""
-
-    lowest: float  # the frame's lower face
-    top: float  # the wheel's upper face
-    stop: float | None = None  # height at which the crank's shaft ends above that face
-    crank_has_one: bool = False  # the crank's shaft carries more than links: another function's
-    wheel_has_one: bool = False
 
 
 def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:
@@ -121,37 +86,30 @@ def crank_hub(parts: Outlines) -> Plate | None:
     return Plate("crank's hub", "HUB", outline, bores, low, high)
 
 
-def shafts(
-    parts: Outlines, lowest: float, stop: float | None, carried: Callable[[Point], tuple[Seat, ...]]
-) -> Iterator[Shaft]:
-    """Yield the shafts of wheel and crank.
+def shafts(parts: Outlines, lowest: float, stop: float | None) -> Iterator[Shaft]:
+    """Yield the shafts of wheel and crank, from the frame's lower face, ``lowest``, up.
 
-    ``lowest`` is the frame's lower face, and ``carried`` returns what sits on a shaft below wheel
-    or crank. The crank's shaft ends at ``stop`` if links block it.
+    The crank's shaft ends at ``stop`` if links block it.
     """
     assembly, sizes, still = parts.assembly, parts.sizes, np.zeros(1)
     size = assembly.mechanism.spec.size
     if sizes.wheel_bore:
-        bore, at = bore_of(size, "wheel", sizes.wheel_bore), ORIGIN
-        low, high = wheel_shaft_ends(parts, lowest)
+        bore = bore_of(size, "wheel", sizes.wheel_bore)
+        ends = wheel_shaft_ends(parts, lowest)
         turn = 0.0 if bore.is_plain else float(assembly.wheel(still)[0])
-        hub = wheel_hub(assembly, sizes)
-        seat = Seat("wheel", hub.low if hub else 0.0, sizes.wheel_thickness)
-        seats, direction = (*carried(at), seat), assembly.rests[0]
-        yield Shaft("wheel's shaft", "wheel", bore, seats, low, high, at, direction, turn)
+        yield Shaft("wheel's shaft", "wheel", bore, *ends, ORIGIN, assembly.rests[0], turn)
     radius = crank_shaft_radius(parts)
     if radius:
         bore, at = bore_of(size, "crank", radius), (assembly.L, 0.0)
         # what it carries ends in the arm, or in a bored locking disc or its hub
-        face = top = 0.0 - size.allowances.pin_gap_mm  # no -0.0
+        top = 0.0 - size.allowances.pin_gap_mm  # no -0.0
         if sizes.crank_bore:
             on_disc = crank_hub(parts)
-            top = on_disc.high if on_disc else face + sizes.lock_thickness
-        seat = Seat("crank", face - (sizes.arm_thickness if parts.has_arm else 0.0), top)
-        low, high = shaft_ends(size, "crank", lowest if stop is None else stop, top)
+            top = on_disc.high if on_disc else top + sizes.lock_thickness
+        ends = shaft_ends(size, "crank", lowest if stop is None else stop, top)
         turn = 0.0 if bore.is_plain else float(assembly.crank(still)[0])
-        seats, direction = (*carried(at), seat), keyway_direction(assembly)
-        yield Shaft("crank's shaft", "crank", bore, seats, low, high, at, direction, turn)
+        direction = keyway_direction(assembly)
+        yield Shaft("crank's shaft", "crank", bore, *ends, at, direction, turn)
 
 
 def wheel_shaft_radius(parts: Outlines) -> float:
@@ -182,7 +140,6 @@ class ShaftBore(NamedTuple):
 
     bore: Bore = Bore(0.0)
     direction: float = 0.0
-    part: str = ""  # "wheel" or "crank", whose keys of [size] give its shape; "" for neither
 
     def hole(self, turn: float = 0.0) -> Shape:
         """Return the hole about the origin of a part that stands turned by an angle."""
@@ -194,10 +151,10 @@ def bore_at(mechanism: Mechanism, at: Point, radius: float) -> ShaftBore:
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     part = "crank" if same(at, (L, 0.0), L) else "wheel" if same(at, ORIGIN, L) else ""
     if not (part and has_shape(size, part)):
-        return ShaftBore(round_bore(size, radius), 0.0, part)
+        return ShaftBore(round_bore(size, radius))
     own, still = assembled(mechanism), np.zeros(1)
     if part == "wheel":
         direction, turn = own.rests[0], own.wheel(still)
     else:
         direction, turn = keyway_direction(own), own.crank(still)
-    return ShaftBore(bore_of(size, part, radius), direction + float(turn[0]), part)
+    return ShaftBore(bore_of(size, part, radius), direction + float(turn[0]))

@@ -10,9 +10,15 @@ from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import arm_and_key as arms
 from geneva_cli.loads.strength import pin as pins
-from geneva_cli.loads.strength import roller, shaft_stress
+from geneva_cli.loads.strength import roller
 from geneva_cli.loads.strength.arm_and_key import KeyDimensions, key_stress, shear_allowed_MPa
-from geneva_cli.loads.strength.shaft_stress import LoadedShaft, ShaftForces
+from geneva_cli.loads.strength.part_loads import (
+    LoadedShaft,
+    ShaftForces,
+    crank_forces,
+    shafts_under_load,
+    wheel_forces,
+)
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
 from geneva_cli.spec.materials import roller_material, wheel_material
@@ -123,13 +129,13 @@ def crank_shaft(of: Designs) -> Columns:
 
 def _shafts(of: Designs) -> list[Columns]:
     """The columns of the shafts of wheel and crank, which are searched together."""
-    wheel = _drawn(of, "wheel", shaft_stress.wheel_forces(of.machine))
-    crank = _drawn(of, "crank", shaft_stress.crank_forces(of.spec))
+    wheel = _drawn(of, "wheel", wheel_forces(of.machine))
+    crank = _drawn(of, "crank", crank_forces(of.spec))
     if held := under_load(of).held:
         carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
         wheel = wheel._replace(held_N=held[0] + carried, held_Nm=held[1])
         crank = crank._replace(held_N=held[0])  # the force passes through the crank's axis
-    each = shaft_stress.shafts_under_load(of.machine, (wheel, crank))
+    each = shafts_under_load(of.machine, (wheel, crank))
     return [_shaft(of, one, rows) for one, rows in zip((wheel, crank), each, strict=True)]
 
 
@@ -249,7 +255,7 @@ def wear(of: Designs) -> Columns:
     passages = roller.passages(of.machine)
     paired = any(one.paired for one in of.machine.engagements)
     # an engagement has two of its own if one roller starts and one stops it
-    by_roller = roller.by_roller(of.machine) if paired else passages
+    by_roller = roller.passages(of.machine, by_roller=True) if paired else passages
     lasts = roller.lives(of.machine, by_roller)
     force = np.ravel(lasts.equivalent_force_N)
     with np.errstate(invalid="ignore"):  # without friction, of a force without a bound
