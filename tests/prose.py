@@ -126,7 +126,7 @@ def messages(nodes: list[ast.AST], file: str) -> Iterator[Sentence]:
     """Sentences that a file shows to users: strings of ``SHOWN_WORDS`` words, but docstrings.
 
     Errors, warnings, advice, help of options and texts of tables are all of them; a value that is
-    filled in stands as X. Strings with markup or braces are code.
+    filled in stands as X. Strings with markup, braces or products are code.
     """
     inner = {
         id(part)
@@ -139,7 +139,9 @@ def messages(nodes: list[ast.AST], file: str) -> Iterator[Sentence]:
     for node in nodes:
         if id(node) not in inner and isinstance(node, ast.expr):
             text = _literal(node)
-            if len(text.split()) >= SHOWN_WORDS and not re.search("[{}<>]|--[a-z-]+:", text):
+            if len(text.split()) >= SHOWN_WORDS and not re.search(
+                r"[{}<>]|--[a-z-]+:|\w\*\d", text
+            ):
                 yield from split(text, f"{file}:{node.lineno}")
 
 

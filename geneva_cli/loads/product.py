@@ -1,8 +1,9 @@
 """What the product on the dial feels: travel, speed, acceleration and jerk in SI units.
 
-At the radius r on a dial that turns i times as far as the wheel its speed is r w i V, its jerk r w³
-i J along its path, and its acceleration r w² sqrt((i A)² + (i V)^4), along the path and towards the
-axis. A chain on a sprocket of N teeth of pitch p has r = N p / (2 pi) and no part towards an axis.
+At the radius r on a dial that turns i times as far as the wheel its speed is r w i V. Its
+jerk is r w³ i J along its path. Its acceleration is r w² sqrt((i A)² + (i V)^4), along the path and
+towards the axis. A chain on a sprocket of N teeth of pitch p has r = N p / (2 pi) and no part
+towards an axis.
 On a carrier the wheel turns at 1 + V from the ground, and w L and w² L add to the greatest.
 """
 
