@@ -231,8 +231,8 @@ def arrival(mechanism: Mechanism) -> tuple[float, float, Lag | None] | None:
     If gears drive between two rollers, the slot of the second has a wall behind its roller only.
     From the handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²). Its lag is
     psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2, until that is 0 again. The -psi'' of a
-    straight slot has one peak, and is not 0 at the exit e. So the wheel reaches its dwell if m <= -psi''(e)
-    and m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
+    straight slot has one peak, and is not 0 at the exit e. So the wheel reaches its dwell if
+    m <= -psi''(e) and m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
     """
     (engagement, *_), spec = mechanism.engagements, mechanism.spec
     if not engagement.paired or not spec.is_loaded:
