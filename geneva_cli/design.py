@@ -638,7 +638,7 @@ class Design:
     def part_table(
         self, part: str, tolerance_mm: float = 0.001, samples: int | None = None
     ) -> Table:
-        """A part as a table of points: ``slot``, ``gears``, ``groove``, or a sphere's ``wheel``.
+        """A part as a table of points: ``slot``, ``gears`` or ``groove``.
 
         Columns are those of ``profile --part``, lengths in mm. Raises GenevaError for a part
         that the machine does not have.
