@@ -157,12 +157,15 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def few(word: Any, known: Iterable[str]) -> str:
-    """The known words, for a message: at most five, those that begin as ``word`` does first.
+    """The known words, for a message: at most five, those that are like ``word`` first.
 
-    >>> few("line", ["arc", "circle", "spline", "point", "ellipse", "text", "lines"])
-    'lines, arc, circle, spline, point and 2 more'
+    >>> few("cirle", ["arc", "line", "circle", "spline", "point", "ellipse", "text"])
+    'circle, arc, line, spline, point and 2 more'
     """
-    begins = cut(str(word))[:2].casefold()
-    words = sorted(known, key=lambda one: not one.casefold().startswith(begins))
+    import difflib
+
+    words = list(known)
     more = len(words) - 5  # in a message: nobody reads more
+    close = difflib.get_close_matches(cut(str(word)), words, n=5) if more > 0 else []
+    words = [*dict.fromkeys([*close, *words])]
     return ", ".join(words[:5]) + (f" and {more} more" if more > 0 else "")

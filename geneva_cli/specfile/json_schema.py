@@ -68,7 +68,7 @@ def _cases(of: KindTable) -> Schema:
     """
     word = of.word
     keys = {name: (*own, *of.shared) for name, own in of.keys.items()}
-    every = {key.key: key for own in (of.shared, *keys.values()) for key in reversed(own)}
+    every = {key.key: key for own in reversed([of.shared, *keys.values()]) for key in own}
 
     def case(own: tuple[Field, ...]) -> Schema:
         """Values of a kind's own keys; those of other kinds are refused."""

@@ -64,3 +64,10 @@ def test_it_agrees_with_the_reader_on_mutated_specs(tmp_path, monkeypatch):
 def test_the_command_prints_it():
     result = CliRunner().invoke(app, ["schema"])
     assert result.exit_code == 0 and json.loads(result.stdout) == schema()
+
+
+def test_a_key_of_several_kinds_has_the_meaning_of_the_first():
+    """An editor shows it before the kind is written."""
+    assert schema()["properties"]["drive"]["properties"]["A"]["description"].startswith(
+        "side-crank"
+    )

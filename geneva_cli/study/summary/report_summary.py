@@ -60,7 +60,8 @@ def greatest_loads(design: Design) -> Table:
             rows.append((axis.label, size, axis.unit, at_deg, *bound))
     for name, check in checks.items():
         words, unit = spoken(name)
-        if check.value is not None and (name in LIMITS or unit in UNITS):
+        shown = name in LIMITS or unit in UNITS or name == "pressure_angle_deg"
+        if shown and check.value is not None:
             bound = (check.must_be, check.limit, check.passes)
             rows.append((words[:1].upper() + words[1:], check.value, unit, check.at_deg, *bound))
     first = ("load", "value", "limit", "unit", "must_be", "at_deg")
