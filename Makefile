@@ -85,7 +85,6 @@ web-test: .venv/dev web
 cad: .venv/dev
 	$(PIP) "build123d>=0.13,<0.14"
 	PYTHONPATH=tests $(BIN)/python tests/stress/solids_in_cad.py
-	PYTHONPATH=tests $(BIN)/python tests/stress/solids_in_cad.py --designs designs/side-crank-z6.toml --set size.edge_fillet_mm=0.3
 	PATH="$(CURDIR)/$(BIN):$$PATH" PYTHONPATH=tests python tests/stress/cad_code.py
 
 # Every design's DXF files in a physics engine, which is installed for it: does it jam, and does the
