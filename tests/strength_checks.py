@@ -2,6 +2,7 @@
 
 from geneva_cli.motion.mechanism import build
 from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.all_checks import applicable, standing
 
 PARTS = (
     "pin_stress_MPa",
@@ -16,3 +17,7 @@ HORNS = ("horn_stress_MPa", "lock_horn_stress_MPa")
 
 def rows(spec):
     return {check.name: check for check in checks(build(spec), turned=False)}
+
+
+def standing_checks(parts):
+    return applicable(standing(parts.mechanism), parts)
