@@ -3,4 +3,12 @@
 The list holds folders. Each has ``KINDS``, the records of its kinds, and imports nothing else.
 """
 
-FOLDERS = ("series", "linkages", "gear_sector", "carousel", "spherical", "stop", "linear")
+FOLDERS = (
+    "series",
+    "linkages",
+    "gear_sector",
+    "carousel",
+    "spherical",
+    "stop",
+    "linear",
+)

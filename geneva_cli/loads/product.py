@@ -1,7 +1,7 @@
 """What the product on the dial feels: travel, speed, acceleration and jerk in SI units.
 
-At the radius r on a dial that turns i times as far as the wheel its speed is r w i V, its jerk r w³
-i J along its path, and its acceleration r w² sqrt((i A)² + (i V)^4), along the path and towards the
+A dial turns i times as far as the wheel. At its radius r the speed is r w i V, and the jerk along
+the path r w³ i J. The acceleration r w² sqrt((i A)² + (i V)^4) is along the path and towards the
 axis. A chain on a sprocket of N teeth of pitch p has r = N p / (2 pi) and no part towards an axis.
 On a carrier the wheel turns at 1 + V from the ground, and w L and w² L add to the greatest.
 """

@@ -132,8 +132,6 @@ def draw(
     """Print the drawing, or write it; ``version`` is that of a DXF file."""
     name = drawn_as(output, format)
     own = _of_dxf(name, version)
-    if name in FORMATS:
-        raise GenevaError(f"a drawing is no table: write it as {', '.join(DRAWN)}, or --part slot")
     refuse_columns()
     module, function = DRAWN[name].split(":")
     _put(getattr(_module(module), function)(drawing, *own), output, inputs, name)

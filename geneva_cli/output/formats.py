@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError, cut
 
 # module by --format; the extension of a file is a format's name too
 FORMATS = {"table": "text", "csv": "delimited", "json": "jsonfile", "md": "markdown"}
-# for drawings only; in FORMATS they are written as tables
+# for drawings only
 MESHES = {"stl": "mesh_files:stl", "3mf": "mesh_files:threemf"}  # of solids, in bytes
 DRAWN = {"dxf": "dxf:chunks", "svg": "svg:chunks", "step": "step:chunks", **MESHES}
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
@@ -36,13 +36,23 @@ def is_for_people(output: str, format: str) -> bool:
 
 
 def drawn_as(output: str, format: str) -> str:
-    """The format of a drawing, or of a table of it. Raises GenevaError for an unknown one."""
+    """The format of a drawing. Raises GenevaError for another one."""
+    if not is_drawn(output, format):
+        raise GenevaError(
+            "this part is a drawing, no table of points: write it with -o FILE.dxf (or "
+            f"{', '.join(f'.{name}' for name in DRAWN if name != 'dxf')}), or take --part slot"
+        )
+    return _named(output, format)
+
+
+def is_drawn(output: str, format: str) -> bool:
+    """Return True for lines and arcs, False for a table. Raises GenevaError for another format."""
     if _named(output, format) == "pdf":
         option = f"--format {format}" if format else f'-o "{cut(output)}"'
         raise GenevaError(
             f"{option}: a pdf holds a drawing sheet: take --part sheet, or write .dxf or .svg"
         )
-    return _chosen(output, format, {**DRAWN, **FORMATS})
+    return _chosen(output, format, {**DRAWN, **FORMATS}) in DRAWN
 
 
 def sheet_as(output: str, format: str) -> str:
@@ -68,11 +78,6 @@ def is_document(output: str, format: str) -> bool:
 def plotted_as(output: str, format: str) -> str:
     """The format of a figure. Raises GenevaError for an unknown one."""
     return _chosen(output, format, (*PLOTTED, *FORMATS))
-
-
-def is_drawn(output: str, format: str) -> bool:
-    """Return True for lines and arcs, False for a table. Raises GenevaError for another format."""
-    return drawn_as(output, format) in DRAWN
 
 
 def usual_curves(output: str, format: str) -> str:

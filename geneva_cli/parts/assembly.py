@@ -159,7 +159,7 @@ def assembly(mechanism: Mechanism) -> Assembly:
     if not spec.wheel.FLAT:
         raise GenevaError(
             f'gearing = "{spec.wheel.NAME}": its parts are not flat outlines about two axes; write '
-            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step, or -o FILE.csv",
+            "`--part wheel`, `crank` or `assembly` as .dxf, .svg or .step",
             ("wheel", "gearing"),
         )
     if spec.wheel.z > Z_DRAWN:

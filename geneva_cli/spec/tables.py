@@ -291,7 +291,7 @@ class Size(SpecTable):
 
         The roller is wide and its slot narrow, each by half a side; and so disc and recess, whose
         diameter is about the centre distance. A hole that is wide still holds its pin, and a
-        narrow bore lets in its turned shaft. Sizes that are not set have their defaults without a
+        narrow bore lets in its shaft. Sizes that are not set have their defaults without a
         load, before they are rounded down.
         """
         L = self.distance_mm

@@ -9,6 +9,7 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError, below, clean, cut, few, nearest
 from geneva_cli.motion import registry
+from geneva_cli.motion.drive import Drive
 from geneva_cli.motion.machine_spec import BEFORE, Spec, attribute
 from geneva_cli.motion.motion import Motion
 from geneva_cli.names import unit_end
@@ -24,7 +25,7 @@ from geneva_cli.spec.schema import (
     unknown,
 )
 from geneva_cli.spec.tables import LISTS, PLAIN
-from geneva_cli.specfile.writer import DRIVES, LAWS, WHEELS, KindTable, kind_tables
+from geneva_cli.specfile.writer import DRIVES, LAWS, WHEELS, KindTable, drives_before, kind_tables
 
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
 
@@ -133,7 +134,11 @@ def _kind(values: dict[str, Any], kinds: KindTable, files: _Files) -> Any:
     values = dict(values)
     name = values.pop(kinds.word.key, kinds.word.default)
     cls, of = kinds.find(name), f'{kinds.word.key} = "{name}"'
-    _refuse_foreign(values, fields(cls), kinds, of)
+    own = kinds.keys_of(cls)
+    _refuse_foreign(values, own, kinds, of)
+    if strange := [key for key in values if all(key != field.key for field in own)]:
+        own.sort(key=lambda field: field in fields(Drive))  # first those of this kind
+        raise _unknown(strange[0], kinds.table, {field.key: field for field in own})
     return cls(**_values(cls, values, files, f" for {of}"))
 
 
@@ -145,8 +150,10 @@ def _before(values: Any, files: _Files) -> Any:
     if "kind" not in values:
         raise GenevaError(f"[{BEFORE}] needs kind: the drive that turns the shaft", place)
     try:
-        return _kind(values, DRIVES, files)
+        return _kind(values, drives_before(), files)
     except GenevaError as error:
+        if error.key[:2] == place:  # it names the table
+            raise
         raise GenevaError(f"[{BEFORE}]: {error}", (*place, *error.key[1:])) from None
 
 

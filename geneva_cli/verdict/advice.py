@@ -40,8 +40,8 @@ LARGER = "center_distance_mm*20"
 # only, where the spec gives it. Sizes that the spec sets are tried behind the words. The speed is a
 # requirement: it is changed where a limit forbids it, and for a part's strength only where no size
 # of it helps.
-_TABLE = f"""
-LARGER: {LARGER}
+_TABLE = """
+LARGER: center_distance_mm*20
 SLOWER: drive.n_rpm*0.001
 FASTER: drive.n_rpm*30
 WIDER: face_width_mm*10

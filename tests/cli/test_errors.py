@@ -24,6 +24,7 @@ WITHOUT_SPEC = {
 }  # commands that read none
 WHEEL = "[wheel]\nz = 6\n"
 SIDE = '[drive]\nkind = "side-crank"\n'
+BEFORE = '[drive.before]\nkind = "side-crank"\nA = 0\n'
 CURVED = '[motion]\nlaw = "cycloidal"\n'
 TABLE = '[motion]\nlaw = "table"\nfile = "law.csv"\n'
 
@@ -91,6 +92,9 @@ UNKNOWN = [
     key("inches", '[size]\ncenter_distance_mm = 8"\n', 2, 'write "8 in"'),
     key("law", '[motion]\nlaw = "cycloid"\n', 2, "law must be one of", 'did you mean "cycloidal"?'),
     key("key-of-another-kind", "[drive]\nA = 0.5\n", 2, "A belongs", '"side-crank"'),
+    key("key-of-a-kind", SIDE + "A = 0\nfoo = 1\n", 4, "known: kind, A, input_crank_mm, n_rpm"),
+    key("key-before", BEFORE + "foo = 1\n", 4, "foo in [drive.before]; known: kind, A, input_"),
+    key("shared-key-before", BEFORE + "rollers = 1\n", 4, "[drive.before]; it belongs to [drive]"),
 ]
 
 TYPES = [
@@ -291,6 +295,7 @@ OPTIONS = [
     ("table --zz 6", "--z"),
     ("motion --samples " + "9" * 5000 + " spec.toml",),
     ("profile --tolerance 0 spec.toml", "above 0"),
+    ("profile --part wheel spec.toml", "-o FILE.dxf (or .svg, .step, .stl, .3mf)", "--part slot"),
     ("laws --lambda nan",),
 ]
 

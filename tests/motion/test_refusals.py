@@ -177,14 +177,14 @@ CRANKS = [
     case("inside", INSIDE + "[drive]\ncrank_steps = @\n", "[0, 3]", 5, "external"),
     case("angles", WHEEL + TWO + "roller_angles_deg = @", "[0, 150]", 6, "even turns", "remove"),
     case("tolerance", WHEEL + TWO + "[tolerance]\nlock_radius_mm = @", "0.1", 6, "remove one"),
-    case("body", WHEEL + TWO + BODY + "radius_mm = @", "50", 6, "count to 2"),
+    case("body", WHEEL + TWO + BODY + "radius_mm = @", "50", 9, "count to 2"),
 ]
 CAROUSELS = [
     case(
         "unbalanced",
         WHEEL + ORBIT + BODY + "radius_mm = @",
         "50",
-        5,
+        8,
         "balanced",
         "count to 2",
     ),

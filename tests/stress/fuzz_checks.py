@@ -28,7 +28,7 @@ from geneva_cli.motion.registry import DRIVES
 from geneva_cli.output import dxf, pdf, svg
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.study.verdicts import Verdict, checks_table
-from geneva_cli.table import flat
+from geneva_cli.table import Table, flat
 from geneva_cli.verdict.advice import judged
 
 PLACE = re.compile(r"(<stdin>|law\.csv|ratio\.csv)(:(\d+))?: ", re.DOTALL)
@@ -99,13 +99,14 @@ def motion(text):
 
 
 def tried(make, *args):
-    """A checked table; None if it is refused with the spec's key or an option."""
+    """A checked table or drawing; None if it is refused with the spec's key or an option."""
     try:
         table = make(*args)
     except GenevaError as error:
         assert error.key or "--" in str(error), f"no place: {error}"
         return None
-    sound(table, BOUNDLESS)
+    if isinstance(table, Table):
+        sound(table, BOUNDLESS)
     return table
 
 

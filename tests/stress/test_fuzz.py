@@ -66,7 +66,7 @@ def test_specs_of_known_keys():
         found = read(text.encode())
         table = motion_table(found, 97)
         wheel = table.columns[2]
-        turned = sum(math.degrees(2.0 * s.half_step) for s in found.engagements)
+        turned = found.output.per_radian * sum(2.0 * s.half_step for s in found.engagements)
         assert wheel[-1] - wheel[0] == pytest.approx(turned, rel=1e-9)
         assert table.columns[3][0] == pytest.approx(0.0, abs=1e-9 * worst(found).velocity.max)
     # a fifth, less two standard deviations of so many cases

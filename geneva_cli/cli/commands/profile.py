@@ -19,6 +19,7 @@ from geneva_cli.output.formats import (
     DRAWN,
     FORMATS,
     curve_tolerance,
+    drawn_as,
     is_drawn,
     sheet_as,
     usual_curves,
@@ -88,6 +89,8 @@ def run(
         return
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
+    if not sheet:
+        drawn_as(output, format)  # refused before the machine is turned
     require_tolerance(design.mechanism, tolerance)
     if design.spec.is_turned:
         require_written(design, design.judge(part), force)

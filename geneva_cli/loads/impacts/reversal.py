@@ -229,10 +229,11 @@ def arrival(mechanism: Mechanism) -> tuple[float, float, Lag | None] | None:
     Also the greatest with which the wheel reaches its dwell, and its greatest lag.
 
     If gears drive between two rollers, the slot of the second has a wall behind its roller only.
-    From the handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²), and lags by
-    psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2 until that is 0 again. -psi'' of a straight
-    slot has one peak, and is not 0 at the exit e. So the wheel reaches its dwell if m <= -psi''(e)
-    and m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
+    From the handover at s the wheel coasts: psi'' = -m with m = M_r / (I w²). Its lag is
+    psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2, until that is 0 again.
+    -psi'' of a straight slot has one peak, and is not 0 at the exit e.
+    So the wheel reaches its dwell if m <= -psi''(e) and if m is at most
+    2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
     """
     (engagement, *_), spec = mechanism.engagements, mechanism.spec
     if not engagement.paired or not spec.is_loaded:
