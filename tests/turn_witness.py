@@ -27,7 +27,7 @@ def check_proof(parts, gap_mm, to_mm=TO_MM):
     Parts that are proved have no smaller gap than is proved, and that is near to the smallest.
     """
     proof = certificate(parts, gap_mm, to_mm)
-    if proof.proved:
+    if proof.open is None:
         assert max(gap_mm, 0.0) - 1.01 * to_mm <= proof.least_mm <= max(gap_mm, 0.0)
         assert least_gap(parts, turn_of(parts)) >= proof.least_mm
     return proof

@@ -30,10 +30,6 @@ TIE = 1e-13
 # that are compared, less than is shown.
 MARGIN = 1e-12
 
-# Times a distance or a limit: a value beyond it exceeds the limit whatever the rounding. For
-# searches that leave doubtful cases to a finer test.
-CLEARLY = 1.0 + 1e-6
-
 # mm or radians on a drawing sheet: lines, radii, centres and directions nearer to each other are
 # equal; no plotter shows the difference.
 SAME_ON_SHEET = 1e-6

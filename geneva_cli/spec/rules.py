@@ -66,28 +66,24 @@ class Words(NamedTuple):
         return f"{self.range}, or " + " or ".join(f'"{word}"' for word in self.words)
 
 
-class Csv(NamedTuple):
-    """Pairs from a CSV file, the first of each ascending; ``key`` names the file in the spec."""
+class Csv:
+    """Pairs u,s from a CSV file, u ascending; the key ``file`` names it in the spec."""
 
-    key: str
-    x: str
-    y: str
-    step_min: float  # least step of x: closer points make a spline of rounding errors
-    y_max: float  # greatest size of y
-    points_min: int
+    STEP_MIN = 0.9e-4  # least step of u: closer points make a spline of rounding errors
+    SIZE_MAX = 10.0  # of s
+    POINTS_MIN = 6
 
     def __str__(self) -> str:
         return 'such as "points.csv"'
 
     def fault(self, pairs: Sequence[tuple[float, float]], i: int) -> str:
         """Fault of the i-th pair, compared with the one before it; empty if it is valid."""
-        x, y = pairs[i]
-        if not (math.isfinite(x) and abs(y) <= self.y_max):
-            most = f"from -{self.y_max:g} to {self.y_max:g}"
-            return f"{self.x} and {self.y} must be finite, {self.y} {most}"
-        if i and x < pairs[i - 1][0] + self.step_min:
+        u, s = pairs[i]
+        if not (math.isfinite(u) and abs(s) <= self.SIZE_MAX):
+            return f"u and s must be finite, s from -{self.SIZE_MAX:g} to {self.SIZE_MAX:g}"
+        if i and u < pairs[i - 1][0] + self.STEP_MIN:
             return (
-                f"{self.x} = {x:.12g} must exceed the one before it by at least {self.step_min:g}: "
+                f"u = {u:.12g} must exceed the one before it by at least {self.STEP_MIN:g}: "
                 "use fewer points, since derivatives of closer ones are rounding"
             )
         return ""
@@ -101,9 +97,9 @@ class Csv(NamedTuple):
             fault = self.fault(pairs, i)
             if fault:
                 raise GenevaError(f"{name}, point {i + 1}: {fault}", place)
-        if len(pairs) < self.points_min:
+        if len(pairs) < self.POINTS_MIN:
             raise GenevaError(
-                f"{name}: {len(pairs)} points; at least {self.points_min} are needed", place
+                f"{name}: {len(pairs)} points; at least {self.POINTS_MIN} are needed", place
             )
 
 

@@ -263,7 +263,7 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
             # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
             types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
             key = one.name.rstrip("_").replace("_", table.WORDS_APART)
-            key = rule.key if isinstance(rule, Csv) else key
+            key = "file" if isinstance(rule, Csv) else key
             known[one.name] = Field(key, one.name, types, rule, one.default, meaning)
     _fields_of[table] = tuple([known[name] for name in _names(table) if name in known])
     return _fields_of[table]
@@ -318,7 +318,7 @@ def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
         try:
             value = Points(tuple((float(x), float(y)) for x, y in value))
         except (TypeError, ValueError):
-            text = f"{field.key}: points must be pairs of numbers {field.rule.x},{field.rule.y}"
+            text = f"{field.key}: points must be pairs of numbers u,s"
             raise GenevaError(text, place) from None
     field.rule.check(value.pairs, value.file, place)
     return value

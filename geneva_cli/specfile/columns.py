@@ -101,7 +101,7 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
     text = _text(path, 1 << 24, "use fewer points", key)  # some hundred thousand points, in memory
     for number, line in enumerate(text.split("\n"), 1):
         row = [re.sub(r'^"(.*)"$', r"\1", cell.strip()) for cell in line.split(",")]
-        if row == [""] or row[0].startswith("#") or row == [rule.x, rule.y]:
+        if row == [""] or row[0].startswith("#") or row == ["u", "s"]:
             continue
         where = f"{path}:{number}"
         try:
@@ -110,15 +110,13 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
             shown = cut(",".join(row))
             other = re.search(r"[;\t]", line)  # spreadsheets of many countries write these
             hint = "; write a comma between them, and points as in 0.5" if other else ""
-            raise GenevaError(
-                f'{where}: "{shown}" is not two numbers {rule.x},{rule.y}{hint}'
-            ) from None
+            raise GenevaError(f'{where}: "{shown}" is not two numbers u,s{hint}') from None
         points.append((x, y))
         fault = rule.fault(points, len(points) - 1)
         if fault:
             raise GenevaError(f"{where}: {fault}")
-    if len(points) < rule.points_min:
-        raise GenevaError(f"{path}: {len(points)} points; at least {rule.points_min} are needed")
+    if len(points) < rule.POINTS_MIN:
+        raise GenevaError(f"{path}: {len(points)} points; at least {rule.POINTS_MIN} are needed")
     return points
 
 

@@ -45,7 +45,7 @@ class _Files:
         from geneva_cli.specfile.columns import read_pairs
 
         if not isinstance(name, str):
-            raise GenevaError(f"{rule.key} must be text, not {shown(name)}", place)
+            raise GenevaError(f"file must be text, not {shown(name)}", place)
         path = below(self.folder, name)
         self.read.append(path)
         return Points(tuple(read_pairs(path, rule, place)), name)

@@ -167,7 +167,7 @@ def compared_text(check: Check, unit: str) -> str:
     assert check.value is not None
     assert check.limit is not None
     where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
-    limit = measured(check.limit, unit) if unit == "deg" else bare(check.limit, unit)
+    limit = measured(check.limit, unit) if unit == "deg" else value_text(check.limit)
     return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
 
 
@@ -201,15 +201,6 @@ def measured(value: float, unit: str = "", digits: int = 4) -> str:
     ('8.256 mm', '-58.21°')
     """
     return value_text(value, "°" if unit == "deg" else unit, digits)
-
-
-def bare(value: float, unit: str, digits: int = 4) -> str:
-    """A value without its unit, which stands at another value of the sentence.
-
-    >>> bare(8.25622, "mm")
-    '8.256'
-    """
-    return value_text(value, "", digits)
 
 
 def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:

@@ -39,16 +39,6 @@ def polynomials(c):
     return Smooth(derivatives)
 
 
-def lorentzians(middle, width, height=1.0):
-    def derivatives(x, which, order, requested):
-        t = (x - middle[which]) / width[which]
-        d = 1.0 + t * t
-        slope, bend = -2.0 * t / (d * d), (6.0 * t * t - 2.0) / d**3
-        return [(1.0 / d, slope / width[which], bend / width[which] ** 2)]
-
-    return Smooth(derivatives)
-
-
 @pytest.mark.long
 def test_the_greatest_and_the_least_of_waves():
     rng = np.random.default_rng(8)

@@ -17,7 +17,7 @@ from words import Motion, load
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.play import free_angles, windows
-from geneva_cli.verdict.checks.all_checks import turn_checks
+from geneva_cli.verdict.checks.all_checks import TURNING, applicable
 
 DESIGNS = repo.DESIGNS
 
@@ -108,7 +108,7 @@ def test_hand_over_is_refined_to_its_kink(
         90.0 - 180.0 / z + math.degrees(early), abs=1e-4
     )
     assert turn.push.deg == pytest.approx(math.degrees(angle), rel=1e-5)
-    check = next(c for c in turn_checks(found, turn) if c.name == "hand_over_pressure_deg")
+    check = next(c for c in applicable(TURNING, found, turn) if c.name == "hand_over_pressure_deg")
     assert check.limit == pytest.approx(math.degrees(math.atan2(1.0, 0.3)))
     assert check.passes == (push < 73.30)
 
@@ -165,7 +165,7 @@ def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     for share in (0.0, 0.2, 0.4, 0.6, 0.8, 0.99, 0.9999):
         assert free(found, p.input_deg[i], way * share * p.either[i])
     assert not free(found, p.input_deg[i], way * (1.0002 * p.either[i] + 0.01))
-    row = next(c for c in turn_checks(found, turn) if c.name == "hand_over_play_deg")
+    row = next(c for c in applicable(TURNING, found, turn) if c.name == "hand_over_play_deg")
     assert row.passes == held
 
 
@@ -182,7 +182,7 @@ def test_play_in_the_motion(tmp_path: Path, c: float) -> None:
     p = math.asin((c + found.close) / 50.0)
     assert turn.motion.deg == pytest.approx(math.degrees(p), rel=1e-13)
     assert turn.motion.at_deg == pytest.approx(0.0, abs=1e-4)
-    row = next(r for r in turn_checks(found, turn) if r.name == "motion_play_deg")
+    row = next(r for r in applicable(TURNING, found, turn) if r.name == "motion_play_deg")
     assert row.passes == (c < 1.0)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import repo
+from strength_checks import standing_checks
 from words import Drive, Keys, Motion, Spec, Wheel, law, load
 
 from geneva_cli import Design, External
@@ -16,7 +17,6 @@ from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.pairs import WorkLimit
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
-from geneva_cli.verdict.checks.all_checks import standing_checks
 from geneva_cli.verdict.motion_warnings import motion_warnings
 from geneva_cli.verdict.warnings import turn_warnings
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from machine_witness import Front
+from strength_checks import standing_checks
 from witness import to_degrees, to_radians
 from words import Motion, Spec, Wheel
 
@@ -13,7 +14,6 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.spec.tables import Limits, Size
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.all_checks import standing_checks
 
 L, r, rk = 100.0, 4.0, 40.0
 HUBS = {"wheel_bore_mm": 20.0, "wheel_hub_mm": 30.0, "crank_bore_mm": 6.0, "crank_hub_mm": 10.0}

@@ -20,7 +20,7 @@ from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.verdict.checks.all_checks import turn_checks
+from geneva_cli.verdict.checks.all_checks import TURNING, applicable
 from geneva_cli.verdict.tolerance import flat_locks
 from tests.repo import ROOT
 
@@ -384,7 +384,7 @@ def test_clearances_too_small_for_the_tolerances_fail():
     def rows(slot_mm, lock_mm, **more):
         play = size.replace(slot_clearance_mm=slot_mm, lock_clearance_mm=lock_mm)
         model = parts_of(Design(External(6), size=play, **more).mechanism)
-        checks = {one.name: one for one in turn_checks(model, model.turn)}
+        checks = {one.name: one for one in applicable(TURNING, model, model.turn)}
         return {name: checks[name] for name in every if name in checks}
 
     tight = rows(0.01, 0.01, tolerance=allowed)

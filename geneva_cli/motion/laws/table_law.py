@@ -33,7 +33,7 @@ class TableLaw(Law):
     # The points of s are rounded by 1e-16, which moves a third derivative by about 1e-16 / step³.
     # At this step, 10,001 points in all, that is 1e-4 of a usual law's. Ten times closer the jerk
     # is only noise, with a peak at every point. A law that passes ten times its rise is a mistake.
-    points: Annotated[Points, Csv("file", "u", "s", 0.9e-4, 10.0, 6), "points of the law `table`"]
+    points: Annotated[Points, Csv(), "points of the law `table`"]
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -55,10 +55,6 @@ class BoltCircle(NamedTuple):
         ]
 
 
-# what a sheet says of parts that are too small for screws
-NO_SCREW = "too thin for screws: weld, or fix with adhesive"
-
-
 class Screws(NamedTuple):
     """Equal screws: the part that they fix, their clearance hole, and the part with the thread."""
 

@@ -39,11 +39,6 @@ class Certificate(NamedTuple):
     open: Open | None = None
     between: str = ""
 
-    @property
-    def proved(self) -> bool:
-        """True if no interval is open."""
-        return self.open is None
-
 
 def tolerance_mm(parts: TurnedParts) -> float:
     """Return the tolerance of a certificate by default: how far it is from the smallest gap."""

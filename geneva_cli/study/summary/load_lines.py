@@ -13,9 +13,10 @@ from geneva_cli.loads.load_peaks import LoadSummary
 from geneva_cli.loads.load_tables import no_load
 from geneva_cli.loads.motor import RATED_kW, recommended_motor
 from geneva_cli.numerics.tolerances import TIE
+from geneva_cli.output.document.blocks import value_text
 from geneva_cli.study.fields import pick
 from geneva_cli.table import Table
-from geneva_cli.verdict.headline import bare, below_summary, chosen_lines, measured, warning
+from geneva_cli.verdict.headline import below_summary, chosen_lines, measured, warning
 
 NO_BOUND = "no bound: see the warnings"
 
@@ -62,7 +63,7 @@ def flywheel_line(design: Design) -> Iterator[SummaryLine]:
     if whole is not None:
         variation = measured(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
         text = f"{measured(whole, 'kg m²')} on the input for a speed variation of {variation}"
-        text += "" if add == whole else f", {bare(add, 'kg m²')} of it besides the motor"
+        text += "" if add == whole else f", {value_text(add)} of it besides the motor"
         yield SummaryLine("flywheel", text)
 
 
@@ -74,8 +75,8 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     if not math.isfinite(torque.max - torque.min):
         yield SummaryLine("input", f"torque {NO_BOUND}")
     else:
-        text = f"{bare(torque.min, 'N m')} to {measured(torque.max, 'N m')}"
-        text += f", rms {bare(torque.rms, 'N m')}" if torque.rms is not None else ""
+        text = f"{value_text(torque.min)} to {measured(torque.max, 'N m')}"
+        text += f", rms {value_text(torque.rms)}" if torque.rms is not None else ""
         drives = f"drives the motor with up to {measured(-torque.min, 'N m')}"
         driven = drives if torque.min < 0.0 else "never drives the motor"
         yield SummaryLine("input", f"{text}; the {design.spec.output.noun} {driven}")

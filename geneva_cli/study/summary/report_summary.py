@@ -10,6 +10,7 @@ from geneva_cli.design import Design
 from geneva_cli.errors import is_warning
 from geneva_cli.loads.cycle_figures import AXIS_BY_NAME
 from geneva_cli.names import spoken
+from geneva_cli.output.document.blocks import value_text
 from geneva_cli.output.finite import only
 from geneva_cli.study.summary.load_lines import (
     cycle_lines,
@@ -22,7 +23,6 @@ from geneva_cli.study.summary.load_lines import (
 from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks.all_checks import LIMITS
 from geneva_cli.verdict.headline import (
-    bare,
     below_summary,
     chosen_lines,
     failure_lines,
@@ -204,7 +204,7 @@ def _error_lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
         yield SummaryLine("entry", f"the wheel's velocity jumps by up to {jump} of the input's")
     turns = {True: "every machine turns", False: "not every machine turns", None: "not known"}
     parts = [
-        f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {bare(needed, 'mm')}"
+        f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {value_text(needed)}"
         for part in ("slot", "lock")
         if (needed := values[f"clearances.{part}_needed_mm"]) is not None
     ]

@@ -69,7 +69,7 @@ def read_target(
     requested = tuple(g for g, is_chosen in chosen.items() if is_chosen)
     words = ", ".join(phrases) or "the spec alone"
     target = Target(
-        words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
+        words if words.startswith("tau") else words[:1].upper() + words[1:],
         _slots(z, frame),
         _gearings(requested, frame),
         _rollers(rollers, frame),

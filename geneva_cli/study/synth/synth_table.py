@@ -36,11 +36,9 @@ NAMES = ("no", *Candidate._fields)
 HALVINGS = 5  # of the numbers between a machine that fails in its turn and the plain crank's
 
 
-def synthesis_table(
-    target: Target, count: int = TURNED, buildable: bool = False, ranking: Ranking | None = None
-) -> Table:
+def synthesis_table(target: Target, count: int = TURNED, buildable: bool = False) -> Table:
     """One row for each machine, numbered from 1, as ``turned`` returns them."""
-    ranking = ranking or search(target)
+    ranking = search(target)
     shown = [
         (one.no, *one.row.candidate, *one.row.extra) for one in turned(ranking, count, buildable)
     ]

@@ -15,8 +15,6 @@ from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
     from geneva_cli.motion.mechanism import Mechanism
-    from geneva_cli.parts.parts import Parts
-    from geneva_cli.parts.turn.full_turn import FullTurn
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function
 
@@ -167,16 +165,6 @@ def standing(mechanism: Mechanism) -> Checks:
     for kind in kinds:
         some |= {} if kind.parts else kind.parts_checks
     return {**own, **some} if own else {**STATIC, **some, **PROCESS}
-
-
-def standing_checks(parts: Parts) -> Iterator[Check]:
-    """The checks of parts at rest: walls, shafts, branches of a slot."""
-    return applicable(standing(parts.mechanism), parts)
-
-
-def turn_checks(parts: Parts, turn: FullTurn) -> Iterator[Check]:
-    """The checks of a whole turn: no parts overlap, and lock and slots leave little play."""
-    return applicable(TURNING, parts, turn)
 
 
 def check_named(among: Checks, name: str, *of: object) -> Check | None:

@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
+from strength_checks import standing_checks
 
 from geneva_cli import Design, External, Size, Spherical
 from geneva_cli.kinds.spherical.regions import at_mid_motion
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.gaps import NEAR
 from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.all_checks import standing_checks
 
 CLEAR = {"slot_clearance_mm": 0.05, "lock_clearance_mm": 0.04}
 
