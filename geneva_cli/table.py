@@ -20,11 +20,13 @@ class Reading(NamedTuple):
 
     ``first`` are its columns in order of importance; others follow in their order. Those that
     ``decide``, such as whether a machine can be built, are never left out. ``title`` stands above
-    it. With ``designs`` the columns are named for designs, not for quantities.
+    it, and replaces the constant columns ``in_title``. With ``designs`` the columns are named for
+    designs, not for quantities.
     """
 
     first: tuple[str, ...] = ()
     title: str = ""
+    in_title: tuple[str, ...] = ()
     designs: bool = False
     decide: tuple[str, ...] = ()
 

@@ -63,7 +63,7 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
     indexes = "one index" if rollers == 1 else f"{rollers} indexes"
     cycle = f"cycle {60.0 / n_rpm / rollers:.5g} s"
     title = f"{gearing.capitalize()} wheels, {drive}, {n_rpm:g} rpm: {indexes} a turn, {cycle}."
-    reading = Reading(first, title)
+    reading = Reading(first, title, ("gearing", "rollers", "cycle_s"))
     return rows_table(NAMES, rows).replaced(reading=reading)
 
 

@@ -181,6 +181,6 @@ def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownCol
             continue
         if len(cells) > 1 or len(column.cells) == 1 or table.reading.designs:
             kept.append(column)
-        else:
+        elif column.name not in table.reading.in_title:
             once.append(f"{column.words} {with_unit(cells.pop(), column.unit)}")
     return kept or columns[:1], once
