@@ -20,6 +20,7 @@ from geneva_cli.verdict.checks.all_checks import (
     applicable,
     check_named,
     standing,
+    untold,
 )
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
@@ -44,9 +45,12 @@ def checks(
 def quick_first(
     mechanism: Mechanism, machine: Parts | None = None, parts: bool = True
 ) -> Iterator[Check]:
-    """The same checks in the order of their cost, for those who stop at one that fails."""
-    yield from applicable(MOTION, mechanism)
-    yield from applicable(LIMITS, mechanism)
+    """The same checks in the order of their cost, for those who stop at one that fails.
+
+    Those of loads have no reason in words, which may take longer than the check.
+    """
+    yield from untold(MOTION, mechanism)
+    yield from untold(LIMITS, mechanism)
     if parts:
         yield from of_parts(mechanism, machine)
 

@@ -172,14 +172,17 @@ def check_named(among: Checks, name: str, *of: object) -> Check | None:
     return load_named(among[name])(name, *of) if name in among else None
 
 
+def untold(among: Checks, *of: object) -> Iterator[Check]:
+    """The checks of a list that apply to ``of``; those that fail have no reason in words yet."""
+    for name in among:
+        if check := check_named(among, name, *of):
+            yield check
+
+
 def applicable(among: Checks, *of: object) -> Iterator[Check]:
     """The checks of a list that apply to ``of``; of those that fail for one reason, the first."""
     reasons = set()
-    for name in among:
-        check = check_named(among, name, *of)
-        if check is None:
-            continue
-        check = check.told
+    for check in (one.told for one in untold(among, *of)):
         if check.passes is not False:
             yield check
         elif check.why not in reasons:
