@@ -57,10 +57,9 @@ LIMITS: Checks = {
         entry_velocity="entry_velocity_max",
         limited_time="dwell_min_s motion_max_s cycle_max_s",
     ),
-    **_of("load_checks", limited_load="pin_force_max_N input_torque_max_Nm"),
     **_of(
         "load_checks",
-        limited_load="contact_stress_max_MPa",
+        limited_load="pin_force_max_N input_torque_max_Nm contact_stress_max_MPa",
         strength_limit=(
             "pv_max_W_m2 roller_life_min_h pin_stress_MPa "
             "horn_stress_MPa lock_horn_stress_MPa lock_stress_max_MPa lock_deflection_max_deg "
@@ -79,8 +78,9 @@ STATIC: Checks = {
         rollers_apart="rollers_apart_mm",
         wheel_bore="wheel_bore_wall_mm",
         outside="outer_wall_mm",
+        dial="dial_wall_mm",
+        crank_bore="crank_bore_wall_mm",
     ),
-    **_of("walls", dial="dial_wall_mm", crank_bore="crank_bore_wall_mm"),
     **_of(
         "clearances",
         crank_shaft="crank_shaft_mm",
