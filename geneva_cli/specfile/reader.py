@@ -1,7 +1,4 @@
-"""Reader of spec files; errors name the file and, if known, the line.
-
-The TOML reader itself determines the lines of keys.
-"""
+"""Reader of spec files; errors name the file and, if known, the line."""
 
 from __future__ import annotations
 
