@@ -174,16 +174,15 @@ def in_digits(value: float, digits: int) -> str:
 
 
 def for_people(value: float, unit: str = "", digits: int = 4) -> str:
-    """A number for people: four digits, but for a length those of a drawing.
+    """A number for people: four digits, but for millimetres those of a drawing.
 
     An angle of rounding errors is 0.
 
     >>> for_people(34.733492, "N m"), for_people(393.91305, "mm"), for_people(12345.6)
     ('34.73', '393.913', '12350')
     """
-    decimals = {"mm": 3, "in": 4}.get(unit)
-    if decimals and 1.0 <= abs(value) < 1e6:
-        return in_decimals(value, decimals)
+    if unit == "mm" and 1.0 <= abs(value) < 1e6:
+        return in_decimals(value, 3)
     if unit in ("deg", "°") and abs(value) < 1e-9:
         return "0"
     text = in_digits(value, digits)
