@@ -83,12 +83,12 @@ def gears_without_teeth(spec: Spec) -> Iterator[Notice]:
 
 def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
+    if not least:
+        return
     from geneva_cli.drawings.single_parts import is_cut
     from geneva_cli.geometry.plates import Plate, Shell, solids
     from geneva_cli.parts.projection import built_of
 
-    if not least:
-        return
     missing: list[Missing] = []  # the check of the parts reports them
     small: dict[str, tuple[float, float]] = {}
     for solid in dict.fromkeys(one for part in built_of(named, missing) for one in solids(part)):
