@@ -87,8 +87,7 @@ def words(mechanism: Mechanism) -> str:
         text += "; its slots are cut to suit." if slot.curved else "; the groove is cut to suit."
     if wheel.stopped:
         text += f" A convex face in place of a recess blocks the crank after {wheel.z - 1} turns."
-    each = [timings(mechanism)[i] for i in range(len(mechanism.engagements))]
-    output = mechanism.output
+    each, output = timings(mechanism), mechanism.output
     verb, steps = "turns" if output.turns else "moves", sorted({t.step for t in each})
     turn = f"{verb} by {' or '.join(f'{step:.6g}' for step in steps)} {output.unit}"
     if len(each) == 1:
