@@ -147,7 +147,6 @@ def groove_pressure(name: str, mechanism: Mechanism) -> Check | None:
     from geneva_cli.parts.slots.groove import greatest_pressure
 
     value, at_deg = greatest_pressure(groove)
-    own_limit = mechanism.spec.limits.pressure_angle_max_deg
-    limit = GROOVE_MAX_DEG if own_limit is None else own_limit
+    limit = value_or(mechanism.spec.limits.pressure_angle_max_deg, GROOVE_MAX_DEG)
     input_deg = mechanism.spec.input_deg(at_deg)  # the groove is cut by the crank's angle
     return compared(name, value, "at most", limit, mechanism.shown_deg(input_deg))
