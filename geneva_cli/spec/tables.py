@@ -556,6 +556,15 @@ class Tolerance(SpecTable):
         str, OneOf(("uniform", "normal")), "within ±; normal: ± is three standard deviations"
     ] = "uniform"
 
+    @property
+    def is_given(self) -> bool:
+        """True if a dimension deviates.
+
+        >>> Tolerance(slot_width_mm=0.02).is_given, Tolerance(distribution="normal").is_given
+        (True, False)
+        """
+        return self != Tolerance(distribution=self.distribution)
+
 
 class Product(SpecTable):
     """``[product]``: what the dial, chain or film carries, and how it may slip.

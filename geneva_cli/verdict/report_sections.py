@@ -14,7 +14,6 @@ from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.parts import Parts
-from geneva_cli.spec.tables import Tolerance
 from geneva_cli.table import Reading, rows_table
 from geneva_cli.verdict.quantities.batch_designs import Numbers, Values, single
 from geneva_cli.verdict.quantities.groups import ECHOED, only, own_names
@@ -173,8 +172,8 @@ def vibration(parts: Parts) -> Values:
 
 def tolerances(parts: Parts) -> Values:
     """The first lines of ``geneva tolerance``, and its warnings; None without tolerances."""
-    mechanism, tolerance = parts.mechanism, parts.mechanism.spec.tolerance
-    if tolerance == Tolerance(distribution=tolerance.distribution):
+    mechanism = parts.mechanism
+    if not mechanism.spec.tolerance.is_given:
         return {"warnings": None}
     from geneva_cli.verdict.tolerance import tolerance_table
 

@@ -139,7 +139,7 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
             f"tolerances are computed for a wheel on a shaft, not for a {mechanism.output.noun}",
             ("wheel", "gearing"),
         )
-    if not any(tolerances(mechanism.spec).values()):
+    if not mechanism.spec.tolerance.is_given:
         raise GenevaError(
             "the spec gives no tolerances: set one or more of "
             + ", ".join(Deviations._fields)

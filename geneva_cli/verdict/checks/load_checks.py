@@ -12,7 +12,6 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec import load_limits
 from geneva_cli.spec.load_limits import LIMITED
-from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
@@ -88,8 +87,7 @@ def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
     None if neither a limit nor tolerances ask for it: the pin's stress has it in any case.
     """
     spec = mechanism.spec
-    limit, tolerance = spec.limits.pin_force_max_N, spec.tolerance
-    if limit is None and tolerance == Tolerance(distribution=tolerance.distribution):
+    if spec.limits.pin_force_max_N is None and not spec.tolerance.is_given:
         return None
     impact = _reversal(mechanism)
     if impact is None:
