@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from functools import cache, partial
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
 
 import numpy as np
 
@@ -41,6 +40,9 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.horn_search import HornStress, Sides, Sizes
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.motion.mechanism import Mechanism
+
+K = TypeVar("K")
+T = TypeVar("T")
 
 
 class LockSizes(NamedTuple):
@@ -96,14 +98,13 @@ class UnderLoad:
         bare = Spec(
             of.wheel, drive, of.motion, of.size, shaft=of.shaft, drive_before=of.drive_before
         )
-        # designs that differ in speed and loads only have the same
-        alike = designs_in(bare) == 1
-        out: list[Unloaded | None] = []
-        for one in [build(taken(bare, 0))] if alike else self.designs.each:
-            out.append(None)
-            with suppress(GenevaError):  # which the check of the parts reports
-                out[-1] = unloaded(assembly(one)) if one.spec.is_flat else None
-        return out * count if alike else out
+
+        def parts(one: Mechanism) -> Unloaded | None:
+            return unloaded(assembly(one)) if one.spec.is_flat else None
+
+        if designs_in(bare) == 1:  # designs that differ in speed and loads only have the same
+            return [_or_none(parts, build(taken(bare, 0)))] * count
+        return [_or_none(parts, one) for one in self.designs.each]
 
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
@@ -174,16 +175,15 @@ class UnderLoad:
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
             bent = horn_MPa(self.machine, *self.lock_sizes, self._flat_horns).tolist()
-        out: list[Layout | None] = []
-        for i, (parts, machine) in enumerate(zip(self._unloaded, machines, strict=True)):
-            out.append(None)
+
+        def layout(i: int) -> Layout | None:
+            parts = self._unloaded[i]
             if parts is None:
-                continue
-            where = parts.assembly._replace(full=machine)
-            with suppress(GenevaError):
-                sizes = loaded(parts._replace(assembly=where), self.part_loads.of(i), bent[i])
-                out[-1] = where, sizes
-        return out
+                return None
+            where = parts.assembly._replace(full=machines[i])
+            return where, loaded(parts._replace(assembly=where), self.part_loads.of(i), bent[i])
+
+        return [_or_none(layout, i) for i in range(len(machines))]
 
     @cached_property
     def lock(self) -> LockUnderTorque | None:
@@ -201,12 +201,8 @@ class UnderLoad:
         own: Callable[[Mechanism], Stressed | None] | None
         own = thing(self.machine.spec.wheel.NAME, "stressed")
         if own:
-            each: list[Stressed | None] = []
-            for one in self.designs.each:
-                each.append(None)
-                with suppress(GenevaError):
-                    each[-1] = own(one) if one.spec.has_parts else None
-            return batched(each)
+            each = self.designs.each
+            return batched([_or_none(own, one) if one.spec.has_parts else None for one in each])
         return batched([stressed(*one) if one else None for one in self.layouts])
 
     @property
@@ -263,6 +259,14 @@ class UnderLoad:
         sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
         force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
         return np.nan_to_num(np.ravel(force)), torque
+
+
+def _or_none(make: Callable[[K], T | None], of: K) -> T | None:
+    """The result of a function; None for an error, which the check of the parts reports."""
+    try:
+        return make(of)
+    except GenevaError:
+        return None
 
 
 def batched(
