@@ -232,32 +232,41 @@ def study(mechanism: Mechanism, parts: Parts, samples: int, seed: int) -> Study:
     else:
         text = "entry_jump is not known: the law, not the path, sets how the roller enters"
         warnings.append(Notice("not-known", text))
+    clearances, notes = _clearances(mechanism, parts, use)
+    values |= {**clearances, "clearances.jam_share": drawn.jams}
+    return Study(dwell, motion, values, [*warnings, *notes])
+
+
+def _clearances(
+    mechanism: Mechanism, parts: Parts, use: dict[str, float]
+) -> tuple[dict[str, float | bool | None], list[Notice]]:
+    """The clearances that slot and lock have and need, and a warning unless they are enough."""
     turned, why = None, mechanism.no_turn or "there are no drawn parts to turn"
     try:
-        turned = parts.turned if spec.is_turned and not mechanism.no_turn else None
+        turned = parts.turned if mechanism.spec.is_turned and not mechanism.no_turn else None
     except GenevaError as error:
         why = str(error)
     slot_mm, lock_mm = needed_mm(mechanism, turned, use)
-    own = spec.size.allowances
+    own = mechanism.spec.size.allowances
     pairs = {"slot": (own.slot_clearance_mm, slot_mm), "lock": (own.lock_clearance_mm, lock_mm)}
     short = [
         f"{name}_clearance_mm must be at least {needed:.6g}"
         for name, (mm, needed) in pairs.items()
-        if turned and needed is not None and mm < needed * (1.0 - 1e-12)
+        if needed is not None and mm < needed * (1.0 - 1e-12)
     ]
-    if short or not turned:
-        text = f"not every machine turns: {' and '.join(short)}"
-        text = text if short else f"no turn was computed: {why}"
-        warnings.append(Notice("not-every-machine-turns", text))
-    values |= {
+    fault = ""
+    if not turned:
+        fault = f"no turn was computed: {why}"
+    elif short:
+        fault = f"not every machine turns: {' and '.join(short)}"
+    values = {
         "clearances.slot_mm": own.slot_clearance_mm,
         "clearances.slot_needed_mm": slot_mm,
         "clearances.lock_mm": None if lock_mm is None else own.lock_clearance_mm,
         "clearances.lock_needed_mm": lock_mm,
         "clearances.turns": not short if turned else None,
-        "clearances.jam_share": drawn.jams,
     }
-    return Study(dwell, motion, values, warnings)
+    return values, [Notice("not-every-machine-turns", fault)] if fault else []
 
 
 def tolerance_table(
