@@ -144,7 +144,6 @@ def _of_rounded_points(mechanism: Mechanism) -> Iterator[Notice]:
 def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
     """Warnings about a wheel that follows a law, and about its slots."""
     from geneva_cli.motion.pitch_curve import retraces
-    from geneva_cli.motion.undercut import undercut
 
     engagement, matched = mechanism.engagements[0], mechanism.matched_ratio
     if back := turns_back(mechanism):
@@ -174,7 +173,14 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
             f'the law "{law.NAME}" jumps from acceleration to deceleration: a soft shock at '
             "mid-motion",
         )
-    if engagement.slot.curved:
+    yield from _of_slots(mechanism)
+
+
+def _of_slots(mechanism: Mechanism) -> Iterator[Notice]:
+    """Warnings about slots whose walls are missing where they would drive the wheel."""
+    from geneva_cli.motion.undercut import undercut
+
+    if mechanism.engagements[0].slot.curved:
         from geneva_cli.loads.positive_drive import positive_drives
 
         driven = positive_drives(mechanism)
