@@ -145,14 +145,14 @@ def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
     """Warnings about a wheel that follows a law, and about its slots."""
     from geneva_cli.motion.pitch_curve import retraces
 
-    engagement, matched = mechanism.engagements[0], mechanism.matched_ratio
+    engagement = mechanism.engagements[0]
     if back := turns_back(mechanism):
         yield Notice(
             "turns-back",
             f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g}°; {law.TURNS_BACK}",
         )
     if engagement.slot.curved and not retraces(engagement):
-        helps = "no R/L avoids it with this law and motion angle"
+        matched, helps = mechanism.matched_ratio, "no R/L avoids it with this law and motion angle"
         if matched is not None:
             helps = f'ratio = "matched" (R/L = {matched:.6g}) avoids it'
         yield Notice(
