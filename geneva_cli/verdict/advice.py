@@ -32,7 +32,6 @@ TRIALS = 80  # machines that are built for all searches of a design
 PLACES = (1.0 / 12.0, 1.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 6.0)
 # Requirements on the machine's size, process and walls, which no advice reduces.
 REQUIRED = ("center_distance_mm", "crank_radius_mm", "face_width_mm", "process", "wall_min_mm")
-LARGER = "center_distance_mm*20"
 # The words of each check, the likeliest first. A word is a key, by default of [size], and what
 # becomes of its present value: key*2 is up to the double, key:5 towards 5, key+180 up to 180 more,
 # key=a,b one of these (an empty one leaves out the key), key? towards the default or anywhere.
@@ -174,7 +173,7 @@ def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     words += [f"{key}?" for key in own if key not in check.why]
     given = [key for key in REQUIRED[:2] if size[key]]
     for word in words:
-        if word == LARGER and given:
+        if given and word == _words()["LARGER"]:
             if len(given) > 1 or spec.limits.as_dict().get(check.name) is None:
                 continue
             word = word.replace(REQUIRED[0], given[0])
