@@ -91,6 +91,11 @@ def _form(curves: str) -> str:
     return CURVES[curves]
 
 
+def _with_chosen(size: Size, chosen: Mapping[str, Chosen]) -> Size:
+    """Sizes with chosen ones, which are by their keys with the table."""
+    return size.replace(**{key.partition(".")[2]: one.value for key, one in chosen.items()})
+
+
 class answer(cached_property[T]):
     """A result that is computed once; its errors are located at the spec's line."""
 
@@ -249,15 +254,15 @@ class Design:
         [0.5342, 0.6281]
         """
         spec, plan = self.spec, self.mechanism.plan
-        loaded = {}
+        loaded: Mapping[str, Chosen] = {}
         with suppress(GenevaError):  # sizes that leave no parts: the checks say why
-            loaded = {k.partition(".")[2]: c.value for k, c in self.chosen_by_load.sizes.items()}
+            loaded = self.chosen_by_load.sizes
         turned = spec.replace(
             wheel=spec.wheel.backwards,
             drive=spec.drive.backwards(plan),
             drive_before=spec.drive_before and spec.drive_before.backwards(plan),
             motion=spec.motion and spec.motion.backwards,
-            size=spec.size.replace(**loaded),
+            size=_with_chosen(spec.size, loaded),
             title=", ".join(text for text in (spec.title, "backwards") if text),
         )
         design = Design.of(turned, self._text)
@@ -301,8 +306,7 @@ class Design:
         >>> fast.spec.size.pin_mm
         5.0
         """
-        values = {key.partition(".")[2]: one.value for key, one in self.chosen.items()}
-        return Design.of(self.spec.replace(size=self.spec.size.replace(**values)))
+        return Design.of(self.spec.replace(size=_with_chosen(self.spec.size, self.chosen)))
 
     @answer
     def chosen_by_load(self) -> ByLoad:
