@@ -23,7 +23,7 @@ from geneva_cli.numerics.tolerances import ROUNDED
 def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
     """Warnings about a loaded machine: loads without a bound, a wheel that drives or lags."""
     cycle = cycle_of(mechanism)
-    return [*_unbounded(cycle), *_driven(cycle)]
+    return [*_unbounded(cycle), *_driven(cycle), *_unbalanced(cycle)]
 
 
 def _unbounded(cycle: Cycle) -> Iterator[Notice]:
@@ -52,8 +52,8 @@ def _unbounded(cycle: Cycle) -> Iterator[Notice]:
 
 
 def _driven(cycle: Cycle) -> Iterator[Notice]:
-    """Warnings about a wheel that drives the motor or lags, and bodies that its shaft holds."""
-    mechanism, spec, sums = cycle.mechanism, cycle.mechanism.spec, summaries(cycle)
+    """Warnings about a wheel that drives the motor, or lags behind its roller."""
+    mechanism, sums = cycle.mechanism, summaries(cycle)
     torque, noun, stop = sums["input_torque_Nm"], mechanism.output.noun, arrival(mechanism)
     # a torque without a bound is no measure of the rounding of another
     largest = sums["wheel_torque_Nm"].max if torque.max is None else torque.max
@@ -91,11 +91,15 @@ def _driven(cycle: Cycle) -> Iterator[Notice]:
             f"and the roller strikes it at {struck:.4g}°. Less torque, more inertia or more "
             "speed reduces the lag",
         )
+
+
+def _unbalanced(cycle: Cycle) -> Iterator[Notice]:
+    """A warning about single bodies off the wheel's axis, whose force its shaft bears."""
+    spec, bearing = cycle.mechanism.spec, summaries(cycle)["wheel_bearing_N"].max
     bodies = [one for one in spec.mass if one.to_one_side]
-    bearing = sums["wheel_bearing_N"].max
     # on a carrier the loads count that force; behind gears another shaft bears it
     if bodies and bearing is not None and not cycle.case.frame and spec.support.gear_ratio == 1.0:
-        peaks = worst(mechanism)
+        peaks = worst(cycle.mechanism)
         # at most: the peaks need not coincide, nor the bodies stand on one side
         most = math.hypot(peaks.velocity.max**2, peaks.acceleration.max)
         off_kgm = sum(weight_kg(one) * one.radius_mm * 1e-3 for one in bodies)
