@@ -254,9 +254,14 @@ def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
 
 
+def flat_radius(inner: float, outer: float) -> float:
+    """Return the radius of the widest flat face in a shell."""
+    return math.sqrt((outer - inner) * (outer + inner))
+
+
 def refuse_wide(key: str, radius: float, inner: float, outer: float) -> None:
     """Raise GenevaError for a hub with flat faces that is too wide for its curved shell."""
-    flat = math.sqrt((outer - inner) * (outer + inner))
+    flat = flat_radius(inner, outer)
     if radius >= flat:
         raise GenevaError(
             f"{key} = {2.0 * radius:g}: a hub with flat faces this wide misses its shell, which "
