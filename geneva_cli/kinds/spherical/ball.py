@@ -95,6 +95,11 @@ class Ball(NamedTuple):
         return self.axes - self.recess if self.recess else self.rim
 
     @property
+    def horn(self) -> float:
+        """The wall between a slot and a recess, as an angle."""
+        return self.arm - self.half_width - self.recess
+
+    @property
     def corner(self) -> float:
         """The azimuth of the slot's corner at the rim, from the slot's middle."""
         return math.asin(math.sin(self.half_width) / math.sin(self.rim))
