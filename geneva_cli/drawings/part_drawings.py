@@ -168,8 +168,7 @@ def machine(parts: FlatParts) -> Drawing:
     assembly, title = parts.outlines.assembly, titled(parts.mechanism)
     drawn = [shape for one in (parts.wheel, *parts.orbiting) for shape in _seen(one)]
     for one in parts.about_wheel(parts.crank_without_arm):
-        seen = _seen(one)
-        drawn += seen
+        drawn += _seen(one)
         if parts.arm:
             drawn.append(placed(parts.arm.outline, one.at, one.turn))
             if parts.arm.bore not in outlines_of(one.part):

@@ -70,6 +70,12 @@ def _module(name: str) -> Any:
     return importlib.import_module(f"geneva_cli.output.{name}")
 
 
+def _function(name: str) -> Any:
+    from geneva_cli.spec.load_named import load_named
+
+    return load_named(f"output.{name}")
+
+
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
     """Print the table, or write it to the file ``output``."""
     name = table_as(output, format)
@@ -133,8 +139,7 @@ def draw(
     name = drawn_as(output, format)
     own = _of_dxf(name, version)
     refuse_columns()
-    module, function = DRAWN[name].split(":")
-    _put(getattr(_module(module), function)(drawing, *own), output, inputs, name)
+    _put(_function(DRAWN[name])(drawing, *own), output, inputs, name)
 
 
 def draw_sheet(
@@ -162,12 +167,7 @@ def show_figure(
         show(figure.table(), output, name, inputs)
         return
     refuse_columns()
-    if name == "png":
-        from geneva_cli.output.plot.plot_svg import png_bytes
-
-        _put((png_bytes(figure) for _ in range(1)), output, inputs, name)
-        return
-    _put(_module(f"plot.plot_{name}").chunks(figure), output, inputs, name)
+    _put(_function(f"plot.{PLOTTED[name]}")(figure), output, inputs, name)
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:

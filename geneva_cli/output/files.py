@@ -150,8 +150,7 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
                 if stat.S_ISREG(os.lstat(stale).st_mode):
                     remove(file, stale)
     number = os.getpid()
-    temporary = os.path.join(folder, TEMPORARY)
-    while os.path.lexists(own := temporary.format(name=name, number=number)):
+    while os.path.lexists(own := os.path.join(folder, TEMPORARY.format(name=name, number=number))):
         number += 1  # another run's file, which must not be touched
     with stopping_cleanly():
         try:

@@ -89,26 +89,31 @@ def filling_folder(
                 f"{few(others[0], others)}; --force replaces them, or give -o another folder"
             )
 
-    with write_errors(path), stopping_cleanly():
-        is_new = not os.path.isdir(real)
-        if is_new:
-            os.mkdir(real)
+    with write_errors(path), stopping_cleanly(), _made(real), folder_locked(real, says):
+        require_own()  # before the work
+        shutil.rmtree(filling.new, ignore_errors=True)
         try:
-            with folder_locked(real, says):
-                require_own()  # before the work
-                shutil.rmtree(filling.new, ignore_errors=True)
-                try:
-                    os.mkdir(filling.new)
-                    yield filling
-                    require_own()  # a person may have changed a file meanwhile
-                    with holding_signals():
-                        filling.kept.extend(_replace(real, filling.new, entries))
-                finally:
-                    shutil.rmtree(filling.new, ignore_errors=True)
+            os.mkdir(filling.new)
+            yield filling
+            require_own()  # a person may have changed a file meanwhile
+            with holding_signals():
+                filling.kept.extend(_replace(real, filling.new, entries))
         finally:
-            if is_new:
-                with suppress(OSError):  # it has files now
-                    os.rmdir(real)
+            shutil.rmtree(filling.new, ignore_errors=True)
+
+
+@contextmanager
+def _made(real: str) -> Iterator[None]:
+    """Make a folder that is missing; it is removed after the block if nothing was written."""
+    is_new = not os.path.isdir(real)
+    if is_new:
+        os.mkdir(real)
+    try:
+        yield
+    finally:
+        if is_new:
+            with suppress(OSError):  # it has files now
+                os.rmdir(real)
 
 
 def _replace(real: str, new: str, entries: list[Row]) -> list[str]:

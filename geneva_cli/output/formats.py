@@ -18,7 +18,8 @@ CONTROLLERS = ("polynomial", "codesys")  # what reads a cam
 PICTURES = ("png", "pdf")  # for figures only
 # for documents; the other formats of tables get their values
 DOCUMENTS = {"html": "html", "pdf": "document_pdf", "md": "document_markdown"}
-PLOTTED = ("svg", *PICTURES)  # for figures; the others get their points
+# for figures; the others get their points
+PLOTTED = {"svg": "plot_svg:chunks", "png": "plot_svg:png_chunks", "pdf": "plot_pdf:chunks"}
 EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
 EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}
 # versions that ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and all read it

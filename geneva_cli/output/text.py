@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from geneva_cli.errors import clean
@@ -82,7 +82,7 @@ def without_noise(block: list[tuple[Any, ...]]) -> Iterator[list[Any]]:
         ]
 
 
-def _line(texts: Any, widths: list[int], left: list[bool]) -> str:
+def _line(texts: Sequence[str], widths: list[int], left: list[bool]) -> str:
     cells = [
         t.ljust(w) if is_left else t.rjust(w)
         for t, w, is_left in zip(texts, widths, left, strict=True)

@@ -72,6 +72,12 @@ def test_symlink_stays_a_link():
 
 @posix("/proc")
 @pytest.mark.long
+def test_folder_with_braces():
+    os.mkdir("{a}{")
+    assert geneva(*SHORT, "-o", "{a}{/peaks.json").returncode == 0
+    assert os.listdir("{a}{") == ["peaks.json"]
+
+
 def test_folder_missing():
     clean_failure(geneva(*SHORT, "-o", "gone/peaks.csv"), "gone", "No such file", "make the folder")
     clean_failure(geneva(*SHORT, "-o", "/proc/peaks.csv"), "the folder /proc takes no files")

@@ -223,7 +223,7 @@ def test_a_dot_of_a_png(draws, across, monkeypatch):
     monkeypatch.setattr(plot_svg, "blocks", lambda figure: [Dots(draws)])
     panel = Panel(Axis("velocity", "Velocity"), (Curve(1, "one", (([0.0], [0.0]),)),))
     figure = Figure("", Axis("x", "x"), (panel,), (0.0, 1.0), ())
-    pixels = imread(io.BytesIO(plot_svg.png_bytes(figure)))[..., :3]
+    pixels = imread(io.BytesIO(b"".join(plot_svg.png_chunks(figure))))[..., :3]
     ink = np.array(to_rgb(colour(1, LIGHT)))
     share = (1.0 - pixels).sum(axis=2) / (1.0 - ink).sum()  # of a pixel that the dot covers
     scale = plot_svg.WIDE / PAGE  # pixels of a px
@@ -235,13 +235,8 @@ def test_a_dot_of_a_png(draws, across, monkeypatch):
 def test_letters_of_a_png_are_drawn():
     """By the font of the extra, whatever fonts the machine has: a wider text has more ink."""
     panel = Panel(Axis("velocity", "Velocity"), (Curve(1, "one", (([0.0], [0.0]),)),))
-    titles = ("", "W", "WWWW")
-    drawn = [
-        imread(
-            io.BytesIO(plot_svg.png_bytes(Figure(title, Axis("x", "x"), (panel,), (0.0, 1.0), ())))
-        )
-        for title in titles
-    ]
+    figures = [Figure(t, Axis("x", "x"), (panel,), (0.0, 1.0), ()) for t in ("", "W", "WWWW")]
+    drawn = [imread(io.BytesIO(b"".join(plot_svg.png_chunks(one)))) for one in figures]
     none, one, four = ((1.0 - pixels[:, :, :3]).sum() for pixels in drawn)
     assert four - none == pytest.approx(4.0 * (one - none), rel=0.02) and one > none + 100.0
 

@@ -218,10 +218,11 @@ def _draw_section(view: View, cut: list[Face], axes: Iterable[float]) -> None:
     }
     low, high = min(f.plate.low for f in cut), max(f.plate.high for f in cut)
     for face in cut:
-        low_, high_ = face.plate.low, face.plate.high
-        view.draw(rectangle("", face.left, low_, face.right, high_), OUTLINE)
-        if face.plate.layer not in ("SHAFT", "ROLLER"):
-            _hatch(view, face, numbers[face.plate])
+        plate = face.plate
+        corners = face.left, plate.low, face.right, plate.high
+        view.draw(rectangle("", *corners), OUTLINE)
+        if plate.layer not in ("SHAFT", "ROLLER"):
+            _hatch(view, face, numbers[plate])
     for x in axes:
         view.centre_line((x, low), (x, high))
     left = min(face.left for face in cut)

@@ -84,6 +84,7 @@ def on_paper(
     greatest length that is drawn, mm. ``area``, mm², is the least area that some of it needs.
     Raises GenevaError where no scale fits.
     """
+    items = _items(rows)
     for scale in SCALES:
         _, wide, high = FORMATS[-1]
         most = 170.0 if scale > 1.0 else wide  # mm: an enlarged part is no wider than a hand
@@ -100,22 +101,24 @@ def on_paper(
                     continue
                 right = paper.width - MARGIN
                 corner = _title_block(spec, rows, scale, paper).moved(right - TITLE_WIDTH, MARGIN)
-                items = _items(rows)
                 fixed = [corner, items.moved(right - items.width, corner.y1)]
                 placed = packed(every, fixed, inside)
-                if placed is None:
-                    continue
-                whole = [*fixed, *placed]
-                return Sheet(
-                    spec.title or spec.wheel.title,
-                    paper.width,
-                    paper.height,
-                    scale,
-                    (*_frame(paper), *(s for b in whole for s in b.shapes)),
-                    tuple(label for b in whole for label in b.labels),
-                    tuple(m for b in whole for m in b.measures),
-                )
+                if placed is not None:
+                    return _composed(spec, paper, scale, [*fixed, *placed])
     raise GenevaError("--part sheet: the parts and their tables do not fit on one A1 sheet")
+
+
+def _composed(spec: Spec, paper: PaperSize, scale: float, blocks: list[Block]) -> Sheet:
+    """Return the sheet with blocks at their places."""
+    return Sheet(
+        spec.title or spec.wheel.title,
+        paper.width,
+        paper.height,
+        scale,
+        (*_frame(paper), *(shape for block in blocks for shape in block.shapes)),
+        tuple(label for block in blocks for label in block.labels),
+        tuple(measure for block in blocks for measure in block.measures),
+    )
 
 
 def _frame(paper: PaperSize) -> list[Shape]:

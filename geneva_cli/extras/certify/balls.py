@@ -14,10 +14,9 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from fractions import Fraction
 from typing import ClassVar, NoReturn, Self, cast
 
-from flint import arb, ctx, fmpq
+from flint import arb, ctx
 
 from geneva_cli.numerics.arrays import Enclosed, Library, Number, Undecided
 
@@ -55,11 +54,6 @@ class Ball(Enclosed):
     def exact(cls, x: float) -> Self:
         """The ball of one double."""
         return cls(arb(x))
-
-    @classmethod
-    def fraction(cls, x: Fraction) -> Ball:
-        """The ball of a fraction, as narrow as the precision."""
-        return cls(arb(fmpq(x.numerator, x.denominator)))
 
     @classmethod
     def between(cls, a: float, b: float) -> Ball:

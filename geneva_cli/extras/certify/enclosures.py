@@ -172,8 +172,11 @@ class _Search:
 
     def _sized(self, a: float, b: float) -> BoundedSpan:
         """A short interval, or one angle, with its bound; raises ``low`` to what is reached."""
-        on = self._on(a, b) if a < b else None
-        value = self._values(Ball.exact(a), 0)[0] if a == b else on.value if on else NOWHERE
+        if a == b:
+            value = self._values(Ball.exact(a), 0)[0]
+        else:
+            on = self._on(a, b)
+            value = on.value if on else NOWHERE
         low, high = value.sizes()
         self.low = max(self.low, low)
         return BoundedSpan(a, b, high)

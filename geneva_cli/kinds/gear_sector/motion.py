@@ -76,11 +76,8 @@ class GearSector(PinPath, kw_only=True):
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """Both toothed sectors; the rollers are on the crank's arm."""
-        L, still, half_step = (
-            plan.center_distance_mm,
-            0.0 * input_deg,
-            plan.engagements[0].half_step,
-        )
+        L, half_step = plan.center_distance_mm, plan.engagements[0].half_step
+        still = 0.0 * input_deg
         _, u = self._solved(half_step)
         teeth = Teeth(round(math.pi / half_step), u * self.sector_deg)
         gears = (

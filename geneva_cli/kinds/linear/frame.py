@@ -59,7 +59,8 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
 def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     """Return the shafts and the frame, with holes for them and guide's screws."""
     size, sizes, heights = mechanism.spec.size, rack_sizes(mechanism), rack_frame(mechanism)
-    L, axis, radius = 2.0 * sizes.arm, mechanism.crank_shaft.at, rack_bore(mechanism)  # z = 6
+    axis, radius = mechanism.crank_shaft.at, rack_bore(mechanism)
+    L = 2.0 * sizes.arm  # as a wheel of 6 slots has it
     own: list[Shaft] = []
     if radius:  # the crank's shaft, up to the arm's upper face
         low, high = shaft_ends(size, "crank", heights.plain, heights.stands)
@@ -76,9 +77,9 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     rows = zip(("guide rail", "guide wall"), _screws(sizes), strict=True)
     screwed = tuple((hole, name) for name, row in rows for hole in row)
     within = [*bored, *(tapped(hole) for hole, _ in screwed)]
-    holes, screwed = [one for one in within if one.radius], screwed if _bolt(sizes) else ()
+    holes = [one for one in within if one.radius]
     frame = mounted_plate(holes, within, corner_radius(size, L), (heights.plain, heights.top))
-    return FrameAndShafts(frame, axles, screwed=screwed)
+    return FrameAndShafts(frame, axles, screwed=screwed if _bolt(sizes) else ())
 
 
 def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:

@@ -87,10 +87,9 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             "half the distance of the slots",
             ("size", "roller_radius_mm"),
         )
+    relief, lock = value_or(size.relief_clearance_mm, arm / 200.0), size.lock_radius_mm
     # the locking sector must be wider than its inner radius
-    relief, limit = value_or(size.relief_clearance_mm, arm / 200.0), arm - w
-    limit, lock = limit - allowed.lock_clearance_mm, size.lock_radius_mm
-    least = 0.5 * (arm + relief)
+    least, limit = 0.5 * (arm + relief), arm - w - allowed.lock_clearance_mm
     if lock != 0.0 and limit <= least:
         raise GenevaError(
             f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm, "

@@ -252,10 +252,9 @@ class Costs(NamedTuple):
     def of(self, name: str) -> Array:
         """A quantity for which ``is_known`` is true, (n,)."""
         group, _, quantity = name.partition(".")
-        n_rpm = np.array([self.target.n_rpm(1, float(x)) for x in self.motion_deg])
         if group == "timing":
             dwell = 360.0 - self.motion_deg
-            times = timing(self.motion_deg, dwell, self.index_deg, n_rpm)  # type: ignore[arg-type]
+            times = timing(self.motion_deg, dwell, self.index_deg, self._n_rpm())  # type: ignore[arg-type]
             return np.broadcast_to(times._asdict()[quantity], self.motion_deg.shape)
         value = self.derivatives[ORDERS[group]]
         if group == "power":
@@ -263,8 +262,12 @@ class Costs(NamedTuple):
         end = _end(quantity)
         size = top(np.abs(value)) if end is None else np.abs(value[:, end])
         if quantity in SPEED_POWERS:
-            size = size * (n_rpm * (math.pi / 30.0)) ** SPEED_POWERS[quantity]
+            size = size * (self._n_rpm() * (math.pi / 30.0)) ** SPEED_POWERS[quantity]
         return size
+
+    def _n_rpm(self) -> Array:
+        """The input's speed, (n,), which a quantity without a time does not need."""
+        return np.array([self.target.n_rpm(1, float(x)) for x in self.motion_deg])
 
     def broken(self, bounds: tuple[Constraint, ...]) -> Array:
         """The sum of the relative violations of the bounds, (n,)."""

@@ -120,7 +120,8 @@ def _with(path: LinkPath, samples: Samples, i: Whole, middle: Array) -> Samples:
 def _bends(phi: Array, at: Complex) -> Mask:
     """True where the rates at two samples do not predict the turn between them."""
     turned = np.angle(at[1, 1:] * at[1, :-1].conj())
-    half, left, right = 0.5 * np.diff(phi), turning_rate(at)[:-1], turning_rate(at)[1:]
+    half, rate = 0.5 * np.diff(phi), turning_rate(at)
+    left, right = rate[:-1], rate[1:]
     # radians; an arc turns by less than a pair for three slots does, which is pi/3
     wrong = (np.abs(turned - half * (left + right)) > 0.05) | (np.abs(turned) > 1.0)
     # the tangent may turn back and forth

@@ -12,6 +12,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.rollers import places
 from geneva_cli.parts.machine_sizes import lock_between, refuse_edges, require_lock_between
@@ -95,6 +96,11 @@ class Ball(NamedTuple):
         return self.axes - self.recess if self.recess else self.rim
 
     @property
+    def horn(self) -> float:
+        """The wall between a slot and a recess, as an angle."""
+        return self.arm - self.half_width - self.recess
+
+    @property
     def corner(self) -> float:
         """The azimuth of the slot's corner at the rim, from the slot's middle."""
         return math.asin(math.sin(self.half_width) / math.sin(self.rim))
@@ -133,15 +139,7 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     """Return the sizes without a load, for a thickness of the wheel, or else its default."""
     spec, L, radius_mm = mechanism.spec, mechanism.center_distance_mm, mechanism.roller_radius_mm
     size, z, allowed = spec.size, spec.wheel.z, spec.size.allowances
-    if z > Z_DRAWN:
-        raise GenevaError(f"z = {z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z"))
-    for key in ("crank_bore_mm", "crank_hub_mm", "crank_hub_length_mm", "dial_bolts"):
-        if vars(size)[key]:
-            raise GenevaError(
-                f"{key}: a sphere's crank has its bore and hub in the arm (arm_bore_mm, "
-                f"arm_hub_mm), and its wheel no dial; remove {key}",
-                ("size", key),
-            )
+    _refuse_undrawn(spec)
     first, *others = places(spec.wheel, spec.drive, spec.given_distance_mm)
     arm = math.atan2(first.ratio, first.cone)
     engagement = mechanism.engagements[0]
@@ -175,22 +173,9 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     pin = pin_radius(size, radius_mm)
     refuse_wide_pin(size, pin, inside * math.sin(roller))
     refuse_edges(size, min(thick.wheel, thick.lock, thick.arm))
-    # the locking sectors' edge, between the wheel's rim and the rollers
+    # the locking sectors' edge is between the wheel's rim and the rollers
     limit, least = arm - w - allowed.lock_clearance_mm / L, abs(deepest + arm - rim)
-    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
-    lock_mm = size.lock_radius_mm
-    if not spec.has_lock:
-        lock_mm = 0.0
-    elif limit <= least:
-        raise PartDoesNotFit(
-            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
-            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
-            ("size", "lock_radius_mm"),
-        )
-    elif lock_mm is None:
-        lock_mm = L * math.sin(lock_between(least, limit, roller))
-    else:
-        require_lock_between(lock_mm, low, high)
+    lock_mm = _lock_mm(spec, L, least, limit, roller) if spec.has_lock else 0.0
     lock = math.asin(lock_mm / L)
     even = [360.0 * i / spec.drive.rollers for i in range(spec.drive.rollers)]
     turns = [first.crank_deg, *(p.crank_deg for p in others)] if others else even
@@ -221,17 +206,7 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
         pin_mm=pin,
         arm_bore_mm=bored,
     )
-    end = ball.slot_end_mm
-    bore = wheel_bore(spec, end, wall_min(size, L), L)
-    hub = hub_about(size, L, bore, end)
-    for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
-        if radius >= end:
-            raise GenevaError(
-                f"{key} = {2.0 * radius:g}: the slots reach this diameter; it must be below "
-                f"{2.0 * end:.6g}, or the roller smaller",
-                ("size", key),
-            )
-    ball = ball._replace(bore_mm=bore, hub_mm=hub)
+    ball = _with_axle(spec, ball)
     if ball.inner <= 0.0:
         raise PartDoesNotFit(
             "the wheel's middle is not open: the slots end within a roller's width of its axis; "
@@ -247,6 +222,55 @@ def usual_ball(mechanism: Mechanism, thickness_mm: float | None) -> Ball:
     return ball
 
 
+def _refuse_undrawn(spec: Spec) -> None:
+    """Raise GenevaError for too many slots, and for keys of parts that a sphere does not have."""
+    if spec.wheel.z > Z_DRAWN:
+        raise GenevaError(
+            f"z = {spec.wheel.z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z")
+        )
+    for key in ("crank_bore_mm", "crank_hub_mm", "crank_hub_length_mm", "dial_bolts"):
+        if vars(spec.size)[key]:
+            raise GenevaError(
+                f"{key}: a sphere's crank has its bore and hub in the arm (arm_bore_mm, "
+                f"arm_hub_mm), and its wheel no dial; remove {key}",
+                ("size", key),
+            )
+
+
+def _lock_mm(spec: Spec, L: float, least: float, limit: float, roller: float) -> float:
+    """Return the distance of the locking sectors' edge from the crank's axis, between two angles.
+
+    Raises GenevaError, naming the key, where there is none.
+    """
+    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
+    if limit <= least:
+        raise PartDoesNotFit(
+            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
+            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
+            ("size", "lock_radius_mm"),
+        )
+    own = spec.size.lock_radius_mm
+    if own is None:
+        return L * math.sin(lock_between(least, limit, roller))
+    require_lock_between(own, low, high)
+    return own
+
+
+def _with_axle(spec: Spec, ball: Ball) -> Ball:
+    """Return the sizes with the wheel's bore and hub. Raises GenevaError where one cuts slots."""
+    L, end = ball.radius_mm, ball.slot_end_mm
+    bore = wheel_bore(spec, end, wall_min(spec.size, L), L)
+    hub = hub_about(spec.size, L, bore, end)
+    for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
+        if radius >= end:
+            raise GenevaError(
+                f"{key} = {2.0 * radius:g}: the slots reach this diameter; it must be below "
+                f"{2.0 * end:.6g}, or the roller smaller",
+                ("size", key),
+            )
+    return ball._replace(bore_mm=bore, hub_mm=hub)
+
+
 def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends."""
     wall = wall_min(size, L)
@@ -254,9 +278,14 @@ def hub_about(size: Size, L: float, bore: float, end: float) -> float:
     return bore if size.wheel_hub_mm is None and hub < bored + wall else hub
 
 
+def flat_radius(inner: float, outer: float) -> float:
+    """Return the radius of the widest flat face in a shell."""
+    return math.sqrt((outer - inner) * (outer + inner))
+
+
 def refuse_wide(key: str, radius: float, inner: float, outer: float) -> None:
     """Raise GenevaError for a hub with flat faces that is too wide for its curved shell."""
-    flat = math.sqrt((outer - inner) * (outer + inner))
+    flat = flat_radius(inner, outer)
     if radius >= flat:
         raise GenevaError(
             f"{key} = {2.0 * radius:g}: a hub with flat faces this wide misses its shell, which "

@@ -155,13 +155,13 @@ def crank_cone(ball: Ball) -> Cone:
 
 def wheel(parts: SphereParts) -> Drawing:
     """Return the wheel's cone, cut open between two slots; x is along the first slot."""
-    title = _titled(parts, "wheel", wheel_cone(parts.ball), "wheel")
+    title = _titled(parts, "wheel", wheel_cone(parts.ball))
     return _drawing(parts, title, wheel_flat(parts), parts.wheel.part)
 
 
 def crank(parts: SphereParts) -> Drawing:
     """Return the crank's cone: locking sectors, and the rollers where they pass through it."""
-    title = _titled(parts, "crank", crank_cone(parts.ball), "crank")
+    title = _titled(parts, "crank", crank_cone(parts.ball))
     return _drawing(parts, title, crank_flat(parts), parts.crank.part)
 
 
@@ -176,14 +176,14 @@ def assembly(parts: SphereParts) -> Drawing:
     return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations())
 
 
-def _titled(parts: SphereParts, name: str, cone: Cone, whose: str) -> str:
-    """Return a title with the cone's shape and position for the workshop."""
+def _titled(parts: SphereParts, name: str, cone: Cone) -> str:
+    """Return a part's title with the cone's shape and position for the workshop."""
     sphere = f"the {length(cone.radius_mm)} mm sphere"
-    at = f"touches {sphere} {math.degrees(cone.polar):.6g} deg from the {whose}'s axis"
-    text = f"cone that {at}, {length(abs(cone.apex_mm))} mm from its apex; sector "
-    text += f"{cone.sector_deg:.6g} deg"
-    if abs(math.cos(cone.polar)) < SAME_ANGLE:
-        text = f"cylinder that {at}"
+    at = f"touches {sphere} {math.degrees(cone.polar):.6g} deg from the {name}'s axis"
+    text = f"cylinder that {at}"
+    if abs(math.cos(cone.polar)) >= SAME_ANGLE:
+        text = f"cone that {at}, {length(abs(cone.apex_mm))} mm from its apex; sector "
+        text += f"{cone.sector_deg:.6g} deg"
     return titled(parts.mechanism, f"{name}, flat: {text}")
 
 

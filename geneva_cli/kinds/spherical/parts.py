@@ -80,7 +80,7 @@ class SphereParts(Parts):
             half_width=L * ball.half_width,
             rim=L * math.sin(ball.rim),
             arm=L * math.sin(ball.arm),
-            horn=L * (ball.arm - ball.half_width - ball.recess),
+            horn=L * ball.horn,
             wall_min=wall_min(self.mechanism.spec.size, L),
         )
         return Shells(assembly, ball, lengths, locks, BallGaps(assembly, ball, locks))

@@ -22,8 +22,7 @@ def ball_roller(mechanism: Mechanism) -> tuple[float, str]:
         except GenevaError as error:
             why = LOCK if error.key == ("size", "lock_radius_mm") else SIZES
             continue
-        horn = (shells.arm - shells.half_width - shells.recess) * L
-        why = LOCK if shells.lock and horn < least else ""
+        why = LOCK if shells.lock and shells.horn * L < least else ""
         if not why:
             return math.nan if given or r == 0.01 * USUAL[0] * L else r, ""
     return math.nan, why

@@ -12,7 +12,7 @@ from itertools import takewhile
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.sphere import Region
-from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, hub_about, usual_ball
+from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, flat_radius, hub_about, usual_ball
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.loads.strength.arm_and_key import NO_ARM, ArmDimensions
@@ -182,7 +182,7 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
         return shaft and key_holds(spec, parts.wheel_key, single_loads(mechanism).wheel_Nm)
 
     # a hub with flat faces stays in its shell, a hundredth short of the outer sphere
-    widest = min(end - wall_min(size, L), 0.99 * _flat(*ball.span_mm))
+    widest = min(end - wall_min(size, L), 0.99 * flat_radius(*ball.span_mm))
     most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
     each = (
         ball._replace(bore_mm=0.5 * d, hub_mm=hub_about(size, L, 0.5 * d, end))
@@ -213,7 +213,7 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
         hole = math.asin(min(1.0, hole_radius(size, trial.pin_mm) / under))
         to_pins = under * math.sin(max(0.0, trial.arm - hole - wall / under))
         passing = trial.arm + trial.passing_mm(trial.opening_mm) / trial.radius_mm
-        within = bored + wall <= hub <= min(to_pins, 0.99 * _flat(under, over))
+        within = bored + wall <= hub <= min(to_pins, 0.99 * flat_radius(under, over))
         return within and trial.cap(hub, bored, wall) <= passing
 
     def holds(trial: Ball) -> bool:
@@ -225,11 +225,6 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
 
     each = (ball._replace(arm_bore_mm=0.5 * d) for d in bores_from(2.0 * ball.arm_bore_mm, over))
     return first_that(takewhile(fits, each), holds)
-
-
-def _flat(inner: float, outer: float) -> float:
-    """Return the radius of the widest flat face in a shell."""
-    return math.sqrt((outer - inner) * (outer + inner))
 
 
 @lru_cache(maxsize=64)

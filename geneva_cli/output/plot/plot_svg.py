@@ -55,8 +55,8 @@ def chunks(figure: Figure) -> Iterator[str]:
     yield "</svg>\n"
 
 
-def png_bytes(figure: Figure) -> bytes:
-    """Return a picture's bytes, equal on every machine.
+def png_chunks(figure: Figure) -> Iterator[bytes]:
+    """Yield a picture's bytes, equal on every machine.
 
     Raises GenevaError if resvg or the font is not installed.
     """
@@ -68,7 +68,7 @@ def png_bytes(figure: Figure) -> bytes:
             "png needs resvg-py and a font, which are not installed: pip install "
             "'geneva-cli[plot]', or write an .svg or a .pdf"
         ) from None
-    return svg_to_bytes(
+    yield svg_to_bytes(
         "".join(chunks(figure)),
         zoom=WIDE / PAGE,
         skip_system_fonts=True,  # a picture does not depend on the machine

@@ -33,23 +33,25 @@ RULE = re.compile(r"\|[-:| ]+")  # the line below the headings of a table
 def chunks(text: str, window: Window) -> Iterator[str]:
     """The page, line by line."""
     block: list[str] = []
-    for line in [*text.splitlines(), None]:
+    for line in text.splitlines():
         first = block[0] if block else ""
-        if first.startswith(FENCE) and line is not None:
+        if first.startswith(FENCE):
             if line.startswith(FENCE):
                 yield from _shown(block, window)
                 block = []
             else:
                 block.append(line)
             continue
-        is_row = line and line.startswith("|") and first.startswith("|")
+        is_row = line.startswith("|") and first.startswith("|")
         if block and not is_row and (not line or START.match(line) or first.startswith("#")):
             yield from _shown(block, window)
             block = []
         if line:
             block.append(line)
-        elif line is not None:
+        else:
             yield "\n"
+    if block:
+        yield from _shown(block, window)
 
 
 def _shown(block: list[str], window: Window) -> Iterator[str]:
