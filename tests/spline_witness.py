@@ -16,25 +16,18 @@ def powers(x, knots, k):
 
 
 class Spline:
-    """Through points (x, y), mpf; at rest at both ends, or periodic (the last y is the first's)."""
+    """Through points (x, y), mpf; at rest at both ends."""
 
-    def __init__(self, x, y, period):
-        self.x, self.y, self.period = list(x), list(y), period
+    def __init__(self, x, y):
+        self.x, self.y = list(x), list(y)
         inner = self.x[1:-1]
         rows = [powers(v, inner, 0) for v in self.x]
         first, last = self.x[0], self.x[-1]
-        if period:
-            starts = [(powers(first, inner, k), powers(last, inner, k)) for k in range(1, 5)]
-            rows += [[b - a for a, b in zip(*pair, strict=True)] for pair in starts]
-        else:
-            rows += [powers(v, inner, k) for v in (first, last) for k in (1, 2)]
+        rows += [powers(v, inner, k) for v in (first, last) for k in (1, 2)]
         inverse = mp.inverse(mp.matrix(rows))
         n = len(self.x)
         # of each point's unit spline, the coefficients of each piece about its left knot
         self.unit = [self._pieces([inverse[j, i] for j in range(n + 4)]) for i in range(n)]
-        if period:
-            self.unit[0] = self._sum([(1, self.unit[0]), (1, self.unit.pop())])
-            self.y.pop()
 
     def _pieces(self, c):
         out = []

@@ -65,9 +65,9 @@ class Epicyclic(PinPath, kw_only=True):
         teeth = 2 * wheel.z // (wheel.z - 2)
         c = 1.0 + teeth if self.fixed == "sun" else 1.0 - teeth
         l, cos_b = step.sin_cos
-        rp = l / (c * c - 1.0) if isinstance(self.planet_ratio, str) else self.planet_ratio
-        # the wheel would start backwards, or the roller leave its slot
+        # beyond these the wheel would start backwards, or the roller leave its slot
         most, least = l / (c * c - 1.0), -l / choose(c > 0.0, 1.0 + c, teeth)
+        rp = most if isinstance(self.planet_ratio, str) else self.planet_ratio
         text = "planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot: "
         text += "it must be above {least:.6g} and at most {most:.6g} (shockless)"
         key, outside = ("drive", "planet_ratio"), (rp <= least) | (rp > most)

@@ -75,12 +75,8 @@ def of_transmission(spec: Spec) -> Iterator[Conflict]:
 def of_crank(spec: Spec) -> Iterator[Conflict]:
     """Rules of a plain crank, or of several about one wheel."""
     yield from of_transmission(spec)
-    drive, wheel, places, steps = (
-        spec.drive,
-        spec.wheel,
-        spec.drive.cranks,
-        ("drive", "crank_steps"),
-    )
+    drive, wheel, steps = spec.drive, spec.wheel, ("drive", "crank_steps")
+    places = drive.cranks
     several = len(places) > 1
     text = "crank_steps needs an external wheel, which has cranks around it, not gearing = "
     text += '"{spec.wheel.NAME}": remove crank_steps'
@@ -88,8 +84,8 @@ def of_crank(spec: Spec) -> Iterator[Conflict]:
     yield Conflict(several and not able, steps, text)
     text = "crank_steps must begin with 0 and hold different whole numbers below z = "
     text += "{spec.wheel.z}: one for each crank"
-    whole = [place for place in places if place == int(place)]
-    wrong = whole != [*places] or places[0] != 0.0 or len({*places}) < len(places)
+    broken = [*map(int, places)] != [*places]
+    wrong = broken or places[0] != 0.0 or len({*places}) < len(places)
     yield Conflict(wrong | (max(places) >= wheel.z), steps, text)
     if not several:
         return

@@ -141,9 +141,9 @@ class Transmission(Drive, kw_only=True):
         rate = -wheel.SIGN * place.cone
         body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
         reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
-        own = Engagement(here.input_deg, path, slot, motion, body, reactions, built=place.built)
-        own.hub = place.hub
-        return own
+        return Engagement(
+            here.input_deg, path, slot, motion, body, reactions, hub=place.hub, built=place.built
+        )
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""

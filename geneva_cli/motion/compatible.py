@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.kind import Kind
 from geneva_cli.motion.machine_spec import Spec, attribute
 from geneva_cli.motion.records import KINDS
 from geneva_cli.spec.load_named import load_named
@@ -36,17 +37,7 @@ def refuse_conflicts(spec: Spec) -> None:
     """Raise GenevaError if the spec combines kinds that make no machine together."""
     rules: list[Callable[[Spec], Iterator[Conflict]]] = [_of_drive_before]
     for kind in _KINDS:
-        # the spec has the kind, or sets a key of the kind's own
-        concerned = (kind.drive and kind.name == spec.drive.NAME) or (
-            kind.wheel and kind.name == spec.wheel.NAME
-        )
-        for own in kind.keys:
-            table, _, name = own.partition(".")
-            of = vars(spec)[attribute(table)]
-            value, default = vars(of).get(name), getattr(type(of), name, None)
-            if value is not default and (is_array(value) or value != default):
-                concerned = True
-        if concerned:
+        if _concerns(kind, spec):
             rules.append(load_named(kind.refuses))
     for rule in (*rules, _of_sizes):
         for when, key, text in rule(spec):
@@ -54,6 +45,21 @@ def refuse_conflicts(spec: Spec) -> None:
                 refuse(when, partial(GenevaError, text))
             elif when:
                 raise GenevaError(text.format(spec=spec), key)
+
+
+def _concerns(kind: Kind, spec: Spec) -> bool:
+    """True if the spec has the kind, or sets a key of the kind's own."""
+    if (kind.drive and kind.name == spec.drive.NAME) or (
+        kind.wheel and kind.name == spec.wheel.NAME
+    ):
+        return True
+    for key in kind.keys:
+        table, _, name = key.partition(".")
+        of = vars(spec)[attribute(table)]
+        value, default = vars(of).get(name), getattr(type(of), name, None)
+        if value is not default and (is_array(value) or value != default):
+            return True
+    return False
 
 
 def is_set(table: SpecTable, kind: type[SpecTable] | None = None) -> object:

@@ -15,7 +15,15 @@ from geneva_cli.motion.records import IN_FRONT
 from geneva_cli.motion.size_rules import SAME_RATIO, refuse_sizes, refuse_tolerances
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import sin_cos_pi
-from geneva_cli.numerics.arrays import Array, Whole, all_true, choose, choose_record, library
+from geneva_cli.numerics.arrays import (
+    Array,
+    Whole,
+    all_true,
+    choose,
+    choose_record,
+    larger,
+    library,
+)
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.spec.load_named import load_named
 
@@ -149,8 +157,8 @@ class Mechanism(NamedTuple):
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # Rounding may put an angle just before the entry: count it as the entry.
-        counted = input_deg - m.floor((input_deg - entry + SAME_INPUT_DEG) / whole) * whole
-        counted = choose(counted < entry, entry, counted)
+        periods = m.floor((input_deg - entry + SAME_INPUT_DEG) / whole)
+        counted = larger(input_deg - periods * whole, entry)
         if isinstance(input_deg, (float, int)) and isinstance(whole, float):
             return math.remainder(input_deg, whole) if whole == 360.0 else counted
         # as math.remainder, and exact for angles of a few turns

@@ -109,11 +109,16 @@ def _record(
     peaks: Peaks, engagements: Sequence[Engagement], dwell_deg: float
 ) -> dict[str, float | None]:
     out: dict[str, float | None] = {}
-    e, jumps = peaks.ends, greatest_jumps(engagements)
-    at_ends = [jumps, e[:2], e[2:], ()]
-    for name, one, sizes in zip(QUANTITIES, peaks[:-1], at_ends, strict=True):
+    ends = peaks.ends
+    at_ends: dict[str, Sequence[float | None]] = {
+        "velocity": greatest_jumps(engagements),
+        "acceleration": (ends.acceleration_entry, ends.acceleration_exit),
+        "jerk": (ends.jerk_entry, ends.jerk_exit),
+    }
+    for name, one in zip(QUANTITIES, peaks[:-1], strict=True):
         out[f"{name}.max"], out[f"{name}.at_deg"] = one.max, one.at_deg
-        out |= {f"{name}.{end}": size for end, size in zip(("entry", "exit"), sizes, strict=False)}
+        if name in at_ends:
+            out[f"{name}.entry"], out[f"{name}.exit"] = at_ends[name]
     gained = scalar(engagements[0].gained)  # all rollers leave the rim alike
     out |= {"motion_deg": engagements[0].motion_deg, "dwell_deg": dwell_deg}
     return out | {"index_gained_deg": None if math.isnan(gained) else math.degrees(gained)}

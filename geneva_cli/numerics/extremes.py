@@ -283,7 +283,7 @@ class _Extremes:
                 turns.append((to, there, end, 0.0, at_end[there]))
                 turns.append((to, loose, end, sense, at_end[loose] + 1e-3 * size[loose]))
         found = joined([tuple(np.broadcast_arrays(*one)) for one in turns])
-        side, of, top = found[0], found[1], found[4]
+        side, of, _, _, top = found
         reach = top + UNFINISHED * left[of]
         least = self._bar(side, number[of], rows.design[of])
         kept = np.flatnonzero(~(reach < least) & (least < np.inf))

@@ -1,4 +1,4 @@
-"""Quintic splines through points: four times continuously differentiable, at rest or periodic.
+"""Quintic splines through points: four times continuously differentiable, at rest at both ends.
 
 In plain arithmetic, for the same bytes on every processor.
 """
@@ -35,12 +35,6 @@ class PiecewisePolynomial:
         if isinstance(index, int):
             return taylor(x - origins[index], rows[index], order)
         return taylor(x - self.origins[index], [c[index] for c in self._columns], order)
-
-    @property
-    def seams(self) -> list[float]:
-        """The cuts as Python's numbers."""
-        cuts: list[float] = self._scalars[0]
-        return cuts
 
 
 def taylor(t: N, c: Sequence[N], order: int) -> list[N]:
@@ -121,19 +115,6 @@ def _pentadiagonal(bands: list[list[float]], values: list[float]) -> list[float]
     for i in reversed(range(n)):
         out[i] = (values[i] - bands[i][3] * out[i + 1] - bands[i][4] * out[i + 2]) / bands[i][2]
     return out[:n]
-
-
-def periodic(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
-    """The periodic spline through points, whose last point is the first one a period later."""
-    n, period = len(x) - 1, x[-1] - x[0]
-    # 50 points of other periods on either side: each point farther out moves the middle 0.43
-    # times as much (the root of its equations), 50 of them 5e-19 times.
-    copies = math.ceil(50 / n)
-    every = np.add.outer(np.arange(-copies, copies + 1) * period, x[:-1]).ravel()
-    tiled = np.tile(y[:-1], 2 * copies + 1)
-    rows = at_rest(every.tolist(), tiled.tolist()).rows[copies * n :][:n]
-    starts = np.array(x[:-1])
-    return PiecewisePolynomial(starts[1:], starts, rows)
 
 
 def doubt(x: Sequence[float], y: Sequence[float], order: int) -> tuple[int, float]:

@@ -66,9 +66,9 @@ class Spherical(Gearing):
         top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
         height = top, ball.sin_S * ball.sin_th
         # the arm's plane is perpendicular to the crank's axis, cos th from the sphere's centre
-        hub, half, three = ball.sin_S * ball.cos_th, ball.half_motion_deg, poses(step, ball)
-        place = RollerPlace(step, half, three, ball.sin_th, height=height, cone=ball.cos_th)
-        return place._replace(hub=hub)
+        hub, cone, half = ball.sin_S * ball.cos_th, ball.cos_th, ball.half_motion_deg
+        three = poses(step, ball)
+        return RollerPlace(step, half, three, ball.sin_th, height=height, cone=cone, hub=hub)
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
