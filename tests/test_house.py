@@ -4,8 +4,10 @@ rooms touch files or know Typer; and nobody asks which machine it is.
 
 import ast
 import functools
+import importlib
 import os
 import re
+import types
 from graphlib import CycleError, TopologicalSorter
 from typing import NamedTuple
 
@@ -403,6 +405,28 @@ def test_nobody_asks_which_machine_it_is():
 def test_the_core_names_no_kind():
     core = [m for m in MODULES if room(m).partition(".")[0] not in ("kinds",)]
     assert broken(lambda m: read(source(m)).far, core) == NAMED
+
+
+def described(cls, name):
+    """True if a member of a class, or what it overrides, has a docstring."""
+    return any(getattr(vars(base).get(name), "__doc__", None) for base in cls.__mro__)
+
+
+def test_what_has_no_docstring_overrides_what_has_one():
+    """Rooms whose public methods need no docstring of their own: the base's says what they do."""
+    rooms = [m for m in MODULES if room(m) in ("motion", "drives", "numerics")]
+    for name in sorted({*rooms} - {"numerics.arrays", "numerics.intervals"}):  # functions of math
+        module = importlib.import_module(f"geneva_cli.{name}")
+        for cls in vars(module).values():
+            if isinstance(cls, type) and cls.__module__ == module.__name__:
+                public = [n for n, own in vars(cls).items() if n[0] != "_" and is_method(own)]
+                assert not [n for n in public if not described(cls, n)], (name, cls.__name__)
+
+
+def is_method(member):
+    """True for a method or a property of any sort."""
+    of = getattr(member, "fget", None) or getattr(member, "func", None) or member
+    return isinstance(getattr(of, "__func__", of), types.FunctionType)
 
 
 def named_alike(module):

@@ -66,7 +66,9 @@ class Groove(Protocol):
     sign: float  # 1 for an external wheel, -1 for an internal one
 
     @property
-    def motion(self) -> WheelMotion: ...
+    def motion(self) -> WheelMotion:
+        """Motion of the wheel, from which the groove follows."""
+
     @property
     def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
         """Roller distance from the crank's axis with two derivatives, at entry and exit."""
