@@ -187,7 +187,7 @@ def mouth_contacts(
         sign = np.where(np.hypot(x.c[0], y.c[0]) < along, 1.0, -1.0)
         rim = np.hypot(along, wide)
         square = along * along - 2.0 * sign * rounding * (rim + sign * wide)
-        along = parameter(along - (along - np.sqrt(square)))
+        along = parameter(np.sqrt(square))
     reach, wide = roller + rounding, wide + rounding
     top: Number = 0.0  # of the mouth's middle along the wheel's axis
     if slot.height is not None:
