@@ -118,18 +118,17 @@ def _one_sense(
 
 
 def turning(result: Turned) -> tuple[float, float] | None:
-    """The places of rest around the middle from which the wheel turns; None without any."""
+    """The places of rest around the middle from which the wheel turns; None without any.
+
+    It may stand in a range of places.
+    """
     machine, turner = result.machine, result.turner
-    is_free, low, high = result.rest
-    if not is_free:
-        return None
+    _, low, high = result.rest
 
     def goes(rest: float) -> bool:
         return all(_goes_on(machine, turner.turn(rest, 1, way, exact=False), way) for way in SENSES)
 
     middle = min(max(machine.rest, low), high)
-    if high - low < LOOSE:
-        return (low, high) if goes(middle) else None
     # a lock leaves a short range, and a detent puts the wheel back; else it may stand anywhere
     is_loose = high - low > 0.1 * machine.step and not put_back(machine, result.rest)
     trials = TRIALS if is_loose else FEW_TRIALS
