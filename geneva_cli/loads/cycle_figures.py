@@ -117,7 +117,7 @@ def _why(cycle: Cycle, name: str) -> str:
 
 
 def _panel(
-    name: str, machines: Sequence[Mechanism], drawn: Mapping[str, Mapping[str, Drawn]]
+    name: str, machines: Sequence[Mechanism], designs: Mapping[str, Mapping[str, Drawn]]
 ) -> Panel:
     """The curves of a quantity; its label names the part that moves, if it is the same in all."""
     axis, output = AXIS_BY_NAME[name], machines[0].output
@@ -127,10 +127,10 @@ def _panel(
         axis = axis._replace(label=label)
     curves: list[Curve] = []
     ends: list[float] = []
-    for number, (design, own) in enumerate(drawn.items()):
+    for number, (design, own) in enumerate(designs.items()):
         if name in own:
             pieces, marks, bounds = own[name]
-            if len(drawn) > 1 and marks:  # one mark for each design: the greater in size
+            if len(designs) > 1 and marks:  # one mark for each design: the greater in size
                 marks = (max(marks, key=lambda m: math.inf if m.y is None else abs(m.y)),)
             curves.append(Curve(number, design, tuple(pieces), marks))
             ends += bounds or ()

@@ -20,7 +20,7 @@ from geneva_cli.numerics.jet import Array, Jet
 def at_mid_motion(
     engagement: Engagement, case: LoadCase, quantities: Sequence[LoadQuantity], n: int
 ) -> list[tuple[int, Array, Array]]:
-    """The quantities of n designs at mid-motion, and nearer to it than any stretch.
+    """The quantities of n designs at mid-motion, which no stretch reaches.
 
     They are numbers of quantities, with places and values (n,); NaN where undefined.
 
@@ -30,12 +30,12 @@ def at_mid_motion(
     corner there, whose two sides are mirror images.
     """
     out: list[tuple[int, Array, Array]] = []
+    middle = np.zeros((n, 1))
 
-    def add(number: int, x: Array, known: Number, where: Mask) -> None:
-        out.append((number, x[:, 0], np.where(where, known, np.full((n, 1), np.nan))[:, 0]))
+    def add(number: int, known: Number, where: Mask) -> None:
+        out.append((number, middle[:, 0], np.where(where, known, np.full((n, 1), np.nan))[:, 0]))
 
     with np.errstate(all="ignore"):
-        middle = np.zeros((n, 1))
         near = np.broadcast_to(NEAR_CUSP * np.reshape(engagement.entry_deg, (-1, 1)), (n, 1))
         at = contact(engagement, middle)
         before = array(at.acceleration.c[0])
@@ -63,13 +63,13 @@ def at_mid_motion(
                 row, margin, sign = of(instant)
                 known, bar = value(row), np.inf if margin is None else value(margin)
                 finite = np.isfinite(known)
-                add(k, middle, known, np.isinf(bar) & finite)
+                add(k, known, np.isinf(bar) & finite)
                 for limit in limits:
                     # on this side friction alone holds the wheel, whatever the torque
                     none = np.where(bar < -NEGLIGIBLE, np.nan, limit[k])
                     none = np.where(loaded, np.inf * sign, none)
                     limited = np.where((bar > NEGLIGIBLE) & finite, known, none)
-                    add(k, middle, limited, crosses | jumps | (sense > 0.0))
+                    add(k, limited, crosses | jumps | (sense > 0.0))
     return out
 
 

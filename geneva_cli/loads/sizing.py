@@ -84,9 +84,9 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
     """Values of ``SIZING_NAMES``, and perhaps more: (m,) or (1,); NaN if undefined."""
     whole, names = mechanism.under_load, set(requested)
     spec, case = whole.spec, load_case(whole)
-    loaded = np.ravel(case.inertia_Nm + case.resists_Nm > 0.0)
+    loaded, own = np.ravel(case.inertia_Nm + case.resists_Nm > 0.0), inertia_kgm2(spec)
     values: dict[str, Number] = {
-        "inertia_kgm2": _some(inertia_kgm2(spec)),
+        "inertia_kgm2": _some(own),
         "motor_rpm": spec.drive.n_rpm * spec.motor.ratio,
     }
     if names - {*CARRIED, *SUMS, "inertia_ratio", "motor_torque_max_Nm"}:
@@ -95,7 +95,7 @@ def sizings(mechanism: Mechanism, requested: Collection[str] = SIZING_NAMES) -> 
         torque = load_summaries(mechanism, [TORQUE], bool(names & set(SUMS)))[TORQUE]
         values |= _exact(whole, torque)
     if "inertia_ratio" in names:  # the wheel's inertia at its fastest over the motor's
-        own, frame = inertia_kgm2(spec), whole.frame
+        frame = whole.frame
         motor = spec.motor.inertia_kgm2 * spec.motor.ratio**2
         others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
         velocities = [_peaks(engagement, "velocity")[0] for engagement in whole.engagements]
@@ -155,7 +155,8 @@ def indexer_formula(
 def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
     """The cam-indexer formula, for the engagement with the greatest torque at the input."""
     spec, fc, best = mechanism.spec, mechanism.spec.motor.service_factor, None
-    load = inertia_kgm2(spec), support_torque_Nm(spec), working_torque_Nm(spec)
+    friction = support_torque_Nm(spec)
+    load = inertia_kgm2(spec), friction, working_torque_Nm(spec)
     for number, engagement in enumerate(mechanism.engagements):
         step, motion = mechanism.index_deg(number), engagement.motion_deg
         velocity, acceleration, power = _peaks(engagement, "velocity", "acceleration", "power")
@@ -176,7 +177,7 @@ def _by_formula(mechanism: Mechanism) -> dict[str, Number]:
         "acceleration_rad_s2": line.alpha,
         **factors._asdict(),
         "inertia_torque_Nm": _some(line.Ti),
-        "friction_torque_Nm": _some(load[1]),
+        "friction_torque_Nm": _some(friction),
         "total_torque_Nm": line.Tt,
         "design_torque_Nm": line.Te,
         "input_torque_Nm": line.Tc,

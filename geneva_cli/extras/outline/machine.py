@@ -181,18 +181,19 @@ def _with_rollers(
     R = ideal = abs(turned[0])
     if mechanism.engagements[0].built:  # radial slots on a crank that was built for others
         ideal = place.L * math.sin(math.pi / mechanism.spec.wheel.z)
-    crank, found, is_drawn = list[Contour](), list[Circle](), False
+    crank, found = list[Contour](), list[Circle]()
     for one in drawn:
-        is_drawn = isinstance(one, Loop)
-        circle = _roller(one) if isinstance(one, Loop) else None
-        if circle is None:
-            crank.append(one.contour if isinstance(one, Loop) else one)
-        else:
+        if not isinstance(one, Loop):  # of our own crank
+            crank.append(one)
+        elif circle := _roller(one):
             found.append(circle)
+        else:
+            crank.append(one.contour)
     if found:
         roller = Roller(math.hypot(*found[0].centre), found[0].radius, ideal)
         return (*crank, *map(_round, found)), roller
     pin = np.array([(turned[0].real, turned[0].imag)])
+    is_drawn = any(isinstance(one, Loop) for one in drawn)
     if not (is_drawn and Polyarc(crank).signed(pin)[0] < 0.0):
         crank += [_round(Circle("ROLLER", (pin.real, pin.imag), radius)) for pin in turned]
     return tuple(crank), Roller(R, radius, ideal)

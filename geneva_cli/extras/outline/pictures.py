@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from geneva_cli.geometry.shapes import Contour, Layer
 from geneva_cli.geometry.sheet import Drawing
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.motion_table import first_entry_deg
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Phase, Push, Scene, Track
 from geneva_cli.study.animation.turning_scene import scene
 
@@ -38,18 +40,11 @@ def drawn_scene(design: Design) -> Scene:
         late = 360.0 if crank < entry - 1e-9 else 0.0
         return max(0.0, machine.assembly.to_input(math.degrees(crank) + late) - start)
 
-    # the wheel's angle over the turn, with slopes between those on both sides: no cubic overshoots
+    # the wheel's angle over the turn, from the first entry on
     after = turn.crank >= entry - 1e-9
     order = np.concatenate((np.flatnonzero(after), np.flatnonzero(~after)))
     angle = (turn.wheel + np.where(after, 0.0, turn.gained))[order]
-    at = np.array([time(x) for x in turn.crank[order].tolist()])
-    keep = np.append(np.diff(at) > 1e-6, True)
-    at, angle = at[keep], angle[keep]
-    rate = np.diff(angle) / np.diff(at)
-    pairs = rate[:-1] * rate[1:]
-    mean = 2.0 * pairs / np.where(pairs > 0.0, rate[:-1] + rate[1:], 1.0)
-    slope = np.concatenate((rate[:1], np.where(pairs > 0.0, mean, 0.0), rate[-1:]))
-    track = Track(tuple(at.tolist()), tuple(angle.tolist()), tuple(slope.tolist()), turn.gained)
+    track = _track(np.array([time(x) for x in turn.crank[order].tolist()]), angle, turn.gained)
     # the contact points of each push, with the direction in which the wheel's point goes
     pushes, stretches = [], []
     for push in moving(turn):
@@ -63,17 +58,6 @@ def drawn_scene(design: Design) -> Scene:
         columns = (z.real, z.imag, way.real, way.imag)
         pushes.append(Push(places, *(tuple(each[known].tolist()) for each in columns)))
         stretches.append((time(push.begin), time(push.end)))
-    # the stretches in which the wheel rests or is pushed
-    states, last, whole = [], 0.0, shown.turn_deg
-    for begin, end in sorted(stretches):
-        if begin > end:  # it goes on beyond the end of the turn
-            end = whole
-        if begin > last + 1e-9:
-            states.append(Phase(last, begin, False, "the wheel rests"))
-        states.append(Phase(max(begin, last), end, True, "the crank pushes the wheel"))
-        last = end
-    if last < whole - 1e-9:
-        states.append(Phase(last, whole, False, "the wheel rests"))
     # the real velocity in place of all ideal curves, with both ends of each push
     figure = shown.figure
     panel = next(panel for panel in figure.panels if panel.y.name == "velocity")
@@ -93,9 +77,34 @@ def drawn_scene(design: Design) -> Scene:
         bodies=bodies,
         rollers=(),
         pushes=tuple(pushes),
-        states=tuple(states),
+        states=tuple(_states(stretches, shown.turn_deg)),
         figure=figure._replace(panels=(panel._replace(curves=(curve,)),), shaded=()),
     )
+
+
+def _track(at: Array, angle: Array, gained: float) -> Track:
+    """The wheel's angle at times, with slopes between those on both sides: no cubic overshoots."""
+    keep = np.append(np.diff(at) > 1e-6, True)
+    at, angle = at[keep], angle[keep]
+    rate = np.diff(angle) / np.diff(at)
+    pairs = rate[:-1] * rate[1:]
+    mean = 2.0 * pairs / np.where(pairs > 0.0, rate[:-1] + rate[1:], 1.0)
+    slope = np.concatenate((rate[:1], np.where(pairs > 0.0, mean, 0.0), rate[-1:]))
+    return Track(tuple(at.tolist()), tuple(angle.tolist()), tuple(slope.tolist()), gained)
+
+
+def _states(pushed: Iterable[tuple[float, float]], whole: float) -> Iterator[Phase]:
+    """The stretches of a turn in which the wheel rests or is pushed."""
+    last = 0.0
+    for begin, end in sorted(pushed):
+        if begin > end:  # it goes on beyond the end of the turn
+            end = whole
+        if begin > last + 1e-9:
+            yield Phase(last, begin, False, "the wheel rests")
+        yield Phase(max(begin, last), end, True, "the crank pushes the wheel")
+        last = end
+    if last < whole - 1e-9:
+        yield Phase(last, whole, False, "the wheel rests")
 
 
 def _layered(contours: tuple[Contour, ...], layer: Layer) -> tuple[Contour, ...]:

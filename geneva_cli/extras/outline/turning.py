@@ -118,11 +118,12 @@ def _one_sense(
 
 
 def turning(result: Turned) -> tuple[float, float] | None:
-    """The places of rest around the middle from which the wheel turns; None without any."""
+    """The places of rest around the middle from which the wheel turns; None without any.
+
+    It may stand in a range of places.
+    """
     machine, turner = result.machine, result.turner
-    is_free, low, high = result.rest
-    if not is_free:
-        return None
+    _, low, high = result.rest
 
     def goes(rest: float) -> bool:
         return all(_goes_on(machine, turner.turn(rest, 1, way, exact=False), way) for way in SENSES)
@@ -133,8 +134,6 @@ def turning(result: Turned) -> tuple[float, float] | None:
     trials = TRIALS if is_loose else FEW_TRIALS
     places = np.linspace(low, high, trials + 1)
     places[0], places[-1] = low + 1e-9 * (high - low), high - 1e-9 * (high - low)
-    if high - low < LOOSE:
-        return (low, high) if goes(middle) else None
     good = [goes(float(place)) for place in places]
     if not any(good):
         return (middle, middle) if goes(middle) else None
@@ -225,12 +224,13 @@ def hardest_impact(result: Turned) -> Impact | None:
     """The hardest impact, the one forwards of two that are equal; None without any."""
     every: list[Impact] = []
     for sense in result.senses:
-        for push in [push for turn in sense.turns for push in moving(turn)]:
-            crank, wheel = push.begin, push.begin_wheel
-            after = np.array([crank + sense.way * JUST])
-            touching = contacts(result.machine.free, after, np.array([wheel]))
-            velocity = float(touching.motion(after)[1][0])
-            every.append(Impact(velocity, crank, wheel, sense.way, touching))
+        for turn in sense.turns:
+            for push in moving(turn):
+                crank, wheel = push.begin, push.begin_wheel
+                after = np.array([crank + sense.way * JUST])
+                touching = contacts(result.machine.free, after, np.array([wheel]))
+                velocity = float(touching.motion(after)[1][0])
+                every.append(Impact(velocity, crank, wheel, sense.way, touching))
     return max(every, key=lambda one: (round(abs(one.velocity), 4), one.way), default=None)
 
 

@@ -158,6 +158,29 @@ class _Corner(NamedTuple):
         value, slope = (x * x + y * y + z * z - self.reach**2).arrays()
         return value, slope
 
+    def contact(self, along: Number, top: Number) -> tuple[Array, Array]:
+        """Radians after the true entry of the first contact, and the jump, (m, 1); NaN without any.
+
+        The roller comes from outside, and has passed once its centre is in the mouth, whose middle
+        is at ``along`` and ``top``. Centre P and corner C keep their distance at the speed
+        (P - C) . P' / (P - C) . (z x C).
+        """
+        engagement = self.axis.engagement
+        span = 0.5 * engagement.motion_deg * DEGREE
+        x, _, z = self.roller(np.atleast_2d(0.0 * span))
+        # its distance outside, and its speed outwards
+        out, speed = (x - along if engagement.slot.height is None else x * top - z * along).arrays()
+        places = -out / speed - span * OCTAVES[::-1]
+        meets = self.gap(places)[0] <= -1e-16  # of L²: nearer to 0 it is rounding
+        places = np.broadcast_to(places, meets.shape)
+        tau = _first_roots(lambda x, which: taken(self, which).gap(x), places, meets)
+        supplied = turned = 0.0 * tau
+        direction = -self.place[1], self.place[0], 0.0
+        for p, c, w in zip(self.roller(tau), self.place, direction, strict=True):
+            value, rate = p.arrays()
+            supplied, turned = supplied + (value - c) * rate, turned + (value - c) * w
+        return tau, supplied / turned
+
 
 def mouth_contacts(
     engagement: Engagement,
@@ -174,9 +197,8 @@ def mouth_contacts(
     that are solved for. The mouth lies across the slot where the roller should enter. An arm that
     is too short strikes the corner beside the crank's axis, forwards; one that is too long the
     other, backwards. On a sharp corner the jump is about tan b sqrt(2 eps) sqrt((R -+ r)/r), eps
-    beyond the clearance. A corner rounded by c acts like a sharp one on a roller of r + c. Centre P
-    and corner C keep their distance at the speed (P - C) . P' / (P - C) . (z x C). On a sphere they
-    are directions.
+    beyond the clearance. A corner rounded by c acts like a sharp one on a roller of r + c. On a
+    sphere centre and corner are directions.
     """
     axis = RestingAxis.of(engagement)
     if axis is None:
@@ -187,38 +209,20 @@ def mouth_contacts(
         sign = np.where(np.hypot(x.c[0], y.c[0]) < along, 1.0, -1.0)
         rim = np.hypot(along, wide)
         square = along * along - 2.0 * sign * rounding * (rim + sign * wide)
-        along = parameter(along - (along - np.sqrt(square)))
+        along = parameter(np.sqrt(square))
     reach, wide = roller + rounding, wide + rounding
     top: Number = 0.0  # of the mouth's middle along the wheel's axis
     if slot.height is not None:
         top = slot.height(radians(axis.anchor.input_deg), 0).c[0]
         reach = 2.0 * np.sin(0.5 * reach)  # a chord
-    span, found = 0.5 * axis.engagement.motion_deg * DEGREE, []
+    found = []
     with np.errstate(all="ignore"):
         for side in (1.0, -1.0):  # first the corner on the side to which the wheel turns
             place: tuple[Number, Number, Number] = along, side * wide - slot.offset, 0.0
             if slot.height is not None:
                 m, own = library(wide), parameter(wide)
                 place = along * m.cos(own), side * m.sin(own), top * m.cos(own)
-            corner = _Corner(axis, crank, center, reach, place)
-            # The roller comes from outside, and has passed once its centre is in the mouth: first
-            # its distance outside, and its speed outwards.
-            x, _, z = corner.roller(np.atleast_2d(0.0 * span))
-            out, speed = (x - along if slot.height is None else x * top - z * along).arrays()
-            places = -out / speed - span * OCTAVES[::-1]
-            meets = corner.gap(places)[0] <= -1e-16  # of L²: nearer to 0 it is rounding
-            places = np.broadcast_to(places, meets.shape)
-
-            def gap(tau: Array, which: Whole, corner: _Corner = corner) -> tuple[Array, Array]:
-                return taken(corner, which).gap(tau)
-
-            tau = _first_roots(gap, places, meets)
-            supplied = turned = 0.0 * tau
-            direction = -place[1], place[0], 0.0
-            for p, c, w in zip(corner.roller(tau), place, direction, strict=True):
-                value, rate = p.arrays()
-                supplied, turned = supplied + (value - c) * rate, turned + (value - c) * w
-            found.append((tau, supplied / turned))
+            found.append(_Corner(axis, crank, center, reach, place).contact(along, top))
         (one, forwards), (other, backwards) = found
         tau = np.fmin(one, other)
         jump = np.where(tau == one, forwards, backwards)

@@ -147,7 +147,7 @@ class Oscillators:
         ]
         return np.array(rows)
 
-    @property
+    @cached_property
     def windup_deg(self) -> Array:
         """I alpha / k at the wheel's greatest acceleration, degrees."""
         rows = []
