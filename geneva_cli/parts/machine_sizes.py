@@ -148,17 +148,18 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
 
     if not all(map(math.isfinite, single_loads(mechanism))):
         return ()
-    on_crank = size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm
+    crank = size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None
     rubbed = spec.load.friction and not spec.load.rubs_in_slot  # loads depend on the usual pin
     free = {
-        "crank_bore_mm arm_bore_mm": not any(own is not None for own in on_crank),
-        "wheel_bore_mm": size.wheel_bore_mm is None and spec.shaft.wheel_diameter_mm is None,
+        "crank_bore_mm": crank,
+        "arm_bore_mm": crank,
+        "wheel_bore_mm": size.wheel_bore_mm is spec.shaft.wheel_diameter_mm is None,
         "pin_mm": size.pin_mm is None and not rubbed,
         "arm_thickness_mm": size.arm_thickness_mm is None,
         "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
         "link_thickness_mm": bool(mechanism.first_wheel) and size.link_thickness_mm is None,
     }
-    return tuple(key for keys, chosen in free.items() if chosen for key in keys.split())
+    return tuple(key for key, is_free in free.items() if is_free)
 
 
 def drawn_pin_radius(mechanism: Mechanism) -> float:
