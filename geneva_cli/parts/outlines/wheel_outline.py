@@ -25,8 +25,8 @@ from geneva_cli.geometry.shapes import (
     about,
     closed,
     joined,
+    polar,
 )
-from geneva_cli.geometry.sheet import polar
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import array, scalar
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
