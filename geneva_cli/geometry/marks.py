@@ -9,7 +9,7 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator
 
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Point, about, two_arcs
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Line, Point, about, polar, two_arcs
 from geneva_cli.geometry.sheet import (
     ARROW,
     BELOW,
@@ -18,7 +18,6 @@ from geneva_cli.geometry.sheet import (
     Arrow,
     Label,
     Measure,
-    polar,
     width,
 )
 

@@ -12,17 +12,6 @@ from typing import NamedTuple, TypeVar
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, Point, Segment, Shape
 
 STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
-# Gauss-Legendre's abscissae and weights of eight points on 0..1
-GAUSS = tuple(
-    (0.5 + 0.5 * sign * node, 0.5 * weight)
-    for node, weight in (
-        (0.18343464249564980, 0.36268378337836198),
-        (0.52553240991632899, 0.31370664587788729),
-        (0.79666647741362674, 0.22238103445337447),
-        (0.96028985649753623, 0.10122853629037626),
-    )
-    for sign in (-1.0, 1.0)
-)
 S = TypeVar("S", Contour, Circle, Shape)
 
 

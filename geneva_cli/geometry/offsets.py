@@ -68,9 +68,7 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
             text = f"the hole of {2.0 * shape.radius:.6g} mm on {shape.layer} is too narrow"
             raise Closed(text, shape.centre)
         return shape._replace(radius=radius)
-    (cleaned,) = prepared(Drawing("", (shape,))).shapes
-    assert isinstance(cleaned, Contour)
-    contour, layer = with_material_left(cleaned, outside), shape.layer
+    contour, layer = _cleaned(shape, outside), shape.layer
     own = lines_and_arcs(contour, "--kerf works on lines and arcs only: omit --curves spline")
     for piece in own:
         if isinstance(piece, Arc) and piece.bulge < 0.0 and piece.radius - distance <= SHORTEST_MM:
@@ -86,6 +84,13 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
         text = f"near x = {x:.4g}, y = {y:.4g} on {contour.layer} a gap is narrower than the cut"
         raise Closed(text, (x, y))
     return path
+
+
+def _cleaned(outline: Contour, outside: bool) -> Contour:
+    """Return an outline, or a hole, without pieces that no file shows, its material on the left."""
+    (cleaned,) = prepared(Drawing("", (outline,))).shapes
+    assert isinstance(cleaned, Contour)
+    return with_material_left(cleaned, outside)
 
 
 def _joined(layer: Layer, own: list[Line | Arc], distance: float) -> list[Segment]:
@@ -223,10 +228,8 @@ def _judge_plate(plate: Plate, radius: float, stops: list[str], notes: list[str]
                 size = f"hole of {2.0 * original.radius:.6g} mm at x = {x:.6g}, y = {y:.6g}"
                 notes.append(f"{size} in {plate.name}: narrower than the cutter; drill it")
             continue
-        (cleaned,) = prepared(Drawing("", (original,))).shapes
-        assert isinstance(cleaned, Contour)
         outside = i == 0
-        shape = with_material_left(cleaned, outside)
+        shape = _cleaned(original, outside)
         own = lines_and_arcs(shape, "--cutter works on lines and arcs only: use --curves arcs")
         hollows = [p for p in own if isinstance(p, Arc) and p.bulge < 0.0]
         tightest = min(hollows, key=lambda arc: arc.radius, default=None)

@@ -84,14 +84,15 @@ class Circle(NamedTuple):
 Shape: TypeAlias = Contour | Circle
 
 
+def polar(centre: Point, radius: float, turn: float) -> Point:
+    """Point in a direction, radians, at a distance from another point."""
+    return centre[0] + radius * math.cos(turn), centre[1] + radius * math.sin(turn)
+
+
 def about(centre: Point, radius: float, start: float, sweep: float) -> Arc:
     """Arc about a centre from the direction ``start`` on, both angles in radians."""
-    (x, y), end = centre, start + sweep
-    return Arc(
-        (x + radius * math.cos(start), y + radius * math.sin(start)),
-        (x + radius * math.cos(end), y + radius * math.sin(end)),
-        math.tan(0.25 * sweep),
-    )
+    begin, end = polar(centre, radius, start), polar(centre, radius, start + sweep)
+    return Arc(begin, end, math.tan(0.25 * sweep))
 
 
 def two_arcs(circle: Circle, start: float = 0.0) -> tuple[Arc, Arc]:

@@ -277,11 +277,6 @@ def rectangle(layer: Layer, x0: float, y0: float, x1: float, y1: float) -> Conto
     return polygon(layer, [(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
 
-def polar(centre: Point, radius: float, turn: float) -> Point:
-    """Point in a direction, radians, at a distance from another point."""
-    return centre[0] + radius * math.cos(turn), centre[1] + radius * math.sin(turn)
-
-
 def _turned(p: Point, turn: float, about: Point) -> Point:
     c, s = math.cos(turn), math.sin(turn)
     return about[0] + c * p[0] - s * p[1], about[1] + s * p[0] + c * p[1]

@@ -14,7 +14,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Plate, least_wall
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape, convex_hull
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape, convex_hull, polar
 from geneva_cli.parts.outlines.crank_outline import (
     crank_circles,
     is_whole,
@@ -120,7 +120,7 @@ def _bolts(parts: Outlines, count: int) -> list[Circle]:
     if directions:
         refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
     return [
-        Circle("BORE", (far * math.cos(turn), far * math.sin(turn)), r)
+        Circle("BORE", polar(ORIGIN, far, turn), r)
         for (far, _), at in zip(rings, directions, strict=True)
         for turn in at
         if r

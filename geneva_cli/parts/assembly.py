@@ -78,7 +78,7 @@ class Assembly(NamedTuple):
         return self._path(*self.motions[number], input_deg)
 
     def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
-        """Return it in the frame of the wheel, which is turned on by ``lead`` radians."""
+        """Return it as seen from the wheel, turned on by ``lead`` radians: see ``driving``."""
         turn = self.wheel(input_deg) + lead
         return self.plane_motion.into(self.driving(motion, input_deg), turn)
 

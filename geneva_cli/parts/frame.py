@@ -90,15 +90,7 @@ def framed(
             on_crank = at in [one.at for one in mechanism.crank_places]
             diameter = table.crank_diameter_mm if on_crank else table.wheel_diameter_mm
             holes.append(hole_without_shaft(diameter, at, L))
-    # clearance holes of screws into the frame, and the parts that they fix
-    fixed: list[tuple[Circle, Plate]] = []
-    for member in bars.cut:
-        if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            fixed += [(hole, member.part) for hole in placed_holes(member)]
-    for gear in bars.gears:
-        for hole in gear.screws.holes if gear.screws else ():
-            (x, y), (u, v) = gear.at, hole.centre
-            fixed.append((Circle("BORE", (x + u, y + v), hole.radius), gear.plate))
+    fixed = list(_fixed(bars))
     for plate in (base, bridge):
         if plate:  # about the crank's axis
             bored = placed_holes(Member(plate, (L, 0.0)))
@@ -192,6 +184,18 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
             yield axis.at
 
 
+def _fixed(bars: Links) -> Iterator[tuple[Circle, Plate]]:
+    """Yield the screws' holes of a guide or a gear that is fixed to the frame, with that part."""
+    for member in bars.cut:
+        if isinstance(member.part, Plate) and member.part.name in bars.standing:
+            for hole in placed_holes(member):
+                yield hole, member.part
+    for gear in bars.gears:
+        for hole in gear.screws.holes if gear.screws else ():
+            (x, y), (u, v) = gear.at, hole.centre
+            yield Circle("BORE", (x + u, y + v), hole.radius), gear.plate
+
+
 def _all_shafts(
     mechanism: Mechanism,
     outlines: Outlines | None,
@@ -199,11 +203,8 @@ def _all_shafts(
     lowest: float,
     first: Sequence[Member],
 ) -> Iterator[Shaft]:
-    """Yield all shafts and pivots; ``lowest`` is the frame's lower face.
-
-    ``first`` are plates of two wheels in series that turn with a link.
-    """
-    size, L, stop = mechanism.spec.size, mechanism.center_distance_mm, None
+    """Yield all shafts and pivots, as ``framed``; ``lowest`` is the frame's lower face."""
+    L, stop = mechanism.center_distance_mm, None
     known: list[Point] = []  # axes whose shafts carry wheel or crank
     if outlines:
         stop = crank_stop(outlines, bars)
@@ -215,7 +216,8 @@ def _all_shafts(
         for one in shafts(outlines, lowest, stop):
             yield one
             if same(one.at, ORIGIN, L):
-                yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in wheels)
+                for place in wheels:
+                    yield one._replace(at=place.at, turn=one.turn + place.turn - half)
                 continue
             for place in cranks:
                 turn = 0.0
@@ -223,6 +225,26 @@ def _all_shafts(
                     crank = outlines.assembly.crank(np.array([-place.behind_deg, 0.0]))
                     turn = one.turn + place.turn + float(crank[0] - crank[1])
                 yield one._replace(at=place.at, turn=turn)
+    yield from _link_shafts(mechanism, outlines, bars, (lowest, stop), known, first)
+    if mechanism.spec.gears:
+        from geneva_cli.parts.gears.gear_pair import gear_shafts
+
+        yield from gear_shafts(mechanism, outlines, lowest, (L, 0.0) in known)
+
+
+def _link_shafts(
+    mechanism: Mechanism,
+    outlines: Outlines | None,
+    bars: Links,
+    ends: tuple[float, float | None],
+    known: Sequence[Point],
+    first: Sequence[Member],
+) -> Iterator[Shaft]:
+    """Yield the shafts and pivots that carry only links and gears: on no ``known`` axis.
+
+    ``ends`` has the frame's lower face, and where links stop the crank's shaft, if they do.
+    """
+    size, L, (lowest, stop) = mechanism.spec.size, mechanism.center_distance_mm, ends
     wheel = drawn_thicknesses(size, L, outlines.sizes if outlines else None).wheel
     for axis in bars.axes:
         if any(same(axis.at, at, L) for at in known):
@@ -246,7 +268,3 @@ def _all_shafts(
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those are pins between links
             name = f"shaft of {', '.join(axis.names)}"
             yield Shaft(name, axis.names[0], bore, low, high, axis.at, turns=False)
-    if mechanism.spec.gears:
-        from geneva_cli.parts.gears.gear_pair import gear_shafts
-
-        yield from gear_shafts(mechanism, outlines, lowest, (L, 0.0) in known)

@@ -12,6 +12,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.preferred import bore_radius
@@ -148,17 +149,18 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
 
     if not all(map(math.isfinite, single_loads(mechanism))):
         return ()
-    on_crank = size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm
+    crank = size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None
     rubbed = spec.load.friction and not spec.load.rubs_in_slot  # loads depend on the usual pin
     free = {
-        "crank_bore_mm arm_bore_mm": not any(own is not None for own in on_crank),
-        "wheel_bore_mm": size.wheel_bore_mm is None and spec.shaft.wheel_diameter_mm is None,
+        "crank_bore_mm": crank,
+        "arm_bore_mm": crank,
+        "wheel_bore_mm": size.wheel_bore_mm is spec.shaft.wheel_diameter_mm is None,
         "pin_mm": size.pin_mm is None and not rubbed,
         "arm_thickness_mm": size.arm_thickness_mm is None,
         "wheel_thickness_mm": locked and size.wheel_thickness_mm is size.face_width_mm is None,
         "link_thickness_mm": bool(mechanism.first_wheel) and size.link_thickness_mm is None,
     }
-    return tuple(key for keys, chosen in free.items() if chosen for key in keys.split())
+    return tuple(key for key, is_free in free.items() if is_free)
 
 
 def drawn_pin_radius(mechanism: Mechanism) -> float:
@@ -191,18 +193,8 @@ def _usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
     if any(s.apart for s in kinds):  # gears between rollers widen the relief
         space = min(space, arc_floor(assembly, lock)) if has_arcs(assembly, lock) else math.inf
     within = min(space, depth - relief)
-    wall, bore = wall_min(size, L), 0.0
-    if spec.drive.LOCKS:
-        # that of the arm, which has the same shaft, or half of the space inside the relief
-        shaft = full.size.arm_bore_mm if full.drive.ONE_ARM else None
-        shaft = full.shaft.crank_diameter_mm if shaft is None else shaft
-        if full.size.crank_bore_mm is not None:
-            bore = 0.5 * full.size.crank_bore_mm
-        elif shaft is not None:
-            # a larger bore leaves no space for its default hub, of 1.5 bores
-            bore = 0.5 * shaft if 0.5 * shaft <= 0.6 * within else 0.0
-        elif 0.45 * within >= L / 40.0:
-            bore = bore_radius(min(0.45 * within, within_hub(full.size, "crank")))
+    bore = _crank_bore(full, within, L) if spec.drive.LOCKS else 0.0
+    wall = wall_min(size, L)
     axle = wheel_bore(full, end, wall, L) if outside or size.wheel_bore_mm else 0.0
     wheel_reach, wheel_hub = reach_and_hub(size, "wheel", axle, wall, end)
     crank_reach, crank_hub = reach_and_hub(size, "crank", bore, wall)
@@ -239,6 +231,20 @@ def _usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
         link_thickness=thick.link,
     )
     return usual, within
+
+
+def _crank_bore(spec: Spec, space: float, L: float) -> float:
+    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``space``."""
+    size = spec.size
+    if size.crank_bore_mm is not None:
+        return 0.5 * size.crank_bore_mm
+    shaft = size.arm_bore_mm if spec.drive.ONE_ARM else None
+    shaft = spec.shaft.crank_diameter_mm if shaft is None else shaft
+    if shaft is not None:
+        # a larger bore leaves no space for its default hub, of 1.5 bores
+        return 0.5 * shaft if 0.5 * shaft <= 0.6 * space else 0.0
+    within = within_hub(size, "crank")
+    return bore_radius(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
 
 
 def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:

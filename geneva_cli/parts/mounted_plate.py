@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point, convex_hull
 from geneva_cli.numerics.preferred import bore_radius
@@ -27,12 +28,10 @@ def mounted_plate(
     Mounting holes are in its corners, whose radius is ``eye``. ``span`` has its lower and upper
     face.
     """
-    inside = list(within)
-    low, high = (
-        [pick(c.centre[k] + sense * c.radius for c in inside) + 3.0 * sense * eye for k in (0, 1)]
-        for sense, pick in ((-1.0, min), (1.0, max))
-    )
-    corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
+    box, away = bounds_of(within), 3.0 * eye
+    corners = [
+        (x, y) for x in (box.x0 - away, box.x1 + away) for y in (box.y0 - away, box.y1 + away)
+    ]
     outline = convex_hull("FRAME", [Circle("FRAME", corner, eye) for corner in corners])
     mount = screw_through(0.8 * eye)
     mounts = [Circle("BORE", corner, 0.5 * mount.through) for corner in corners] if mount else []

@@ -198,8 +198,7 @@ def _crank_bored(
     """
     spec = assembly.full.spec
     size = spec.size
-    own = (size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm)
-    if any(key is not None for key in own):
+    if not (size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None):
         return sizes
 
     def bored(bore: float) -> Sizes:

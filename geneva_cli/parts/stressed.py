@@ -17,6 +17,7 @@ from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.crank_outline import is_whole
+from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import Sizes, arm_hub, bridge_low, hole_radius, plane_span
 from geneva_cli.spec.default_sizes import half_or, value_or
@@ -59,7 +60,7 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     contact = value_or(size.face_width_mm, wide)
     hub_mm = 0.0  # length of the wheel's hub
     if size.has_hub("wheel") and sizes.wheel_hub > sizes.wheel_bore:
-        hub_mm = value_or(size.wheel_hub_length_mm, size.allowances.pin_gap_mm + thick)
+        hub_mm = wheel_hub_length(size, sizes)
     gap, washer, machine = size.allowances.pin_gap_mm, size.washer_mm, assembly.full
     first = thick if spec.drive.ONE_ARM else sizes.link_thickness
 

@@ -4,21 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache, reduce
-from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.plates import MassProperties, added, mass_properties, plates
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.wheel_circles import wheel_part
 from geneva_cli.parts.outlines.wheel_outline import turned_walls, wheel_contour
 from geneva_cli.spec.materials import wheel_material
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from geneva_cli.geometry.plates import MassProperties
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
@@ -32,8 +26,6 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     own: Callable[[Mechanism], MassProperties] | None = thing(spec.wheel.NAME, "wheel_body")
     if own:
         return own(mechanism)
-    from geneva_cli.geometry.plates import added, mass_properties
-
     where, size = machine_sizes(mechanism)
     contour = wheel_contour(where, size, turned_walls(where, size), spec.wheel.stopped)
     density = wheel_material(spec).density_kgm3

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from geneva_cli.drawings.sheet.packing import Block, is_overfull, packed
 from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Circle, Point, Shape
+from geneva_cli.geometry.shapes import Circle, Point, Shape, polar
 from geneva_cli.geometry.sheet import (
     FRAME,
     LARGE,
@@ -23,7 +23,6 @@ from geneva_cli.geometry.sheet import (
     Label,
     Sheet,
     line,
-    polar,
     rectangle,
     width,
 )

@@ -87,7 +87,7 @@ class Horn(NamedTuple):
     def unit_stress(
         self, roller: Array, rub: Array, sections: Array, width_mm: float
     ) -> tuple[Array, Array, Array]:
-        """Bending and tension at sections under 1 N, as ``horn_search.Sides`` describes."""
+        """Bending and tension at sections under 1 N, as ``horn_search.HornSide`` describes."""
         places, normals = self.wall(np.hstack((roller, sections)))
         count = roller.shape[1]
         (contact, wall), (push, normal) = (

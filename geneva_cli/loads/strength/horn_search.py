@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
@@ -63,14 +63,35 @@ def slot_ends(mechanism: Mechanism) -> Iterator[SlotEnd]:
             yield SlotEnd(engagement, end, whole, ahead)
 
 
-# Horns of a mechanism and its sizes. Each has the end ``at`` of its slot, ``recess_mm``,
-# ``stoutness`` (thickness at the mouth over the recess's radius) and ``unit_stress(roller, rub,
-# sections, width_mm)``: the stresses under 1 N, MPa (m, places, sections), with the roller at some
-# places and for some sections, both as its input angles (m, k); the sections' distances from the
-# mouth, and their thicknesses, mm, infinite beyond the horn. ``rub`` is the friction on the wall
-# under 1 N across it, positive towards the mouth.
-HornSide: TypeAlias = Any
-Sides: TypeAlias = Callable[..., Sequence[HornSide]]
+if TYPE_CHECKING:
+
+    class HornSide(Protocol):
+        """A horn: the wall on one side of a slot."""
+
+        @property
+        def at(self) -> SlotEnd:
+            """The end of the slot where this horn bears."""
+
+        @property
+        def recess_mm(self) -> Number:
+            """The recess's radius, (m, 1) of a batch."""
+
+        @property
+        def stoutness(self) -> Array:
+            """Thickness at the mouth over the recess's radius, (m,)."""
+
+        def unit_stress(
+            self, roller: Array, rub: Array, sections: Array, width_mm: float
+        ) -> tuple[Array, Array, Array]:
+            """Stresses under 1 N, MPa (m, places, sections), and of sections place and thickness.
+
+            The roller's places and the sections are input angles (m, k). ``rub`` is the friction on
+            the wall under 1 N across it, positive towards the mouth. A section's place is its
+            distance from the mouth, mm; its thickness, mm, is infinite beyond the horn.
+            """
+
+
+Sides: TypeAlias = "Callable[..., Sequence[HornSide]]"  # horns of a mechanism and its sizes
 Sizes: TypeAlias = "tuple[float, ...]"  # half the slot's width, the recess, and what else differs
 
 
@@ -137,7 +158,7 @@ def _over_a_half(mechanism: Mechanism, side: HornSide, start: float, width: floa
         )
         rows = (stress[every, first], roller[every, i], inwards[every, j], thick[every, j])
         best = np.where(most > 0.0, rows, best)
-        roller, section = (_refined(*of) for of in ((roller, i), (section, j)))
+        roller, section = _refined(roller, i), _refined(section, j)
     return best
 
 

@@ -1,1 +1,1 @@
-"""Gears: pitch curves, meshes, teeth and blanks."""
+"""Gears: pitch curves, and blanks up to them."""

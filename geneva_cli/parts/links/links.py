@@ -221,7 +221,6 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
                 beyond = half + 2.0 * sizes.pin
                 screw = screw_through(2.0 * sizes.pin)
                 through = 0.5 * screw.through if screw else sizes.pin
-                through = 0.5 * screw.through if screw else sizes.pin
                 for f in ((ends[0] - beyond) * along, (ends[1] + beyond) * along):
                     bar.holes.append(_circle("BORE", f, through))
                     bar.eyes.append(_circle("LINK", f, sizes.eye))

@@ -26,8 +26,8 @@ from geneva_cli.geometry.shapes import (
     Shape,
     about,
     closed,
+    polar,
 )
-from geneva_cli.geometry.sheet import polar
 from geneva_cli.loads.tolerance.locking import Lock, loosest
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, within_half_turn

@@ -25,8 +25,8 @@ from geneva_cli.geometry.shapes import (
     about,
     closed,
     joined,
+    polar,
 )
-from geneva_cli.geometry.sheet import polar
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import array, scalar
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
@@ -192,14 +192,9 @@ def _rim(
     axis. Horns thinner than ``horn_tip_mm`` are cut back to flats, at which the walls then end.
     """
     L = assembly.L
-    flats: list[Tip | None] = [None, None]
+    flats: tuple[Tip | None, Tip | None] = None, None
     if sizes.lock and sizes.horn_tip:
-        one, other, axis = before[-1], after[0], polar(ORIGIN, L, at)
-        assert isinstance(one, Line) and isinstance(other, Line)
-        k, flat = sizes.recess, sizes.horn_tip
-        flats = [tip(one, axis, k, flat), tip(Line(other.end, other.start), axis, k, flat)]
-        before[-1] = one._replace(end=flats[0].wall) if flats[0] else one
-        after[0] = other._replace(start=flats[1].wall) if flats[1] else other
+        flats = _cut_back(sizes, before, after, polar(ORIGIN, L, at))
     start, end = before[-1].end, after[0].start
     first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
     if math.remainder(last - first, math.tau) <= 0.0:
@@ -245,6 +240,18 @@ def _rim(
         falling.insert(0, about(ORIGIN, rims[1], high, last - high))
         last_edge = polar(ORIGIN, rims[1], high)
     return [*rising, _about(axis, first_edge, last_edge, -assembly.sign), *falling]
+
+
+def _cut_back(
+    sizes: Sizes, before: list[Segment], after: list[Segment], axis: Point
+) -> tuple[Tip | None, Tip | None]:
+    """Cut thin horns beside a recess about an axis, and the walls there; return their flats."""
+    one, other, k, flat = before[-1], after[0], sizes.recess, sizes.horn_tip
+    assert isinstance(one, Line) and isinstance(other, Line)
+    first, last = tip(one, axis, k, flat), tip(Line(other.end, other.start), axis, k, flat)
+    before[-1] = one._replace(end=first.wall) if first else one
+    after[0] = other._replace(start=last.wall) if last else other
+    return first, last
 
 
 def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:

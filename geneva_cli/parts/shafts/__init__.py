@@ -1,1 +1,1 @@
-"""Shafts, bearings, bores, keys, screws and hubs."""
+"""Shafts, bores, fits, screws and hubs."""

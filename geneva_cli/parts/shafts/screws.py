@@ -9,7 +9,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.shapes import Circle
+from geneva_cli.geometry.shapes import ORIGIN, Circle, polar
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.tables import Size
@@ -49,10 +49,7 @@ class BoltCircle(NamedTuple):
     @property
     def holes(self) -> list[Circle]:
         """The holes in a plate about the axis."""
-        return [
-            Circle("BORE", (self.radius * math.cos(turn), self.radius * math.sin(turn)), self.hole)
-            for turn in self.turns
-        ]
+        return [Circle("BORE", polar(ORIGIN, self.radius, turn), self.hole) for turn in self.turns]
 
 
 class Screws(NamedTuple):

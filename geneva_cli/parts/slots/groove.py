@@ -11,7 +11,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry import chords, fit
 from geneva_cli.geometry.plates import Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Layer, closed
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Layer, closed, polar
 from geneva_cli.motion.engagement import Groove
 from geneva_cli.motion.groove_path import back, distances
 from geneva_cli.motion.mechanism import Mechanism
@@ -179,7 +179,7 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
         )
     screw, away = screw_through(0.5 * rim), far + 0.5 * rim
     mounts = [
-        Circle("BORE", (away * math.cos(turn), away * math.sin(turn)), 0.5 * screw.through)
+        Circle("BORE", polar(ORIGIN, away, turn), 0.5 * screw.through)
         for turn in (math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS))
         if screw
     ]

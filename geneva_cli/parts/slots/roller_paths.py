@@ -105,10 +105,9 @@ def horn_corners(
 
     They are those of its mouth's corners where the roller comes and goes, or of tips cut to flats.
     """
-    L = assembly.L
     widest = {kind: mouth(assembly, kind, r) for kind in assembly.kinds}
     shift = rim - max(widest.values())
-    least = least_mouth(L, recess, rim) if assembly.sign > 0.0 else 0.0
+    least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
     out = {}
     for kind, wide in widest.items():
         ends = []
@@ -116,22 +115,30 @@ def horn_corners(
             at = math.hypot(*corner(assembly, kind, end, r)) if kind.slot.offset else wide
             at = max(at + shift, least)
             if flat and recess:
-                x, y = kind.slot(kind.end_deg(end), 0)
-                u, v = kind.slot(0.0, 0)
-                start, centre = (L * scalar(u.c[0]), L * scalar(v.c[0])), rest(assembly, kind, end)
-                run = L * scalar(x.c[0]) - start[0], L * scalar(y.c[0]) - start[1]
-                ux, uy = run[0] / math.hypot(*run), run[1] / math.hypot(*run)
-                off = (centre[1] - start[1]) * ux - (centre[0] - start[0]) * uy
-                side = math.copysign(half_width, off)
-                x0, y0 = start[0] - side * uy, start[1] + side * ux
-                level = math.sqrt(max(at * at - (y0 * ux - x0 * uy) ** 2, 0.0))
-                along = assembly.sign * level - (x0 * ux + y0 * uy)
-                wall = Line((x0, y0), (x0 + along * ux, y0 + along * uy))
-                cut = tip(wall, centre, recess, flat)
+                wall = _wall_of_horn(assembly, kind, end, half_width, at)
+                cut = tip(wall, rest(assembly, kind, end), recess, flat)
                 at = math.hypot(*cut.recess) if cut else at
             ends.append(at)
         out[kind] = ends[0], ends[1]
     return out
+
+
+def _wall_of_horn(
+    assembly: Assembly, kind: Engagement, end: float, half_width: float, corner_mm: float
+) -> Line:
+    """Return a slot's wall beside its horn before (-1) or after (1) a motion, out to its corner."""
+    x, y = kind.slot(kind.end_deg(end), 0)
+    u, v = kind.slot(0.0, 0)
+    L, centre = assembly.L, rest(assembly, kind, end)
+    start = L * scalar(u.c[0]), L * scalar(v.c[0])
+    run = L * scalar(x.c[0]) - start[0], L * scalar(y.c[0]) - start[1]
+    ux, uy = run[0] / math.hypot(*run), run[1] / math.hypot(*run)
+    off = (centre[1] - start[1]) * ux - (centre[0] - start[0]) * uy
+    side = math.copysign(half_width, off)
+    x0, y0 = start[0] - side * uy, start[1] + side * ux
+    level = math.sqrt(max(corner_mm * corner_mm - (y0 * ux - x0 * uy) ** 2, 0.0))
+    along = assembly.sign * level - (x0 * ux + y0 * uy)
+    return Line((x0, y0), (x0 + along * ux, y0 + along * uy))
 
 
 def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:

@@ -25,15 +25,14 @@ EXACT = 1e-10  # radians: smaller angles are rounding
 class Play(NamedTuple):
     """The wheel's play back and on, degrees, at ascending input angles.
 
-    The wheel rests where ``resting``, and a roller's centre is past its mouth's corners where
-    ``guided``. ``speed`` is the roller's in the wheel's frame, mm per degree. The pushes are
-    pressure angles, degrees, where a roller stops the wheel; 0 where the lock does.
+    A roller's centre is past its mouth's corners where ``guided``. ``speed`` is the roller's in the
+    wheel's frame, mm per degree. The pushes are pressure angles, degrees, where a roller stops the
+    wheel; 0 where the lock does.
     """
 
     input_deg: Array
     back: Array
     on: Array
-    resting: Mask
     guided: Mask
     speed: Array
     back_push: Array
@@ -131,7 +130,7 @@ def _play_at(parts: TurnedParts, at: Array, fits: bool) -> Play:
             guided[here] |= parts.past_mouth(motion, at[here]) > -SAME_INPUT_DEG * assembly.L
     leads, known = (np.degrees(back.lead), np.degrees(on.lead)), _touching(parts)
     pushes = (np.where(s.lead > known, np.degrees(s.pressure), 0.0) for s in (back, on))
-    return Play(at, *leads, resting, guided & ~resting, speed, *pushes)
+    return Play(at, *leads, guided & ~resting, speed, *pushes)
 
 
 def _peaks(parts: TurnedParts, play: Play) -> tuple[Whole, Whole, Whole]:
