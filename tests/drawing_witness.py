@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from shapely.geometry import Polygon
 
-from geneva_cli.geometry.measure import STRAIGHT, at, mapped, segment_length
+from geneva_cli.geometry.measure import STRAIGHT, at, segment_length
 from geneva_cli.geometry.shapes import Arc, Circle, Cubic, Line, closed
 
 FRACTIONS = (0.0, 0.07, 0.25, 0.5, 0.61, 0.83, 1.0)
@@ -352,13 +352,3 @@ def _length(segment):
         )
 
     return quad(speed, 0.0, 1.0, epsabs=1e-13, epsrel=1e-13, limit=400)[0]
-
-
-def scaled(drawing, factor):
-    """The drawing enlarged from the origin; ``factor`` above 0."""
-
-    def point(p):
-        return factor * p[0], factor * p[1]
-
-    shapes = (mapped(shape, point, lambda r: factor * r) for shape in drawing.shapes)
-    return drawing._replace(shapes=tuple(shapes))

@@ -26,10 +26,6 @@ ROUNDED = 1e-9
 # the last place, 7e-15; for a product of two factors, ten times that is safe.
 TIE = 1e-13
 
-# Fraction of a limit by which a solved machine stays within it: more than the rounding of the peaks
-# that are compared, less than is shown.
-MARGIN = 1e-12
-
 # mm or radians on a drawing sheet: lines, radii, centres and directions nearer to each other are
 # equal; no plotter shows the difference.
 SAME_ON_SHEET = 1e-6

@@ -28,11 +28,6 @@ def limits_by_key(limits: Limits) -> dict[str, float]:
     return {key: values[key] for key in loads if values[key]}
 
 
-def load_limits(limits: Limits) -> dict[str, float]:
-    """The limits that a spec sets on loads, by the quantities that they bound."""
-    return {limited_load(key): most for key, most in limits_by_key(limits).items()}
-
-
 def limited_load(key: str) -> str:
     """The load that a key bounds.
 

@@ -29,7 +29,7 @@ def numbers(batches: Iterable[Batch], names: Sequence[str], count: int) -> Array
     NaN for a design of no batch, or whose engagements have no common number.
     """
     out = np.full((len(names), count), np.nan)
-    for members, machine in batches:
+    for members, machine in batches if names else ():
         if values := columns(machine, names, len(members)):
             out[:, members] = values
     return out

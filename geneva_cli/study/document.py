@@ -63,6 +63,7 @@ SECTIONS = {
     "Sizes": ("sizes", "parts", "slot"),
     "Life and strength": ("strength", "life"),
 }
+SHAFTS = ("wheel_shaft", "wheel_key", "crank_shaft", "crank_key")
 
 
 def short_document(design: Design) -> Document:
@@ -106,10 +107,11 @@ def document(design: Design) -> Document:
         if left.get(f"strength.{part}.margin") is None:
             # an allowed stress says nothing without a stress
             left.pop(f"strength.{part}.allowed_MPa", None)
-    is_set = [row for row in _keys(design.spec) if not row[-1]]
+    keys = [*_keys(design.spec)]
     rows = [
         (name, in_digits(value, 10) if isinstance(value, float) else value, unit, meaning)
-        for name, value, unit, meaning, _ in is_set  # with all digits
+        for name, value, unit, meaning, is_default in keys  # with all digits
+        if not is_default
     ]
     caption = "Keys that are set; the appendix has those at their defaults"
     blocks = [*_begin(design, key_figures(design)), *_warnings(design), Heading("Inputs")]
@@ -122,16 +124,7 @@ def document(design: Design) -> Document:
         own = {n: left.pop(n) for n in [*left] if n.partition(".")[0] in firsts}
         if values := [*_values(own)]:
             blocks += (Heading(heading), *values)
-    words = {True: "passes", False: BAD, None: "not proved"}
-    heads = ("Check", "Value", "At input angle, °", "Must be", "Limit", "Verdict", "Remark")
-    checks = [
-        (c.name, c.value, c.at_deg, c.must_be, c.limit, words[c.passes], c.nearest or c.why)
-        for c in design.checks
-    ]
-    many = len(heads) - (not any(row[-1] for row in checks))
-    cells = tuple(row[:many] for row in checks)
-    blocks += (Heading("Checks"), Grid("Every check with its verdict", heads[:many], cells))
-    blocks += _parts_list(parts)
+    blocks += (*_checks(design), *_parts_list(parts))
     if others := [*_values(left)]:
         blocks += (Heading("Other answers"), *others)
     known = design.strength.missing(OF_LIFE)  # the report lists these, and more, itself
@@ -140,13 +133,9 @@ def document(design: Design) -> Document:
         title = "What is not known, and the key that would give it"
         blocks += (Heading(title), TextList(unknown))
     blocks += (Heading("Sources of the formulas"), TextList((*_sources(design.spec), *SOURCES)))
-    defaults = [Fact(name, value, unit) for name, value, unit, _, is_default in _keys(design.spec)
-                if is_default]  # fmt: skip
+    defaults = [Fact(name, value, unit) for name, value, unit, _, is_default in keys if is_default]
     blocks += (Heading("Appendix: keys at their defaults"), Facts("", tuple(defaults)))
     return _document(design, blocks)
-
-
-SHAFTS = "wheel_shaft", "wheel_key", "crank_shaft", "crank_key"
 
 
 def _document(design: Design, blocks: Iterable[Block]) -> Document:
@@ -194,6 +183,19 @@ def _loads(design: Design) -> Iterator[Block]:
     caption = "Over the motions, and means over a whole period"
     yield Grid(caption, ("Quantity", "Unit", *columns), tuple(rows))
     yield from _values({n: v for n, v in page.items() if n.startswith("sizing.")})
+
+
+def _checks(design: Design) -> Iterator[Block]:
+    """Every check; without the column of remarks if there are none."""
+    words = {True: "passes", False: BAD, None: "not proved"}
+    heads = ("Check", "Value", "At input angle, °", "Must be", "Limit", "Verdict", "Remark")
+    checks = [
+        (c.name, c.value, c.at_deg, c.must_be, c.limit, words[c.passes], c.nearest or c.why)
+        for c in design.checks
+    ]
+    many = len(heads) - (not any(row[-1] for row in checks))
+    yield Heading("Checks")
+    yield Grid("Every check with its verdict", heads[:many], tuple(row[:many] for row in checks))
 
 
 def _parts_list(tables: Mapping[str, Table | None]) -> Iterator[Block]:

@@ -56,6 +56,9 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
     at = table.numbers(x, "--x")
     places = [place for place in at if place is not None]
     ascends = all(a < b for a, b in pairwise(places))
+    style = POINTS
+    if ascends:
+        style = LINE if len(places) > POINTS_MARKED else JOINED
     panels = []
     for y in ys:
         pieces: list[tuple[list[float], list[float]]] = [([], [])]
@@ -65,14 +68,12 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
                 pieces[-1][1].append(value)
             elif ascends:
                 pieces.append(([], []))
-        style = (LINE if len(places) > POINTS_MARKED else JOINED) if ascends else POINTS
         curve = Curve(0, "", tuple(piece for piece in pieces if piece[0]), style=style)
         if not curve.pieces:
             raise GenevaError(f"--y {cut(y)}: no row of {cut(path, 300)} has both it and {x}")
         panels.append(Panel(Axis(y, y), (curve,), None, from_zero=False))
     low, high = min(places), max(places)
     # points keep off the ends of the x axis
-    is_line = ascends and len(places) > POINTS_MARKED
-    margin = 0.0 if is_line else 0.02 * (high - low) or 0.5 * abs(low) or 0.5
+    margin = 0.0 if style == LINE else 0.02 * (high - low) or 0.5 * abs(low) or 0.5
     span = (low - margin, high + margin)
     return Figure(f"{', '.join(ys)} by {x}", Axis(x, x), tuple(panels), span)

@@ -14,18 +14,6 @@ from geneva_cli.table import Table
 pytestmark = pytest.mark.usefixtures("made_once", "read_once")
 DESIGNS = sorted((repo.DESIGNS).glob("*.toml"))
 LIMITED = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
-# Stations whose mid-motions lie past half a turn, and a motion that begins before it: a law that
-# is half-way late.
-FAR = {
-    "steps": "[wheel]\nz = 3\nsteps_deg = [100, 120, 140]\n[load]\ninertia_kgm2 = 0.1\n"
-    "[limits]\npin_force_max_N = 1\ninput_torque_max_Nm = 1\n",
-    "angles": "[wheel]\nz = 4\n[drive]\nroller_angles_deg = [0, 100, 250]\n[load]\ntorque_Nm = 1\n"
-    "[limits]\npin_force_max_N = 1\n",
-    "late": "[wheel]\nz = 3\ngearing = 'internal'\n[drive]\nkind = 'cam'\n"
-    "[motion]\nlaw = 'table'\nfile = 'late.csv'\n"
-    "alpha0_deg = -30\n[load]\ninertia_kgm2 = 0.1\n[limits]\nacceleration_max = 0.1\n"
-    "input_torque_max_Nm = 1\n",
-}
 
 
 def angles(name: str, value: Any) -> list[tuple[str, float]]:

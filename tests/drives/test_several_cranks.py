@@ -194,9 +194,6 @@ def test_the_listed_slots_are_those_that_pins_enter(steps, places, slots):
     assert sorted(listed) == list(slots)
 
 
-BEFORE = {"eccentricity": 0.3}
-
-
 def test_backwards_the_second_of_two_cranks_stands_at_the_other_steps():
     """z - 2 steps from the first, not 2."""
     design = Design(External(6), Crank(rollers=2, crank_steps=(0, 2)))

@@ -1,11 +1,9 @@
-"""A motion of which one half is searched: its second half is the mirror image of its first."""
+"""The half-way place of a law whose second half is no mirror image of its first."""
 
 import pytest
 from witness import mp
 
 from geneva_cli import SineGroup
-
-SWING = 0.3  # of the ratio 1 + SWING sin 6 phi
 
 
 def test_a_tilted_law_is_not():

@@ -219,9 +219,8 @@ GROUPS = {
 }
 
 OWN_ARM = PLANET.replace("0.01", "@")
-RING = "[wheel]\nz = 4\n" + OWN_ARM + 'fixed = "ring"'
 SMALL = "[size]\ncenter_distance_mm = 37"
-BELOW, ABOVE = r"below (\S+)", r"above (\S+)"
+BELOW = r"below (\S+)"
 BOUNDS = [
     bound("offset", WHEEL + "offset_mm = @", "80", BELOW, -1),
     bound("offset-L", WHEEL + "offset_mm = @\n" + SMALL, "30", BELOW, -1),

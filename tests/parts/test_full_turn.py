@@ -10,14 +10,11 @@ import numpy as np
 import pytest
 import shapely
 from drawing_witness import polygon
-from other_shape import with_shape
 from shapely import affinity
 from test_outline import STRAIGHT, L, disc, made, name, turned
 
-from geneva_cli.geometry.shapes import Contour
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
-from geneva_cli.parts.turn.gaps import Gaps
 
 
 def overlaps(found: Parts, count: int = 60) -> Iterator[float]:
@@ -121,13 +118,6 @@ def test_play_in_the_dwell_of_an_internal_wheel() -> None:
 
 
 # --- spoilt machines
-
-
-def spoilt(found: Parts, wheel: Contour | None = None, crank: list[Contour] | None = None) -> Parts:
-    """The same machine with another wheel or crank."""
-    wheel, crank = wheel or found.outlines.wheel, crank or found.outlines.crank
-    gaps = Gaps(found.assembly, found.sizes, wheel, crank)
-    return with_shape(found, wheel=wheel, crank=crank, gaps=gaps)
 
 
 @pytest.mark.sampled(5)

@@ -1,4 +1,4 @@
-"""Layers of all drawings: their names are the manual's, and only an option adds centre crosses."""
+"""Layers of sheets: their names are the manual's."""
 
 import io
 import re
@@ -9,8 +9,6 @@ import pytest
 import repo
 
 from geneva_cli import load
-from geneva_cli.drawings.catalogue import DRAWINGS
-from geneva_cli.errors import GenevaError
 from geneva_cli.output.dxf import sheet_chunks
 
 pytestmark = pytest.mark.usefixtures("made_once")
@@ -24,16 +22,6 @@ def listed():
     table = text.partition("| layer | content |")[2].partition("\n\n")[0]
     first = [line.split("|")[1] for line in table.splitlines()[2:]]
     return set(re.findall(r"`([A-Z]+)`", " ".join(first)))
-
-
-def drawings(path):
-    """Each drawing that a machine has, by its part's name."""
-    design = load(str(path))
-    for part in DRAWINGS:
-        try:
-            yield part, design.drawing(part, TOLERANCE)
-        except GenevaError:  # a part that this machine does not have
-            continue
 
 
 @pytest.mark.long

@@ -4,10 +4,8 @@ import math
 
 import pytest
 import repo
-from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
-from geneva_cli.cli.app import app
 from geneva_cli.loads.cycle_quantities import REPORTED_PEAKS
 from geneva_cli.study.batches import batch_machines, numbers
 from geneva_cli.study.fields import pick
@@ -20,12 +18,6 @@ LISTS = {  # of a report's names those of tables and lists, which are no quantit
     *("stations", "cycle.reversals_deg", "vibration.speeds_to_avoid_rpm", "strength.needs"),
     *("tolerance.warnings", "wheels", "cranks"),
 }
-
-
-def geneva(*words: str) -> str:
-    result = CliRunner().invoke(app, list(words))
-    assert result.exit_code == 0, result.stderr
-    return result.stdout
 
 
 @pytest.mark.long

@@ -15,8 +15,8 @@ from geneva_cli.study.sweep.values import axis
 
 DESIGNS = os.path.join(os.path.dirname(__file__), os.pardir, os.pardir, "designs")
 TIMING = ["timing.motion_deg", "timing.dwell_s", "timing.k"]
-# the last bits of one sine by the C library, of many by NumPy; tops' places to its root
-CLOSE, PLACE = 1e-13, 1e-6
+# the last bits of one sine by the C library, of many by NumPy
+CLOSE = 1e-13
 
 
 def rows(spec, vary, picks, random=None):

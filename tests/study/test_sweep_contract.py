@@ -5,15 +5,6 @@ import pytest
 from geneva_cli.study.sweep.request import request
 
 
-def swept(tmp_path, text, *vary, pick):
-    """The rows of a sweep without their last column, which says what is wrong: nothing."""
-    path = tmp_path / "spec.toml"
-    path.write_text(text, encoding="utf-8")
-    rows = [row for block in request(str(path), vary, pick=pick).blocks() for row in block]
-    assert [row[-1] for row in rows] == [None] * len(rows)
-    return [row[:-1] for row in rows]
-
-
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("text", "vary", "refused"),

@@ -28,10 +28,6 @@ GEARINGS = ("external", "internal")
 COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
 
 
-def listed(target):
-    return [(row.spec, row.candidate) for row in search(target).rows]
-
-
 def candidates(**options):
     """The machines of a wish."""
     return [row.candidate for row in searched(**options)[1].rows]

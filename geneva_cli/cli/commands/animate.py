@@ -25,12 +25,8 @@ def run(
     """Animate the machine on a page that needs no network.
 
     It shows parts, gears, contact force and curves, and plays or follows a slider.
-    --open prints the page's path if there is no browser.
+    --open also prints the page's path.
     """
-    import tempfile
-    import webbrowser
-    from pathlib import Path
-
     from geneva_cli.design import load
     from geneva_cli.output import animate
     from geneva_cli.spec.load_named import load_extra
@@ -41,11 +37,16 @@ def run(
     design = load(spec, settings or (), reverse)
     place = output
     if open_ and output == "-":
+        import tempfile
+
         place = os.path.join(tempfile.mkdtemp(prefix="geneva-"), "machine.html")
     shown = load_extra("outline", "scene")(design) if design.is_drawn else scene(design)
     animate(shown, place, design.spec.files)
     warn(design)
     if open_:
+        import webbrowser
+        from pathlib import Path
+
         page = os.path.abspath(place)
         print(page)
         if not webbrowser.open(Path(page).as_uri()):

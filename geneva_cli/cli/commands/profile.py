@@ -108,9 +108,6 @@ def run(
 
 def _refuse(kerf: float | None, cutter: float | None) -> None:
     """Raise GenevaError for options of parts to cut, if none is written."""
-    for name, given, of in (
-        ("--kerf", kerf is not None, "parts to cut"),
-        ("--cutter", cutter is not None, "parts to cut"),
-    ):
-        if given:
-            raise GenevaError(f"{name} is for {of}; this one is a table, or a sheet")
+    for name, length in (("--kerf", kerf), ("--cutter", cutter)):
+        if length is not None:
+            raise GenevaError(f"{name} is for parts to cut; this one is a table, or a sheet")

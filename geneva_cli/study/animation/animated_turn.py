@@ -18,10 +18,10 @@ from geneva_cli.motion.pivots import AxisPlace, Joint, Link
 from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
-from geneva_cli.parts.assembly import assembled_by_input, links_at
+from geneva_cli.parts.assembly import Passage, assembled_by_input, links_at
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.study.animation.tracks import cut, resting, sampled, track
+from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
 
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
 
@@ -49,15 +49,8 @@ class MachineTurn:
         for one, after in zip(self.passages, (*self.passages[1:], None), strict=True):
             motion = one.engagement.motion
             mid = one.mid + behind
-
-            def moving(
-                x: Array, mid: float = mid, motion: WheelMotion = motion, turned: float = turned
-            ) -> tuple[Array, Array]:
-                psi = motion(x - mid, 1)
-                return turned + psi.c[0] + 0.0 * x, psi.c[1] * (math.pi / 180.0) + 0.0 * x
-
             for a, b in cut(motion.entry_deg, motion.exit_deg, motion.breaks_deg):
-                pieces.append((mid + a, mid + b, moving))
+                pieces.append((mid + a, mid + b, _by_motion(motion, mid, turned)))
             turned += one.engagement.half_step
             end = after.entry if after else self.end - behind
             pieces.append((one.exit + behind, end + behind, resting(turned)))
@@ -102,7 +95,6 @@ class MachineTurn:
         ahead = math.pi if sign > 0.0 else 0.0
         gain = -sign * (sense or 1.0) * math.tau
         rate = gain / self.turn_deg
-
         turned -= rate * behind  # cranks turn at one rate, also if that varies
 
         def angle(x: Array) -> Array:
@@ -186,6 +178,16 @@ def _plates(
     return out
 
 
+def _by_motion(motion: WheelMotion, mid: float, turned: float) -> Moving:
+    """The angle of a wheel in a motion about the input angle ``mid``, where it is ``turned``."""
+
+    def moving(x: Array) -> tuple[Array, Array]:
+        psi = motion(x - mid, 1)
+        return turned + psi.c[0] + 0.0 * x, psi.c[1] * (math.pi / 180.0) + 0.0 * x
+
+    return moving
+
+
 def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
     """The force of each passage over a turn; none without a load."""
     if not cycle.is_loaded:
@@ -200,25 +202,10 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
         if not sound.any():
             continue
         pin = turn.assembly.driving(i, one.mid + local)
-        # unit normals of the slot in the fixed frame, of either sign; projected from a sphere
-        direction = pin
-        if turn.mechanism.spec.wheel.FLAT:
-            x, y = one.engagement.slot(local, 2)
-            direction = np.column_stack((x.c[1] + 0.0 * local, y.c[1] + 0.0 * local))
-            bend = np.column_stack((x.c[2] + 0.0 * local, y.c[2] + 0.0 * local))
-            # at a cusp the roller turns back, in the direction of its second derivative
-            slow = np.hypot(*direction.T) < 1e-6
-            direction[slow] = bend[slow]
-            # each slot of a pair is offset from the middle between them
-            psi = one.engagement.motion(local, 0).c[0] - np.sign(local) * one.engagement.apart
-            direction = turned_points(direction, psi)
-        if not turn.mechanism.output.turns:  # a rack is pushed along y
-            direction = np.column_stack((1.0 + 0.0 * local, 0.0 * local))
-        normal = np.column_stack((-direction[:, 1], direction[:, 0]))
-        normal /= np.hypot(*direction.T)[:, None]
+        normal = _normals(one, local, turn, pin)
         arm = pin[:, 0] * normal[:, 1] - pin[:, 1] * normal[:, 0]
         if not turn.mechanism.output.turns:
-            arm = normal[:, 1]
+            arm = normal[:, 1]  # a rack is pushed along y
         normal *= np.where(arm * torque < 0.0, -1.0, 1.0)[:, None]
         places = pin + turn.mechanism.roller_radius_mm * normal
         contact = (places[:, 0] + 1j * places[:, 1])[sound]
@@ -231,3 +218,21 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
             there, pushed = (contact - axis) * turned + axis, arrow * turned
             columns = (at + place.behind_deg, there.real, there.imag, pushed.real, pushed.imag)
             yield Push(*(tuple(column.tolist()) for column in columns))
+
+
+def _normals(one: Passage, local: Array, turn: MachineTurn, pin: Array) -> Array:
+    """Unit normals of the slot in the fixed frame, of either sign; projected from a sphere."""
+    if not turn.mechanism.output.turns:
+        return np.column_stack((0.0 * local, 1.0 + 0.0 * local))
+    direction = pin
+    if turn.mechanism.spec.wheel.FLAT:
+        x, y = one.engagement.slot(local, 2)
+        direction = np.column_stack((x.c[1] + 0.0 * local, y.c[1] + 0.0 * local))
+        bend = np.column_stack((x.c[2] + 0.0 * local, y.c[2] + 0.0 * local))
+        # at a cusp the roller turns back, in the direction of its second derivative
+        slow = np.hypot(*direction.T) < 1e-6
+        direction[slow] = bend[slow]
+        # each slot of a pair is offset from the middle between them
+        psi = one.engagement.motion(local, 0).c[0] - np.sign(local) * one.engagement.apart
+        direction = turned_points(direction, psi)
+    return np.column_stack((-direction[:, 1], direction[:, 0])) / np.hypot(*direction.T)[:, None]

@@ -14,6 +14,7 @@ from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.measure import at, bounds
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Shape, polygon
+from geneva_cli.motion.drive import Gears
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
@@ -99,23 +100,26 @@ def _bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
         yield Body("groove", _shapes(design, "groove"), (L, 0.0), still())
         if turn.mechanism.frame > 0.0:
             yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still())
+    if design.spec.gears:
+        yield from _gears(design.spec.gears, turn)
+
+
+def _gears(gears: Gears, turn: MachineTurn) -> Iterator[Body]:
+    """Gears that are not round, by their pitch curves."""
     machine = turn.mechanism
-    if machine.spec.gears:
-        gears, (x, sense) = machine.spec.gears, machine.gear_shaft
-        before = machine.spec.drive_before
-        # the gears turn the shaft of the drive
-        first = before is not None and before.gears is not None
-        table = gears_table(machine, 0.001, 241).to_dict()
-        for name in ("driver", "driven"):  # the table turns as an external wheel does
-            u, v = -table[f"{name}_x_mm"][:-1], sense * table[f"{name}_y_mm"][:-1]
-            curve = polygon("GEAR", list(zip(u.tolist(), v.tolist(), strict=True)))
-            if name == "driver":
-                at = x + gears.distance_mm
-                alone = first or before is None
-                angle = turn.input_shaft(-sense) if alone else turn.own_shaft(-sense)
-            else:
-                at, angle = x, turn.own_shaft(sense) if first else turn.crank_from_mid()
-            yield Body(f"{name} gear", (curve,), (at, 0.0), angle)
+    x, sense = machine.gear_shaft
+    before = machine.spec.drive_before
+    first = before is not None and before.gears is not None  # they turn the shaft of the drive
+    table = gears_table(machine, 0.001, 241).to_dict()
+
+    def curve(name: str) -> tuple[Shape, ...]:  # the table turns as an external wheel does
+        u, v = -table[f"{name}_x_mm"][:-1], sense * table[f"{name}_y_mm"][:-1]
+        return (polygon("GEAR", list(zip(u.tolist(), v.tolist(), strict=True))),)
+
+    driver = turn.input_shaft(-sense) if first or before is None else turn.own_shaft(-sense)
+    yield Body("driver gear", curve("driver"), (x + gears.distance_mm, 0.0), driver)
+    driven = turn.own_shaft(sense) if first else turn.crank_from_mid()
+    yield Body("driven gear", curve("driven"), (x, 0.0), driven)
 
 
 def _shapes(design: Design, part: str) -> tuple[Shape, ...]:

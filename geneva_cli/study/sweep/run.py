@@ -155,7 +155,7 @@ class Sweep(NamedTuple):
     def known(self, keys: Sequence[Column]) -> Array:
         """The quantities of ``pick.batched`` (q, n) of designs, NaN where a batch lacks them."""
         names, designs = self.pick.batched, Rows(keys)
-        return numbers(self._batches(designs) if names else (), names, len(designs))
+        return numbers(self._batches(designs), names, len(designs))
 
     def _batches(self, designs: Rows) -> Iterator[Batch]:
         def spec(values: Sequence[Cell]) -> Spec:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, RATES, SIZED, QuantityGroup
+from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, SIZED, QuantityGroup
 
 # Quantities whose values are words, which have no order.
 WORDS = frozenset(
@@ -37,11 +37,6 @@ def in_batch(names: Iterable[str]) -> bool:
     """
     known = group_of()
     return all(name in known and name in known[name].batched for name in names)
-
-
-def is_motion(name: str) -> bool:
-    """Return True if a quantity follows from the wheel's motion alone."""
-    return name.partition(".")[0] in ("timing", *RATES)
 
 
 def whole_name(name: str, option: str = "--pick") -> str:

@@ -61,11 +61,6 @@ def spoilt(parts, **larger_mm):
     return with_shape(parts, ball=ball, gaps=BallGaps(parts.assembly, ball, parts.shells.crank))
 
 
-def angles(points, tree):
-    chord, _ = tree.query(points)
-    return 2.0 * np.arcsin(0.5 * chord)
-
-
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_no_gap_within_an_interval_is_below_its_bound(name):

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from functools import partial
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -49,19 +50,19 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """
     counts = [int(m) for m in target.counts if m >= 1.0]
     several = [m for m in counts if m <= max(MORE, counts[0])] if counts else []
-    for name in target.laws:
-        for is_cam in (False, True):
-            law = registry.law(name)()
-            lines, spans = list[_LawLine](), list[AllowedSpan]()
-            for wheel in wheels if wheels[0].FLAT else ():
-                for m in several:
-                    is_extra = m > max(rollers_max(natural_deg(wheel)), several[0])
-                    one = _LawLine(target, wheel, law, is_cam, m, is_extra)
-                    if span := one.motions():
-                        lines.append(one)
-                        spans.append(span)
-            for own, span, most in zip(lines, spans, _longest(lines, spans), strict=True):
-                yield from own.families(span, most)
+    if not wheels[0].FLAT:
+        return
+    for name, is_cam in product(target.laws, (False, True)):
+        law = registry.law(name)()
+        lines, spans = list[_LawLine](), list[AllowedSpan]()
+        for wheel, m in product(wheels, several):
+            is_extra = m > max(rollers_max(natural_deg(wheel)), several[0])
+            one = _LawLine(target, wheel, law, is_cam, m, is_extra)
+            if span := one.motions():
+                lines.append(one)
+                spans.append(span)
+        for own, span, most in zip(lines, spans, _longest(lines, spans), strict=True):
+            yield from own.families(span, most)
 
 
 class _LawLine(NamedTuple):
