@@ -28,7 +28,7 @@ def design(force=None, **more):
 
 def row(of, name):
     check = single_check(of.mechanism, name)
-    return check and check.told
+    return check and check.with_reason
 
 
 def test_no_tolerance_no_row():

@@ -20,7 +20,7 @@ from geneva_cli.verdict.checks.all_checks import (
     applicable,
     check_named,
     standing,
-    untold,
+    without_reasons,
 )
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
@@ -49,8 +49,8 @@ def quick_first(
 
     Those of loads have no reason in words, which may take longer than the check.
     """
-    yield from untold(MOTION, mechanism)
-    yield from untold(LIMITS, mechanism)
+    yield from without_reasons(MOTION, mechanism)
+    yield from without_reasons(LIMITS, mechanism)
     if parts:
         yield from of_parts(mechanism, machine)
 

@@ -6,7 +6,7 @@ and returns None if the check does not apply.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.motion.records import KINDS, of_wheel
@@ -160,10 +160,13 @@ OF_TURN = ("full_turn", *TURNING)
 def standing(mechanism: Mechanism) -> Checks:
     """The checks of the parts of a machine at rest."""
     kinds = of_wheel(mechanism.spec.wheel.NAME)
-    own = next((kind.parts_checks for kind in reversed(kinds) if kind.parts), None)
+    own: Mapping[str, str] = {}
     some: Checks = {}
     for kind in kinds:
-        some |= {} if kind.parts else kind.parts_checks
+        if kind.parts:
+            own = kind.parts_checks
+        else:
+            some |= kind.parts_checks
     return {**own, **some} if own else {**STATIC, **some, **PROCESS}
 
 
@@ -172,7 +175,7 @@ def check_named(among: Checks, name: str, *of: object) -> Check | None:
     return load_named(among[name])(name, *of) if name in among else None
 
 
-def untold(among: Checks, *of: object) -> Iterator[Check]:
+def without_reasons(among: Checks, *of: object) -> Iterator[Check]:
     """The checks of a list that apply to ``of``; those that fail have no reason in words yet."""
     for name in among:
         if check := check_named(among, name, *of):
@@ -182,7 +185,11 @@ def untold(among: Checks, *of: object) -> Iterator[Check]:
 def applicable(among: Checks, *of: object) -> Iterator[Check]:
     """The checks of a list that apply to ``of``; of those that fail for one reason, the first."""
     reasons = set()
-    for check in (one.told for one in untold(among, *of)):
+    for name, path in among.items():
+        check = load_named(path)(name, *of)
+        if check is None:
+            continue
+        check = check.with_reason
         if check.passes is not False:
             yield check
         elif check.why not in reasons:

@@ -37,7 +37,7 @@ class Check(NamedTuple):
     reason: Callable[[], str] | None = None
 
     @property
-    def told(self) -> Check:
+    def with_reason(self) -> Check:
         """This check, with its reason in words."""
         return self._replace(why=self.reason(), reason=None) if self.reason else self
 

@@ -257,6 +257,6 @@ def first_stress(name: str, parts: FlatParts) -> Check | None:
     if check is None:
         return None
     # its angles are counted from another motion of the first wheel, and its sizes are of links
-    why = check.told.why.replace("arm_thickness_mm", "link_thickness_mm")
+    why = check.with_reason.why.replace("arm_thickness_mm", "link_thickness_mm")
     why = why.replace("the crank's shaft", "the first crank's shaft")
-    return check.told._replace(name=name, at_deg=None, why=why)
+    return check.with_reason._replace(name=name, at_deg=None, why=why)
