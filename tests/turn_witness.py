@@ -60,10 +60,10 @@ def check_bounds(parts, rng):
         for (low, high), pair, gap in pairs(parts, window):
             width = (high - low) * 10.0 ** rng.uniform(-5.0, -0.5, 40)
             start = low + (high - low - width) * rng.random(40)
-            bounds = pair(intervals(parts.gaps, start, start + width))
+            found, least = pair(intervals(parts.gaps, start, start + width))
             at = start[:, None] + width[:, None] * np.linspace(0.0, 1.0, 41)
             dense = gap(at.ravel()).reshape(at.shape).min(axis=1)
             near = parts.gaps.near  # wider gaps are returned as this
-            assert (np.minimum(bounds.least, near) <= dense + ROUNDING).all()
+            assert (np.minimum(least, near) <= dense + ROUNDING).all()
             middle = gap(start + 0.5 * width)
-            assert np.allclose(np.minimum(bounds.middle, near), middle, atol=ROUNDING)
+            assert np.allclose(np.minimum(found, near), middle, atol=ROUNDING)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, NoReturn, Self, cast
+from typing import TYPE_CHECKING, NoReturn, Self
 
 import numpy as np
 
@@ -45,7 +45,6 @@ if TYPE_CHECKING:
     from geneva_cli.parts.mounted_plate import FrameAndShafts
     from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.turn.bounds import FlatPairs
-    from geneva_cli.parts.turn.gaps import Gaps
 
 
 class FlatParts(EdgedParts):
@@ -106,7 +105,7 @@ class FlatParts(EdgedParts):
         from geneva_cli.geometry.distance import farthest
         from geneva_cli.parts.turn.bounds import FlatPairs
 
-        gaps, axis = cast("Gaps", self.outlines.gaps), np.zeros((1, 2))
+        gaps, axis = self.outlines.gaps, np.zeros((1, 2))
         outside = self.assembly.sign > 0.0
         rim = float(farthest(gaps.wheel, 0.0, 0.0).max() if outside else gaps.wheel.signed(axis)[0])
         return FlatPairs(gaps, self.outlines.crank, target, rim)

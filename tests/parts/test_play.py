@@ -16,7 +16,7 @@ from words import Motion, load
 
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.play import free_angles, windows
+from geneva_cli.parts.turn.play import wheel_stops, windows
 from geneva_cli.verdict.checks.all_checks import TURNING, applicable
 
 DESIGNS = repo.DESIGNS
@@ -159,12 +159,13 @@ def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     turn = full_turn(found)
     assert turn.hand_over.deg == pytest.approx(play, rel=1e-3)
     p = turn.play
-    i = int(np.argmax(np.where(p.guided, 0.0, p.either)))
+    either = np.maximum(p.back, p.on)
+    i = int(np.argmax(np.where(p.guided, 0.0, either)))
     # all the way to there the wheel is free, and a little farther it is not
     way = 1.0 if p.on[i] > p.back[i] else -1.0
     for share in (0.0, 0.2, 0.4, 0.6, 0.8, 0.99, 0.9999):
-        assert free(found, p.input_deg[i], way * share * p.either[i])
-    assert not free(found, p.input_deg[i], way * (1.0002 * p.either[i] + 0.01))
+        assert free(found, p.input_deg[i], way * share * either[i])
+    assert not free(found, p.input_deg[i], way * (1.0002 * either[i] + 0.01))
     row = next(c for c in applicable(TURNING, found, turn) if c.name == "hand_over_play_deg")
     assert row.passes == held
 
@@ -205,7 +206,8 @@ def test_play_where_the_roller_changes_walls(name: str) -> None:
     )
     window = next(w for w in windows(parts) if not w.rests)
     at_deg = np.linspace(window.start, window.end, 20_000)
-    play = np.degrees(np.minimum(*free_angles(parts, at_deg, True)))
+    leads, _ = wheel_stops(parts, at_deg, True)
+    play = np.degrees(leads.min(axis=0))
     dense = play[parts.past_mouth(0, at_deg) > 0.0].max()
     # the play changes by a hundredth of itself between two positions of the scan
     assert full_turn(parts).motion.deg == pytest.approx(dense, rel=0.01)

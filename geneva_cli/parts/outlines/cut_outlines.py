@@ -19,7 +19,7 @@ from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.pairs import Pose
+from geneva_cli.parts.turn.stops import Pose
 
 SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relief must clear
 

@@ -11,7 +11,7 @@ from geneva_cli.geometry.shapes import Contour
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.turn.pairs import Clearances
+from geneva_cli.parts.turn.gaps import Gaps
 
 
 class Outlines(NamedTuple):
@@ -28,7 +28,7 @@ class Outlines(NamedTuple):
     wheel: Contour
     crank: list[Contour]
     relief: str
-    gaps: Clearances
+    gaps: Gaps
     close: float
 
     @property

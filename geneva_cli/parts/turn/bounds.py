@@ -8,22 +8,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TypeAlias, cast
+from typing import TYPE_CHECKING, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.geometry.distance import Polyarc, farthest, from_segments, short_pieces
+from geneva_cli.geometry.distance import farthest, from_segments, short_pieces
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.kept import cached_property
-from geneva_cli.motion.engagement import Engagement
+from geneva_cli.motion.engagement import ConstantRate, Engagement
 from geneva_cli.motion.plane_motion import turned_points
-from geneva_cli.numerics.arrays import Array, Undecided, Whole
-from geneva_cli.numerics.intervals import Interval, size_of
-from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.arrays import Array, Undecided, Whole, rising
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.pairs import Bounds, Intervals, Pose, Window, raised
+from geneva_cli.parts.turn.turned_parts import Intervals, Window
 
-Curve: TypeAlias = Callable[[Number, int], tuple[Jet, Jet]]
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Jet, Number
+
+Curve: TypeAlias = "Callable[[Number, int], tuple[Jet, Jet]]"
 
 UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
 
@@ -32,118 +32,141 @@ class FlatPairs:
     """Pairs of flat parts, with gaps up to ``target`` mm; the wheel reaches the level ``rim``."""
 
     def __init__(self, gaps: Gaps, crank: Sequence[Contour], target: float, rim: float) -> None:
-        self.gaps, self.crank, self.target, self.rim = gaps, crank, target, rim
-        self.moves, self.L = gaps.assembly.plane_motion, gaps.assembly.L
+        self.gaps, self.target, self.rim = gaps, target, rim
         self.apart = max(target, 0.0)  # the distance up to which parts matter
         self._travels: dict[tuple[str, Engagement], Travel] = {}
+        # the crank in arcs of a degree, each of which is tested for being in the wheel, and the
+        # greatest distance of the crank from its axis, mm
+        self.pieces = short_pieces(crank, math.radians(1.0)) if crank else None
+        self.disc = float(farthest(self.pieces, 0.0, 0.0).max()) if self.pieces else 0.0
 
-    def lock(self, window: Window, on: Intervals) -> Bounds:
+    def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]:
         """Return the gap of locking disc and wheel: bounds up to ``apart``.
 
         In the dwell and beside it, the part of the crank that is within the wheel's rim lies in the
         circle that the wheel leaves free about the middle of each recess.
         """
-        gap = self.gaps.locking(on.at_middle)
-        far = self.rim if self.gaps.assembly.sign > 0.0 else self.L + self.disc + self.apart
-        moved = self.moves.lever(far) * on.wheel + (self.disc + self.apart) * on.crank
-        least = gap - moved
-        doubtful = least < self.target
-        least = raised(least, doubtful, lambda which: self._in_recess(window, on.at(which)))
-        return Bounds(gap, np.minimum(least, self.apart))
+        gaps, pieces, pose = self.gaps, self.pieces, on.at_middle
+        moves, sign, L = gaps.plane_motion, gaps.assembly.sign, gaps.assembly.L
+        gap = gaps.locking(pose)
+        far = self.rim if sign > 0.0 else L + self.disc + self.apart
+        least = gap - (moves.lever(far) * on.wheel + (self.disc + self.apart) * on.crank)
+        some = np.flatnonzero(least < self.target)
+        if pieces is None or not len(some):
+            return gap, np.minimum(least, self.apart)
+        wheel, crank = pose.wheel[some], pose.crank[some]
+        # the middles of the recesses at both ends of the window, in the wheel's frame
+        turn = gaps.assembly.wheel(np.array((window.start, window.end)))
+        recesses = moves.into(np.array(((L, 0.0), (L, 0.0))), turn)
+        at = 0.5 * (on.start[some] + on.end[some])
+        nearer = (at - window.start >= window.end - at).astype(int)
+        offset = turned_points(moves.into(recesses[nearer], -wheel) - (L, 0.0), -crank)
+        # the pieces of the crank that may come within the wheel's rim
+        c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
+        x, y = L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
+        beyond = sign * (moves.level(np.stack((x, y), axis=-1)) - self.rim)
+        moved = self.disc * on.crank[some, None] + self.apart
+        row, piece = np.nonzero(beyond - pieces.size <= moved)
+        reach = np.zeros(len(some))  # of the crank from the middle of the nearer recess
+        np.maximum.at(reach, row, farthest(pieces.subset(piece), *offset[row].T))
+        away = moves.lever(L) * on.wheel[some] + np.hypot(*offset.T) * on.crank[some]
+        free = gaps.wheel.signed(recesses)[nearer]
+        least[some] = np.maximum(least[some], free - reach - away)
+        return gap, np.minimum(least, self.apart)
 
-    def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
+    def free(self, roller: int, window: Window, on: Intervals) -> tuple[Array, Array]:
         """Return the gap of a roller outside the slot that it drives.
 
         It is the gap in the middle, less the roller's travel in the wheel's frame. While the wheel
         rests, the centre is also near the chord of its path.
         """
-        centre, path = self._centre(roller, on.at_middle), self._path(roller)
-        beyond = self.gaps.assembly.sign * (self.moves.level(centre) - self.rim)
-        gap = self.gaps.rollers(on.at_middle)[:, roller]
-        gap = np.maximum(gap, beyond - self.gaps.sizes.roller)
-        least = gap - self._travel(roller, on, centre)
+        centre, gap, travel, aside = self._moving(roller, on)
+        level, gaps = self.gaps.plane_motion.level(centre), self.gaps
+        beyond = gaps.assembly.sign * (level - self.rim)
+        gap = np.maximum(gap, beyond - gaps.sizes.roller)
+        least = gap - travel
+        some = np.flatnonzero(least < self.target)
+        if window.rests and len(some):
+            chord = self._ends(roller, on, some)
+            closer = self._along(*chord, aside[some], centre[some], gap[some])
+            least[some] = np.maximum(least[some], closer)
+        return gap, least
 
-        def near_chord(which: Whole) -> Array:
-            some = on.at(which)
-            start, end = (self._centre(roller, pose) for pose in (some.at_start, some.at_end))
-            aside = path.aside(*self._own(roller, some))
-            return self._along((start, end, aside), centre[which], gap[which])
-
-        return Bounds(gap, raised(least, window.rests & (least < self.target), near_chord))
-
-    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds:
+    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> tuple[Array, Array]:
         """Return the gap of a roller in its slot, on its axis or near chords of its curve."""
-        engagement, _ = self.gaps.assembly.rollers[roller]
-        centre = self._centre(roller, on.at_middle)
-        gap = self.gaps.rollers(on.at_middle)[:, roller]
-        if engagement.slot.curved:
-            moving, middle = self.gaps.assembly.motions[roller]
+        gaps = self.gaps
+        centre, gap, travel, _ = self._moving(roller, on)
+        if gaps.assembly.rollers[roller].engagement.slot.curved:
+            moving, middle = gaps.assembly.motions[roller]
             if ("slot", moving) not in self._travels:
                 # the roller's travel in its slot, in the wheel's frame
-                edges = _edges(moving, moving.entry_deg, moving.exit_deg)
-                rates = _rates(moving.slot, np.array(edges[:-1]), np.array(edges[1:]))
-                self._travels["slot", moving] = Travel(edges, rates, self.L)
-            start, end = (self._centre(roller, pose) for pose in (on.at_start, on.at_end))
-            aside = self._travels["slot", moving].aside(on.start - middle, on.end - middle)
-            return Bounds(gap, self._along((start, end, aside), centre, gap))
-        places = self.gaps.pose(np.array([span[0], 0.5 * (span[0] + span[1])]))
-        first, other = self._centre(roller, places)
+                edges = cells(moving, moving.entry_deg, moving.exit_deg)
+                rates = curve_rates(moving.slot, edges[:-1], edges[1:])
+                self._travels["slot", moving] = Travel(edges, rates, gaps.assembly.L)
+            _, aside = self._travels["slot", moving].on(on.start - middle, on.end - middle)
+            chord = self._ends(roller, on, np.arange(len(gap)))
+            return gap, self._along(*chord, aside, centre, gap)
+        places = gaps.pose(np.array([span[0], 0.5 * (span[0] + span[1])]))
+        first, other = gaps.plane_motion.into(places.pins[:, roller], places.wheel)
         axis = (first - other) / math.dist(first, other)
-        half = self._travel(roller, on, centre)[:, None] * axis
+        half = travel[:, None] * axis
         aside = np.abs((centre - first) @ (-axis[1], axis[0]))
-        return Bounds(gap, self._along((centre - half, centre + half, aside), centre, gap))
+        return gap, self._along(centre - half, centre + half, aside, centre, gap)
 
-    @cached_property
-    def pieces(self) -> Polyarc:
-        """The crank in arcs of a degree, each of which is tested for being in the wheel."""
-        return short_pieces(self.crank, math.radians(1.0))
+    def _moving(self, roller: int, on: Intervals) -> tuple[Array, Array, Array, Array]:
+        """Return a roller's centre in the wheel's frame and its gap, both in the middle.
 
-    @cached_property
-    def disc(self) -> float:
-        """The greatest distance of the crank from its axis, mm."""
-        return float(farthest(self.pieces, 0.0, 0.0).max())
+        With them go how far it is at most from there, and from its path's chord in a fixed frame.
+        """
+        gaps, moves, pose = self.gaps, self.gaps.plane_motion, on.at_middle
+        centre = moves.into(pose.pins[:, roller], pose.wheel)
+        start = gaps.assembly.from_mid(on.start, gaps.assembly.rollers[roller][1])
+        most, aside = self._path(roller).on(start, start + (on.end - on.start))
+        travel = most + moves.lever(moves.level(centre)) * on.wheel
+        return centre, gaps.rollers(pose)[:, roller], travel, aside
 
     def _path(self, roller: int) -> Travel:
         """Return the travel of a roller through a whole turn in the fixed frame."""
         engagement, _ = self.gaps.assembly.rollers[roller]
-        if ("path", engagement) not in self._travels:  # which several rollers share
-            turn_deg = self.gaps.assembly.turn_deg
-            edges = _edges(engagement, -0.5 * turn_deg, 0.5 * turn_deg)
-            start, end = np.array(edges[:-1]), np.array(edges[1:])
+        if ("path", engagement) in self._travels:  # which several rollers share
+            return self._travels["path", engagement]
+        turn_deg, L = self.gaps.assembly.turn_deg, self.gaps.assembly.L
+        body, groove = engagement.body, engagement.groove
+        if engagement.on_arm and groove is None and isinstance(body, ConstantRate):
+            # a circle about the crank's axis, at a constant speed
+            x, y = engagement.path(0.0, 0)
+            speed = abs(body.rate) * math.hypot(x.c[0] - engagement.hub, y.c[0])
+            edges, rates = np.array((-0.5, 0.5)) * turn_deg, [[speed], [speed * abs(body.rate)]]
+        else:
+            edges = cells(engagement, -0.5 * turn_deg, 0.5 * turn_deg)
+            start, end = edges[:-1], edges[1:]
             moving, dwell = np.full(len(start), True), None
-            if engagement.groove is not None:
+            if groove is not None:
                 from geneva_cli.motion.groove_path import dwell_rates
 
-                dwell = dwell_rates(engagement.groove)
+                dwell = dwell_rates(groove)
                 if dwell:
                     moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
             rates = np.empty((2, len(start)))
-            rates[:, moving] = _rates(engagement.path, start[moving], end[moving])
+            rates[:, moving] = curve_rates(engagement.path, start[moving], end[moving])
             if dwell:
                 rates[:, ~moving] = np.array(dwell)[:, None]
-            self._travels["path", engagement] = Travel(edges, rates, self.L, turn_deg)
-        return self._travels["path", engagement]
+        travel = self._travels["path", engagement] = Travel(edges, np.array(rates), L, turn_deg)
+        return travel
 
-    def _own(self, roller: int, on: Intervals) -> tuple[Array, Array]:
-        """Return the ends of intervals as angles of the roller's own engagement."""
-        start = self.gaps.assembly.from_mid(on.start, self.gaps.assembly.rollers[roller][1])
-        return start, start + (on.end - on.start)
+    def _ends(self, roller: int, on: Intervals, some: Whole) -> tuple[Array, Array]:
+        """Return a roller's centre in the wheel's frame at both ends of some intervals."""
+        into, start, end = self.gaps.plane_motion.into, on.at_start, on.at_end
+        return (
+            into(start.pins[some, roller], start.wheel[some]),
+            into(end.pins[some, roller], end.wheel[some]),
+        )
 
-    def _centre(self, roller: int, pose: Pose) -> Array:
-        """Return a roller's centre in the wheel's frame, (n, 2)."""
-        return self.moves.into(pose.pins[:, roller], pose.wheel)
-
-    def _travel(self, roller: int, on: Intervals, centre: Array) -> Array:
-        """Return how far the centre is at most from its place in the middle, ``centre``."""
-        moved = self.moves.lever(self.moves.level(centre)) * on.wheel
-        return self._path(roller).most(*self._own(roller, on)) + moved
-
-    def _along(self, segments: tuple[Array, Array, Array], centre: Array, gap: Array) -> Array:
+    def _along(self, start: Array, end: Array, aside: Array, centre: Array, gap: Array) -> Array:
         """Return the gap of a roller, ``gap`` at ``centre``, that moves along segments.
 
-        ``segments`` has their ends in the wheel's frame, and how far off the centre may be, mm.
+        They have ends in the wheel's frame; the centre may be ``aside`` of them, mm.
         """
-        start, end, aside = segments
         radius = self.gaps.sizes.roller
         off = np.hypot(*(0.5 * (start + end) - centre).T)
         # A segment that is shorter than its middle's distance from the outline does not cross it.
@@ -155,26 +178,6 @@ class FlatPairs:
             least[short] = free - aside[short] - radius
         return least
 
-    def _in_recess(self, window: Window, on: Intervals) -> Array:
-        """Return how far the crank stays within the circle of the nearer recess, mm."""
-        moves, L, pieces, (wheel, crank, _) = self.moves, self.L, self.pieces, on.at_middle
-        # the middles of the recesses at both ends of the window, in the wheel's frame
-        turn = self.gaps.assembly.wheel(np.array((window.start, window.end)))
-        recesses = moves.into(np.array(((L, 0.0), (L, 0.0))), turn)
-        nearer = (on.middle - window.start >= window.end - on.middle).astype(int)
-        middle = moves.into(recesses[nearer], -wheel)
-        offset = turned_points(middle - (L, 0.0), -crank)
-        # the pieces of the crank that may come within the wheel's rim
-        c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
-        x, y = L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
-        beyond = self.gaps.assembly.sign * (moves.level(np.stack((x, y), axis=-1)) - self.rim)
-        moved = self.disc * on.crank[:, None] + self.apart
-        row, piece = np.nonzero(beyond - pieces.size <= moved)
-        far = np.zeros(len(wheel))
-        np.maximum.at(far, row, farthest(pieces.subset(piece), *offset[row].T))
-        away = moves.lever(L) * on.wheel + np.hypot(*offset.T) * on.crank
-        return self.gaps.wheel.signed(recesses)[nearer] - far - away
-
 
 class Travel:
     """Bounds of the speed and the second derivative of a curve between two input angles.
@@ -183,46 +186,43 @@ class Travel:
     ``length`` mm; infinite if unknown. A curve that runs all round repeats after ``turn_deg``.
     """
 
-    def __init__(
-        self, edges: Sequence[float], rates: Array, length: float, turn_deg: float = 0.0
-    ) -> None:
+    def __init__(self, edges: Array, rates: Array, length: float, turn_deg: float = 0.0) -> None:
         speed, bend = np.minimum(length * rates, UNKNOWN)
-        self.edges = np.array(edges)
+        self.edges = edges
         if turn_deg:  # an interval may begin in one turn and end in the next
             speed, bend = np.tile(speed, 2), np.tile(bend, 2)
-            self.edges = np.concatenate((self.edges, self.edges[1:] + turn_deg))
+            self.edges = np.concatenate((edges, edges[1:] + turn_deg))
         self.bend, self.unknown = bend, np.where(speed < UNKNOWN, 0.0, UNKNOWN)
         known = np.where(speed < UNKNOWN, speed, 0.0)
         self.moved = np.concatenate(([0.0], np.cumsum(known * np.radians(np.diff(self.edges)))))
 
-    def most(self, start: Array, end: Array) -> Array:
-        """Return how far the curve is at most, on either half of intervals, from their middles."""
-        moved = [np.interp(at, self.edges, self.moved) for at in (start, 0.5 * (start + end), end)]
-        out: Array = np.diff(moved, axis=0).max(axis=0)
-        return np.maximum(out, self._greatest(self.unknown, start, end))
+    def on(self, start: Array, end: Array) -> tuple[Array, Array]:
+        """Return how far the curve is at most on intervals from its place in their middles.
 
-    def aside(self, start: Array, end: Array) -> Array:
-        """Return how far the curve is at most from its chord on intervals."""
-        return self._greatest(self.bend, start, end) * np.radians(end - start) ** 2 / 8.0
-
-    def _greatest(self, values: Array, start: Array, end: Array) -> Array:
-        """Return the greatest value of the cells that intervals touch."""
+        With it goes how far it is at most from its chord.
+        """
+        at = np.array((start, 0.5 * (start + end), end))
+        most = np.diff(np.interp(at, self.edges, self.moved), axis=0).max(axis=0)
         touch = (self.edges[:-1] <= end[:, None]) & (self.edges[1:] >= start[:, None])
-        return np.where(touch, values, 0.0).max(axis=1)
+        unknown = np.where(touch, self.unknown, 0.0).max(axis=1)
+        bend = np.where(touch, self.bend, 0.0).max(axis=1)
+        return np.maximum(most, unknown), bend * np.radians(end - start) ** 2 / 8.0
 
 
-def _edges(engagement: Engagement, start: float, end: float) -> list[float]:
+def cells(engagement: Engagement, start: float, end: float) -> Array:
     """Return the ends of cells; no formula changes within a cell of the motion."""
     # on cells longer than a degree of the input the bounds are much wider
     seams = [x for x in engagement.motion.seams_deg if start < x < end]
-    return sorted({*np.linspace(start, end, math.ceil(end - start) + 1).tolist(), *seams})
+    return rising(np.append(np.linspace(start, end, math.ceil(end - start) + 1), seams))
 
 
-def _rates(curve: Curve, start: Array, end: Array) -> Array:
+def curve_rates(curve: Curve, start: Array, end: Array) -> Array:
     """Return the greatest sizes of a curve's derivatives on n cells (2, n); infinite if unknown.
 
     Where another formula takes over within a cell, it is halved down to that place.
     """
+    from geneva_cli.numerics.intervals import Interval, size_of
+
     rates, tries = np.zeros((2, len(start))), np.zeros(len(start), dtype=int)
     left = [(np.arange(len(start)), start, end)]  # parts of cells: each one's cell, and its ends
     while left:

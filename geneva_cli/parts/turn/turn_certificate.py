@@ -6,15 +6,19 @@ Distances at single positions are taken as exact, up to their rounding.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, TurnedParts, Window
 from geneva_cli.parts.turn.play import windows
+from geneva_cli.parts.turn.stops import Pose
+from geneva_cli.parts.turn.turned_parts import Intervals, TurnedParts, Window
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.turn.turned_parts import Clearances
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
 
@@ -55,7 +59,7 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
     spare = 1e-11 * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
     pairs, least, count = parts.pairs(target), math.inf, 0
-    todo: list[tuple[str, Callable[[Intervals], Bounds], tuple[float, float]]] = []
+    todo: list[tuple[str, Callable[[Intervals], tuple[Array, Array]], tuple[float, float]]] = []
     for window in windows(parts):
         if parts.locked:
             ends = window.start, window.end
@@ -70,14 +74,17 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
         bound = _halved(parts.gaps, pair, ends, target)
         least, count = min(least, bound.least_mm - spare), count + bound.intervals
         if bound.open:
-            start, end = (parts.assembly.shown_deg(x) for x in bound.open[:2])
-            shown = bound.open._replace(start_deg=start, end_deg=end)
-            return Certificate(least, count, shown, between)
+            start, end, *gap = bound.open
+            shown = parts.assembly.shown_deg
+            return Certificate(least, count, Open(shown(start), shown(end), *gap), between)
     return Certificate(least, count)
 
 
 def _halved(
-    gaps: Clearances, pair: Callable[[Intervals], Bounds], ends: tuple[float, float], target: float
+    gaps: Clearances,
+    pair: Callable[[Intervals], tuple[Array, Array]],
+    ends: tuple[float, float],
+    target: float,
 ) -> Certificate:
     """Return a lower bound of a pair's gap, by halving intervals until it is ``target`` mm on each.
 
@@ -88,16 +95,15 @@ def _halved(
     least, count = math.inf, 0
     while len(start):
         count += len(start)
-        bounds = pair(intervals(gaps, start, end))
-        closed = bounds.least >= target
-        least = min(least, float(bounds.least[closed].min(initial=math.inf)))
-        start, end = start[~closed], end[~closed]
-        middle, bound = (each[~closed] for each in bounds)
+        middle, bound = pair(intervals(gaps, start, end))
+        closed = bound >= target
+        least = min(least, float(bound[closed].min(initial=math.inf)))
+        table = np.array((start, end, middle, bound))[:, ~closed]
+        start, end, middle, bound = table
         collides = bool((middle < target).any())
         if collides or count + 2 * len(start) > MOST:
             i = int(np.argmin(middle if collides else bound))
-            left = Open(*(float(each[i]) for each in (start, end, middle, bound)))
-            return Certificate(least, count, left)
+            return Certificate(least, count, Open(*table[:, i].tolist()))
         half = 0.5 * (start + end)
         start, end = np.concatenate((start, half)), np.concatenate((half, end))
     return Certificate(least, count)
@@ -108,18 +114,18 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
 
     Where the wheel turns back, its turn is a whole one: no point moves farther than that.
     """
-    pose = gaps.pose(np.concatenate((start, 0.5 * (start + end), end)))
-    crank = np.unwrap(pose.crank.reshape(3, -1), axis=0)
-    steps = np.diff(pose.wheel.reshape(3, -1), axis=0)
+    pose, count = gaps.pose(np.concatenate((start, 0.5 * (start + end), end))), len(start)
+    wheel, crank = pose.wheel.reshape(3, count), pose.crank.reshape(3, count)
+    steps = np.diff(wheel, axis=0)
     # the wheel's angle is rounded by less than 1e-12 radians
     turn = np.where((steps < -1e-12).any(axis=0), math.tau, steps.max(axis=0))
-    count = len(start)
-    poses = [pose.at(slice(i * count, (i + 1) * count)) for i in range(3)]
-    return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn, *poses)
+    crank_turn = np.abs(np.diff(np.unwrap(crank, axis=0), axis=0)).max(axis=0)
+    poses = map(Pose, wheel, crank, pose.pins.reshape(3, count, *pose.pins.shape[1:]))
+    return Intervals(start, end, crank_turn, turn, *poses)
 
 
-def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
-    """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
+def spans(parts: TurnedParts, window: Window) -> list[tuple[tuple[float, float], int | None]]:
+    """Return the spans of a motion or dwell, each with the roller that is in its slot, or None.
 
     Between two rollers of a motion gears drive the wheel, from the deepest position to that of the
     other.
@@ -127,12 +133,8 @@ def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, flo
     start, end, motion, rests = window
     assembly = parts.assembly
     if rests or not assembly.motions[motion].engagement.paired:
-        yield (start, end), None if rests else motion
-        return
+        return [((start, end), None if rests else motion)]
     first, last = 2 * motion, 2 * motion + 1
-    leaves, meets = (
-        start + (assembly.rollers[i].mid - start) % assembly.turn_deg for i in (first, last)
-    )
-    yield (start, leaves), first
-    yield (leaves, meets), None
-    yield (meets, end), last
+    leaves = start + (assembly.rollers[first].mid - start) % assembly.turn_deg
+    meets = start + (assembly.rollers[last].mid - start) % assembly.turn_deg
+    return [((start, leaves), first), ((leaves, meets), None), ((meets, end), last)]
