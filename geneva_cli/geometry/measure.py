@@ -110,8 +110,8 @@ def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:
     """A segment alone; an arc halved until no part ``is_long`` by the size of its bulge."""
     if isinstance(segment, Arc) and is_long(abs(segment.bulge)):
         middle, bulge = at(segment, 0.5), math.tan(0.125 * segment.sweep)
-        halves = Arc(segment.start, middle, bulge), Arc(middle, segment.end, bulge)
-        return [part for half in halves for part in halved(half, is_long)]
+        first, last = Arc(segment.start, middle, bulge), Arc(middle, segment.end, bulge)
+        return [*halved(first, is_long), *halved(last, is_long)]
     return [segment]
 
 
