@@ -49,10 +49,10 @@ def pairs(parts, window):
         def gap(at, roller=roller):
             return parts.gaps.rollers(parts.gaps.pose(at))[:, roller]
 
-        yield (window.start, window.end), partial(every.free, roller, window), gap
+        yield (window.start, window.end), partial(every.roller, roller, window, None), gap
         for span, driver in spans(parts, window):
             if roller == driver:
-                yield span, partial(every.driving, roller, span), gap
+                yield span, partial(every.roller, roller, window, span), gap
 
 
 def check_bounds(parts, rng):

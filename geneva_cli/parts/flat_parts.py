@@ -44,7 +44,7 @@ from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
 if TYPE_CHECKING:
     from geneva_cli.parts.mounted_plate import FrameAndShafts
     from geneva_cli.parts.projection import NamedParts
-    from geneva_cli.parts.turn.bounds import FlatPairs
+    from geneva_cli.parts.turn.turn_certificate import FlatPairs
 
 
 class FlatParts(EdgedParts):
@@ -103,7 +103,7 @@ class FlatParts(EdgedParts):
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
         from geneva_cli.geometry.distance import farthest
-        from geneva_cli.parts.turn.bounds import FlatPairs
+        from geneva_cli.parts.turn.turn_certificate import FlatPairs
 
         gaps, axis = self.outlines.gaps, np.zeros((1, 2))
         outside = self.assembly.sign > 0.0

@@ -21,7 +21,6 @@ from geneva_cli.parts.turn.stops import (
     cut,
     inset_ends,
     masked,
-    on_both_sides,
 )
 
 
@@ -33,11 +32,11 @@ class SlidingStops(Stops):
     """
 
     def rollers(self, centres: Array, inset: float) -> Array:
-        """Return the branches of rollers about n centres, in the fixed frame."""
+        """Return rollers about n centres in the fixed frame, as branches on one side of them."""
         (x, y), radius, row = centres.T, self.roller - inset, np.arange(len(centres))
         zero = 0.0 * x
         arc = x - radius, x + radius, zero, zero, zero + radius, x, y / self.L
-        return on_both_sides(np.array((row, *arc, zero + 1.0, zero)))
+        return np.array((row, *arc, zero + 1.0, zero))
 
     def corners(self, outline: Polyarc, pose: Pose) -> Array:
         """Return the convex corners of the crank in n poses, as branches of one level."""
@@ -113,9 +112,12 @@ class RackGaps(Gaps):
 
     sizes: RackSizes
 
-    def _sector(self) -> None:
-        """Reduce the rack to one slot and its neighbours; the slots are two radii apart."""
-        self.pitch, radius, rack = 2.0, self.assembly.L, self.wheel
+    def __init__(
+        self, assembly: Assembly, sizes: RackSizes, wheel: Contour, crank: list[Contour]
+    ) -> None:
+        super().__init__(assembly, sizes, wheel, crank)
+        # one slot and its neighbours, which are two radii apart
+        self.pitch, radius, rack = 2.0, assembly.L, self.wheel
         self.around = rack.subset(np.flatnonzero(np.abs(rack.oy) <= 3.5 * radius))
         # a slot and the recess after it, whose pieces begin between two recesses
         self.one = rack.subset(np.flatnonzero((rack.y0 >= -radius) & (rack.y0 < radius)))

@@ -3,7 +3,7 @@
 All walls lead to the sphere's centre, and so do the rollers' cones. So gaps are angles at the
 centre; they are returned as arc lengths on the sphere, mm.
 
-On intervals of the input angle they are bounded as on a plane (``parts.turn.bounds``). A point at
+On intervals of the input angle they are bounded as on a plane, in ``turn_certificate``. A point at
 an angle r from an axis moves at most sin r times the angle by which its part turns about it. A
 roller's path is exact: an arc about the crank's axis while the wheel rests, and a piece of the
 meridian in its own slot.
@@ -172,44 +172,41 @@ class SpherePairs:
             least[which] = np.maximum(least[which], ball.radius_mm * free)
         return gap, np.minimum(least, ball.radius_mm * self.apart)
 
-    def free(self, roller: int, window: Window, on: Intervals) -> tuple[Array, Array]:
-        """Return the gap of a roller outside the slot that it drives.
+    def roller(
+        self, number: int, window: Window, span: tuple[float, float] | None, on: Intervals
+    ) -> tuple[Array, Array]:
+        """Return the gap of a roller in its slot between two angles, or outside the one it drives.
 
-        It is the gap in the middle, less the roller's travel in the wheel's frame. While the wheel
-        rests, the centre is also on its circle about the crank's axis.
+        In its slot it moves along a meridian. Outside, the gap is that in the middle, less the
+        roller's travel in the wheel's frame. While the wheel rests, the centre is also on its
+        circle about the crank's axis.
         """
-        centre, ball = self._centre(roller, on.at_middle), self.ball
+        ball, gaps, pose, pins = self.ball, self.gaps, on.at_middle, on.at_middle.pins[:, number]
+        centre, gap = about(pins, -pose.wheel), gaps.rollers(pose)[:, number]
+        if span:
+            middle = gaps.pose(np.array([0.5 * (span[0] + span[1])]))
+            x, y, _ = about(middle.pins[:, number], -middle.wheel)[0]
+            out = np.array((x, y, 0.0)) / math.hypot(x, y)
+            across = np.array((-out[1], out[0], 0.0))
+            circle = Circle(across, np.array(POLE), out, QUARTER)
+            # the distance from the wheel's axis changes by no more than the roller moves
+            half = math.sin(ball.arm) * on.crank
+            return gap, self._along(circle, centre, half, gap)
         away = polar(centre)
         # the wheel is within its rim's circle
         beyond = ball.radius_mm * (away - ball.rim - ball.roller)
-        gap = np.maximum(self.gaps.rollers(on.at_middle)[:, roller], beyond)
+        gap = np.maximum(gap, beyond)
         travel = math.sin(ball.arm) * on.crank + np.sin(away) * on.wheel
         least = gap - ball.radius_mm * travel
         which = np.flatnonzero(least < self.target)
         if window.rests and len(which):
             # the crank's axes in the frame of the resting wheel
-            lead = np.full(3, self.gaps.assembly.wheel(np.array([window.start]))[0])
-            x, y, axis = about(self.gaps.crank_frame, -lead)
+            lead = np.full(3, gaps.assembly.wheel(np.array([window.start]))[0])
+            x, y, axis = about(gaps.crank_frame, -lead)
             circle = Circle(axis, x, y, ball.arm)
             closer = self._along(circle, centre[which], on.crank[which], gap[which])
             least[which] = np.maximum(least[which], closer)
         return gap, least
-
-    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> tuple[Array, Array]:
-        """Return the gap of a roller in its slot between two input angles: on its meridian."""
-        middle = self.gaps.pose(np.array([0.5 * (span[0] + span[1])]))
-        x, y, _ = self._centre(roller, middle)[0]
-        out = np.array((x, y, 0.0)) / math.hypot(x, y)
-        across = np.array((-out[1], out[0], 0.0))
-        circle = Circle(across, np.array(POLE), out, QUARTER)
-        gap = self.gaps.rollers(on.at_middle)[:, roller]
-        # the distance from the wheel's axis changes by no more than the roller moves
-        half = math.sin(self.ball.arm) * on.crank
-        return gap, self._along(circle, self._centre(roller, on.at_middle), half, gap)
-
-    def _centre(self, roller: int, pose: Pose) -> Array:
-        """Return a roller's centre in the wheel's frame, (n, 3)."""
-        return about(pose.pins[:, roller], -pose.wheel)
 
     def _along(self, circle: Circle, centre: Array, half: Array, gap: Array) -> Array:
         """Return the gap of a roller whose centre moves along a circle, mm."""

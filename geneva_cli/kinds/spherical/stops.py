@@ -21,7 +21,6 @@ from geneva_cli.parts.turn.stops import (
     Stops,
     cut,
     masked,
-    on_both_sides,
 )
 
 
@@ -48,12 +47,12 @@ class SphereStops(Stops):
         return super().first(pose, most, close / self.radius_mm)
 
     def rollers(self, centres: Array, inset: float) -> Array:
-        """Return the branches of rollers about n centres, directions (n, 3)."""
+        """Return rollers about n centres, directions (n, 3), as branches on one side of them."""
         far, ahead, zero = polar(centres), azimuth(centres), np.zeros(len(centres))
         cap = zero + self.roller - inset, far, ahead
         (low, at_low), (high, at_high) = _extremes(far, cap[0])
         row = np.arange(len(centres))
-        return on_both_sides(np.array((row, low, high, at_low, at_high, *cap, zero + 1.0, zero)))
+        return np.array((row, low, high, at_low, at_high, *cap, zero + 1.0, zero))
 
     def corners(self, outline: SphereArcs, pose: Pose) -> Array:
         """Return the convex corners of a sector in n poses, as branches of one level."""

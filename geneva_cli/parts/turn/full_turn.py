@@ -19,7 +19,6 @@ from geneva_cli.parts.turn.play import (
     EXACT,
     Play,
     play_of,
-    push_deg,
     search_deg,
     wheel_stops,
     windows,
@@ -116,7 +115,7 @@ def full_turn(parts: TurnedParts) -> FullTurn:
     if resting:
         leads, _ = wheel_stops(parts, np.array(resting), fits)
         dwell = _most(np.degrees(leads.max(axis=0)), np.array(resting), first)
-    play = play_of(parts, fits)
+    play, push_deg = play_of(parts, fits)
     inside, outside = play.guided, ~play.guided
     guided_deg = play.input_deg[inside]
     either, both = np.maximum(play.back, play.on), np.minimum(play.back, play.on)
@@ -142,7 +141,7 @@ def full_turn(parts: TurnedParts) -> FullTurn:
         _most(both[inside], guided_deg, first),
         _most(play.on[inside], guided_deg, first),
         _most(play.back[inside], guided_deg, first),
-        _most(push_deg(parts, play), play.input_deg[:-1], first),
+        _most(push_deg, play.input_deg[:-1], first),
         contact._replace(at_deg=assembly.shown_deg(contact.at_deg)),
         free_deg,
         play,

@@ -53,9 +53,27 @@ class Gaps:
         self.assembly, self.sizes, self.plane_motion = assembly, sizes, assembly.plane_motion
         self.wheel = Polyarc([wheel if assembly.sign > 0.0 else backwards(wheel)])
         self.near = NEAR * assembly.L
-        self._sector()
         self.places = self.plane_motion.place(np.column_stack((self.wheel.ox, self.wheel.oy)))
         self.crank = Polyarc(crank) if crank else None
+        # a wheel whose slots are all equal is reduced to one slot, and to it and its neighbours
+        self.pitch, self.one, self.around = 0.0, self.wheel, self.wheel
+        count, outline = len(assembly.slots), self.wheel
+        each, rest = divmod(len(outline.x0), count)
+        if rest:
+            return
+        corners = np.column_stack((outline.x0, outline.y0))
+        # the outline of an internal wheel runs clockwise
+        angle = np.full(len(corners), math.tau / count * assembly.sign)
+        off = turned_points(np.roll(corners, each, axis=0), angle) - corners
+        bends = np.column_stack((outline.sense, outline.cos_half))
+        other = np.abs(np.roll(bends, each, axis=0) - bends).max()
+        if np.abs(off).max() >= SAME_LENGTH * assembly.L or other >= SAME_LENGTH:
+            return
+        self.pitch = math.tau / count
+        middle = np.arctan2(outline.y0 + outline.y1, outline.x0 + outline.x1)
+        reach = math.asin(min(1.0, (self.near + sizes.roller) / sizes.rim))
+        keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
+        self.one, self.around = outline.subset(np.arange(each)), outline.subset(keep)
 
     def with_crank(self, crank: list[Contour]) -> Gaps:
         """Return the gaps of this wheel and these rollers with another crank's outline."""
@@ -63,27 +81,6 @@ class Gaps:
         vars(out).pop("stops", None)
         out.crank = Polyarc(crank) if crank else None
         return out
-
-    def _sector(self) -> None:
-        """Reduce a wheel whose slots are all equal to one slot and its neighbours."""
-        # the outline of an internal wheel runs clockwise
-        count, wheel = len(self.assembly.slots), self.wheel
-        each, rest = divmod(len(wheel.x0), count)
-        self.pitch, self.around, self.one = 0.0, wheel, wheel
-        if rest:
-            return
-        corners = np.column_stack((wheel.x0, wheel.y0))
-        angle = np.full(len(corners), math.tau / count * self.assembly.sign)
-        off = turned_points(np.roll(corners, each, axis=0), angle) - corners
-        bends = np.column_stack((wheel.sense, wheel.cos_half))
-        other = np.abs(np.roll(bends, each, axis=0) - bends).max()
-        if np.abs(off).max() >= SAME_LENGTH * self.assembly.L or other >= SAME_LENGTH:
-            return
-        self.pitch = math.tau / count
-        middle = np.arctan2(wheel.y0 + wheel.y1, wheel.x0 + wheel.x1)
-        reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
-        keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
-        self.around, self.one = wheel.subset(keep), wheel.subset(np.arange(each))
 
     @cached_property
     def stops(self) -> Stops:
@@ -121,8 +118,9 @@ class Gaps:
         The wheel is turned on by ``lead`` radians; wider gaps are returned as ``near`` mm.
         """
         near = self.near if near is None else near
-        r, out = self.sizes.roller, np.full(pose.pins.shape[:2], near)
-        for i in range(out.shape[1]):
+        count, r = pose.pins.shape[1], self.sizes.roller
+        out = np.full((len(pose.wheel), count), near)
+        for i in range(count):
             centres = self.plane_motion.into(pose.pins[:, i], pose.wheel + lead)
             level = self.plane_motion.level(centres)
             far = self.assembly.sign * (level - self.sizes.rim) - r

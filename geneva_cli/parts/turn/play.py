@@ -56,8 +56,15 @@ def windows(parts: TurnedParts) -> list[Window]:
     return out
 
 
-def play_of(parts: TurnedParts, fits: bool) -> Play:
-    """Return the play at a grid of positions, refined where it is greatest or closes fastest."""
+def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
+    """Return the play at a grid of positions, refined where it is greatest or closes fastest.
+
+    With it go the pressure angles, degrees, at which the wheel is pushed into line between them.
+    """
+    lever = parts.rim_lever
+    # The largest play, radians, that may be rounding, as tangent parts separate slowly: the angle
+    # at which two circles of the rim's radius overlap by ``close``.
+    least = math.sqrt(2.0 * parts.close / lever)
     # 24 positions on either side of entry and exit, where lock and roller change over
     close, grid = np.concatenate(([0.0], np.geomspace(0.01, 1.0, 24))), []
     every = windows(parts)
@@ -65,32 +72,33 @@ def play_of(parts: TurnedParts, fits: bool) -> Play:
         near = close * min(15.0, 0.5 * (b - a))
         # in the rest of a motion an odd number, so that mid-motion is one
         grid += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
-    play = _play_at(parts, every, rising(np.concatenate(grid)), fits)
+    play = _play_at(parts, every, rising(np.concatenate(grid)), fits, least)
+    angle = _push_deg(play, lever, least)
     # 9 rounds: 5**-9 of some degrees is a millionth
     for _ in range(9):
-        angle = push_deg(parts, play)
         # where the play closes fastest, with the neighbours
         top = np.argsort(-angle, kind="stable")[: MOST if angle.max() > 0.0 else 0]
-        i = rising(np.concatenate((*_peaks(parts, play), top - 1, top, top + 1)))
+        i = rising(np.concatenate((*_peaks(parts, play, lever, least), top - 1, top, top + 1)))
         i = i[(i >= 0) & (i < len(play.input_deg) - 1)]
         low, wide = play.input_deg[i], np.diff(play.input_deg)[i]
         cut = wide > 1e-6  # narrower intervals are not divided
         more = (low[cut, None] + wide[cut, None] * (np.arange(1, AROUND) / AROUND)).ravel()
         if not len(more):
             break
-        play = joined((play, _play_at(parts, every, more, fits)))
+        play = joined((play, _play_at(parts, every, more, fits, least)))
         play = record_taken(play, np.argsort(play.input_deg, kind="stable"))
-    return play
+        angle = _push_deg(play, lever, least)
+    return play, angle
 
 
-def push_deg(parts: TurnedParts, play: Play) -> Array:
+def _push_deg(play: Play, lever: float, least: float) -> Array:
     """Return the pressure angle, degrees, at which the wheel is pushed into line; 0 if it is not.
 
     It belongs to the intervals between positions. Where the play shrinks as the crank turns, a
     roller at the mouth of its slot pushes the wheel's corner along their common normal. A play that
     ends abruptly means that a corner blocks: 90 degrees.
     """
-    step, lever = np.diff(play.input_deg), parts.rim_lever
+    step = np.diff(play.input_deg)
     moved = 0.5 * (play.speed[1:] + play.speed[:-1]) * step
     free = ~(play.guided[:-1] | play.guided[1:])
     pushes = np.zeros(len(step))
@@ -98,12 +106,12 @@ def push_deg(parts: TurnedParts, play: Play) -> Array:
         closing = lever * np.radians(-np.diff(edge))
         # a rim that moves more than 30 times the roller's travel is not pushed by the roller
         angle = np.where(closing > 30.0 * moved, 90.0, push[1:])
-        known = np.radians(edge[:-1]) > touching(parts)
+        known = np.radians(edge[:-1]) > least
         pushes = np.maximum(pushes, np.where(free & known & (closing > 0.0), angle, 0.0))
     return pushes
 
 
-def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool) -> Play:
+def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, least: float) -> Play:
     """Return the play at input angles (n,), in the motions and dwells of the turn."""
     assembly, gaps = parts.assembly, parts.gaps
     leads, pressures = wheel_stops(parts, at, fits)
@@ -122,11 +130,14 @@ def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool) -> 
             resting |= here
         else:
             guided[here] |= parts.past_mouth(motion, at[here]) > -SAME_INPUT_DEG * assembly.L
-    pushes = np.where(leads > touching(parts), np.degrees(pressures), 0.0)
-    return Play(at, *np.degrees(leads), guided & ~resting, speed, *pushes)
+    back, on = np.degrees(leads)
+    back_push, on_push = np.where(leads > least, np.degrees(pressures), 0.0)
+    return Play(at, back, on, guided & ~resting, speed, back_push, on_push)
 
 
-def _peaks(parts: TurnedParts, play: Play) -> tuple[Whole, Whole, Whole]:
+def _peaks(
+    parts: TurnedParts, play: Play, lever: float, least: float
+) -> tuple[Whole, Whole, Whole]:
     """Return the intervals in which the play may be greatest, in slots and elsewhere.
 
     Besides those about the greatest plays they are those in which the roller changes from one wall
@@ -135,12 +146,12 @@ def _peaks(parts: TurnedParts, play: Play) -> tuple[Whole, Whole, Whole]:
     """
     # walls hold up to a pressure angle of 84 degrees, whose cosine is 1/10: a smaller play between
     # the walls of a slot may be that of their tolerance alone
-    held = math.degrees(10.0 * parts.close / parts.rim_lever)
-    either, both = math.degrees(touching(parts)), np.minimum(play.back, play.on)
+    held = math.degrees(10.0 * parts.close / lever)
+    either, both = math.degrees(least), np.minimum(play.back, play.on)
     edges = np.array((play.back, play.back, play.on, play.on, both, both))
     where = np.array((play.guided, ~play.guided) * 3)
-    least = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
-    value = np.where(where & (edges < search_deg(parts)) & (edges > least), edges, -1.0)
+    above = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
+    value = np.where(where & (edges < search_deg(parts)) & (edges > above), edges, -1.0)
     padded = np.pad(value, ((0, 0), (1, 1)), constant_values=-1.0)
     # around a local maximum below 0.8 of the greatest no greater play is expected
     great = np.maximum(0.8 * value.max(axis=1, keepdims=True), 0.0)
@@ -180,9 +191,3 @@ def smallest_clearance(gaps: Clearances, pose: Pose, lead: Array, near: float) -
     """Return the smallest clearance of all parts in each pose, mm (n,); see ``Clearances``."""
     rolling = gaps.rollers(pose, lead, near).min(axis=1)
     return np.minimum(gaps.locking(pose, lead, near), rolling)
-
-
-def touching(parts: TurnedParts) -> float:
-    """Return the largest play, radians, that may be rounding: tangent parts separate slowly."""
-    # the angle at which two circles of the rim's radius overlap by ``close``
-    return math.sqrt(2.0 * parts.close / parts.rim_lever)

@@ -12,7 +12,7 @@ for a rack positions across it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -22,6 +22,8 @@ from geneva_cli.numerics.arrays import Array, Mask, Whole
 
 BLOCK = 1 << 18  # pairs of branches that are compared together
 CONCENTRIC = 1e-9  # of the radius: an arc about the axis has one level
+
+Outline: TypeAlias = Any  # a Polyarc; on a sphere SphereArcs
 
 
 class Pose(NamedTuple):
@@ -73,7 +75,7 @@ class Stops:
     """
 
     def __init__(
-        self, outline: Polyarc, pitch: float, crank: Sequence[Polyarc], L: float, roller: float
+        self, outline: Outline, pitch: float, crank: Sequence[Outline], L: float, roller: float
     ) -> None:
         self.outline, self.pitch, self.crank, self.L = outline, pitch, crank, L
         self.roller = roller
@@ -87,8 +89,9 @@ class Stops:
         n, count, size = pose.pins.shape
         wheel = self.branches(self.outline, None, 0.0)
         inset = self.branches(self.outline, None, close)
-        rollers = self.rollers(pose.pins.reshape(-1, size), close)
-        each, levels = self._blocked(rollers, wheel, np.repeat(pose.wheel, count), most)
+        sides = np.tile(self.rollers(pose.pins.reshape(-1, size), close), 2)
+        sides[8, n * count :] = -1.0
+        each, levels = self._blocked(sides, wheel, np.repeat(pose.wheel, count), most)
         lock = np.full((2, n), most)
         for outline in self.crank:
             sides, corners = self.branches(outline, pose.crank, close), self.corners(outline, pose)
@@ -163,19 +166,19 @@ class Stops:
                     ):
                         least[bent[less]], at[bent[less]] = here[less], level[less]
             row, spare = one.row.astype(int), one.half + two.half
-            ends = low - spare, high + spare, at_low, at_high
-            yield Meetings(row, *ends, crank_side, wheel_side)
+            found = low - spare, high + spare, at_low, at_high
+            yield Meetings(row, *found, crank_side, wheel_side)
 
     def rollers(self, centres: Array, inset: float) -> Array:
-        """Return the branches of rollers about n centres, in the fixed frame."""
+        """Return rollers about n centres in the fixed frame, as branches on one side of them."""
         far, ahead = np.hypot(*centres.T), np.arctan2(centres[:, 1], centres[:, 0])
         radius = self.roller - inset
         excess, zero = far - radius, 0.0 * far
         ends = np.abs(excess), far + radius, np.where(excess < 0.0, np.pi, 0.0), zero
         one = np.arange(len(far)), *ends, zero + 1.0 / radius, excess, ahead, zero + 1.0, zero
-        return on_both_sides(np.array(one))
+        return np.array(one)
 
-    def corners(self, outline: Polyarc, pose: Pose) -> Array:
+    def corners(self, outline: Outline, pose: Pose) -> Array:
         """Return the convex corners of the crank in n poses, as branches of one level."""
         corners = np.column_stack((outline.x0, outline.y0))[outline.turn_start > 0.0]
         n, k = len(pose.crank), len(corners)
@@ -184,7 +187,7 @@ class Stops:
         ahead, row = np.arctan2(y, self.L + x), np.repeat(np.arange(n), k)
         return np.array((row, level, level, zero, zero, zero, level, ahead, zero, zero))
 
-    def branches(self, outline: Polyarc, angle: Array | None, inset: float) -> Array:
+    def branches(self, outline: Outline, angle: Array | None, inset: float) -> Array:
         """Return the branches ``inset`` mm inside an outline of the crank at n angles.
 
         Without ``angle`` it is that of the wheel, in its own frame.
@@ -300,13 +303,6 @@ def masked(mask: Mask, *columns: Array) -> Array:
     for line, column in zip(out[1:], columns, strict=True):
         line[:] = column[mask]
     return out
-
-
-def on_both_sides(branches: Array) -> Array:
-    """Return the branches of whole circles, on either side of their centres."""
-    other = branches.copy()
-    other[8] = -1.0
-    return np.concatenate((branches, other), axis=1)
 
 
 def inset_ends(outline: Polyarc, inset: float) -> tuple[Array, Array, Array]:

@@ -75,13 +75,10 @@ if TYPE_CHECKING:
         def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]:
             """Bound the gap between the crank's locking surfaces and the wheel."""
 
-        def free(self, roller: int, window: Window, on: Intervals) -> tuple[Array, Array]:
-            """Bound the gap between a roller and the wheel outside the slot that it drives."""
-
-        def driving(
-            self, roller: int, span: tuple[float, float], on: Intervals
+        def roller(
+            self, number: int, window: Window, span: tuple[float, float] | None, on: Intervals
         ) -> tuple[Array, Array]:
-            """Bound the gap of a roller in its slot between two input angles."""
+            """Bound the gap of a roller outside the slot it drives, or in it within a span."""
 
     class Shape(Protocol):
         """Wheel and crank of a machine, as they are cut and turned."""
