@@ -108,18 +108,18 @@ def contacts(
     best = np.full(n, near)
     sides, point = np.zeros((2, 4, n)), np.zeros((n, 2))
     for first in range(0, n, 16):
-        for met in free.meetings(crank_angle[first : first + 16]):
-            row = met.row + first
+        for row, start, end, start_level, end_level, *both in free.meetings(
+            crank_angle[first : first + 16]
+        ):
+            row = row + first
             # an arc about the wheel's axis pushes nothing; its ends are those of other pieces too
-            wheel_side, crank_side = Branches(*met.wheel), Branches(*met.other)
-            is_round = wheel_side.half + crank_side.half > 0.0
-            for place, levels in ((met.start, met.start_level), (met.end, met.end_level)):
+            is_round = both[0][-1] + both[1][-1] > 0.0
+            for place, levels in ((start, start_level), (end, end_level)):
                 shift = period * np.round((place - wheel[row]) / period)
                 off = np.abs(place - wheel[row] - shift)
                 k = np.flatnonzero((off < best[row]) & ~is_round)
                 level, off, rows = levels[k], off[k], row[k]
-                crank_side = Branches(*met.other.take(k, axis=1))
-                wheel_side = Branches(*met.wheel.take(k, axis=1))
+                crank_side, wheel_side = (Branches(*each.take(k, axis=1)) for each in both)
                 ours, theirs = _side(crank_side, level), _side(wheel_side, level)
                 theirs[1] += wheel[rows] + shift[k]
                 # the sine between normal and the direction from the wheel's axis

@@ -107,10 +107,10 @@ class FreeRanges:
         """Return the free ranges at crank angles (n,), radians."""
         rows, starts, ends = [np.zeros(0, dtype=int)], [np.zeros(0)], [np.zeros(0)]
         for first in range(0, len(crank_angle), BLOCK):
-            for met in self.meetings(crank_angle[first : first + BLOCK]):
-                rows.append(first + met.row)
-                starts.append(met.start)
-                ends.append(met.end)
+            for row, start, end, *_ in self.meetings(crank_angle[first : first + BLOCK]):
+                rows.append(first + row)
+                starts.append(start)
+                ends.append(end)
         intervals = np.concatenate(rows), np.concatenate(starts), np.concatenate(ends)
         return Ranges(intervals, len(crank_angle), self.period)
 

@@ -54,16 +54,9 @@ class Branches(NamedTuple):
     half: Array
 
 
-class Meetings(NamedTuple):
-    """Intervals of the wheel's angle, radians, where branches meet, and levels at both ends."""
-
-    row: Whole  # the pose
-    start: Array
-    end: Array
-    start_level: Array
-    end_level: Array
-    other: Array  # branches
-    wheel: Array
+# The poses of pairs of branches, the intervals of the wheel's angle, radians, at which they meet,
+# levels at both ends, and the branches of the crank and of the wheel.
+Meetings: TypeAlias = tuple[Whole, Array, Array, Array, Array, Array, Array]
 
 
 class Stops:
@@ -111,18 +104,18 @@ class Stops:
     ) -> tuple[Array, Array]:
         """Return how far the wheel turns back and on until branches meet, and their level there."""
         leads, levels = np.full((2, len(turn)), most), np.zeros((2, len(turn)))
-        for met in self.meetings(others, wheel):
-            start, end = met.start - turn[met.row], met.end - turn[met.row]
+        for row, start, end, start_level, end_level, *_ in self.meetings(others, wheel):
+            start, end = start - turn[row], end - turn[row]
             shift = self.pitch * np.round(0.5 * (start + end) / self.pitch)
             start, end = start - shift, end - shift
             for k, (near, far, level) in enumerate(
-                ((-end, -start, met.end_level), (start, end, met.start_level))
+                ((-end, -start, end_level), (start, end, start_level))
             ):
                 lead = np.where(far < 0.0, near + self.pitch, np.maximum(near, 0.0))
                 hit = np.flatnonzero(lead < most)
-                np.minimum.at(leads[k], met.row[hit], lead[hit])
-                hit = hit[lead[hit] == leads[k, met.row[hit]]]
-                levels[k, met.row[hit]] = level[hit]
+                np.minimum.at(leads[k], row[hit], lead[hit])
+                hit = hit[lead[hit] == leads[k, row[hit]]]
+                levels[k, row[hit]] = level[hit]
         return leads, levels
 
     def meetings(
@@ -166,8 +159,7 @@ class Stops:
                     ):
                         least[bent[less]], at[bent[less]] = here[less], level[less]
             row, spare = one.row.astype(int), one.half + two.half
-            found = low - spare, high + spare, at_low, at_high
-            yield Meetings(row, *found, crank_side, wheel_side)
+            yield row, low - spare, high + spare, at_low, at_high, crank_side, wheel_side
 
     def rollers(self, centres: Array, inset: float) -> Array:
         """Return rollers about n centres in the fixed frame, as branches on one side of them."""

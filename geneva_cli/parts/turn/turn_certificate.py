@@ -31,24 +31,16 @@ MOST = 20_000  # intervals of one pair of parts: ten times what the designs take
 UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
 
 
-class Open(NamedTuple):
-    """An interval, degrees, on which the gap is not proved: in its middle, and least."""
-
-    start_deg: float
-    end_deg: float
-    gap_mm: float
-    least_mm: float
-
-
 class Certificate(NamedTuple):
     """A proved lower bound of the gap, mm, and the number of intervals that it took.
 
-    If an interval is ``open``, it holds elsewhere only. ``between`` names the parts there.
+    If an interval is ``open``, it holds elsewhere only. This has the ends of the interval, degrees,
+    the gap in its middle and what is proved on it, mm. ``between`` names the parts there.
     """
 
     least_mm: float
     intervals: int
-    open: Open | None = None
+    open: tuple[float, float, float, float] | None = None
     between: str = ""
 
 
@@ -76,9 +68,9 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
         bound = _halved(parts.gaps, pair, ends, target)
         least, count = min(least, bound.least_mm - spare), count + bound.intervals
         if bound.open:
-            start, end, *gap = bound.open
+            start, end, gap, proved = bound.open
             shown = parts.assembly.shown_deg
-            return Certificate(least, count, Open(shown(start), shown(end), *gap), between)
+            return Certificate(least, count, (shown(start), shown(end), gap, proved), between)
     return Certificate(least, count)
 
 
@@ -100,12 +92,12 @@ def _halved(
         middle, bound = pair(intervals(gaps, start, end))
         closed = bound >= target
         least = min(least, float(bound[closed].min(initial=math.inf)))
-        table = np.array((start, end, middle, bound))[:, ~closed]
-        start, end, middle, bound = table
+        start, end, middle, bound = np.array((start, end, middle, bound))[:, ~closed]
         collides = bool((middle < target).any())
         if collides or count + 2 * len(start) > MOST:
             i = int(np.argmin(middle if collides else bound))
-            return Certificate(least, count, Open(*table[:, i].tolist()))
+            left = float(start[i]), float(end[i]), float(middle[i]), float(bound[i])
+            return Certificate(least, count, left)
         half = 0.5 * (start + end)
         start, end = np.concatenate((start, half)), np.concatenate((half, end))
     return Certificate(least, count)

@@ -95,4 +95,4 @@ def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
         if found.open is None:
             assert found.least_mm <= -depth
         else:
-            assert -depth - ROUNDING <= found.open.gap_mm < -TO_MM
+            assert -depth - ROUNDING <= found.open[2] < -TO_MM
