@@ -7,7 +7,7 @@ import numpy as np
 from sampling import some
 
 from geneva_cli.parts.turn.play import windows
-from geneva_cli.parts.turn.turn_certificate import certificate, intervals, spans
+from geneva_cli.parts.turn.turn_certificate import certificate, intervals
 
 TO_MM = 1e-3
 ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here
@@ -33,6 +33,16 @@ def check_proof(parts, gap_mm, to_mm=TO_MM):
     return proof
 
 
+def check_overlap(worse, depth, walls_mm=0.0):
+    """Parts that overlap by a known depth, of walls that may be off, are proved to no less."""
+    found = certificate(worse, 0.0, TO_MM)
+    assert (found.open is None) == (depth < TO_MM)
+    if found.open is None:
+        assert found.least_mm <= -depth + walls_mm
+    else:
+        assert -depth - walls_mm - ROUNDING <= found.open[2] < -TO_MM
+
+
 def turn_of(parts, count=DENSE):
     start = parts.assembly.start_deg
     return np.linspace(start, start + parts.assembly.turn_deg, count)
@@ -50,7 +60,7 @@ def pairs(parts, window):
             return parts.gaps.rollers(parts.gaps.pose(at))[:, roller]
 
         yield (window.start, window.end), partial(every.roller, roller, window, None), gap
-        for span, driver in spans(parts, window):
+        for *span, driver in window.spans:
             if roller == driver:
                 yield span, partial(every.roller, roller, window, span), gap
 

@@ -109,7 +109,7 @@ def full_turn(parts: TurnedParts) -> FullTurn:
         smallest = lock if lock.mm < smallest.mm else smallest
     fits = smallest.mm >= -parts.close
     resting, dwell = [], Most(0.0, first(np.zeros(1)))
-    for start, end, _, rests in every:
+    for start, end, _, rests, _ in every:
         if rests:
             resting.append(0.5 * (start + end))
     if resting:

@@ -49,10 +49,18 @@ def windows(parts: TurnedParts) -> list[Window]:
     for i, (engagement, behind) in enumerate(motions):
         after, later = motions[(i + 1) % len(motions)]
         turns = assembly.turn_deg if i + 1 == len(motions) else 0.0
-        exit_, following = behind + engagement.exit_deg, later + turns + after.entry_deg
-        out.append(Window(behind + engagement.entry_deg, exit_, i, False))
+        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
+        spans: tuple[tuple[float, float, int | None], ...] = ((entry, exit_, i),)
+        if engagement.paired:
+            # between two rollers gears drive the wheel, from the deepest position to the other's
+            first, last = 2 * i, 2 * i + 1
+            leaves = entry + (assembly.rollers[first].mid - entry) % assembly.turn_deg
+            meets = entry + (assembly.rollers[last].mid - entry) % assembly.turn_deg
+            spans = (entry, leaves, first), (leaves, meets, None), (meets, exit_, last)
+        out.append(Window(entry, exit_, i, False, spans))
+        following = later + turns + after.entry_deg
         if following - exit_ > SAME_INPUT_DEG:
-            out.append(Window(exit_, following, i, True))
+            out.append(Window(exit_, following, i, True, ((exit_, following, None),)))
     return out
 
 
@@ -68,7 +76,7 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
     # 24 positions on either side of entry and exit, where lock and roller change over
     close, grid = np.concatenate(([0.0], np.geomspace(0.01, 1.0, 24))), []
     every = windows(parts)
-    for a, b, _, rests in every:
+    for a, b, _, rests, _ in every:
         near = close * min(15.0, 0.5 * (b - a))
         # in the rest of a motion an odd number, so that mid-motion is one
         grid += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
@@ -117,7 +125,7 @@ def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, lea
     leads, pressures = wheel_stops(parts, at, fits)
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed, last = np.zeros(len(at)), assembly.start_deg + assembly.turn_deg
-    for start, end, motion, rests in every:
+    for start, end, motion, rests, _ in every:
         here = (at >= start - SAME_INPUT_DEG) & (at <= end + SAME_INPUT_DEG)
         if not here.any():
             continue

@@ -58,9 +58,9 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
         if parts.locked:
             ends = window.start, window.end
             todo.append(("locking disc and wheel", partial(pairs.lock, window), ends))
-        for span, driver in spans(parts, window):
+        for start, end, driver in window.spans:
             for roller in range(len(parts.assembly.rollers)):
-                drives = roller == driver
+                drives, span = roller == driver, (start, end)
                 name = "roller and slot" if drives else "roller and wheel"
                 own = partial(pairs.roller, roller, window, span if drives else None)
                 todo.append((name, own, span))
@@ -116,22 +116,6 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
     crank_turn = np.abs(np.diff(np.unwrap(crank, axis=0), axis=0)).max(axis=0)
     poses = map(Pose, wheel, crank, pose.pins.reshape(3, count, *pose.pins.shape[1:]))
     return Intervals(start, end, crank_turn, turn, *poses)
-
-
-def spans(parts: TurnedParts, window: Window) -> list[tuple[tuple[float, float], int | None]]:
-    """Return the spans of a motion or dwell, each with the roller that is in its slot, or None.
-
-    Between two rollers of a motion gears drive the wheel, from the deepest position to that of the
-    other.
-    """
-    start, end, motion, rests = window
-    assembly = parts.assembly
-    if rests or not assembly.motions[motion].engagement.paired:
-        return [((start, end), None if rests else motion)]
-    first, last = 2 * motion, 2 * motion + 1
-    leaves = start + (assembly.rollers[first].mid - start) % assembly.turn_deg
-    meets = start + (assembly.rollers[last].mid - start) % assembly.turn_deg
-    return [((start, leaves), first), ((leaves, meets), None), ((meets, end), last)]
 
 
 class FlatPairs:

@@ -112,12 +112,16 @@ class WorkLimit(GenevaError):
 
 
 class Window(NamedTuple):
-    """A motion, or the dwell after it: input angles at its ends, and the motion's number."""
+    """A motion, or the dwell after it: input angles at its ends, and the motion's number.
+
+    ``spans`` divide it: both ends of each, and the roller that is in its slot there, or None.
+    """
 
     start: float
     end: float
     motion: int
     rests: bool
+    spans: tuple[tuple[float, float, int | None], ...]
 
 
 class Intervals(NamedTuple):
