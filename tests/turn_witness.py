@@ -4,7 +4,10 @@ import math
 from functools import partial
 
 import numpy as np
+import shapely
+from drawing_witness import polygon
 from sampling import some
+from shapely import affinity
 
 from geneva_cli.parts.turn.play import windows
 from geneva_cli.parts.turn.turn_certificate import certificate, intervals
@@ -77,3 +80,29 @@ def check_bounds(parts, rng):
             assert (np.minimum(least, near) <= dense + ROUNDING).all()
             middle = gap(start + 0.5 * width)
             assert np.allclose(np.minimum(found, near), middle, atol=ROUNDING)
+
+
+def overlapping(parts, at_deg, lead=0.0, flat=1e-5):
+    """Whether fine polygons overlap at input angles, the wheel turned on by ``lead`` radians.
+
+    They stray by ``flat`` of the centre distance. The crank's parts are taken smaller by twice
+    that, and must not even touch the wheel.
+    """
+    assembly, flat = parts.assembly, flat * parts.assembly.L
+    less = 2.0 * flat + parts.close
+    wheel = polygon(parts.outlines.wheel, flat)
+    if assembly.sign < 0.0:
+        wheel = shapely.Point(0.0, 0.0).buffer(parts.sizes.outer, quad_segs=512).difference(wheel)
+    shapely.prepare(wheel)
+    roller = shapely.Point(0.0, 0.0).buffer(parts.sizes.roller - less, quad_segs=800)
+    cranks = [polygon(contour, flat).buffer(-less) for contour in parts.outlines.crank]
+    poses, out = assembly.crank(at_deg), []
+    for i, turn in enumerate(assembly.wheel(at_deg) + lead):
+        pins = [assembly.pin(k, at_deg[i : i + 1])[0] for k in range(len(assembly.rollers))]
+        moved = [affinity.translate(roller, *pin) for pin in pins]
+        for crank in cranks:
+            own = affinity.rotate(crank, poses[i], (0.0, 0.0), use_radians=True)
+            moved.append(affinity.translate(own, assembly.L))
+        back = (affinity.rotate(one, -turn, (0.0, 0.0), use_radians=True) for one in moved)
+        out.append(any(wheel.intersects(one) for one in back))
+    return out
