@@ -165,7 +165,8 @@ def _positions(parts: TurnedParts) -> Array:
     assembly, sizes = parts.assembly, parts.sizes
     grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.turn_deg, 721)
     crank, wheel = np.unwrap(assembly.crank(grid)), assembly.wheel(grid)
-    travel = sizes.arm * np.abs(np.diff(crank)) + parts.rim_lever * np.abs(np.diff(wheel))
+    lever = assembly.plane_motion.lever(sizes.rim)
+    travel = sizes.arm * np.abs(np.diff(crank)) + lever * np.abs(np.diff(wheel))
     total = np.concatenate(([0.0], np.cumsum(travel)))
     # parts move a quarter of the thinnest feature between two positions
     count = math.ceil(total[-1] / (min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * 0.25))

@@ -69,7 +69,7 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
 
     With it go the pressure angles, degrees, at which the wheel is pushed into line between them.
     """
-    lever = parts.rim_lever
+    lever = parts.assembly.plane_motion.lever(parts.sizes.rim)  # of the rim
     # The largest play, radians, that may be rounding, as tangent parts separate slowly: the angle
     # at which two circles of the rim's radius overlap by ``close``.
     least = math.sqrt(2.0 * parts.close / lever)

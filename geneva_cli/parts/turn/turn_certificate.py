@@ -197,17 +197,23 @@ class FlatPairs:
             if span:  # a curved slot's, as the roller travels in the wheel's frame
                 moving, mid = assembly.motions[number]
                 _, aside = self._slot(moving).on(on.start - mid, on.end - mid)
-        if len(some):
-            closer = self._along((start, end), aside[some], centre[some], gap[some])
-            least[some] = np.maximum(least[some], closer)
+        if not len(some):
+            return gap, least
+        # A segment that is shorter than its middle's distance from the outline does not cross it.
+        radius, off = gaps.sizes.roller, np.hypot(*(0.5 * (start + end) - centre[some]).T)
+        short = 0.5 * np.hypot(*(end - start).T) < radius + gap[some] - off
+        if short.any():
+            free = from_segments(gaps.wheel, start[short], end[short], radius + gaps.near)
+            some = some[short]
+            least[some] = np.maximum(least[some], free - aside[some] - radius)
         return gap, least
 
     def _slot(self, moving: Engagement) -> Travel:
         """Return the travel of a roller in its curved slot, in the wheel's frame."""
         if ("slot", moving) not in self._travels:
-            edges = cells(moving, moving.entry_deg, moving.exit_deg)
             from geneva_cli.numerics.intervals import curve_rates
 
+            edges = cells(moving, moving.entry_deg, moving.exit_deg)
             rates = curve_rates(moving.slot, edges[:-1], edges[1:])
             self._travels["slot", moving] = Travel(edges, rates, self.gaps.assembly.L)
         return self._travels["slot", moving]
@@ -243,22 +249,6 @@ class FlatPairs:
                 rates[:, ~moving] = np.array(dwell)[:, None]
         travel = self._travels["path", engagement] = Travel(edges, rates, L, turn_deg)
         return travel
-
-    def _along(self, chord: tuple[Array, Array], aside: Array, centre: Array, gap: Array) -> Array:
-        """Return the gap of a roller, ``gap`` at ``centre``, that moves along chords.
-
-        They have ends in the wheel's frame; the centre may be ``aside`` of them, mm.
-        """
-        (start, end), radius = chord, self.gaps.sizes.roller
-        off = np.hypot(*(0.5 * (start + end) - centre).T)
-        # A segment that is shorter than its middle's distance from the outline does not cross it.
-        short = 0.5 * np.hypot(*(end - start).T) < radius + gap - off
-        least = np.full(len(gap), -math.inf)
-        if short.any():
-            reach = radius + self.gaps.near
-            free = from_segments(self.gaps.wheel, start[short], end[short], reach)
-            least[short] = free - aside[short] - radius
-        return least
 
 
 class Travel:

@@ -188,11 +188,6 @@ class TurnedParts(ABC):
         """The overlap, mm, up to which parts count as touching."""
         return CONTACT * self.assembly.L
 
-    @property
-    def rim_lever(self) -> float:
-        """How far the wheel's rim moves a radian, mm."""
-        return self.assembly.plane_motion.lever(self.sizes.rim)
-
     def over(self, assembly: Assembly) -> Self:
         """Return the parts of a machine whose wheel and crank are equal, at its own positions."""
         other = type(self)(assembly.full, self.advice)
