@@ -6,7 +6,7 @@ A kind names its own in its record. What builds them is imported at its first us
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, ClassVar, Self, TypeAlias
 
 from geneva_cli.geometry.plates import Member
@@ -17,15 +17,14 @@ from geneva_cli.parts.assembly import input_of
 from geneva_cli.parts.turn.pairs import TurnedParts, WorkLimit
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.fit.arcs import Curve
-    from geneva_cli.geometry.shapes import Circle, Segment
-    from geneva_cli.parts.mounted_plate import FrameAndShafts
+    from geneva_cli.geometry.fit import Writer
+    from geneva_cli.geometry.shapes import Circle
+    from geneva_cli.parts.frame import FrameAndShafts
     from geneva_cli.parts.outlines.outlines import Outlines
     from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.shafts.screws import Screws
     from geneva_cli.parts.turn.full_turn import FullTurn
 
-Writer: TypeAlias = "Callable[[Curve, float, float], Sequence[Segment]]"  # fits a curve
 NamedBuilds: TypeAlias = "list[tuple[str, Callable[[], Parts]]]"
 
 

@@ -39,7 +39,7 @@ from geneva_cli.parts.turn.bounds import FlatPairs
 from geneva_cli.spec.least_wall import wall_min
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.mounted_plate import FrameAndShafts
+    from geneva_cli.parts.frame import FrameAndShafts
 
 
 class RackParts(EdgedParts):
@@ -67,7 +67,7 @@ class RackParts(EdgedParts):
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far the roller is in its slot, beyond the rack's edge, mm, (n,)."""
-        return self.sizes.edge - self.assembly.driving(motion, at)[:, 0]
+        return self.sizes.edge - self.assembly.pin(motion, at, drives=True)[:, 0]
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
