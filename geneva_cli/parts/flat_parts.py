@@ -31,17 +31,16 @@ from geneva_cli.parts.arm import (
 from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.outlines import Outlines, drawn
-from geneva_cli.parts.outlines.wheel_circles import dial_circle, wheel_hub, wheel_plate
+from geneva_cli.parts.outlines.cut_outlines import drawn
+from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
-from geneva_cli.parts.parts import EdgedParts, NamedBuilds
+from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.frame import FrameAndShafts
     from geneva_cli.parts.projection import NamedParts
     from geneva_cli.parts.turn.bounds import FlatPairs
     from geneva_cli.parts.turn.gaps import Gaps

@@ -8,16 +8,14 @@ axis, in a bridge over the crank, on two posts beside all that turns.
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, farthest
 from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Point, as_contour, convex_hull
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
@@ -27,10 +25,10 @@ from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
 from geneva_cli.parts.links.link_shafts import carried, crank_stop, outside_links
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
-from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import wheel_hub
+from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub
+from geneva_cli.parts.parts import FRAME, FrameAndShafts
 from geneva_cli.parts.shafts.bores import around
-from geneva_cli.parts.shafts.screws import SCREWS, Screws, bolt_radius, screw_through, tapped
+from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through, tapped
 from geneva_cli.parts.shafts.shaft import (
     Shaft,
     crank_shaft_radius,
@@ -42,34 +40,6 @@ from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
-
-NAME = "frame"
-
-
-class FrameAndShafts(NamedTuple):
-    """The frame, what is on it, and the shafts, whether they reach it or not."""
-
-    plate: Plate
-    shafts: tuple[Member, ...]
-    spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
-    screwed: tuple[tuple[Circle, str], ...] = ()  # clearance holes of screws, and what they fix
-    bridge: Member | None = None  # bears the crank's shaft from above
-    unborne: tuple[tuple[str, str], ...] = ()  # shafts that do not reach it, and why
-
-    @property
-    def threads(self) -> tuple[Circle, ...]:
-        """The tapped holes of the frame."""
-        return tuple(tapped(hole) for hole, _ in self.screwed)
-
-    @property
-    def screws(self) -> tuple[Screws, ...]:
-        """The screws that fix parts to the frame, and those of its mounting holes."""
-        kinds = Counter((part, hole.radius) for hole, part in self.screwed)
-        fixed = [Screws(part, n, 2.0 * r, "the frame") for (part, r), n in kinds.items()]
-        mounts = mounts_of(self.plate)
-        if mounts:
-            fixed.append(Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base"))
-        return tuple(fixed)
 
 
 def framed(
@@ -333,20 +303,7 @@ def mounted_plate(
             corners.append(Circle("FRAME", (x, y), eye))
             if mount:
                 mounts.append(Circle("BORE", (x, y), 0.5 * mount.through))
-    return Plate(NAME, "FRAME", convex_hull("FRAME", corners), (*holes, *mounts), *span)
-
-
-def mounts_of(frame: Plate) -> list[Circle]:
-    """Return the mounting holes of a frame: those about its corners; none of a carrier."""
-    if frame.name != NAME or not isinstance(frame.outline, Contour):
-        return []
-    corners = [piece.centre for piece in frame.outline.segments if isinstance(piece, Arc)]
-    near = 1e-9  # of a corner: rounding
-    return [
-        hole
-        for hole in frame.holes
-        if isinstance(hole, Circle) and any(math.dist(hole.centre, at) <= near for at in corners)
-    ]
+    return Plate(FRAME, "FRAME", convex_hull("FRAME", corners), (*holes, *mounts), *span)
 
 
 def corner_radius(size: Size, L: float) -> float:

@@ -30,7 +30,7 @@ from geneva_cli.loads.tolerance.random_machines import (
 )
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
-from geneva_cli.parts.outlines.outlines import cut_arcs
+from geneva_cli.parts.outlines.cut_outlines import cut_arcs
 from geneva_cli.parts.parts import Parts
 from geneva_cli.spec.rules import POSITIVE, require_mm
 from geneva_cli.table import Table, record_table, rows_table

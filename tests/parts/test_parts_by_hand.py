@@ -20,7 +20,7 @@ from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import arc_floor, lock_of, reliefs, widened
-from geneva_cli.parts.outlines.outlines import cut_arcs, drawn
+from geneva_cli.parts.outlines.cut_outlines import cut_arcs, drawn
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.slots.roller_paths import horn_corners
 from geneva_cli.spec.tables import Size

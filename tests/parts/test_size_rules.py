@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.outlines import drawn
+from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.spec.tables import Size
 
 HUGE = ["roller_radius_mm", "lock_radius_mm", "wheel_radius_mm", "pin_mm", "lock_bolt_circle_mm"]

@@ -12,7 +12,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Shape, polygon
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.frame import mounts_of
+from geneva_cli.parts.parts import mounts_of
 from geneva_cli.parts.shafts.bores import Bore, around, bore_of, radius_of, section_note
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.written import length, number

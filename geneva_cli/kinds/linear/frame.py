@@ -18,13 +18,13 @@ from geneva_cli.kinds.linear.rack import RackSizes, crank_arm, rack_bore, rack_s
 from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.parts.frame import (
-    FrameAndShafts,
     corner_radius,
     hole_without_shaft,
     mounted_plate,
     shaft_holes,
 )
 from geneva_cli.parts.gears.gear_pair import gear_shafts, gear_span
+from geneva_cli.parts.parts import FrameAndShafts
 from geneva_cli.parts.shafts.bores import bore_of, reach_or_bore
 from geneva_cli.parts.shafts.screws import bolt_radius, tapped
 from geneva_cli.parts.shafts.shaft import Shaft, shaft_ends

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
@@ -31,15 +31,12 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.arm import roller_plates
 from geneva_cli.parts.assembly import assembled
 from geneva_cli.parts.gears.gear_pair import gear_pair
-from geneva_cli.parts.parts import EdgedParts, NamedBuilds
+from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.turn.bounds import FlatPairs
 from geneva_cli.spec.least_wall import wall_min
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.frame import FrameAndShafts
 
 
 class RackParts(EdgedParts):

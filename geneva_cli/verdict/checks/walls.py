@@ -21,8 +21,7 @@ from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines.crank_outline import is_whole, rollers_gap
-from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import wheel_holes, wheel_hub
+from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import roller_centres

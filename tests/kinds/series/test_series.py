@@ -34,7 +34,7 @@ from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.pivots import Joint
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.outlines import drawn
+from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.specfile.tree import spec_of
 
 GEARS = EllipticalGears(eccentricity=0.2, gear_distance_mm=50.0)

@@ -1,0 +1,101 @@
+"""The outlines of wheel and crank as they are cut, and the relief that clears the wheel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from functools import cache, lru_cache
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.geometry.shapes import Arc, Contour
+from geneva_cli.kept import KEPT
+from geneva_cli.loads.tolerance.locking import Lock
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.assembly import Assembly
+from geneva_cli.parts.outlines.crank_outline import crank_contours, is_whole, lock_of, takes_arcs
+from geneva_cli.parts.outlines.outlines import Outlines
+from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
+from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.turn.gaps import Gaps
+from geneva_cli.parts.turn.pairs import Pose
+
+SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relief must clear
+
+
+def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
+    """Return the outlines of an assembly with known sizes, cached without what a load changes."""
+    return _drawn(assembly, sizes.outline)._replace(sizes=sizes)
+
+
+@lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
+def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
+    """Return the outlines with the spec's relief, or else the first kind that clears the wheel.
+
+    An arc leaves the most of the disc and is one cut. If it collides or leaves too little, the
+    whole sector is cut down to where the wheel never comes.
+    """
+    walls, stopped = turned_walls(assembly, sizes), assembly.full.spec.wheel.stopped
+    close = SAME_LENGTH * assembly.L
+    for kind in assembly.kinds:
+        close = max(close, CURVED * assembly.L if kind.slot.curved else 0.0)
+    wheel = wheel_contour(assembly, sizes, walls)
+    bare = Gaps(assembly, sizes, wheel, [])
+    if stopped:
+        wheel = wheel_contour(assembly, sizes, walls, convex=True)
+    if not sizes.lock:
+        return Outlines(assembly, sizes, walls, wheel, [], "none", bare, close)
+    whole, requested = is_whole(assembly, sizes), assembly.mechanism.spec.size.relief
+    relief = requested or ("arc" if takes_arcs(assembly, sizes) else "sector")
+    swept, spare = cache(lambda i: bare.swept(i, SWEPT_DEG)), 0.0
+    for _ in range(6):
+        crank = crank_contours(assembly, sizes, relief, swept, spare)
+        gaps, tried = bare.with_crank(crank), relief == "arc" and not requested
+        if whole and not tried:
+            break
+        overlap = _overlap(gaps, close)
+        if overlap <= close:
+            break
+        # Between two of these positions the wheel comes nearer still: three times the overlap.
+        spare += 0.0 if tried else 3.0 * overlap + 10.0 * close
+        relief = requested or "sector"
+    return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close)
+
+
+def _overlap(gaps: Gaps, close: float) -> float:
+    """Return the greatest overlap of crank and wheel in all motions, mm, 0 for none."""
+    least = 0.0
+    for engagement, mid in gaps.assembly.motions:
+        count = 2 + int(engagement.motion_deg / SWEPT_DEG)
+        at = mid + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
+        # without the rollers, which lock nothing
+        pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
+        least = min(least, float(gaps.locking(pose, near=close).min()))
+    return -least
+
+
+def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
+    """Return the lock: the narrowest arc of the crank, and the corner that leaves the most play.
+
+    Beyond the crank's axis the wheel leaves less than a sector between two reliefs.
+    """
+    lock = lock_of(assembly, sizes)
+    if is_whole(assembly, sizes):
+        return lock
+    try:
+        parts = drawn(assembly, sizes)
+    except GenevaError:  # the check of the parts reports the error
+        return lock
+    locking = cut_arcs(parts.crank, lock.lock, 0.0, SAME_LENGTH * assembly.L)
+    return lock_of(assembly, sizes, [0.5 * abs(arc.sweep) for arc in locking])
+
+
+def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: float) -> Iterator[Arc]:
+    """Yield the arcs of a radius whose centres are ``away`` from the axis, both within ``near``."""
+    for contour in contours:
+        for arc in contour.segments:
+            if not isinstance(arc, Arc) or abs(arc.radius - radius) >= near:
+                continue
+            if abs(math.hypot(*arc.centre) - away) < near:
+                yield arc
