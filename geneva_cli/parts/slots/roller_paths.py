@@ -14,7 +14,6 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry import offsets
 from geneva_cli.geometry.measure import fraction_at, segment_length
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
@@ -209,6 +208,8 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Tip | None:
 
 def rounded(before: Line | Arc, after: Line | Arc, radius: float, sign: float) -> list[Segment]:
     """Return two pieces with an arc between them; ``sign`` is 1 with the material on the left."""
+    from geneva_cli.geometry import offsets
+
     centre = offsets.corner(before, after, sign * radius)
     ends = []
     for piece in (before, after):

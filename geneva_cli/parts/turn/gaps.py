@@ -103,7 +103,7 @@ class Gaps:
         The wheel is turned on by ``lead`` radians.
         """
         turn = self.assembly.wheel(input_deg) + lead
-        return self.plane_motion.into(self.assembly.driving(motion, input_deg), turn)
+        return self.plane_motion.into(self.assembly.pin(motion, input_deg, drives=True), turn)
 
     def to_wheel(self, points: Array) -> Array:
         """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
