@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
-from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary
+from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.parts.chosen import ByLoad
@@ -15,13 +15,10 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 from geneva_cli.verdict.headline import (
-    anew_lines,
     chosen_lines,
     failure_lines,
     headline,
-    proof_lines,
     tightest,
-    unused_lines,
     warning_lines,
 )
 
@@ -30,17 +27,13 @@ class Verdict(NamedTuple):
     """The checks and warnings of one spec, or why it could not be read."""
 
     path: str
+    passes: bool = False  # no check fails; one without a proof does not
     files: tuple[str, ...] = ()  # all files that the design was read from
     checks: tuple[Check, ...] = ()
     warnings: tuple[Notice, ...] = ()
     unused: tuple[str, ...] = ()  # names of accepted warnings that do not occur
     error: str = ""
     chosen: ByLoad = ByLoad({}, {})
-
-    @property
-    def passes(self) -> bool:
-        """Return True if no check fails; a check without a proof does not fail."""
-        return not self.error and all_pass(self.checks)
 
 
 def verdict(
@@ -56,6 +49,7 @@ def verdict(
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
+            passes=all_pass(checks),
             files=design.spec.files,
             checks=tuple(checks),
             warnings=tuple(design.check_warnings),
@@ -79,17 +73,22 @@ def verdicts(
     if list(paths).count("-") > 1:
         raise GenevaError("<stdin>: given twice, but it can be read only once; name it once")
     judge = partial(verdict, settings=settings, to_mm=to_mm, reverse=reverse)
+    if len(paths) == 1:
+        return map(judge, paths)
     files = [path for path in paths if path != "-"]
     others = mapped(judge, files, min(len(files), cores()), "specs")
-    for path in tracked(paths, "specs", len(paths)):
-        yield judge(path) if path == "-" else next(others)
+    each = (judge(path) if path == "-" else next(others) for path in paths)
+    return tracked(each, "specs", len(paths))
 
 
 def checks_table(verdicts: Sequence[Verdict]) -> Table:
     """A table with one row for each check of each spec."""
     names = "spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why"
-    own = "name", *names[2:-1], "remark"
-    rows = [(v.path, *(getattr(c, name) for name in own)) for v in verdicts for c in v.checks]
+    rows = [
+        (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.remark)
+        for v in verdicts
+        for c in v.checks
+    ]
     # a narrow window shows the limit rather than the angle, which is not known for most checks
     first = ("spec", "check", "value", "must_be", "limit", "passes", "nearest", "at_deg", "why")
     return rows_table(names, rows).replaced(reading=Reading(first))
@@ -128,16 +127,17 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     heads, details = list[Summary](), list[Summary]()
     for v in judged:
         state, text = headline(v.checks, v.warnings)
-        lines = (
-            *failure_lines(v.checks),
-            *warning_lines(v.checks, v.warnings),
-            *unused_lines(v.unused),
-        )
+        lines = failure_lines(v.checks) + warning_lines(v.checks, v.warnings, v.unused)
         if is_single:
-            lines += (*proof_lines(v.checks), *tightest(v.checks), *chosen_lines(v.chosen, v.path))
-        elif own := (*lines, *anew_lines(v.chosen)):
-            details.append(Summary(v.path, own))
-        heads.append(Summary(f"{v.path}: {text}", lines if is_single else (), state=state))
+            # what is proved: that no parts collide, and that a stop blocks the crank
+            for check in v.checks:
+                if check.passes and check.why:
+                    label = "stop" if check.name == "stop_turns" else "turn"
+                    lines.append(SummaryLine(label, check.why))
+            lines += tightest(v.checks) + chosen_lines(v.chosen, v.path)
+        elif own := lines + chosen_lines(v.chosen):
+            details.append(Summary(v.path, tuple(own)))
+        heads.append(Summary(f"{v.path}: {text}", tuple(lines) if is_single else (), state=state))
     if not is_single:
         many, unread = len(verdicts), len(verdicts) - len(judged)
         failed, warned = (sum(head.state == state for head in heads) for state in (FAILS, WARNS))

@@ -19,12 +19,23 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.records import KINDS
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.checks import all_checks, checks, quick_first, single_check
-from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
+from geneva_cli.verdict.checks import (
+    LIMITS,
+    MOTION,
+    OF_TURN,
+    PUSHED,
+    TOLERANCES,
+    Check,
+    every_check,
+    single_check,
+)
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
 
+# The reason why a failing check has no advice.
+NONE = "no single change that was tried passes all checks"
+STOPPED = "no single change passed all checks within the limit of trials"
 FINE = 0.005  # fraction of a change to which its least value is searched
 NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 TRIALS = 80  # machines that are built for all searches of a design
@@ -164,7 +175,7 @@ def _words() -> dict[str, str]:
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     """Changes of the spec that may make a failing check pass, the likeliest first."""
     spec, size = mechanism.spec, mechanism.spec.size.as_dict()
-    apart = (*all_checks.MOTION, *all_checks.LIMITS, *all_checks.TOLERANCES, *all_checks.PUSHED)
+    apart = (*MOTION, *LIMITS, *TOLERANCES, *PUSHED)
     usual = {} if check.name in apart else Size().as_dict()
     own = [key for key in usual if size[key] != usual[key] and key not in REQUIRED]
     # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
@@ -222,12 +233,11 @@ def _now(mechanism: Mechanism, table: str, key: str) -> Value:
     return value
 
 
-def judged(mechanism: Mechanism, machine: Parts | None = None, parts: bool = True) -> list[Check]:
-    """Every check of a design; failing ones have one change with which all checks pass.
+def advised(mechanism: Mechanism, rows: list[Check], parts: bool = True) -> list[Check]:
+    """The checks, those that fail with one change of the spec with which all checks pass.
 
     Without such a change they say why, and name a change with which they pass themselves.
     """
-    rows = checks(mechanism, machine, parts)
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
@@ -322,8 +332,8 @@ class Adviser:
 
     def _aim(self, wanted: list[Check], stop: int) -> None:
         """Search for these checks, the quick ones first, until so many trials are left."""
-        quick = {*all_checks.MOTION, *all_checks.LIMITS}
-        turned = (*all_checks.OF_TURN, *all_checks.PUSHED, "parts")
+        quick = {*MOTION, *LIMITS}
+        turned = (*OF_TURN, *PUSHED, "parts")
         by_cost = sorted(wanted, key=lambda c: (c.name in turned, c.name not in quick))
         self.units = {c.name: -c.spare if c.spare > -math.inf else 1.0 for c in by_cost}
         self.turns = any(c.name in turned for c in wanted)
@@ -377,7 +387,7 @@ class Adviser:
                     return least
             if every:
                 failed = {c.name for c in self.failing} - self.units.keys()
-                for check in quick_first(machine, parts, self.parts):
+                for check in every_check(machine, parts, self.parts, quick=True):
                     if check.passes is False and check.name not in failed:
                         return -1.0
         except GenevaError:

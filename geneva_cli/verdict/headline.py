@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, SummaryLine
@@ -10,12 +10,12 @@ from geneva_cli.errors import Notice, is_warning, open_warnings
 from geneva_cli.names import spoken
 from geneva_cli.output.document.blocks import value_text
 from geneva_cli.table import Table, in_digits, record_table
-from geneva_cli.verdict.checks.all_checks import JAMS
+from geneva_cli.verdict.checks import JAMS
 
 if TYPE_CHECKING:
     from geneva_cli.parts.chosen import ByLoad
     from geneva_cli.parts.parts import Parts
-    from geneva_cli.verdict.checks.check import Check
+    from geneva_cli.verdict.checks import Check
 
 # The meaning of a failing check, by its name; without one its value says enough.
 _PLAY = (
@@ -58,13 +58,16 @@ WITHOUT_MARGIN = ("dwell_hold", "parts", "full_turn", "turns", "turning_slack_mm
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
     """State of a design (PASSES, WARNS or FAILS), and counts of its checks and warnings in words.
 
-    >>> from geneva_cli.verdict.checks.check import Check
+    >>> from geneva_cli.verdict.checks import Check
     >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
     ('fails', '1 of 1 checks fails')
     """
-    many = len(checks)
-    failed = sum(check.passes is False for check in checks)
-    not_proved = sum(check.passes is None for check in checks)
+    many, failed, not_proved, driven = len(checks), 0, 0, ""
+    for check in checks:
+        failed += check.passes is False
+        not_proved += check.passes is None
+        if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
+            driven = f", {meaning(check)}"
     if failed:
         text = f"{failed} of {many} checks fail{'s' * (failed == 1)}"
     elif not_proved:
@@ -74,9 +77,7 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
         text = f"all {many} checks pass"
     if not_proved:
         text += f", {not_proved} not proved"
-    for check in checks:
-        if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
-            text += f", {meaning(check)}"
+    text += driven
     left = open_warnings(warnings)
     if left:
         text += f", {len(left)} warning{'s' * (len(left) != 1)}"
@@ -102,19 +103,16 @@ def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
     return record_table(left | ({"not_known": notes} if notes else {}), prose=record.prose)
 
 
-def chosen_lines(by_load: ByLoad, path: str) -> Iterator[SummaryLine]:
-    """The lines of the sizes that the load chose, and of those that an option changed."""
-    if by_load.words:
+def chosen_lines(by_load: ByLoad, path: str | None = None) -> list[SummaryLine]:
+    """The lines of the sizes that the load chose, for a spec's path, and an option chose anew."""
+    lines = []
+    if path is not None and (words := by_load.words):
         name = {"": "SPEC", "<stdin>": "-"}.get(path, path)
-        text = f"chosen by load: {by_load.words} (geneva size {name} writes them)"
-        yield SummaryLine("sizes", text)
-    yield from anew_lines(by_load)
-
-
-def anew_lines(by_load: ByLoad) -> Iterator[SummaryLine]:
-    """The line of the sizes that an option changed."""
-    if by_load.changes:
-        yield SummaryLine("note", f"sizes chosen anew: {by_load.changes}")
+        text = f"chosen by load: {words} (geneva size {name} writes them)"
+        lines.append(SummaryLine("sizes", text))
+    if changes := by_load.changes:
+        lines.append(SummaryLine("note", f"sizes chosen anew: {changes}"))
+    return lines
 
 
 def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
@@ -139,13 +137,20 @@ def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
     return lines
 
 
-def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[SummaryLine]:
-    """A line for each check without a proof, then for each warning."""
-    unproved = [check for check in checks if check.passes is None]
-    lines = [
-        SummaryLine("not proved", f"{spoken(c.name)[0]}: {c.why}", "", WARNS) for c in unproved
-    ]
-    return lines + [warning(text) for text in warnings]
+def warning_lines(
+    checks: Iterable[Check], warnings: Iterable[str], unused: Iterable[str] = ()
+) -> list[SummaryLine]:
+    """A line for each check without a proof, each warning, and each acceptance of none."""
+    lines = []
+    for check in checks:
+        if check.passes is None:
+            text = f"{spoken(check.name)[0]}: {check.why}"
+            lines.append(SummaryLine("not proved", text, "", WARNS))
+    lines += map(warning, warnings)
+    for name in unused:
+        text = f"{name}: no such warning occurs: it can be removed from [accept]"
+        lines.append(SummaryLine("note", text))
+    return lines
 
 
 def warning(text: str) -> SummaryLine:
@@ -156,10 +161,21 @@ def warning(text: str) -> SummaryLine:
     return SummaryLine("warning", text, explained, WARNS)
 
 
-def unused_lines(names: Iterable[str]) -> list[SummaryLine]:
-    """A note on each accepted warning that does not occur."""
-    text = "no such warning occurs: it can be removed from [accept]"
-    return [SummaryLine("note", f"{name}: {text}") for name in names]
+def tightest(checks: Iterable[Check]) -> list[SummaryLine]:
+    """The line of the passing check with the least relative margin, or none."""
+    most, tight = 0.0, None
+    for check in checks:
+        value, limit = check.value, check.limit
+        # where it passes, a reason says what is proved
+        if not (check.passes and value and limit) or check.why or check.name in WITHOUT_MARGIN:
+            continue
+        used = value / limit if check.must_be == "at most" else limit / value
+        if tight is None or used > most:
+            most, tight = used, check
+    if tight is None:
+        return []
+    label, unit = spoken(tight.name)
+    return [SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")]
 
 
 def compared_text(check: Check, unit: str) -> str:
@@ -169,29 +185,6 @@ def compared_text(check: Check, unit: str) -> str:
     where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
     limit = measured(check.limit, unit) if unit == "deg" else value_text(check.limit)
     return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
-
-
-def proof_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
-    """The lines of what is proved: that no parts collide, and that a stop blocks the crank."""
-    labels = {"stop_turns": "stop"}
-    for check in checks:
-        if check.is_proof:
-            yield SummaryLine(labels.get(check.name, "turn"), check.why)
-
-
-def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
-    """The line of the passing check with the least relative margin, or none."""
-    most, tight = 0.0, None
-    for check in checks:
-        value, limit = check.value, check.limit
-        has_margin = not check.is_proof and check.name not in WITHOUT_MARGIN
-        if check.passes and value and limit and has_margin:
-            used = value / limit if check.must_be == "at most" else limit / value
-            if tight is None or used > most:
-                most, tight = used, check
-    if tight:
-        label, unit = spoken(tight.name)
-        yield SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")
 
 
 def measured(value: float, unit: str = "", digits: int = 4) -> str:
@@ -216,8 +209,8 @@ def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:
             refused.append(c.why)
         elif c.name == "parts":  # the reason why there are none
             warned.append(c.why)
-        elif c.not_computed:
-            warned.append(c.not_computed)
+        elif c.value is None:
+            warned.append(f"{c.name} is not computed: {c.why}")
         elif c.name in JAMS or (
             # Links and gears lie below the wheel's plane, so the wheel can be cut all the same.
             c.name not in ("link_wall_mm", "link_gap_mm", "gear_gap_mm")

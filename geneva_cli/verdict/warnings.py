@@ -18,7 +18,7 @@ from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.parts.wheel_body import known_wheel_body
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
-from geneva_cli.verdict.checks.play_checks import motion_play_max, slips_deg
+from geneva_cli.verdict.checks.turn_checks import motion_play_max, slips_deg
 from geneva_cli.verdict.motion_warnings import motion_warnings
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from geneva_cli.motion.records import KINDS, of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
-from geneva_cli.verdict.checks.all_checks import BEFORE_TURN, OF_TURN, PROOFS
+from geneva_cli.verdict.checks import BEFORE_TURN, OF_TURN, PROOFS
 
 if TYPE_CHECKING:
     from geneva_cli.motion.machine_spec import Spec
