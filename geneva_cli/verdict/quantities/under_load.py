@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
-from functools import cache, partial
-from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -34,7 +32,7 @@ from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.sized_by_load import horn_MPa
 from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
 from geneva_cli.spec.materials import roller_material
-from geneva_cli.verdict.quantities.batch_designs import BatchMember, Designs, limited_loads, single
+from geneva_cli.verdict.quantities.batch_designs import Designs
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.horn_search import HornStress, Sides, Sizes
@@ -279,14 +277,14 @@ def batched(
     like = next((one for one in records if one is not None), None)
     if like is None:
         return None
-
-    def member(k: int) -> object:
+    fields = list[object]()
+    for k, field in enumerate(like):
         each = [None if one is None else one[k] for one in records]
-        if isinstance(like[k], tuple):
-            return batched(cast("Sequence[tuple[object, ...] | None]", each), column)
-        return column(np.array([math.nan if one is None else one for one in each], dtype=float))
-
-    return record_of(like, [member(k) for k in range(len(like))])
+        if isinstance(field, tuple):
+            fields.append(batched(each, column))
+        else:
+            fields.append(column(np.array(each, dtype=float)))  # None is NaN
+    return record_of(like, fields)
 
 
 def as_numbers(values: Array) -> float:
@@ -303,28 +301,3 @@ def drawn_pin(of: Designs) -> PinSize | None:
     """The pin that an impact bends, and its contact; None where nothing has a width."""
     width = under_load(of).contact_mm
     return None if width is None else PinSize(under_load(of).pin_mm, width)
-
-
-def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
-    """Let the machines of a batch's designs take from it what their checks need.
-
-    The batch is searched when the first of them needs a value. A value that the batch lacks is
-    computed for the design alone. There are at most ``kept.KEPT`` machines.
-    """
-    designs = Designs(batch, limited_loads(batch.spec), machines)
-
-    @cache
-    def sizing() -> PartLoads | None:
-        try:
-            return under_load(designs).part_loads
-        except GenevaError:  # which one of the designs raises it again
-            return None
-
-    def loads_of(i: int) -> PartLoads | None:
-        every = sizing()
-        one = every and every.of(i)
-        return None if one is None or any(map(math.isnan, one)) else one
-
-    for i, machine in enumerate(machines):
-        single.put(machine, partial(BatchMember, designs, i))
-        single_loads.put(machine, partial(loads_of, i))
