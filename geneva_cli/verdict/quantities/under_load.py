@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -43,19 +43,14 @@ K = TypeVar("K")
 T = TypeVar("T")
 
 
-class LockSizes(NamedTuple):
-    """Sizes of slot and lock, mm; (m, 1) for m designs, NaN for those without."""
-
-    half_width: float  # half the slot's width: roller and clearance
-    lock: Lock  # in its narrowest sector
-
-
 class UnderLoad:
     """The m designs of a machine under their loads: (m,) each, computed once."""
 
     def __init__(self, of: Designs) -> None:
         self.machine, self.designs = of.machine, of
         self.loaded = of.loaded
+        # the function that returns the horns: those of a flat wheel for most kinds
+        self._sides: Sides = thing(of.spec.wheel.NAME, "horns") or horns
 
     @cached_property
     def force_N(self) -> Array:
@@ -105,18 +100,16 @@ class UnderLoad:
         return [_or_none(parts, one) for one in self.designs.each]
 
     @cached_property
-    def lock_sizes(self) -> LockSizes | None:
-        """The sizes of slot and lock, (m, 1); None if no design has a lock."""
-        if self.designs.are_built:
-            each = [
-                LockSizes(one[1].half_width, cut_lock(*one)) if one and one[1].lock else None
-                for one in self.layouts
-            ]
-        else:
-            each = [
-                LockSizes(one.sizes.half_width, one.lock) if one and one.lock else None
-                for one in self._unloaded
-            ]
+    def lock_sizes(self) -> tuple[float, Lock] | None:
+        """Half the slot's width, and the lock in its narrowest sector, mm; (m, 1) for m designs.
+
+        NaN for designs without a lock; None if none has one.
+        """
+        each = list[tuple[float, Lock] | None]()
+        for one in self.layouts if self.designs.are_built else ():
+            each.append((one[1].half_width, cut_lock(*one)) if one and one[1].lock else None)
+        for bare in self._unloaded if not self.designs.are_built else ():
+            each.append((bare.sizes.half_width, bare.lock) if bare and bare.lock else None)
         return batched(each, as_numbers)
 
     @cached_property
@@ -126,19 +119,12 @@ class UnderLoad:
         of_kind = thing(self.machine.spec.wheel.NAME, "horn_sizes")
         if of_kind:
             return batched([of_kind(one) for one in self.designs.each], as_numbers)
-        sizes = self.lock_sizes
-        return (sizes.half_width, sizes.lock.recess) if sizes else None
+        return (self.lock_sizes[0], self.lock_sizes[1].recess) if self.lock_sizes else None
 
     @property
     def has_horns(self) -> bool:
         """True if a design has horns: a locking disc and its recesses."""
         return self.horn_sizes is not None and bool(np.any(np.asarray(self.horn_sizes[1]) > 0.0))
-
-    @property
-    def _sides(self) -> Sides:
-        """The function that returns the horns; those of a flat wheel for most kinds."""
-        sides: Sides = thing(self.machine.spec.wheel.NAME, "horns") or horns
-        return sides
 
     def horn_stress(self, width: float) -> HornStress:
         """The greatest stress in the horns under the roller, for a width of its contact."""
@@ -161,14 +147,16 @@ class UnderLoad:
     def stoutest_horn(self) -> tuple[float, float]:
         """A single design's greatest thickness at the mouth over the recess's radius, and that."""
         assert self.horn_sizes
-        each = self._sides(self.machine, *self.horn_sizes)
-        return max((float(one.stoutness[0]), float(one.recess_mm)) for one in each)
+        each = []
+        for one in self._sides(self.machine, *self.horn_sizes):
+            each.append((float(one.stoutness[0]), float(one.recess_mm)))
+        return max(each)
 
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:
         """Assembly and sizes of each design; None for one without flat parts."""
         if self.designs.are_built or not self.machine.spec.is_loaded:
-            return [sized(one) for one in self.designs.each]
+            return [*map(sized, self.designs.each)]
         machines, size = self.designs.each, self.machine.spec.size
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
@@ -189,7 +177,7 @@ class UnderLoad:
         sizes, width = self.lock_sizes, self.contact_mm
         if sizes is None or width is None:
             return None
-        return lock.loaded_locks(self.machine, sizes.half_width, sizes.lock, width)
+        return lock.loaded_locks(self.machine, *sizes, width)
 
     @cached_property
     def parts(self) -> Stressed | None:
@@ -199,9 +187,12 @@ class UnderLoad:
         own: Callable[[Mechanism], Stressed | None] | None
         own = thing(self.machine.spec.wheel.NAME, "stressed")
         if own:
-            each = self.designs.each
-            return batched([_or_none(own, one) if one.spec.has_parts else None for one in each])
-        return batched([stressed(*one) if one else None for one in self.layouts])
+            machines = self.designs.each
+            return batched([_or_none(own, one) if one.spec.has_parts else None for one in machines])
+        each = list[Stressed | None]()
+        for one in self.layouts:
+            each.append(stressed(*one) if one else None)
+        return batched(each)
 
     @property
     def contact_mm(self) -> float | None:
@@ -255,7 +246,7 @@ class UnderLoad:
         if not torque.any():
             return None
         sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
-        force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
+        force = lock.held_force_N(torque[:, None], sizes[1]) if sizes else 0.0 * torque
         return np.nan_to_num(np.ravel(force)), torque
 
 
