@@ -578,7 +578,7 @@ class Design:
         >>> Design(External(6), load=Load(0.4, 15)).loads_page.to_dict()["loads"][0]["quantity"]
         'omega_rad_s'
         """
-        from geneva_cli.verdict.headline import below_summary
+        from geneva_cli.verdict.failures import below_summary
 
         return below_summary(self._loads(for_people=True), without=("title", "chosen"))
 
@@ -871,7 +871,7 @@ class Design:
         from geneva_cli.drawings.catalogue import parts_having
         from geneva_cli.verdict.advice import advised
         from geneva_cli.verdict.checks import checks
-        from geneva_cli.verdict.headline import failures
+        from geneva_cli.verdict.failures import failures
 
         parts = parts_having(self.parts, part)
         if parts.mechanism.spec.is_flat:

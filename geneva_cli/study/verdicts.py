@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.design import load
-from geneva_cli.errors import GenevaError, Notice
+from geneva_cli.errors import GenevaError, Notice, open_warnings
+from geneva_cli.names import spoken
+from geneva_cli.output.document.blocks import value_text
 from geneva_cli.parts.chosen import ByLoad
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
-from geneva_cli.verdict.headline import (
-    chosen_lines,
-    failure_lines,
-    headline,
-    tightest,
-    warning_lines,
-)
+from geneva_cli.verdict.failures import meaning
+
+# yes or no, and what a machine that turns always keeps
+WITHOUT_MARGIN = ("dwell_hold", "parts", "full_turn", "turns", "turning_slack_mm")
 
 
 class Verdict(NamedTuple):
@@ -155,3 +154,128 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
             of = f"in {sized} of {len(judged)} specs (geneva size SPEC writes them)"
             heads.append(Summary(f"sizes chosen by load {of}"))
     return Answer((*heads, *details), table if page else None, data)
+
+
+def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
+    """State of a design (PASSES, WARNS or FAILS), and counts of its checks and warnings in words.
+
+    >>> from geneva_cli.verdict.checks import Check
+    >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
+    ('fails', '1 of 1 checks fails')
+    """
+    many, failed, not_proved, driven = len(checks), 0, 0, ""
+    for check in checks:
+        failed += check.passes is False
+        not_proved += check.passes is None
+        if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
+            driven = f", {meaning(check)}"
+    if failed:
+        text = f"{failed} of {many} checks fail{'s' * (failed == 1)}"
+    elif not_proved:
+        passed = many - not_proved
+        text = f"{passed} of {many} checks pass{'es' * (passed == 1)}"
+    else:
+        text = f"all {many} checks pass"
+    if not_proved:
+        text += f", {not_proved} not proved"
+    text += driven
+    left = open_warnings(warnings)
+    if left:
+        text += f", {len(left)} warning{'s' * (len(left) != 1)}"
+    if accepted := len(warnings) - len(left):
+        text += f", {accepted} warning{'s' * (accepted != 1)} accepted"
+    state = FAILS if failed else WARNS if not_proved or left else PASSES
+    return state, text
+
+
+def chosen_lines(by_load: ByLoad, path: str | None = None) -> list[SummaryLine]:
+    """The lines of the sizes that the load chose, for a spec's path, and an option chose anew."""
+    lines = []
+    if path is not None and (words := by_load.words):
+        name = {"": "SPEC", "<stdin>": "-"}.get(path, path)
+        text = f"chosen by load: {words} (geneva size {name} writes them)"
+        lines.append(SummaryLine("sizes", text))
+    if changes := by_load.changes:
+        lines.append(SummaryLine("note", f"sizes chosen anew: {changes}"))
+    return lines
+
+
+def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
+    """A line for each check that fails: its value, its limit, and the change."""
+    lines = []
+    for check in checks:
+        if check.passes is not False:
+            continue
+        label, unit = spoken(check.name)
+        explained = f"geneva explain {check.name}"
+        if check.value is None or check.limit is None:
+            lines.append(SummaryLine(label, check.why, explained, FAILS))
+            continue
+        how = "with" if "=" in check.nearest else "by"  # a value, or leaving out a key
+        advice = f"passes {how} {check.nearest}" if check.nearest else ""
+        advice += f" (sizes chosen anew: {check.anew})" if check.anew else ""
+        refused = check.nearest and check.name in ("parts", "full_turn")  # the reason is the text
+        change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
+        note = f"{change} ({explained})" if change else explained
+        text = check.why if refused else meaning(check) or compared_text(check, unit)
+        lines.append(SummaryLine(label, text, note, FAILS))
+    return lines
+
+
+def warning_lines(
+    checks: Iterable[Check], warnings: Iterable[str], unused: Iterable[str] = ()
+) -> list[SummaryLine]:
+    """A line for each check without a proof, each warning, and each acceptance of none."""
+    lines = []
+    for check in checks:
+        if check.passes is None:
+            text = f"{spoken(check.name)[0]}: {check.why}"
+            lines.append(SummaryLine("not proved", text, "", WARNS))
+    lines += map(warning, warnings)
+    for name in unused:
+        text = f"{name}: no such warning occurs: it can be removed from [accept]"
+        lines.append(SummaryLine("note", text))
+    return lines
+
+
+def warning(text: str) -> SummaryLine:
+    """The line of a warning, and the command that explains it; of an accepted one its reason."""
+    explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
+    if isinstance(text, Notice) and text.accepted:
+        return SummaryLine("accepted", f"{text.name}: {text.accepted}", explained)
+    return SummaryLine("warning", text, explained, WARNS)
+
+
+def tightest(checks: Iterable[Check]) -> list[SummaryLine]:
+    """The line of the passing check with the least relative margin, or none."""
+    most, tight = 0.0, None
+    for check in checks:
+        value, limit = check.value, check.limit
+        # where it passes, a reason says what is proved
+        if not (check.passes and value and limit) or check.why or check.name in WITHOUT_MARGIN:
+            continue
+        used = value / limit if check.must_be == "at most" else limit / value
+        if tight is None or used > most:
+            most, tight = used, check
+    if tight is None:
+        return []
+    label, unit = spoken(tight.name)
+    return [SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")]
+
+
+def compared_text(check: Check, unit: str) -> str:
+    """The value of a check, its place, and its limit."""
+    assert check.value is not None
+    assert check.limit is not None
+    where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
+    limit = measured(check.limit, unit) if unit == "deg" else value_text(check.limit)
+    return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
+
+
+def measured(value: float, unit: str = "", digits: int = 4) -> str:
+    """A value with its unit, and with the significant digits of a sentence.
+
+    >>> measured(8.25622, "mm"), measured(-58.2111, "deg")
+    ('8.256 mm', '-58.21°')
+    """
+    return value_text(value, "°" if unit == "deg" else unit, digits)

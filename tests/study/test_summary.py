@@ -10,7 +10,7 @@ from geneva_cli.design import Design, load
 from geneva_cli.loads.motor import RATED_kW, recommended_motor
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.study.summary.report_summary import of_tolerance, of_vibration
-from geneva_cli.verdict.headline import tightest
+from geneva_cli.study.verdicts import tightest
 
 pytestmark = pytest.mark.usefixtures("made_once")
 

@@ -20,10 +20,7 @@ from geneva_cli.study.summary.load_lines import (
     record_answer,
     title_of,
 )
-from geneva_cli.table import Reading, Table, record_table, rows_table
-from geneva_cli.verdict.checks import LIMITS
-from geneva_cli.verdict.headline import (
-    below_summary,
+from geneva_cli.study.verdicts import (
     chosen_lines,
     failure_lines,
     headline,
@@ -31,6 +28,9 @@ from geneva_cli.verdict.headline import (
     tightest,
     warning_lines,
 )
+from geneva_cli.table import Reading, Table, record_table, rows_table
+from geneva_cli.verdict.checks import LIMITS
+from geneva_cli.verdict.failures import below_summary
 
 LOADS = (
     *("alpha_rad_s2", "rack_acceleration_m_s2", "wheel_torque_Nm", "rack_force_N", "pin_force_N"),
