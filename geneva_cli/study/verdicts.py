@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import NamedTuple
 
@@ -45,6 +46,19 @@ def verdict(
     """
     try:
         design = load(path, settings, reverse)
+        if design.spec.is_loaded and not design.is_drawn:
+            from geneva_cli.loads.cycle import cycle_of
+            from geneva_cli.loads.load_tables import summaries
+            from geneva_cli.loads.strength.part_loads import single_loads
+            from geneva_cli.verdict.strength import strength
+
+            # loads, the parts that they size, their strength: what checks and warnings read
+            with suppress(GenevaError):  # a check says why
+                single_loads(design.mechanism)
+                summaries(cycle_of(design.mechanism))
+                _ = design.parts.built
+                of = strength(design.mechanism)
+                _ = of["strength.wheel_shaft.stress_MPa"], of["strength.horn.stress_MPa"]
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
@@ -121,10 +135,12 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     """
     table = checks_table(verdicts)
     data = checks_record(verdicts) if as_json else table
-    judged = [v for v in verdicts if not v.error]
-    is_single = len(verdicts) == len(judged) == 1
-    heads, details = list[Summary](), list[Summary]()
-    for v in judged:
+    is_single = len(verdicts) == 1
+    heads, details, sized = list[Summary](), list[Summary](), 0
+    for v in verdicts:
+        if v.error:
+            continue
+        sized += bool(v.chosen.sizes)
         state, text = headline(v.checks, v.warnings)
         lines = failure_lines(v.checks) + warning_lines(v.checks, v.warnings, v.unused)
         if is_single:
@@ -138,7 +154,8 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
             details.append(Summary(v.path, tuple(own)))
         heads.append(Summary(f"{v.path}: {text}", tuple(lines) if is_single else (), state=state))
     if not is_single:
-        many, unread = len(verdicts), len(verdicts) - len(judged)
+        many, judged = len(verdicts), len(heads)
+        unread = many - judged
         failed, warned = (sum(head.state == state for head in heads) for state in (FAILS, WARNS))
         passed = many - failed - unread
         text = f"all {many} specs pass"
@@ -150,8 +167,8 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
         text += f", {warned} with warnings" if warned else ""
         state = FAILS if failed or unread else WARNS if warned else PASSES
         heads.append(Summary(text, state=state))
-        if sized := sum(bool(v.chosen.sizes) for v in judged):
-            of = f"in {sized} of {len(judged)} specs (geneva size SPEC writes them)"
+        if sized:
+            of = f"in {sized} of {judged} specs (geneva size SPEC writes them)"
             heads.append(Summary(f"sizes chosen by load {of}"))
     return Answer((*heads, *details), table if page else None, data)
 

@@ -40,18 +40,19 @@ def motion(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
         limit = value_or(spec.limits.pressure_angle_max_deg, GROOVE_MAX_DEG)
         at_deg = mechanism.shown_deg(spec.input_deg(crank_deg))  # it is cut by the crank's angle
         yield compared("groove_pressure_deg", value, "at most", limit, at_deg)
-    yield from _slots(names, mechanism)
+    if own[0].slot.curved or spec.limits.pressure_angle_max_deg is not None:
+        yield from _slots(names, mechanism)
 
 
 def _slots(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     """The pressure angle; of curved slots, the walls that carry the load, and the undercut."""
     spec, curved = mechanism.spec, mechanism.engagements[0].slot.curved
-    limit = spec.limits.pressure_angle_max_deg
-    if (limit is not None or curved) and "pressure_angle_deg" in names:
+    if "pressure_angle_deg" in names:
         from geneva_cli.verdict.quantities.batch_designs import number_of, single
         from geneva_cli.verdict.quantities.load_quantities import pressure
 
-        peak, most = single(mechanism).columns(pressure), value_or(limit, 90.0)
+        peak = single(mechanism).columns(pressure)
+        most = value_or(spec.limits.pressure_angle_max_deg, 90.0)
         value, at_deg = number_of(peak["max_deg"], 0), number_of(peak["at_deg"], 0)
         # At 90 degrees nothing turns the wheel, whatever the limit.
         passes = keeps(value, "at most", most) and value < 90.0
@@ -75,8 +76,9 @@ def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     bounds = mechanism.spec.limits.as_dict()
     for name in names:
         limit = bounds[name]
-        if name == "entry_velocity_max":
-            yield from _entry_velocity(name, mechanism)
+        # a crank as built has a limit of its velocity at entry without one in the spec
+        if name == "entry_velocity_max" and (limit is not None or mechanism.engagements[0].built):
+            yield _entry_velocity(name, mechanism)
         elif limit is None:
             continue
         elif name == "acceleration_entry_max":
@@ -106,15 +108,12 @@ def entry_velocity_limit(mechanism: Mechanism) -> float:
     return value_or(mechanism.spec.limits.entry_velocity_max, ENTRY_VELOCITY)
 
 
-def _entry_velocity(name: str, mechanism: Mechanism) -> Iterator[Check]:
+def _entry_velocity(name: str, mechanism: Mechanism) -> Check:
     """The greatest jump of the wheel's velocity at entry and exit, over the input's speed.
 
-    A crank as built has a limit without one in the spec. It fails where the roller never crosses
-    the axis of the slot at rest.
+    It fails where the roller never crosses the axis of the slot at rest.
     """
     own = mechanism.engagements
-    if mechanism.spec.limits.entry_velocity_max is None and not own[0].built:
-        return
     limit, jumps = entry_velocity_limit(mechanism), greatest_jumps(own)
     sizes = [abs(jump) for jump in jumps if jump is not None]
     if len(sizes) < len(jumps):
@@ -122,8 +121,7 @@ def _entry_velocity(name: str, mechanism: Mechanism) -> Iterator[Check]:
             "the roller's centre does not cross the axis of the slot at rest inside the rim: it "
             "meets the wheel beside its slot, or misses it"
         )
-        yield Check(name, None, "at most", limit, False, why)
-        return
+        return Check(name, None, "at most", limit, False, why)
     end = own[0].entry_deg if sizes[0] >= sizes[1] else own[0].exit_deg
     at_deg = mechanism.shown_deg(own[0].mid_deg + end) if own[0].built else None
-    yield compared(name, max(sizes), "at most", limit, at_deg)
+    return compared(name, max(sizes), "at most", limit, at_deg)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator
+from operator import attrgetter
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.parts import Parts
@@ -33,7 +34,7 @@ def motion_play_max(parts: Parts) -> float:
     """The play, degrees to either side, up to which a slot determines the wheel's motion."""
     # Where the driving wall changes, the wheel falls behind by twice the play, a tenth of its step,
     # and strikes the other wall: such a slot does not determine the motion.
-    half = min(engagement.half_step for engagement in parts.assembly.kinds)
+    half = min(map(attrgetter("half_step"), parts.assembly.kinds))
     return 0.05 * (2.0 * math.degrees(half))
 
 

@@ -16,7 +16,7 @@ from geneva_cli.spec.load_limits import limited_loads
 
 if TYPE_CHECKING:
     from geneva_cli.loads.contact import LoadCase
-    from geneva_cli.numerics.arrays import Array, Mask, Number
+    from geneva_cli.numerics.arrays import Array, Number
     from geneva_cli.table import Table
 
 T = TypeVar("T")
@@ -87,12 +87,8 @@ class Designs:
     @cached_property
     def loaded(self) -> Array:
         """1 if something resists the wheel, else NaN."""
-        return np.where(self.resisted, 1.0, np.nan)
-
-    @cached_property
-    def resisted(self) -> Mask:
-        """True for designs with a load."""
-        return np.asarray(np.ravel(self.load_case.inertia_Nm + self.load_case.resists_Nm > 0.0))
+        case = self.load_case
+        return np.where(np.ravel(case.inertia_Nm + case.resists_Nm > 0.0), 1.0, np.nan)
 
 
 def number_of(column: Number | None, i: int) -> float:
