@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
 
@@ -272,7 +272,7 @@ def batched(
     for k, field in enumerate(like):
         each = [None if one is None else one[k] for one in records]
         if isinstance(field, tuple):
-            fields.append(batched(each, column))
+            fields.append(batched(cast("Sequence[tuple[object, ...] | None]", each), column))
         else:
             fields.append(column(np.array(each, dtype=float)))  # None is NaN
     return record_of(like, fields)
