@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
@@ -40,12 +41,9 @@ LIMITS: Checks = dict.fromkeys(
     (
         *("velocity_max", "acceleration_max", "acceleration_entry_max", "jerk_max"),
         *("entry_velocity_max", "dwell_min_s", "motion_max_s", "cycle_max_s"),
+        *("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa"),
     ),
     "verdict.checks.motion_checks:limits",
-)
-LIMITS |= dict.fromkeys(
-    ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa"),
-    "verdict.checks.load_checks:limits",
 )
 LIMITS |= dict.fromkeys(
     (
@@ -193,7 +191,7 @@ def refused(name: str, error: GenevaError) -> Check:
 
 def all_pass(rows: Iterable[Check]) -> bool:
     """Return True if no check fails; a check without a proof does not fail."""
-    return all(check.passes is not False for check in rows)
+    return False not in map(attrgetter("passes"), rows)
 
 
 def standing(mechanism: Mechanism) -> Checks:
@@ -209,9 +207,10 @@ def applicable(among: Checks, *of: object, reasons: bool = True) -> Iterator[Che
 
     Without ``reasons`` all of them, without words that may take longer than the checks.
     """
-    said = set[str]()
-    for path in dict.fromkeys(among.values()):
-        names = [name for name, own in among.items() if own == path]
+    said, by_function = set[str](), dict[str, list[str]]()
+    for name, path in among.items():
+        by_function.setdefault(path, []).append(name)
+    for path, names in by_function.items():
         for check in load_named(path)(names, *of):
             if reasons and check.reason:
                 check = check._replace(why=check.reason(), reason=None)

@@ -1,4 +1,4 @@
-"""Loads, impacts, stresses and life against limits of the spec, or of the default steel."""
+"""Impacts, stresses and life against limits of the spec, or of the default steel."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.spec.load_limits import LIMITED, limited_load
+from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.verdict.checks import FIRST, Check, compared
 
 if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
@@ -151,19 +151,6 @@ def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
     why = f"the wheel's speed jumps by {impact.jump:.4g} of the input's; to judge it, set "
     why += ", ".join(lacks)
     return Check(name, impact.force_N, "at most", limit, None, why, impact.at_deg)
-
-
-def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
-    """The loads that keys of ``[limits]`` bound, and their input angles."""
-    bounds = mechanism.spec.limits.as_dict()
-    for name in names:
-        if (limit := bounds[name]) is not None:
-            from geneva_cli.verdict.quantities.batch_designs import number_of, single
-            from geneva_cli.verdict.quantities.load_quantities import greatest
-
-            peaks, load = single(mechanism).columns(greatest), limited_load(name)
-            most, at_deg = number_of(peaks[f"{load}.max"], 0), number_of(peaks[f"{load}.at_deg"], 0)
-            yield compared(name, most, "at most", limit, at_deg)
 
 
 def product(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:

@@ -9,6 +9,7 @@ from geneva_cli.motion.peaks import greatest_jumps, worst, worst_of
 from geneva_cli.motion.timing import timings
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.spec.default_sizes import value_or
+from geneva_cli.spec.load_limits import limited_load
 from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT, turns_back
 
@@ -72,7 +73,7 @@ def _slots(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
 
 
 def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
-    """Peaks, as derivatives by the input's radians, and times that keys of ``[limits]`` bound."""
+    """Peaks, as derivatives by the input's radians, times, and loads that ``[limits]`` bounds."""
     bounds = mechanism.spec.limits.as_dict()
     for name in names:
         limit = bounds[name]
@@ -94,9 +95,16 @@ def limits(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
         elif name == "cycle_max_s":
             longest = max(one.cycle_s for one in timings(mechanism))
             yield compared(name, longest, "at most", limit)
-        else:
+        elif name in ("velocity_max", "acceleration_max"):
             most = worst_of(mechanism, name.removesuffix("_max")).max
             yield compared(name, most, "at most", limit)
+        else:
+            from geneva_cli.verdict.quantities.batch_designs import number_of, single
+            from geneva_cli.verdict.quantities.load_quantities import greatest
+
+            peaks, load = single(mechanism).columns(greatest), limited_load(name)
+            most, at_deg = number_of(peaks[f"{load}.max"], 0), number_of(peaks[f"{load}.at_deg"], 0)
+            yield compared(name, most, "at most", limit, at_deg)
 
 
 def entry_velocity_limit(mechanism: Mechanism) -> float:

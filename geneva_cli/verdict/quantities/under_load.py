@@ -265,7 +265,10 @@ def batched(
 
     Each number of it is ``column`` of the (m,) numbers of the designs, NaN for those without.
     """
-    like = next((one for one in records if one is not None), None)
+    like: Record | None = None
+    for like in records:
+        if like is not None:
+            break
     if like is None:
         return None
     fields = list[object]()
