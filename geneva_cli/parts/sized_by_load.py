@@ -26,17 +26,16 @@ from geneva_cli.loads.strength.arm_and_key import (
     key_stress,
     shear_allowed_MPa,
 )
-from geneva_cli.loads.strength.horn import horns
-from geneva_cli.loads.strength.horn_search import HornStress, greatest_stress, single_stress
+from geneva_cli.loads.strength.horn import HornStress, greatest_stress, horns, single_stress
 from geneva_cli.loads.strength.part_loads import PartLoads, shear_MPa, single_loads
-from geneva_cli.loads.strength.pin import PinSize, pin
+from geneva_cli.loads.strength.pin import PinSize, pin_stress_MPa
 from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.drive import FirstWheel
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.arrays import Array
-from geneva_cli.numerics.preferred import bores_from, rounded_from
+from geneva_cli.numerics.preferred import sizes_from
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.assembly import Assembly, links_at
 from geneva_cli.parts.sizes import (
@@ -91,7 +90,7 @@ def load_sizes(
         if bent is None:
             bent = float(horn_MPa(machine, sizes.half_width, by)[0])
         # a thicker wheel bends its pins more than its horns
-        trials = rounded_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
+        trials = sizes_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
         allowed = wheel_material(spec).allowed_MPa
         wheel = first_that(trials, lambda b: keeps(bent / b, "at most", allowed))
         sizes = _thick(assembly, sizes, wheel=wheel)
@@ -132,7 +131,7 @@ def arm_that_holds(
         key = key_holds(spec, parts.crank_key, loads.crank_Nm)
         return key and keeps(stress, "at most", wheel_material(spec).allowed_MPa)
 
-    thick = rounded_from(wheel, 2.0 * wheel)
+    thick = sizes_from(wheel, 2.0 * wheel)
     keyed = (False, True) if spec.size.crank_keyway else (True,)
     return first_that((trial(key, one) for key in keyed for one in thick), holds)
 
@@ -185,7 +184,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
 
     # a third of the wheel up to its slots is left as a wall
     most = min(end * 2.0 / 3.0, end - wall, within_hub(spec.size, "wheel"))
-    return first_that(map(bored, bores_from(2.0 * sizes.wheel_bore, 2.0 * most)), holds)
+    return first_that(map(bored, sizes_from(2.0 * sizes.wheel_bore, 2.0 * most, bores=True)), holds)
 
 
 def _crank_bored(
@@ -215,7 +214,7 @@ def _crank_bored(
     if sizes.crank_bore:
         # a larger bore leaves no space for its default hub, of 1.5 bores
         most = min(0.6 * space, within_hub(size, "crank"))
-        for d in bores_from(2.0 * sizes.crank_bore, 2.0 * most):
+        for d in sizes_from(2.0 * sizes.crank_bore, 2.0 * most, bores=True):
             trial = bored(0.5 * d)
             if holds(trial):
                 return trial
@@ -223,7 +222,7 @@ def _crank_bored(
     if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.gears:
         return trial
     left = sizes.reaches[0] - hole_radius(size, sizes.pin)
-    ending = bores_from(2.0 * sizes.arm_bore, left)  # half of it is left as a wall
+    ending = sizes_from(2.0 * sizes.arm_bore, left, bores=True)  # half of it is left as a wall
     return first_that((bored(0.0)._replace(arm_bore=0.5 * d) for d in ending), holds)
 
 
@@ -249,10 +248,10 @@ def pin_that_holds(
     def holds(d: float) -> bool:
         struck_N = forces_N(mechanism, jump, PinSize(d, contact)).item() if jump else 0.0
         whole_N = max(loads.pin_N, struck_N) * rubbed  # with friction along the wall
-        stress = float(pin(size, contact, d).under(whole_N).equivalent)
+        stress = float(pin_stress_MPa(size, contact, d, whole_N)[2])
         return keeps(stress, "at most", allowed)
 
-    return 0.5 * first_that(rounded_from(2.0 * usual, 2.0 * most), holds)
+    return 0.5 * first_that(sizes_from(2.0 * usual, 2.0 * most), holds)
 
 
 def shaft_holds_both(
@@ -337,7 +336,9 @@ def first_sizes(
         return None
     reach = float(usual.arm.length - usual.arm.hole)
     size = size.replace(wheel_thickness_mm=usual.contact)  # no bore changes it either
-    bores = bores_from(usual.crank_shaft.diameter, reach)  # half of it is left as a wall
+    bores = sizes_from(
+        usual.crank_shaft.diameter, reach, bores=True
+    )  # half of it is left as a wall
     each = (dimensions(size.replace(arm_bore_mm=size.arm_bore_mm or d)) for d in bores)
     parts = first_that((one for one in each if one), holds, usual)
     thick = max(parts.contact, float(parts.arm.thickness))

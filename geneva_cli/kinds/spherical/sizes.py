@@ -16,19 +16,16 @@ from geneva_cli.kinds.spherical.ball import Ball, PartDoesNotFit, flat_radius, h
 from geneva_cli.kinds.spherical.horn import sphere_horns
 from geneva_cli.kinds.spherical.regions import sectors
 from geneva_cli.loads.strength.arm_and_key import NO_ARM, ArmDimensions
-from geneva_cli.loads.strength.horn_search import single_stress
+from geneva_cli.loads.strength.horn import single_stress
 from geneva_cli.loads.strength.lock import dwell_torque_Nm
 from geneva_cli.loads.strength.part_loads import (
     LoadedShaft,
-    ShaftForces,
-    crank_forces,
     shafts_under_load,
     single_loads,
-    wheel_forces,
 )
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.preferred import bores_from, rounded_from, to_digits
+from geneva_cli.numerics.preferred import sizes_from, to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.machine_sizes import keys_by_load
@@ -164,7 +161,7 @@ def _horn_thickness_mm(mechanism: Mechanism, usual: Ball) -> float:
         return keeps(horn.stress_MPa if horn else 0.0, "at most", allowed)
 
     # a thicker wheel bends its pins more than its horns
-    return first_that(rounded_from(least, 2.0 * least), holds)
+    return first_that(sizes_from(least, 2.0 * least), holds)
 
 
 def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
@@ -177,7 +174,7 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
 
     def holds(trial: Ball) -> bool:
         parts = sphere_stressed(spec, trial)
-        moment = _moment_Nm(mechanism, wheel_forces(mechanism), parts.wheel_shaft.overhang)
+        moment = _moment_Nm(mechanism, "wheel", parts.wheel_shaft.overhang)
         shaft = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, max(moment, held))
         return shaft and key_holds(spec, parts.wheel_key, single_loads(mechanism).wheel_Nm)
 
@@ -186,7 +183,7 @@ def _wheel_bored(mechanism: Mechanism, ball: Ball) -> Ball:
     most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
     each = (
         ball._replace(bore_mm=0.5 * d, hub_mm=hub_about(size, L, 0.5 * d, end))
-        for d in bores_from(2.0 * ball.bore_mm, 2.0 * most)
+        for d in sizes_from(2.0 * ball.bore_mm, 2.0 * most, bores=True)
     )
     return first_that(takewhile(lambda one: one.hub_mm <= widest, each), holds, ball)
 
@@ -218,19 +215,20 @@ def _crank_bored(mechanism: Mechanism, ball: Ball, keyed: bool) -> Ball:
 
     def holds(trial: Ball) -> bool:
         parts = sphere_stressed(spec, trial)
-        moment = _moment_Nm(mechanism, crank_forces(spec), parts.crank_shaft.overhang)
+        moment = _moment_Nm(mechanism, "crank", parts.crank_shaft.overhang)
         shaft = shaft_holds(spec, "crank", parts.crank_shaft.diameter, moment)
         key = not keyed or key_holds(spec, parts.crank_key, single_loads(mechanism).crank_Nm)
         return shaft and key
 
-    each = (ball._replace(arm_bore_mm=0.5 * d) for d in bores_from(2.0 * ball.arm_bore_mm, over))
+    bores = sizes_from(2.0 * ball.arm_bore_mm, over, bores=True)
+    each = (ball._replace(arm_bore_mm=0.5 * d) for d in bores)
     return first_that(takewhile(fits, each), holds)
 
 
 @lru_cache(maxsize=64)
-def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
+def _moment_Nm(mechanism: Mechanism, part: str, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
-    (one,) = shafts_under_load(mechanism, [LoadedShaft(forces, overhang_mm)])
+    (one,) = shafts_under_load(mechanism, [LoadedShaft(part, overhang_mm)])
     return one["moment_Nm"].item() if one else 0.0
 
 
