@@ -29,7 +29,7 @@ from geneva_cli.motion.batch import taken
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pitch_curve import pitch
-from geneva_cli.numerics.arrays import Number, Whole, array, blocks, joined, parameter
+from geneva_cli.numerics.arrays import Number, array, blocks, joined, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import TIE
 
@@ -132,7 +132,9 @@ class Horn(NamedTuple):
         recess's centre; thicknesses up to the recess, mm; and the angles about that centre, in
         radians, from the sections' feet to the next horn's. These are (m, k).
         """
-        x, y = self.at.engagement.slot(squeezed(input_deg), 1)
+        at_deg = np.atleast_2d(input_deg)
+        # one row as (k,) takes half the time
+        x, y = self.at.engagement.slot(at_deg[0] if len(at_deg) == 1 else at_deg, 1)
         rows = np.broadcast_arrays(*map(np.atleast_2d, (*x.c[:2], *y.c[:2])))
         place, normal = np.stack((rows[0], rows[2])), np.stack((-rows[3], rows[1]))
         wall = (self.axes * (self.L * place - self.centre)).sum(axis=1)
@@ -204,12 +206,6 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
     return sides
 
 
-def squeezed(input_deg: Number) -> Array:
-    """Input angles (m, k); (k,) if m is 1, which takes half the time."""
-    x = np.atleast_2d(input_deg)
-    return x[0] if len(x) == 1 else x
-
-
 def greatest_stress(
     sides: Sides, mechanism: Mechanism, sizes: Sizes, width: float = 1.0
 ) -> HornStress:
@@ -240,52 +236,40 @@ single_stress = lru_cache(maxsize=64)(greatest_stress)
 
 def _over_a_half(mechanism: Mechanism, side: HornSide, start: float, width: float) -> Array:
     """The rows of ``HornStress``, (4, m), for the roller from ``start`` to mid-motion."""
-    grid = np.linspace(1.0, NEAR_CUSP, 61)
-    roller, section = np.atleast_2d(start) * grid, np.atleast_2d(side.at.mouth_deg) * grid
-    best = np.full((4, mechanism.designs), np.nan)
+    case, best = load_case(mechanism), np.full((4, mechanism.designs), np.nan)
+    grid, finer = np.linspace(1.0, NEAR_CUSP, 61), np.linspace(0.0, 1.0, 33)
+    places, sections = np.atleast_2d(start) * grid, np.atleast_2d(side.at.mouth_deg) * grid
     for _ in range(4):  # then between the neighbours of the best sample so far
-        stress, inwards, thick = _stress(mechanism, side, width, roller, section)
-        m, _, count = stress.shape
+        x = places - side.at.ahead_deg
+        x = x[0] if len(x) == 1 else x  # as (k,) in half the time
+        at = contact_values(contact(side.at.whole, x, reactions=False))
+        loads = bounded_loads(case, at)
+        bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0  # or else the other horn
+        force = np.where(bears, np.abs(loads.pin_force_N), 0.0)
+        own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
+        # a mouth is away from the axis, but for internal wheels
+        rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
+        # designs may have the same force and rub in different ways, and the reverse
+        force, rub = map(np.atleast_2d, np.broadcast_arrays(force, rub))
+        unit, inwards, thick = side.unit_stress(places[:, own], rub[:, own], sections, width)
+        m, count = max(len(force), len(unit)), sections.shape[1]
+        stress = np.zeros((m, places.shape[1], count))
+        with np.errstate(invalid="ignore"):  # of a force without a bound
+            loaded = force[:, own, None] * unit
+        stress[:, own] = np.where(np.isfinite(loaded), loaded, 0.0)
         # designs may differ in their loads or sizes alone, and share their slots
-        section, inwards, thick, _ = np.broadcast_arrays(section, inwards, thick, stress[:, 0])
-        roller = np.broadcast_to(roller, (m, roller.shape[1]))
+        sections, inwards, thick, _ = np.broadcast_arrays(sections, inwards, thick, stress[:, 0])
+        places, every = np.broadcast_to(places, (m, places.shape[1])), np.arange(m)
         stress = stress.reshape(m, -1)
-        most, every = stress.max(axis=1), np.arange(m)
+        most = stress.max(axis=1)
         first = np.argmax(stress >= most[:, None] * (1.0 - TIE), axis=1)
         i, j = np.divmod(first, count)
-        rows = (stress[every, first], roller[every, i], inwards[every, j], thick[every, j])
+        rows = stress[every, first], places[every, i], inwards[every, j], thick[every, j]
         best = np.where(most > 0.0, rows, best)
-        roller, section = _refined(roller, i), _refined(section, j)
+        low, high = np.maximum(i - 1, 0), np.minimum(i + 1, places.shape[1] - 1)
+        before, after = places[every, low, None], places[every, high, None]
+        places = before + (after - before) * finer
+        low, high = np.maximum(j - 1, 0), np.minimum(j + 1, count - 1)
+        before, after = sections[every, low, None], sections[every, high, None]
+        sections = before + (after - before) * finer
     return best
-
-
-def _refined(places: Array, i: Whole) -> Array:
-    """Places between the neighbours of one of them, in each row."""
-    every, last = np.arange(len(places)), places.shape[1] - 1
-    before = places[every, np.maximum(i - 1, 0), None]
-    after = places[every, np.minimum(i + 1, last), None]
-    refined: Array = before + (after - before) * np.linspace(0.0, 1.0, 33)
-    return refined
-
-
-def _stress(
-    mechanism: Mechanism, side: HornSide, width: float, x: Array, sections: Array
-) -> tuple[Array, Array, Array]:
-    """Stresses under the machine's load: 0 where the other horn bears."""
-    at = contact_values(contact(side.at.whole, squeezed(x - side.at.ahead_deg), reactions=False))
-    case = load_case(mechanism)
-    loads = bounded_loads(case, at)
-    bears = np.asarray(loads.wheel_torque_Nm) * side.at.end < 0.0
-    force = np.where(bears, np.abs(loads.pin_force_N), 0.0)
-    own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
-    # a mouth is away from the axis, but for internal wheels
-    rub = case.friction * mechanism.spec.wheel.SIGN * loads.slides * at.touches
-    # the force may be the same for all designs where they rub in different ways, and the reverse
-    force, rub = map(np.atleast_2d, np.broadcast_arrays(force, rub))
-    unit, inwards, thick = side.unit_stress(x[:, own], rub[:, own], sections, width)
-    m = max(len(force), len(unit))
-    stress = np.zeros((m, x.shape[1], sections.shape[1]))
-    with np.errstate(invalid="ignore"):  # of a force without a bound
-        loaded = force[:, own, None] * unit
-    stress[:, own] = np.where(np.isfinite(loaded), loaded, 0.0)
-    return stress, inwards, thick

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from geneva_cli.loads.impacts.shock_force import least_pin_mm
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.loads.strength import arm_and_key as arms
 from geneva_cli.loads.strength import pin as pins
-from geneva_cli.loads.strength.arm_and_key import KeyDimensions, key_stress, shear_allowed_MPa
+from geneva_cli.loads.strength.arm_and_key import key_stress, shear_allowed_MPa
 from geneva_cli.loads.strength.part_loads import (
     LoadedShaft,
     shafts_under_load,
@@ -102,9 +103,8 @@ def lock(of: Designs) -> Columns:
     for name, row in state._asdict().items():
         if name != "on":
             out[name] = _known(row)
-    contact, approach = (np.asarray(row) for row in (state.contact_stress_MPa, state.approach_deg))
-    most = np.where(np.isnan(approach), np.inf, np.fmax(contact, state.pressure_MPa))
-    out["greatest_MPa"] = most = _known(most)
+    most = np.fmax(state.contact_stress_MPa, state.pressure_MPa)
+    out["greatest_MPa"] = most = _known(np.where(np.isnan(state.approach_deg), np.inf, most))
     out["margin"] = margin(most, allowed)
     return out
 
@@ -115,27 +115,25 @@ def _known(row: Number | None) -> Array:
     return np.where(np.isnan(values), np.inf, values)
 
 
-def wheel_shaft(of: Designs) -> Columns:
-    """The wheel's shaft."""
-    return of.once(_shafts)[0]
+def _shaft(of: Designs, part: str) -> Columns:
+    """The shaft of wheel or crank."""
+    return of.once(_shafts)[part]
 
 
-def crank_shaft(of: Designs) -> Columns:
-    """The crank's shaft."""
-    return of.once(_shafts)[1]
+wheel_shaft, crank_shaft = partial(_shaft, part="wheel"), partial(_shaft, part="crank")
 
 
-def _shafts(of: Designs) -> list[Columns]:
+def _shafts(of: Designs) -> dict[str, Columns]:
     """The columns of the shafts of wheel and crank, which are searched together."""
     wheel, crank = _drawn(of, "wheel"), _drawn(of, "crank")
     if held := under_load(of).held:
         carried = np.ravel(centrifugal_N(of.machine)) if of.machine.frame else 0.0
         wheel = wheel._replace(held_N=held[0] + carried, held_Nm=held[1])
         crank = crank._replace(held_N=held[0])  # the force passes through the crank's axis
-    both, each = (wheel, crank), []
+    both, each = (wheel, crank), dict[str, Columns]()
     for shaft, rows in zip(both, shafts_under_load(of.machine, both), strict=True):
         out: dict[str, Number | None] = {"diameter_mm": shaft.diameter_mm}
-        each.append(out)
+        each[shaft.part] = out
         if not rows:
             continue
         moment = rows["moment_Nm"] * of.loaded
@@ -196,23 +194,16 @@ def arm_thickness(of: Designs) -> Columns:
     return {"least_thickness_mm": _known(np.where(np.isfinite(force), least, force))}
 
 
-def wheel_key(of: Designs) -> Columns:
-    """The key in the wheel's bore."""
+def _key(of: Designs, part: str) -> Columns:
+    """The key of wheel or arm under a shaft's torque; the pressure allowed keeps the shear, too."""
     parts = under_load(of).parts
-    return _key(of, parts and parts.wheel_key, "wheel_Nm")
-
-
-def crank_key(of: Designs) -> Columns:
-    """The key in the arm's bore."""
-    parts = under_load(of).parts
-    return _key(of, parts and parts.crank_key, "crank_Nm")
-
-
-def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
-    """A key under a shaft's greatest torque; the pressure allowed keeps the shear, too."""
-    if key is None or np.isnan(key.shaft).all():
+    if parts is None:
         return {}
-    most = getattr(under_load(of).part_loads, torque) * of.loaded
+    key = parts.wheel_key if part == "wheel" else parts.crank_key
+    if np.isnan(key.shaft).all():
+        return {}
+    loads = under_load(of).part_loads
+    most = (loads.wheel_Nm if part == "wheel" else loads.crank_Nm) * of.loaded
     most = most * np.ravel(of.spec.shaft.torsion_factor)
     sides = np.ravel(wheel_material(of.spec).allowed_MPa)
     shear = np.ravel(shear_allowed_MPa(of.spec.shaft))
@@ -227,6 +218,9 @@ def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
         "margin": margin(pressure, _known(allowed)),
         "least_length_mm": _known(least),
     }
+
+
+wheel_key, crank_key = partial(_key, part="wheel"), partial(_key, part="crank")
 
 
 def pressure_speed(of: Designs) -> Columns:
