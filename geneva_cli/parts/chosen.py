@@ -97,7 +97,7 @@ def chosen(
     Chosen(value=5.0, why='default L/20')
     """
     size, out = mechanism.spec.size, {}
-    values = {**key_sizes(mechanism).values, **details}
+    values = {**key_sizes(mechanism)[0], **details}
     loaded, meanings = by_load(mechanism), {field.key: field.meaning for field in fields(Size)}
     for key, own in size.as_dict().items():
         if own is not None or key not in values or not _is_written(mechanism, key, values):

@@ -117,10 +117,10 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     of_kind = thing(mechanism.spec.wheel.NAME, "sizes") if mechanism.spec.has_parts else None
     if of_kind:
         values, by_load = of_kind(mechanism)
-        return KeySizes(known | values, by_load)
+        return known | values, by_load
     flat = sized(mechanism)
     if not flat:
-        return KeySizes(known, ())
+        return known, ()
     own = flat[1]
     known |= {
         "wheel_radius_mm": own.rim,
@@ -142,7 +142,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         known["wheel_outer_radius_mm"] = own.outer
     if own.arm_bore:
         known["arm_bore_mm"] = 2.0 * own.arm_bore
-    return KeySizes(known, keys_by_load(mechanism, bool(own.lock)))
+    return known, keys_by_load(mechanism, bool(own.lock))
 
 
 def built(mechanism: Mechanism) -> Size:
@@ -150,7 +150,7 @@ def built(mechanism: Mechanism) -> Size:
 
     Without parts only centre distance, roller and clearances are added.
     """
-    known, values = key_sizes(mechanism).values, mechanism.spec.size.as_dict()
+    known, values = key_sizes(mechanism)[0], mechanism.spec.size.as_dict()
     return mechanism.spec.size.replace(**{k: x for k, x in known.items() if values[k] is None})
 
 

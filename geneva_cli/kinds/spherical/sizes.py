@@ -32,7 +32,6 @@ from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sized_by_load import arm_holds, key_holds, pin_that_holds, shaft_holds
 from geneva_cli.parts.sizes import (
     LARGEST_HUB,
-    NO_SIZES,
     KeySizes,
     arm_hub,
     hub_and_eye,
@@ -92,7 +91,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     """Return the sizes of a spherical machine by the keys of the spec; none without parts."""
     sizes, size = sized_ball(mechanism), mechanism.spec.size
     if sizes is None:
-        return NO_SIZES
+        return {}, ()
     known = {
         "slot_bottom_clearance_mm": sizes.bottom_mm,
         "lock_radius_mm": sizes.lock_mm,
@@ -111,7 +110,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     for part, (inside, outside) in spans.items():
         # the digits beyond the twelfth are rounding of the faces' radii
         known[f"{part}_thickness_mm"] = float(f"{outside - inside:.12g}")
-    return KeySizes(known, keys_by_load(mechanism, bool(sizes.recess)))
+    return known, keys_by_load(mechanism, bool(sizes.recess))
 
 
 def ball(mechanism: Mechanism) -> Ball:
