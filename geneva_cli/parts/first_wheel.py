@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import NamedTuple
 
 from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
@@ -20,17 +19,9 @@ from geneva_cli.motion.wheels.external import External
 from geneva_cli.numerics.preferred import sizes_from
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sized_by_load import equivalent_Nm, shaft_holds
-from geneva_cli.parts.sizes import Sizes
+from geneva_cli.parts.sizes import FirstSizes, Sizes
 from geneva_cli.parts.stressed import Stressed, stressed
 from geneva_cli.spec.tables import Load, Size
-
-
-class FirstSizes(NamedTuple):
-    """What a load needs of the first wheel's parts, mm."""
-
-    thickness: float  # of the wheel and its crank
-    pin: float  # radius of the roller's pin
-    shaft: float  # radius of its crank's shaft
 
 
 def first_spec(mechanism: Mechanism, first: FirstWheel) -> Spec:

@@ -9,7 +9,6 @@ fails. The first of two wheels in series bears the greatest torque in the second
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -34,6 +33,7 @@ from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.assembly import Assembly, links_at
 from geneva_cli.parts.sizes import (
     LARGEST_HUB,
+    FirstSizes,
     Sizes,
     reach_and_hub,
     within_hub,
@@ -41,9 +41,6 @@ from geneva_cli.parts.sizes import (
 from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.materials import roller_material, wheel_material
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.first_wheel import FirstSizes
 
 
 def load_sizes(

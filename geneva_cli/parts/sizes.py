@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
@@ -14,11 +14,16 @@ from geneva_cli.spec.default_sizes import Thicknesses, half_or, value_or
 from geneva_cli.spec.least_wall import eye_about
 from geneva_cli.spec.tables import Size
 
-if TYPE_CHECKING:
-    from geneva_cli.parts.first_wheel import FirstSizes
-
 HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
 LARGEST_HUB = 0.75  # of the slots' ends: a quarter of the wheel up to them stays free
+
+
+class FirstSizes(NamedTuple):
+    """What a load needs of the first wheel's parts, mm."""
+
+    thickness: float  # of the wheel and its crank
+    pin: float  # radius of the roller's pin
+    shaft: float  # radius of its crank's shaft
 
 
 class Sizes(NamedTuple):

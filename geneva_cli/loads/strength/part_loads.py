@@ -173,7 +173,7 @@ class PartLoads(NamedTuple):
 
 
 def part_loads(mechanism: Mechanism) -> PartLoads:
-    """The greatest loads of m designs."""
+    """The greatest loads of m designs, or as numbers of a single one."""
     orbiting, on_sphere = orbiting_N(mechanism), not mechanism.axes
     own: dict[str, LoadQuantity] = {
         "wheel_Nm": ShaftLoad("wheel", on_sphere, orbiting),
@@ -185,10 +185,9 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
     held = np.maximum(np.sqrt(peaks["wheel_Nm"].max), dwell_torque_Nm(mechanism))
     crank, crank_Nm = peaks["crank_bearing_N"].max, np.sqrt(peaks["crank_Nm"].max)
     rows = force, jump, wheel, wheel + np.ravel(orbiting), held, crank, crank_Nm
-    return PartLoads(*map(parameter, rows))
+    out = PartLoads(*map(parameter, rows))
+    return out.of(0) if isinstance(mechanism.design, int) else out
 
 
-@Known
-def single_loads(mechanism: Mechanism) -> PartLoads:
-    """The loads for which a machine is sized as numbers, cached for its sizes and their checks."""
-    return part_loads(mechanism).of(0)
+# The loads for which a machine is sized, cached for its sizes and their checks.
+single_loads = Known(part_loads)
