@@ -6,9 +6,8 @@ Whole steps apart they move the wheel alike, in turn: as by one crank with that 
 import math
 from typing import Annotated, ClassVar, Self
 
-from geneva_cli.drives.transmission import Direct
+from geneva_cli.drives.transmission import Direct, places
 from geneva_cli.motion.drive import Plan
-from geneva_cli.motion.rollers import alike
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.spec.rules import Z_MAX, Range
 
@@ -35,10 +34,10 @@ class Crank(Direct, kw_only=True):
 
     @property
     def cranks(self) -> tuple[float, ...]:
-        return self.crank_steps or super().cranks
+        return self.crank_steps or (0.0,)
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
-        return self.straight(wheel, alike(wheel, self, place), L)
+        return self.straight(wheel, places(wheel, self, L, place), L)
 
     def backwards(self, plan: Plan) -> Self:
         out = super().backwards(plan)

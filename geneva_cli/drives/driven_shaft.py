@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from geneva_cli.motion.engagement import Displacement, Engagement, Load, Vector, cross
+from geneva_cli.motion.engagement import Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import cuts
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Batchable, choose, library, narrowed
@@ -19,6 +19,7 @@ from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise, sin
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
     from geneva_cli.drives.transmission import Transmission
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 def angle_of(advance: Displacement, tau: Number, order: int) -> Jet:

@@ -4,13 +4,14 @@ With the driver at phi the driven gear is at f: tan(f/2) = (1-e)/(1+e) tan(phi/2
 anomaly; the directions of the half angles are (cos phi/2, sin phi/2), ((1+e) cos .., (1-e) sin ..).
 """
 
-from typing import Annotated, ClassVar, NamedTuple
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.drives.pushed import Mesh, PushedCrank
 from geneva_cli.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.errors import refuse_text
 from geneva_cli.motion.drive import Gears, Plan
-from geneva_cli.motion.engagement import Path
 from geneva_cli.motion.pivots import Dimension, Layout, Pivot, ShaftPlace
 from geneva_cli.motion.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
@@ -18,6 +19,9 @@ from geneva_cli.numerics.arrays import enclosed, library
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Path
 
 
 class EllipticalGears(Transmission, kw_only=True):

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from geneva_cli.motion.engagement import Load, Path, Vector, cross
+from geneva_cli.motion.engagement import Load, Vector, cross
 from geneva_cli.numerics.arrays import Batchable, library
 from geneva_cli.numerics.jet import Jet, Number, turning
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Path
 
 
 class PushedCrank(Batchable, ABC):

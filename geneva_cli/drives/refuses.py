@@ -69,7 +69,7 @@ def of_transmission(spec: Spec) -> Iterator[Conflict]:
         "{spec.drive.rollers} rollers on a {spec.drive.NAME} move the wheel differently, so one "
         "curved slot cannot serve them all; use rollers = 1, or straight slots (no law)"
     )
-    yield Conflict(law and drive.motions > 1, ("drive", "rollers"), text)
+    yield Conflict(law and drive.rollers > 1 and not drive.direct, ("drive", "rollers"), text)
 
 
 def of_crank(spec: Spec) -> Iterator[Conflict]:

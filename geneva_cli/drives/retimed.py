@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
 from geneva_cli.drives.driven_shaft import DrivenShaft, ShaftPath, Timing, angle_of
 from geneva_cli.motion import engagement as base
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import Anchor, Displacement, Path, Vector
+from geneva_cli.motion.engagement import Anchor, Vector
 from geneva_cli.numerics.arrays import Array, Batchable, array
 from geneva_cli.numerics.jet import Jet, Number, composed
 from geneva_cli.numerics.roots import boundary
@@ -19,6 +19,7 @@ from geneva_cli.numerics.roots import boundary
 if TYPE_CHECKING:
     from geneva_cli.drives.transmission import Transmission
     from geneva_cli.motion.machine_spec import Spec
+    from geneva_cli.numerics.jet_functions import Displacement, Path, Reactions
 
 
 def retimed(plan: Plan, spec: Spec, in_front: Drive) -> Plan:
@@ -131,7 +132,7 @@ class _Slot(_Path, base.Slot):
         axis = self.own.axis(at, order)
         if axis is None:
             return None
-        return base.SlotAxis(composed(axis.lever, turned.lower), _of_rate(axis.along, turned))
+        return composed(axis[0], turned.lower), _of_rate(axis[1], turned)
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet | float:
         at, turned = self.timing.at(input_deg, order)
@@ -149,7 +150,7 @@ class Engagement(base.Engagement):
     """An engagement of a drive's own, behind another drive."""
 
     def __init__(
-        self, own: base.Engagement, timing: Timing, reactions: base.Reactions | None = None
+        self, own: base.Engagement, timing: Timing, reactions: Reactions | None = None
     ) -> None:
         super().__init__(
             timing.mid_deg,

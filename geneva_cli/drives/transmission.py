@@ -2,33 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
+from itertools import pairwise
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
-from geneva_cli.errors import refuse_text
+from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import (
-    Anchor,
-    ConstantRate,
-    Displacement,
-    Engagement,
-    Path,
-    Vector,
-)
-from geneva_cli.motion.path_and_slot import AnchoredPath, ClassicMotion, SideCrankMotion
-from geneva_cli.motion.rollers import places
-from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
+from geneva_cli.motion.engagement import Anchor, Engagement
+from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.motion.wheels.classic import HalfStep, PinTravel, middle, refuse_jam, rollers_max
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.motion.wheels.poses import PinPose, PinTravel, middle
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import Array, parameter
+from geneva_cli.numerics.arrays import Array, larger, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
     from geneva_cli.motion.laws.law import Law
     from geneva_cli.motion.motion import Motion
+    from geneva_cli.numerics.jet_functions import Displacement, Path
+
+
+ANGLES_KEY = ("drive", "roller_angles_deg")
 
 
 class LocalTransmission(NamedTuple):
@@ -38,13 +35,8 @@ class LocalTransmission(NamedTuple):
     # sin d and 1 - cos d of the crank's rotation d since then, by the input's rotation since then
     advance: Displacement
 
-    def anchor(self, pose: PinPose, middle_deg: float) -> Anchor:
-        """A pose at this crank angle as an anchor; mid-motion is at the input ``middle_deg``."""
-        travel = PinTravel(pose, self.advance)
-        return Anchor(self.input_deg - middle_deg, pose.wheel, pose.along, travel)
 
-
-def same(tau: Number, order: int) -> Vector:
+def same(tau: Number, order: int) -> tuple[Jet, Jet]:
     """sin d and 1 - cos d of a crank that turns as the input does."""
     return sine_versine(Jet.variable(tau, order))
 
@@ -76,15 +68,6 @@ class Transmission(Drive, kw_only=True):
         return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
 
     @property
-    def motions(self) -> int:
-        return self.rollers
-
-    @property
-    def reach_deg(self) -> float:
-        """Greatest crank angle from mid-motion at which the crank may move the wheel, degrees."""
-        return 180.0
-
-    @property
     def side_crank(self) -> float | None:
         """A of the side-crank whose ratio it has; None for another ratio."""
         return None
@@ -93,7 +76,7 @@ class Transmission(Drive, kw_only=True):
         return self.about(parameter(crank_deg)).advance(0.0, 1)[0].c[1]
 
     def input_deg(self, crank_deg: float) -> float:
-        whole = 2.0 * self.reach_deg
+        whole = 360.0 / self.turns  # angle of the crank in which the transmission repeats
         turns = round(crank_deg / whole)
         return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
 
@@ -110,12 +93,35 @@ class Transmission(Drive, kw_only=True):
 
     def straight(self, wheel: Gearing, rollers: list[RollerPlace], L: float) -> Plan:
         """Plan of straight slots for the places of the rollers on the crank."""
-        self._refuse_reach(wheel, rollers[0].reach_deg)
-        engagements = tuple(self.follows(wheel, place, L) for place in rollers)
+        entry, _, exit_ = rollers[0].poses
+        self._refuse_reach(wheel, larger(-entry.crank_deg, exit_.crank_deg))
+        engagements, side_crank = [], self.side_crank
+        for place in rollers:
+            here, anchors = self.about(place.crank_deg), []
+            for pose in place.poses:
+                at_deg, advance = self.about(place.crank_deg + pose.crank_deg)
+                travel = PinTravel(pose, advance)
+                anchors.append(Anchor(at_deg - here.input_deg, pose.wheel, pose.along, travel))
+            path = AnchoredPath(tuple(anchors))
+            slot, motion = wheel.follow(path, place, here.advance)
+            first = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
+            single = isinstance(side_crank, float) and isinstance(place.ratio, float)
+            if place.closed and self.direct:
+                motion = StraightSlotMotion(path, place.step.b, closed=place.closed)
+            elif place.closed and first and side_crank is not None and not (single or wheel.steps):
+                from geneva_cli.motion.wheels.side_crank_arrays import SideCrankMotion
+
+                motion = SideCrankMotion(path, place.step.b, side_crank, place.closed)
+            turns = -wheel.SIGN * place.cone
+            body = turns if self.direct else _CrankRate(here.advance, turns)
+            held = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
+            own = Engagement(here.input_deg, path, slot, motion, body, held)
+            own.hub, own.built = place.hub, place.built
+            engagements.append(own)
         turn = 360.0 * self.turns
         period = turn / self.rollers if len(rollers) == 1 else turn
         most = rollers_max(2.0 * rollers[0].half_motion_deg)
-        return Plan(engagements, period, rollers[0].ratio, most, L)
+        return Plan(tuple(engagements), period, rollers[0].ratio, most, L)
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> PushedCrank | None:
         """Reactions on crank and transmission; None if a length is not known.
@@ -123,27 +129,6 @@ class Transmission(Drive, kw_only=True):
         ``mid_deg`` is the input angle at which the roller crosses the line of centres.
         """
         return None
-
-    def follows(self, wheel: Gearing, place: RollerPlace, L: float) -> Engagement:
-        """The engagement of a straight slot with one of the rollers."""
-        here = self.about(place.crank_deg)
-        anchors = tuple(
-            self.about(place.crank_deg + pose.crank_deg).anchor(pose, here.input_deg)
-            for pose in place.poses
-        )
-        path = AnchoredPath(anchors)
-        slot, motion = wheel.follow(path, place, here.advance)
-        first = isinstance(place.crank_deg, float) and place.crank_deg == 0.0 and not wheel.steps
-        if place.closed and self.direct:
-            motion = ClassicMotion(path, place.step.b, *place.closed)
-        elif place.closed and self.side_crank is not None and first:
-            motion = SideCrankMotion(path, place.step.b, self.side_crank, *place.closed)
-        rate = -wheel.SIGN * place.cone
-        body = ConstantRate(rate) if self.direct else _CrankRate(here.advance, rate)
-        reactions = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
-        return Engagement(
-            here.input_deg, path, slot, motion, body, reactions, hub=place.hub, built=place.built
-        )
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""
@@ -161,11 +146,12 @@ class Transmission(Drive, kw_only=True):
         refuse_text(ratio != ratio, ("motion", "ratio"), text)
         here = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
-        path = solved.MiddlePath(here.anchor(pose, here.input_deg))
+        travel = PinTravel(pose, here.advance)
+        path = solved.MiddlePath(Anchor(0.0 * here.input_deg, pose.wheel, pose.along, travel))
         end_deg, b = 0.5 * motion_deg, wheel.step.b
         turned = solved.LawMotion(-end_deg, end_deg, b, motion.law)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
-        body = ConstantRate(-wheel.SIGN) if self.direct else _CrankRate(here.advance, -wheel.SIGN)
+        body = -wheel.SIGN if self.direct else _CrankRate(here.advance, -wheel.SIGN)
         engagement = Engagement(0.0, path, solved.SolvedSlot(path, turned), turned, body, reactions)
         period = 360.0 * self.turns / self.rollers
         return Plan((engagement,), period, ratio, rollers_max(motion_deg), L)
@@ -185,8 +171,9 @@ class Transmission(Drive, kw_only=True):
         """Raise GenevaError if the transmission does not cover the whole motion."""
         text = "z = {z}: the crank must turn {far:.6g} deg to either side, but kind = "
         text += '"{name}" turns it only {most:.6g}: reduce z or first_z'
-        values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": self.reach_deg}
-        refuse_text(farthest_deg > self.reach_deg * (1.0 + 1e-12), ("wheel", "z"), text, **values)
+        most = 180.0 / self.turns  # crank angle from mid-motion in a turn of the input
+        values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": most}
+        refuse_text(farthest_deg > most * (1.0 + 1e-12), ("wheel", "z"), text, **values)
 
 
 class Direct(Transmission, kw_only=True):
@@ -195,9 +182,62 @@ class Direct(Transmission, kw_only=True):
     direct: ClassVar[bool] = True
     turned_at_crank: ClassVar[bool] = True
 
-    @property
-    def motions(self) -> int:
-        return 1
-
     def about(self, crank_deg: float) -> LocalTransmission:
         return LocalTransmission(crank_deg, same)
+
+
+def places(
+    wheel: Gearing, drive: Drive, L: float, passing: RollerPlace | None = None
+) -> list[RollerPlace]:
+    """Rollers of a machine with straight slots, in the order in which they move the wheel.
+
+    With unequal steps they are on different arms, else all pass the slots as ``passing`` does.
+    Rollers that move the wheel alike are returned as one. Raises GenevaError if rollers would jam.
+    """
+    angles, m = drive.roller_angles_deg, drive.rollers
+    if passing is None and wheel.steps:  # R_i = L sin b_i
+        rollers = [wheel.place(HalfStep.of_deg(0.5 * step), L) for step in wheel.steps]
+        _refuse_no_dwell(rollers, ("wheel", "steps_deg"))
+        if angles:
+            return _at_angles(angles, rollers)
+        # placed so that the dwells between their motions are equal
+        total = math.fsum(2.0 * one.half_motion_deg for one in rollers)
+        dwell, at, out = (360.0 - total) / len(rollers), 0.0, rollers[:1]
+        for before, one in pairwise(rollers):
+            at += before.half_motion_deg + dwell + one.half_motion_deg
+            out.append(one._replace(crank_deg=at))
+        return out
+    one = wheel.place(wheel.step, L) if passing is None else passing
+    if angles:
+        return _at_angles(angles, [one] * len(angles))
+    refuse_jam(m, 2.0 * one.half_motion_deg, wheel.SIGN < 0.0)
+    out = [one]  # behind a transmission the crank's angle decides how each moves the wheel
+    for j in range(1, 1 if drive.direct else m):
+        out.append(one._replace(crank_deg=360.0 * j / m))
+    return out
+
+
+def _at_angles(angles: tuple[float, ...], rollers: list[RollerPlace]) -> list[RollerPlace]:
+    """Rollers at the angles of the spec, each gap wide enough for half of both adjacent motions."""
+    if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
+        raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES_KEY)
+    text = (
+        "the rollers at {a:g} and {b:g} deg jam: half of both motions takes {motions:.6g} deg, and "
+        "they are {apart:.6g} deg apart"
+    )
+
+    following = (*angles[1:], 360.0), (*rollers[1:], rollers[0])
+    for a, one, b, after in zip(angles, rollers, *following, strict=True):
+        motions = one.half_motion_deg + after.half_motion_deg
+        values = {"a": a, "b": b % 360.0, "motions": motions, "apart": b - a}
+        refuse_text(b - a < motions, ANGLES_KEY, text, **values)
+    _refuse_no_dwell(rollers, ANGLES_KEY)
+    return [one._replace(crank_deg=a) for a, one in zip(angles, rollers, strict=True)]
+
+
+def _refuse_no_dwell(rollers: list[RollerPlace], key: tuple[str, str]) -> None:
+    """Raise GenevaError if the motions of all rollers take a whole turn."""
+    total = sum(2.0 * one.half_motion_deg for one in rollers)
+    text = "the {count} motions together take {total:.6g} deg of a turn and leave no dwell: use "
+    text += "fewer rollers, or a shorter pattern of steps"
+    refuse_text(total >= 360.0, key, text, count=len(rollers), total=total)

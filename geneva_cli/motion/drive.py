@@ -7,7 +7,7 @@ from abc import abstractmethod
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse_text
-from geneva_cli.motion.engagement import Displacement, Engagement
+from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.pivots import Layout, Link, ShaftPlace
 from geneva_cli.motion.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.numerics.arrays import larger
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from geneva_cli.motion.motion import Motion
     from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
     from geneva_cli.numerics.arrays import Array
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class Plan(NamedTuple):
@@ -136,11 +137,6 @@ class Drive(SpecTable, kw_only=True):
     def crank(self) -> Drive | None:
         """A plain crank with the same rollers; None if no crank carries them."""
         return None
-
-    @property
-    def motions(self) -> int:
-        """Number of different motions of the wheel, by one roller after the other on the crank."""
-        return 1
 
     @property
     def gears(self) -> Gears | None:

@@ -136,7 +136,7 @@ class Spec(SpecTable):
             several = vars(self)[table]
             known = number.isdecimal() and int(number) < len(several)
             return several[int(number)] if known else None
-        part = vars(self).get(attribute(name)) if "_" not in name else None
+        part = vars(self).get(name.replace(".", "_")) if "_" not in name else None
         return part if isinstance(part, SpecTable) else None
 
     def with_(self, key: str, value: object) -> Self:
@@ -200,7 +200,7 @@ class Spec(SpecTable):
     @property
     def output(self) -> Output:
         """What the wheel gives out, with its units."""
-        return self.wheel.output(self.given_distance_mm)
+        return self.wheel.output(self.size.distance_mm)
 
     @property
     def _unloaded(self) -> bool:
@@ -217,7 +217,7 @@ class Spec(SpecTable):
     @property
     def is_flat(self) -> bool:
         """True if wheel and crank are flat outlines that are drawn."""
-        return self.wheel.FLAT and self.has_parts
+        return self.wheel.FLAT and not self.no_parts
 
     @property
     def has_parts(self) -> bool:
@@ -254,10 +254,6 @@ class Spec(SpecTable):
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""
 
-    def roller_radius_mm(self, center_distance_mm: float) -> float:
-        """Roller radius r in millimetres, by default L/20."""
-        return self.size.roller_radius(center_distance_mm)
-
     @property
     def moving(self) -> tuple[object, ...]:
         """The values from which engagements are made."""
@@ -266,7 +262,7 @@ class Spec(SpecTable):
             # a crank as built enters where its roller crosses the slot's axis inside the rim
             built = (size.crank_radius_mm, size.wheel_radius_mm, size.roller_radius_mm)
         own = self.wheel, self.drive, self.drive_before, self.motion
-        return (*own, *built, self.given_distance_mm)
+        return (*own, *built, self.size.distance_mm)
 
     @property
     def given_distance_mm(self) -> float:

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import math
+from operator import attrgetter
 from typing import NamedTuple
 
-from geneva_cli.motion import compatible
+from geneva_cli.motion.compatible import (
+    SAME_RATIO,
+    refuse_conflicts,
+    refuse_sizes,
+    refuse_tolerances,
+)
 from geneva_cli.motion.drive import FirstWheel, Plan
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.motion.laws.law import Law
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.pivots import AxisPlace, Layout, Pivot, ShaftPlace, wheel_places
 from geneva_cli.motion.records import IN_FRONT
-from geneva_cli.motion.size_rules import SAME_RATIO, refuse_sizes, refuse_tolerances
 from geneva_cli.motion.wheels.gearing import Output
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import (
-    Array,
     Whole,
     all_true,
     choose,
@@ -50,8 +54,7 @@ class Mechanism(NamedTuple):
     @property
     def plan(self) -> Plan:
         """What the drive planned, with engagements by the angle of its own input shaft."""
-        plan = Plan(*self[1:-1])
-        return plan._replace(engagements=tuple(one.own for one in self.engagements))
+        return Plan(tuple(map(attrgetter("own"), self.engagements)), *self[2:-1])
 
     @property
     def crank_shaft(self) -> ShaftPlace:
@@ -100,10 +103,6 @@ class Mechanism(NamedTuple):
                 own = (*own, here)
         return own if self.axes else tuple(one for one in own if not isinstance(one, Pivot))
 
-    def own_deg(self, input_deg: Array) -> Array:
-        """Angle of the drive's own input shaft at input angles near mid-motion."""
-        return self.engagements[0].own_deg(input_deg)
-
     @property
     def law(self) -> Law | None:
         """Motion law by the angle of the drive's own input shaft; None for straight slots."""
@@ -122,7 +121,7 @@ class Mechanism(NamedTuple):
     @property
     def roller_radius_mm(self) -> float:
         """Roller radius r in millimetres, by default L/20."""
-        return self.spec.roller_radius_mm(self.center_distance_mm)
+        return self.spec.size.roller_radius(self.center_distance_mm)
 
     @property
     def matched_ratio(self) -> float | None:
@@ -139,21 +138,17 @@ class Mechanism(NamedTuple):
         return 360.0 * self.spec.turns
 
     @property
-    def stop_deg(self) -> float:
-        """The stop of the input in each dwell, as the angle that it would turn meanwhile."""
-        return 6.0 * self.spec.drive.n_rpm * self.spec.drive.stop_s
-
-    @property
     def lasting_deg(self) -> float:
         """The period with its stops, as the angle that the input would turn meanwhile."""
-        return self.period_deg + len(self.engagements) * self.stop_deg
+        stop_deg = 6.0 * self.spec.drive.n_rpm * self.spec.drive.stop_s  # of one dwell
+        return self.period_deg + len(self.engagements) * stop_deg
 
     def shown_deg(self, input_deg: float) -> float:
         """Input angle for display: between -180 and 180 degrees from mid-motion.
 
         Over a period of several turns it is counted from the first engagement's entry.
         """
-        whole = self.whole_deg
+        whole = 360.0 * self.spec.turns
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # Rounding may put an angle just before the entry: count it as the entry.
@@ -223,12 +218,15 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
 
     Raises GenevaError, naming the key, if the values do not make a machine together.
     """
-    compatible.refuse_conflicts(spec)
+    refuse_conflicts(spec)
+    radius, L = spec.size.crank_radius_mm, spec.size.center_distance_mm
     if like and spec.moving == like.spec.moving:
         plan = Plan(*like[1:-1])
     else:
-        own = spec.drive.plan
-        plan = _as_built(spec) or own(spec.wheel, spec.motion, spec.given_distance_mm)
+        own = None
+        if radius is not None and L is not None and spec.motion is None:
+            own = _as_built(spec, radius, L)
+        plan = own or spec.drive.plan(spec.wheel, spec.motion, spec.size.distance_mm)
         if spec.drive_before:
             plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
@@ -236,11 +234,9 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
     return Mechanism(spec, *plan)
 
 
-def _as_built(spec: Spec) -> Plan | None:
+def _as_built(spec: Spec, radius: float, L: float) -> Plan | None:
     """The plan of a crank as built, whose R/L is not what the slots need; None for any other."""
-    wheel, radius, L = spec.wheel, spec.size.crank_radius_mm, spec.size.center_distance_mm
-    if radius is None or L is None or spec.motion is not None:
-        return None
+    wheel = spec.wheel
     derived = wheel.place(wheel.step, L)
     off = abs(radius / L - derived.ratio) > SAME_RATIO
     if not all_true(off) and (isinstance(off, bool) or not off.any()):
@@ -249,7 +245,7 @@ def _as_built(spec: Spec) -> Plan | None:
 
     rim = spec.size.wheel_radius_mm
     if rim is None:  # that of a machine as derived
-        away, r = L * wheel.step.sin_cos[1], spec.roller_radius_mm(L)
+        away, r = L * wheel.step.sin_cos[1], spec.size.roller_radius(L)
         rim = library(away, r).hypot(away, r)
     place = wheel.as_built(radius / L, rim / L, L)
     if place is None:

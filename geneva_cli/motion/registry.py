@@ -14,8 +14,13 @@ from geneva_cli.spec.load_named import load_named
 if TYPE_CHECKING:
     from geneva_cli.motion.laws.law import Law
 
-GEARINGS = {kind.name: kind.wheel for kind in KINDS if kind.wheel}
-DRIVES = {kind.name: kind.drive for kind in KINDS if kind.drive}
+GEARINGS: dict[str, str] = {}
+DRIVES: dict[str, str] = {}
+for _kind in KINDS:
+    if _kind.wheel:
+        GEARINGS[_kind.name] = _kind.wheel
+    if _kind.drive:
+        DRIVES[_kind.name] = _kind.drive
 # laws that need no key or file of the user
 _STANDARD = {
     "harmonic": "motion.laws.standard:Harmonic",

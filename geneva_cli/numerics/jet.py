@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from math import factorial
-from operator import add, neg, sub
+from operator import add, sub
 from typing import TypeVar, cast
 
 from geneva_cli.numerics.arrays import SINGLE, Enclosed, enclosed, library, piece_of, size
@@ -71,7 +71,7 @@ class Jet:
     __radd__ = __add__
 
     def __neg__(self) -> Jet:
-        return Jet(map(neg, self.c))
+        return self * -1
 
     def __sub__(self, other: Jet | Number) -> Jet:
         if isinstance(other, Jet):
@@ -79,7 +79,7 @@ class Jet:
         return Jet((self.c[0] - other, *self.c[1:]))
 
     def __rsub__(self, other: Number) -> Jet:
-        return Jet((other - self.c[0], *map(neg, self.c[1:])))
+        return self * -1 + other
 
     def __mul__(self, other: Jet | Number) -> Jet:
         a, b = self.c, other.c if isinstance(other, Jet) else (other,)
@@ -179,7 +179,7 @@ def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     if len(x.c) == 1:  # a value alone needs no cosine
         return Jet((library(x.c[0]).sin(x.c[0]),)), Jet((versine,))
     s, c = sin_cos(x)
-    return s, Jet((versine, *map(neg, c.c[1:])))
+    return s, Jet((versine, *(-c).c[1:]))
 
 
 def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, Jet]:
@@ -192,7 +192,7 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
         ahead = 0.5 * (1.0 + library(cosine).copysign(1.0, cosine))
         versine = ahead * sine * sine / (1.0 + size(cosine)) + (1.0 - ahead) * versine
     s, c = _circle((0.0, *rate.c)[: order + 1], sine, cosine)
-    return s, Jet((versine, *map(neg, c.c[1:])))
+    return s, Jet((versine, *(-c).c[1:]))
 
 
 def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:

@@ -265,7 +265,7 @@ def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
 
 def _own_links(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
     """Return the links of the drive itself."""
-    sign, own_deg = mechanism.spec.wheel.SIGN, mechanism.own_deg(input_deg)
+    sign, own_deg = mechanism.spec.wheel.SIGN, mechanism.engagements[0].own_deg(input_deg)
     own = mechanism.spec.drive.links(mechanism.plan, sign, own_deg)
     groove = mechanism.engagements[0].groove
     if groove is None:

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
 from geneva_cli.motion import registry
 from geneva_cli.motion.drive import PinPath, Plan
-from geneva_cli.motion.engagement import Engagement, Path, Slot, SlotAxis, Vector, WheelMotion
+from geneva_cli.motion.engagement import Engagement, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
-from geneva_cli.motion.wheels import poses
+from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, larger, library, size
 from geneva_cli.numerics.jet import Jet, Number, piecewise
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from geneva_cli.drives.transmission import Transmission
     from geneva_cli.motion.motion import Motion
     from geneva_cli.motion.wheels.gearing import Gearing
+    from geneva_cli.numerics.jet_functions import Path
 
 
 class GearSector(PinPath, kw_only=True):
@@ -53,9 +54,10 @@ class GearSector(PinPath, kw_only=True):
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""
         b, u = self._solved(math.pi / wheel.z)
-        place = wheel.place(poses.HalfStep.of_deg(library(b).degrees(b)), L)
+        place = wheel.place(classic.HalfStep.of_deg(library(b).degrees(b)), L)
         crank = cast("Transmission", registry.drive("crank")())
-        engagement = SectorEngagement(crank.follows(wheel, place, L), self.sector_deg, u)
+        (inner,) = crank.straight(wheel, [place], L).engagements
+        engagement = SectorEngagement(inner, self.sector_deg, u)
         return self.planned(engagement, library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
@@ -166,8 +168,8 @@ class _SectorSlot(Slot):
         axis = self.inner.axis(self.motion.slot_deg(input_deg), order)
         assert axis is not None  # it is straight
         slot = self.touches(input_deg)
-        lever = axis.lever * slot + (1.0 - slot) / (1.0 + self.motion.u)
-        return SlotAxis(lever, axis.along * slot)
+        lever = axis[0] * slot + (1.0 - slot) / (1.0 + self.motion.u)
+        return lever, axis[1] * slot
 
     def touches(self, input_deg: Number) -> Number:
         slot = size(input_deg) >= self.motion.half_sector

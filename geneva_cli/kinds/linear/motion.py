@@ -11,17 +11,18 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, ClassVar
 
-from geneva_cli.motion.engagement import Displacement, Slot, SlotAxis
+from geneva_cli.motion.engagement import Slot, SlotAxis
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.motion.pivots import Pivot
+from geneva_cli.motion.wheels.classic import HalfStep, PinPose, middle
 from geneva_cli.motion.wheels.gearing import Gearing, Output, RollerPlace
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose, middle
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.schema import Example
 
 if TYPE_CHECKING:
     from geneva_cli.motion.machine_spec import Spec
     from geneva_cli.motion.plane_motion import PlaneMotion
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class Linear(Gearing):
@@ -128,7 +129,7 @@ class ParallelSlot(Slot):
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         """Lever of the slot's normal about the pinion's axis, and the pin's speed along it."""
         along = self.path.nearest(input_deg, order + 1)[0].derivative()
-        return SlotAxis(along * 0.0 + 1.0, along)
+        return along * 0.0 + 1.0, along
 
     def play(self, clearance: Number) -> Number:
         """Free travel, for a clearance on either side of the roller."""

@@ -1,19 +1,12 @@
-"""What a rack refuses, which keys are a rack's only, and the check that needs no parts."""
+"""What a rack refuses, and which keys are a rack's only."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.motion.compatible import Conflict, is_set
 from geneva_cli.motion.machine_spec import Spec
-from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.spec.least_wall import wall_min
-
-if TYPE_CHECKING:
-    from geneva_cli.verdict.checks.check import Check
 
 
 def refuses(spec: Spec) -> Iterator[Conflict]:
@@ -54,18 +47,3 @@ def refuses(spec: Spec) -> Iterator[Conflict]:
             own = getattr(values, key)
             set_ = own is not None and own != getattr(type(values), key)
             yield Conflict(set_, (table, key), f"{key} {not_its}")
-
-
-def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
-    """The wall between slot and recess of a rack; None for a wheel, and without a lock."""
-    if mechanism.output.turns:
-        return None
-    from geneva_cli.kinds.linear.rack import rack_sizes
-    from geneva_cli.verdict.checks.check import compared
-
-    try:
-        sizes = rack_sizes(mechanism)
-    except GenevaError:
-        return None  # the check of the parts reports the error
-    least = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
-    return compared(name, sizes.horn, "at least", least) if sizes.lock else None

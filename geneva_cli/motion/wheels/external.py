@@ -1,18 +1,23 @@
 """External wheels, with radial slots, offset slots or unequal steps; and internal wheels."""
 
+from __future__ import annotations
+
 import math
-from typing import Annotated, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse, refuse_text
-from geneva_cli.motion.engagement import Displacement, Slot, WheelMotion
+from geneva_cli.motion.engagement import Slot, WheelMotion
 from geneva_cli.motion.path_and_slot import AnchoredPath
 from geneva_cli.motion.pivots import Dimension, Layout
+from geneva_cli.motion.wheels.classic import HalfStep
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.motion.wheels.poses import HalfStep
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.spec.rules import LENGTH, Range
 from geneva_cli.spec.schema import Example
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class External(Gearing):

@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Layout, Pivot
 from geneva_cli.motion.wheels import classic
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, radial
-from geneva_cli.numerics.arrays import choose, larger
+from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, radial
+from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.motion.engagement import AsBuilt, Displacement, Slot, WheelMotion
+    from geneva_cli.motion.engagement import AsBuilt, Slot, WheelMotion
     from geneva_cli.motion.plane_motion import PlaneMotion
+    from geneva_cli.numerics.jet_functions import Displacement
 
 
 class Output(NamedTuple):
@@ -59,12 +60,6 @@ class RollerPlace(NamedTuple):
     hub: float = 1.0
     closed: tuple[float, float, float] | None = None  # sign, l and 1 - l for closed forms
     built: AsBuilt | None = None
-
-    @property
-    def reach_deg(self) -> float:
-        """Greatest crank angle from the line of centres at which it moves the wheel, degrees."""
-        farthest: float = larger(-self.poses[0].crank_deg, self.poses[2].crank_deg)
-        return farthest
 
 
 class Gearing(SpecTable):

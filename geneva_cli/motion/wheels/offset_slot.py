@@ -11,9 +11,8 @@ from functools import partial
 
 from geneva_cli.motion.engagement import Anchor, Slot, SlotAxis
 from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion, turned
-from geneva_cli.motion.wheels.classic import gap, half_motion_deg
-from geneva_cli.motion.wheels.poses import HalfStep, PinPose, Skew, middle
-from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, gap, half_motion_deg, middle
+from geneva_cli.numerics.angles import radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, enclosed, library
 from geneva_cli.numerics.jet import Jet, Number, integral, moment, piecewise, sqrt
 
@@ -30,11 +29,11 @@ class OffsetSlot(Slot):
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
         depth = self._depth(input_deg, order + 1)
-        return SlotAxis(depth.lower, depth.derivative())
+        return depth.lower, depth.derivative()
 
     def _depth(self, input_deg: Number, order: int) -> Jet:
         e, deepest = enclosed(input_deg, (self.skew.e, self.skew.deepest))
-        return _depth(e, deepest, self.path.middle.displacement_at(input_deg, order)[0])[0]
+        return _depth(e, deepest, _since(self.path.middle, input_deg, order)[0])[0]
 
 
 class OffsetSlotMotion(StraightSlotMotion):
@@ -80,7 +79,7 @@ class OffsetSlotMotion(StraightSlotMotion):
         """Wheel angle or rate near mid-motion: the pin's direction minus the slot's angle to it."""
         e, deepest = enclosed(x, (self.skew.e, self.skew.deepest))
         mid = self.path.middle
-        toward, across = mid.displacement_at(x, order)
+        toward, across = _since(mid, x, order)
         s, rho2 = _depth(e, deepest, toward)
         along = toward + mid.along
         rate = _turning(along, across, s * e, rho2)
@@ -91,6 +90,11 @@ class OffsetSlotMotion(StraightSlotMotion):
         # atan2(e, deepest) - atan2(e, s)
         value -= m.atan2(2.0 * u / (depth + deepest) * e, depth * deepest + e * e)
         return integral(rate, value)
+
+
+def _since(anchor: Anchor, input_deg: Number, order: int) -> tuple[Jet, Jet]:
+    """Displacement of the pin since an anchor, along its ray and across it."""
+    return anchor.displacement(radians(input_deg - anchor.input_deg), order)
 
 
 def _depth(e: float, deepest: float, toward: Jet) -> tuple[Jet, Jet]:
