@@ -6,8 +6,9 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
+from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import GenevaError, refuse_text
-from geneva_cli.motion.drive import PinPath, Plan
+from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_motion import LawMotion, refuse_alpha0
 from geneva_cli.motion.slot_and_motion import SolvedPath, SolvedPathSlot

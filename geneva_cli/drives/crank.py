@@ -32,9 +32,10 @@ class Crank(Direct, kw_only=True):
         "places of cranks with one roller each about the wheel, in steps from the first",
     ] = None
 
-    @property
-    def cranks(self) -> tuple[float, ...]:
-        return self.crank_steps or (0.0,)
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.crank_steps:
+            vars(self)["cranks"] = self.crank_steps
 
     def as_built(self, wheel: Gearing, place: RollerPlace, L: float) -> Plan:
         return self.straight(wheel, places(wheel, self, L, place), L)

@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
+from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.errors import refuse_text
-from geneva_cli.motion.drive import PinPath, Plan
+from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Anchor, Engagement, Load, Vector, cross
 from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Pivot, Teeth

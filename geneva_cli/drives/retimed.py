@@ -152,6 +152,12 @@ class Engagement(base.Engagement):
     def __init__(
         self, own: base.Engagement, timing: Timing, reactions: Reactions | None = None
     ) -> None:
+        pair: list[tuple[base.Engagement, float]] = []
+        for passage, ahead_deg in own.pair:  # in its own phase of the drive before
+            late_deg = timing.shaft_deg - ahead_deg - passage.mid_deg
+            early = Timing(timing.before, passage, late_deg)
+            # as far ahead in angles of the input
+            pair.append((Engagement(passage, early), timing.mid_deg - early.mid_deg))
         super().__init__(
             timing.mid_deg,
             _Path(own.path, timing),
@@ -161,6 +167,7 @@ class Engagement(base.Engagement):
             crank_sense=own.crank_sense,
             groove=own.groove,
             hub=own.hub,
+            pair=tuple(pair),
         )
         self._own, self.timing = own, timing
 
@@ -177,19 +184,6 @@ class Engagement(base.Engagement):
     def inputs_deg(self, own_deg: Array) -> Array:
         first, last = (array(self.timing.at_deg[k]) + 0.0 * own_deg for k in (0, -1))
         return boundary(lambda x: array(self.timing.at(x, 0)[0]) <= own_deg, first, last)
-
-    @property
-    def passages(self) -> tuple[tuple[base.Engagement, float], ...]:
-        """Each is in its own phase of the drive before, as far ahead in angles of the input."""
-        out: list[tuple[base.Engagement, float]] = []
-        for own, ahead_deg in self._own.passages:
-            if own is self._own:
-                out.append((self, 0.0))
-            else:
-                late_deg = self.timing.shaft_deg - ahead_deg - own.mid_deg
-                timing = Timing(self.timing.before, own, late_deg)
-                out.append((Engagement(own, timing), self.mid_deg - timing.mid_deg))
-        return tuple(out)
 
     @property
     def own(self) -> base.Engagement:

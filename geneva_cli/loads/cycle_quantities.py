@@ -100,7 +100,7 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
     out: dict[str, tuple[str, float | None, str]] = {
         "power_W": (TORQUE, load_case(mechanism).speed_rad_s, "")
     }
-    out |= {name: (*of, "") for name, of in mechanism.output.loads.items()}
+    out |= {name: (of, ratio, "") for name, of, ratio in mechanism.output.loads}
     crank = ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm)
     wheel = ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm)
     for name, a, s in (wheel, crank) if turns else (crank,):

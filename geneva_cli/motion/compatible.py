@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 from functools import partial, reduce
 from operator import and_, or_
-from typing import NamedTuple
+from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError, refuse, refuse_text
 from geneva_cli.motion.drive import Drive
@@ -31,12 +31,9 @@ _IN_CRANK = (
 )
 
 
-class Conflict(NamedTuple):
-    """A combination that makes no machine, if ``when`` is true."""
-
-    when: object  # a truth value, or an array of them for a batch
-    key: tuple[str, ...]  # to blame
-    text: str  # with values of the spec, as in ``{spec.wheel.z}``
+# A combination that makes no machine if the first member is true (in a batch an array); the key to
+# blame; and a text with values of the spec, as in ``{spec.wheel.z}``.
+Conflict: TypeAlias = tuple[object, tuple[str, ...], str]
 
 
 def refuse_conflicts(spec: Spec) -> None:
@@ -71,34 +68,34 @@ def _conflicts(spec: Spec) -> Iterator[Conflict]:
         is_cut = getattr(size, key) > 0.0
         text = f"{key} is for external and internal wheels, not gearing = "
         text += '"{spec.wheel.NAME}": remove it'
-        yield Conflict(is_cut & (not (wheel.FLAT and spec.output.turns)), ("size", key), text)
+        yield (is_cut & (not (wheel.FLAT and spec.output.turns)), ("size", key), text)
         text = f"{key} is for wheels with a recess behind every slot: remove it, or stop"
-        yield Conflict(is_cut & wheel.stopped, ("size", key), text)
+        yield (is_cut & wheel.stopped, ("size", key), text)
     if spec.limits.dwell_position_max_deg is not None:
         sizes = [key for key in spec.tolerance.as_dict() if key != "distribution"]
         exact = reduce(and_, (getattr(spec.tolerance, key) == 0.0 for key in sizes))
         text = "dwell_position_max_deg limits the error of a wheel within its tolerances: set one "
         text += f"or more of {', '.join(sizes)} in [tolerance]"
-        yield Conflict(exact, ("limits", "dwell_position_max_deg"), text)
+        yield (exact, ("limits", "dwell_position_max_deg"), text)
 
 
 def _of_drive_before(spec: Spec, before: Drive) -> Iterator[Conflict]:
     """Rules on a drive that turns the shaft of another."""
     drive, key = spec.drive, ("drive", "before")
     text = 'kind = "{spec.drive_before.NAME}" cannot turn the shaft of another drive: remove '
-    yield Conflict(not before.IN_FRONT, (*key, "kind"), text + "[drive.before]")
+    yield (not before.IN_FRONT, (*key, "kind"), text + "[drive.before]")
     text = 'kind = "{spec.drive_before.NAME}" cannot stand before kind = "{spec.drive.NAME}": '
-    yield Conflict(drive.FIRST, key, text + "{spec.drive.FIRST}")
+    yield (drive.FIRST, key, text + "{spec.drive.FIRST}")
     text = (
         "n_rpm, rollers and roller_angles_deg belong to the machine: set them in "
         "[drive], not in [drive.before]"
     )
-    yield Conflict(is_set(before, Drive), key, text)
+    yield (is_set(before, Drive), key, text)
     text = (
         'the crank of kind = "{spec.drive.NAME}" is on the shaft: set kind = '
         '"{spec.drive_before.NAME}" in [drive] instead'
     )
-    yield Conflict(drive.direct and not (spec.motion or len(drive.cranks) > 1), key, text)
+    yield (drive.direct and not (spec.motion or len(drive.cranks) > 1), key, text)
 
 
 def is_set(table: SpecTable, kind: type[SpecTable] | None = None) -> object:

@@ -217,10 +217,15 @@ class Engagement(Batchable):
     groove: Groove | None = None  # the path, if a fixed groove guides the roller along the crank
     hub: float = 1.0  # the arm's centre of rotation on the line of centres; less on a sphere
     built: AsBuilt | None = None  # the wheel's velocity then jumps at entry and exit
+    # of a roller that starts the wheel and of another that stops it, each in its own slot: passage,
+    # and input angle by which it leads
+    pair: tuple[tuple[Engagement, float], ...] = ()
     entry_deg: float = field(init=False)  # input angle at which the motion begins, from mid-motion
     exit_deg: float = field(init=False)
     motion_deg: float = field(init=False)
     half_step: float = field(init=False)  # of the wheel, radians
+    paired: bool = field(init=False)
+    apart: float = field(init=False)  # half the angle between the slots of a pair, radians
     on_arm: bool = field(init=False)  # the crank's arm carries the roller, and turns as ``carrier``
 
     def __post_init__(self) -> None:
@@ -228,6 +233,8 @@ class Engagement(Batchable):
         self.entry_deg, self.exit_deg = motion.entry_deg, motion.exit_deg
         self.half_step = motion.half_step
         self.motion_deg = motion.exit_deg - motion.entry_deg
+        self.paired, own = bool(self.pair), self.pair[0][0] if self.pair else self
+        self.apart = self.half_step - own.half_step
         self.on_arm = all_true(self.crank_sense == 0.0)
 
     @property
@@ -296,22 +303,12 @@ class Engagement(Batchable):
     @property
     def passages(self) -> tuple[tuple[Engagement, float], ...]:
         """Passage of each roller through a whole slot, and the input angle by which it leads."""
-        return ((self, 0.0),)
+        return self.pair or ((self, 0.0),)
 
     @property
     def through(self) -> Engagement:
         """Engagement whose roller runs through the whole slot: itself, except for gear sectors."""
-        return self.passages[0][0]
-
-    @property
-    def paired(self) -> bool:
-        """True if one roller starts the wheel and another stops it, each in its own slot."""
-        return len(self.passages) > 1
-
-    @property
-    def apart(self) -> float:
-        """Half the angle between the slots of those rollers in the wheel, radians."""
-        return self.half_step - self.through.half_step
+        return self.pair[0][0] if self.pair else self
 
 
 class Anchor(NamedTuple):

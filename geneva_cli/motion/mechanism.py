@@ -44,17 +44,20 @@ class Mechanism(NamedTuple):
     rollers_max: int  # most evenly spaced rollers that do not jam
     center_distance_mm: float  # L, from the spec or solved for
     # The numbers of m designs of a batch, (m, 1): it keeps its size if nothing else varies.
-    design: int | Whole = 0
+    design: int | Whole
+    plan: Plan  # of the drive, with engagements by the angle of its own input shaft
+    law: Law | None  # by the angle of the drive's own input shaft; None for straight slots
+    output: Output  # what the wheel gives out, with its unit
+    axes: tuple[Pivot, ...]  # of wheel and crank in the plane of the parts; none if they meet
+    first_wheel: FirstWheel | None  # that turns the crank; None for a crank without one
+    frame: float  # turns of the wheel's frame in a turn of the input: 0 but on a carrier
+    wheel_places: tuple[AxisPlace, ...]  # more than one only on a carrier
+    crank_places: tuple[AxisPlace, ...]  # about the wheel: several with ``crank_steps``
 
     @property
     def designs(self) -> int:
         """Number of designs in the batch; 1 for a single design."""
         return 1 if isinstance(self.design, int) else len(self.design)
-
-    @property
-    def plan(self) -> Plan:
-        """What the drive planned, with engagements by the angle of its own input shaft."""
-        return Plan(tuple(map(attrgetter("own"), self.engagements)), *self[2:-1])
 
     @property
     def crank_shaft(self) -> ShaftPlace:
@@ -73,16 +76,6 @@ class Mechanism(NamedTuple):
         """The shaft of the driven one of noncircular gears."""
         before = self.spec.drive_before
         return self.own_shaft if before and before.gears else self.crank_shaft
-
-    @property
-    def axes(self) -> tuple[Pivot, ...]:
-        """Axes of wheel and crank in the plane of the parts; none if they meet."""
-        return self.spec.wheel.axes(self.center_distance_mm)
-
-    @property
-    def first_wheel(self) -> FirstWheel | None:
-        """The wheel that turns the crank; None for a crank without one."""
-        return self.spec.drive.first_wheel(self.center_distance_mm)
 
     @property
     def layout(self) -> Layout:
@@ -104,19 +97,9 @@ class Mechanism(NamedTuple):
         return own if self.axes else tuple(one for one in own if not isinstance(one, Pivot))
 
     @property
-    def law(self) -> Law | None:
-        """Motion law by the angle of the drive's own input shaft; None for straight slots."""
-        return self.spec.motion.law if self.spec.motion else None
-
-    @property
     def input_law(self) -> Law | None:
         """Motion law by the input's own angle; None for straight slots or behind another drive."""
         return None if self.spec.drive_before else self.law
-
-    @property
-    def output(self) -> Output:
-        """What the wheel gives out, with its unit."""
-        return self.spec.output
 
     @property
     def roller_radius_mm(self) -> float:
@@ -161,27 +144,6 @@ class Mechanism(NamedTuple):
         return choose(whole == 360.0, near, counted)
 
     @property
-    def frame(self) -> float:
-        """Turns of the wheel's frame in a turn of the input: 0 but for wheels on a carrier."""
-        return self.spec.wheel.SIGN if self.spec.drive.wheels_on_carrier else 0.0
-
-    @property
-    def wheel_places(self) -> tuple[AxisPlace, ...]:
-        """Places of all wheels; more than one only on a carrier."""
-        count = max(1, self.spec.drive.wheels_on_carrier)
-        return wheel_places(count, self.spec.wheel.SIGN, self.center_distance_mm)
-
-    @property
-    def crank_places(self) -> tuple[AxisPlace, ...]:
-        """Places of all cranks about the wheel: several with ``crank_steps``."""
-        L, z, steps, out = self.center_distance_mm, self.spec.wheel.z, self.spec.drive.cranks, []
-        for k, step in enumerate(steps):
-            sine, cosine = sin_cos_pi(2 * int(step), z)
-            turn, behind_deg = math.tau * step / z, 360.0 * k / len(steps)
-            out.append(AxisPlace(k + 1, behind_deg, turn, (L * cosine, L * sine)))
-        return tuple(out)
-
-    @property
     def under_load(self) -> Mechanism:
         """The machine with the period of its loads: up to the entry of the next wheel."""
         wheels = self.spec.drive.wheels_on_carrier
@@ -221,7 +183,7 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
     refuse_conflicts(spec)
     radius, L = spec.size.crank_radius_mm, spec.size.center_distance_mm
     if like and spec.moving == like.spec.moving:
-        plan = Plan(*like[1:-1])
+        plan = Plan(*like[1:6])
     else:
         own = None
         if radius is not None and L is not None and spec.motion is None:
@@ -231,7 +193,25 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
             plan = load_named(IN_FRONT)(plan, spec, spec.drive_before)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
-    return Mechanism(spec, *plan)
+    L, wheel, wheels = plan.center_distance_mm, spec.wheel, spec.drive.wheels_on_carrier
+    cranks, steps = [], spec.drive.cranks
+    for k, step in enumerate(steps):
+        sine, cosine = sin_cos_pi(2 * int(step), wheel.z)
+        turn, behind_deg = math.tau * step / wheel.z, 360.0 * k / len(steps)
+        cranks.append(AxisPlace(k + 1, behind_deg, turn, (L * cosine, L * sine)))
+    return Mechanism(
+        spec,
+        *plan,
+        design=0,
+        plan=plan._replace(engagements=tuple(map(attrgetter("own"), plan.engagements))),
+        law=spec.motion.law if spec.motion else None,
+        output=spec.output,
+        axes=wheel.axes(L),
+        first_wheel=spec.drive.first_wheel(L),
+        frame=wheel.SIGN if wheels else 0.0,
+        wheel_places=wheel_places(max(1, wheels), wheel.SIGN, L),
+        crank_places=tuple(cranks),
+    )
 
 
 def _as_built(spec: Spec, radius: float, L: float) -> Plan | None:

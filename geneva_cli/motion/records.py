@@ -51,7 +51,7 @@ _CORE = (
         families={"wheel": "study.synth.families.straight_slots:offset_slots"},
     ),
     _FLAT._replace(
-        name="internal", synonyms=("inner", "inside"), wheel="motion.wheels.external:Internal"
+        name="internal", synonyms=("inner", "inside"), wheel="motion.wheels.internal:Internal"
     ),
     Kind(
         "spherical",

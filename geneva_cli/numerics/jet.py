@@ -179,7 +179,7 @@ def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     if len(x.c) == 1:  # a value alone needs no cosine
         return Jet((library(x.c[0]).sin(x.c[0]),)), Jet((versine,))
     s, c = sin_cos(x)
-    return s, Jet((versine, *(-c).c[1:]))
+    return s, Jet((versine, *(c * -1).c[1:]))
 
 
 def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, Jet]:
@@ -192,7 +192,7 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
         ahead = 0.5 * (1.0 + library(cosine).copysign(1.0, cosine))
         versine = ahead * sine * sine / (1.0 + size(cosine)) + (1.0 - ahead) * versine
     s, c = _circle((0.0, *rate.c)[: order + 1], sine, cosine)
-    return s, Jet((versine, *(-c).c[1:]))
+    return s, Jet((versine, *(c * -1).c[1:]))
 
 
 def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:

@@ -11,8 +11,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
+from geneva_cli.drives.pin_path import PinPath
 from geneva_cli.motion import registry
-from geneva_cli.motion.drive import PinPath, Plan
+from geneva_cli.motion.drive import Plan
 from geneva_cli.motion.engagement import Engagement, Slot, SlotAxis, Vector, WheelMotion
 from geneva_cli.motion.pivots import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.motion.wheels import classic
@@ -181,17 +182,12 @@ class SectorEngagement(Engagement):
 
     def __init__(self, inner: Engagement, sector_deg: float, u: float) -> None:
         motion = _SectorMotion(inner.motion, sector_deg, u)
-        super().__init__(
-            0.0, _SectorPath(inner.path, motion), _SectorSlot(inner.slot, motion), motion
-        )
+        path, slot = _SectorPath(inner.path, motion), _SectorSlot(inner.slot, motion)
+        half = motion.half_sector
+        pair = (inner, half), (inner, -half)  # of the starting roller and the stopping one: D apart
+        super().__init__(0.0, path, slot, motion, pair=pair)
         self._inner, self._sector = inner, motion
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:
         """Rate of the plain wheel's crank, on which the roller sits."""
         return self._inner.carrier(self._sector.slot_deg(input_deg), order)
-
-    @property
-    def passages(self) -> tuple[tuple[Engagement, float], ...]:
-        """The plain wheel's, of the starting roller and of the stopping one: D apart."""
-        half = self._sector.half_sector
-        return (self._inner, half), (self._inner, -half)

@@ -48,11 +48,11 @@ class Linear(Gearing):
     def output(self, center_distance_mm: float) -> Output:
         """The travel, in millimetres."""
         radius_m = center_distance_mm / 1000.0
-        loads = {
-            "rack_speed_m_s": ("omega_rad_s", radius_m),
-            "rack_acceleration_m_s2": ("alpha_rad_s2", radius_m),
-            "rack_force_N": ("wheel_torque_Nm", 1.0 / radius_m),
-        }
+        loads = (
+            ("rack_speed_m_s", "omega_rad_s", radius_m),
+            ("rack_acceleration_m_s2", "alpha_rad_s2", radius_m),
+            ("rack_force_N", "wheel_torque_Nm", 1.0 / radius_m),
+        )
         lacks = (
             *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "wheel_bearing_N"),
             *("inertia_kgm2", "acceleration_rad_s2", "inertia_torque_Nm", "friction_torque_Nm"),
@@ -70,6 +70,7 @@ class Linear(Gearing):
             loads=loads,
             lacks=lacks,
             invariants="derivative of its travel over R",
+            turns=False,
         )
 
     @property

@@ -59,10 +59,9 @@ class GenevaPair(Transmission, kw_only=True):
         float | None, POSITIVE, "first centre distance, for its forces (parts use L by default)"
     ] = None
 
-    @property
-    def turns(self) -> int:
-        """Number of input turns in one turn of the second crank."""
-        return self.first_z
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        vars(self)["turns"] = self.first_z
 
     @property
     def missing_length(self) -> str:

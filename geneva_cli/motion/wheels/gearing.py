@@ -30,14 +30,11 @@ class Output(NamedTuple):
     rate_unit: str
     rate_per_radian: float  # in that unit
     load_keys: str  # what sets a load
-    loads: dict[str, tuple[str, float]]  # each with one of a wheel's shaft and the ratio to it
+    # names of loads, each with that of a load on a wheel's shaft and the ratio to it
+    loads: tuple[tuple[str, str, float], ...] = ()
     lacks: tuple[str, ...] = ()  # quantities that only a wheel with a shaft has
     invariants: str = "relative to the input"  # what velocity, acceleration and jerk are
-
-    @property
-    def turns(self) -> bool:
-        """True if it is an angle."""
-        return self.unit == "deg"
+    turns: bool = True  # it is an angle
 
     def from_deg(self, wheel_deg: float) -> float:
         """Return an angle of the wheel, or of a rack's pinion, in the unit of the output."""
@@ -79,6 +76,9 @@ class Gearing(SpecTable):
     DISTANCE: ClassVar[str] = "centre distance"
     # what locks it in the dwell, on a crank
     LOCK: ClassVar[str] = "locking disc"
+    # An external wheel sets these two as it is made:
+    steps: ClassVar[tuple[float, ...]] = ()  # pattern of unequal ones, degrees; empty if all equal
+    stopped: ClassVar[bool] = False  # a convex face in place of a recess stops the crank
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
     held_by: Annotated[
         str | None,
@@ -90,16 +90,6 @@ class Gearing(SpecTable):
     def step(self) -> HalfStep:
         """Half the wheel's step as an exact fraction, for equal steps."""
         return HalfStep(1, self.z)
-
-    @property
-    def steps(self) -> tuple[float, ...]:
-        """Repeating pattern of unequal steps in degrees; empty if all are equal."""
-        return ()
-
-    @property
-    def stopped(self) -> bool:
-        """True if a convex face in place of a recess stops the crank at both ends."""
-        return False
 
     @property
     def skewed(self) -> bool:
@@ -137,7 +127,7 @@ class Gearing(SpecTable):
     def output(self, center_distance_mm: float) -> Output:
         """What the wheel gives out: its angle, in degrees."""
         keys = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
-        return Output("wheel", "wheel_deg", "deg", 180.0 / math.pi, "rad", 1.0, keys, {})
+        return Output("wheel", "wheel_deg", "deg", 180.0 / math.pi, "rad", 1.0, keys)
 
     def index_deg(self, i: int) -> float:
         """The wheel's step at its i-th engagement, degrees."""
