@@ -81,7 +81,7 @@ class Epicyclic(PinPath, kw_only=True):
             Anchor(pose.crank_deg, pose.wheel, pose.along, _Arms(pose, R0, planet, c))
             for pose, planet in (
                 (PinPose(-half, -step.b, cos_b, (-1.0, 0.0), (0.0, 1.0)), -rp),
-                (middle(1.0, 1.0, gap(1.0, *step) - 2.0 * rp), rp),
+                (middle(1.0, 1.0, gap(1.0, step.p, step.q) - 2.0 * rp), rp),
                 (PinPose(half, step.b, cos_b, (1.0, 0.0), (0.0, -1.0)), -rp),
             )
         )

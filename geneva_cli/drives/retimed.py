@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
 from geneva_cli.drives.driven_shaft import DrivenShaft, ShaftPath, Timing, angle_of
 from geneva_cli.motion import engagement as base
 from geneva_cli.motion.drive import Drive, Plan
-from geneva_cli.motion.engagement import Anchor, Vector
+from geneva_cli.motion.engagement import Vector
 from geneva_cli.numerics.arrays import Array, Batchable, array
 from geneva_cli.numerics.jet import Jet, Number, composed
 from geneva_cli.numerics.roots import boundary
@@ -77,18 +77,13 @@ class _Motion(base.WheelMotion):
     def __init__(self, own: base.WheelMotion, timing: Timing) -> None:
         super().__init__(timing.at_deg[0], timing.at_deg[-1], own.half_step)
         self.own, self.timing = own, timing
+        if own.entry is not None:
+            displacement = _Displacement(own.entry.displacement, timing.advances[0])
+            self.entry = own.entry._replace(input_deg=self.entry_deg, displacement=displacement)
 
     @property
     def symmetric(self) -> bool:
         return self.own.symmetric and super().symmetric
-
-    @property
-    def entry(self) -> Anchor | None:
-        own = self.own.entry
-        if own is None:
-            return None
-        displacement = _Displacement(own.displacement, self.timing.advances[0])
-        return Anchor(self.entry_deg, own.wheel, own.along, displacement)
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion import registry
@@ -16,7 +16,7 @@ from geneva_cli.motion.wheels.classic import HalfStep, PinTravel, middle, refuse
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, larger, parameter
-from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
+from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
@@ -39,18 +39,6 @@ class LocalTransmission(NamedTuple):
 def same(tau: Number, order: int) -> tuple[Jet, Jet]:
     """sin d and 1 - cos d of a crank that turns as the input does."""
     return sine_versine(Jet.variable(tau, order))
-
-
-class _CrankRate(NamedTuple):
-    """Rate of the crank about its roller's axis: a factor times that of its rotation."""
-
-    advance: Displacement
-    factor: float
-
-    def __call__(self, tau: Number, order: int) -> Jet:
-        sine, versine = self.advance(tau, order + 1)
-        rate: Jet = turning(1.0 - versine, sine) * self.factor
-        return rate
 
 
 class Transmission(Drive, kw_only=True):
@@ -93,9 +81,10 @@ class Transmission(Drive, kw_only=True):
 
     def straight(self, wheel: Gearing, rollers: list[RollerPlace], L: float) -> Plan:
         """Plan of straight slots for the places of the rollers on the crank."""
-        entry, _, exit_ = rollers[0].poses
-        self._refuse_reach(wheel, larger(-entry.crank_deg, exit_.crank_deg))
-        engagements, side_crank = [], self.side_crank
+        if not self.direct:
+            entry, _, exit_ = rollers[0].poses
+            self._refuse_reach(wheel, larger(-entry.crank_deg, exit_.crank_deg))
+        engagements, side_crank = [], None if self.direct else self.side_crank
         for place in rollers:
             here, anchors = self.about(place.crank_deg), []
             for pose in place.poses:
@@ -112,10 +101,9 @@ class Transmission(Drive, kw_only=True):
                 from geneva_cli.motion.wheels.side_crank_arrays import SideCrankMotion
 
                 motion = SideCrankMotion(path, place.step.b, side_crank, place.closed)
-            turns = -wheel.SIGN * place.cone
-            body = turns if self.direct else _CrankRate(here.advance, turns)
-            held = self.reactions(wheel, path, here.input_deg, L) if wheel.FLAT else None
-            own = Engagement(here.input_deg, path, slot, motion, body, held)
+            own = Engagement(here.input_deg, path, slot, motion, -wheel.SIGN * place.cone)
+            if not self.direct:
+                self._behind(wheel, own, here, L)
             own.hub, own.built = place.hub, place.built
             engagements.append(own)
         turn = 360.0 * self.turns
@@ -150,9 +138,10 @@ class Transmission(Drive, kw_only=True):
         path = solved.MiddlePath(Anchor(0.0 * here.input_deg, pose.wheel, pose.along, travel))
         end_deg, b = 0.5 * motion_deg, wheel.step.b
         turned = solved.LawMotion(-end_deg, end_deg, b, motion.law)
-        reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
-        body = -wheel.SIGN if self.direct else _CrankRate(here.advance, -wheel.SIGN)
-        engagement = Engagement(0.0, path, solved.SolvedSlot(path, turned), turned, body, reactions)
+        slot = solved.SolvedSlot(path, turned)
+        engagement = Engagement(0.0, path, slot, turned, -wheel.SIGN)
+        if not self.direct:
+            self._behind(wheel, engagement, here, L)
         period = 360.0 * self.turns / self.rollers
         return Plan((engagement,), period, ratio, rollers_max(motion_deg), L)
 
@@ -166,6 +155,13 @@ class Transmission(Drive, kw_only=True):
         crank = self.about(0.0).advance(0.0, 1)[0].c[1]
         turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
         return wheel.matched_ratio(parameter(turned / crank))
+
+    def _behind(self, wheel: Gearing, own: Engagement, middle: LocalTransmission, L: float) -> None:
+        """Complete an engagement whose crank is behind the transmission: its rate and reactions."""
+        from geneva_cli.drives.pushed import CrankRate
+
+        own.body = CrankRate(middle.advance, cast(float, own.body))
+        own.reactions = self.reactions(wheel, own.path, own.mid_deg, L) if wheel.FLAT else None
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
         """Raise GenevaError if the transmission does not cover the whole motion."""

@@ -123,6 +123,8 @@ class WheelMotion(Batchable, ABC):
 
     # False if the two halves of the path differ
     mirrored = True
+    # Pin at entry, about which its path is written if the slot follows the pin
+    entry: Anchor | None = None
     # Greatest error of the breaks within, as a fraction of the motion; 0 for exact ones.
     BREAKS_TO: ClassVar[float] = 0.0
 
@@ -138,11 +140,6 @@ class WheelMotion(Batchable, ABC):
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
         """Wheel speed over input speed, with derivatives, computed without the angle itself."""
         return self(input_deg, order + 1).derivative()
-
-    @property
-    def entry(self) -> Anchor | None:
-        """Pin at entry, about which its path is written if the slot follows the pin; else None."""
-        return None
 
     @property
     def symmetric(self) -> bool:

@@ -67,6 +67,9 @@ class Spec(SpecTable):
     # what follows from the tables, for all who read a spec
     turns: ClassVar[int]  # of the input in one turn of the crank
     given_distance_mm: ClassVar[float]  # centre distance L, before a drive solves for another one
+    gears: ClassVar[Gears | None]  # of the drive or the one before it, not circular
+    has_lock: ClassVar[bool]  # the crank has a part that locks the wheel in the dwell
+    output: ClassVar[Output]  # what the wheel gives out, with its units
     unloaded: ClassVar[Truth]  # there is neither inertia nor torque nor friction
     wheel: Gearing
     drive: Drive = field(default_factory=lambda: load_named(CRANK)())
@@ -106,7 +109,11 @@ class Spec(SpecTable):
         if L is not size.derived_distance_mm:
             vars(self)["size"] = size.replace(derived_distance_mm=L)
         turns = self.drive.turns * (self.drive_before.turns if self.drive_before else 1)
-        vars(self).update(turns=turns, given_distance_mm=self.size.distance_mm)
+        L, before = self.size.distance_mm, self.drive_before
+        gears = (before and before.gears) or self.drive.gears
+        lock = self.drive.LOCKS and self.size.lock_radius_mm != 0.0
+        own = {"turns": turns, "given_distance_mm": L, "gears": gears, "has_lock": lock}
+        vars(self).update(own, output=self.wheel.output(L))
         load = self.load
         nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
         nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
@@ -170,22 +177,11 @@ class Spec(SpecTable):
         several, at = vars(self)[one_of], int(number)
         return self.replace(**{one_of: (*several[:at], changed, *several[at + 1 :])})
 
-    @property
-    def gears(self) -> Gears | None:
-        """Noncircular gears of the drive, or of the one before it; None without."""
-        before = self.drive_before
-        return (before and before.gears) or self.drive.gears
-
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
         shaft_deg = self.drive.input_deg(crank_deg)
         before = self.drive_before
         return shaft_deg if before is None else before.input_deg(shaft_deg)
-
-    @property
-    def has_lock(self) -> bool:
-        """True if the crank has a part that locks the wheel in the dwell."""
-        return self.drive.LOCKS and self.size.lock_radius_mm != 0.0
 
     @property
     def dwell_holder(self) -> str | None:
@@ -201,11 +197,6 @@ class Spec(SpecTable):
     def load_keys(self) -> str:
         """Keys that set a load of this kind of wheel, in words."""
         return self.output.load_keys
-
-    @property
-    def output(self) -> Output:
-        """What the wheel gives out, with its units."""
-        return self.wheel.output(self.size.distance_mm)
 
     @property
     def unbalanced(self) -> bool:

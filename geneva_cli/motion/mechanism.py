@@ -31,6 +31,11 @@ from geneva_cli.numerics.arrays import (
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.spec.load_named import load_named
 
+_AS_BUILT = (
+    "the crank is taken as built: the wheel is at rest until the roller's centre crosses its "
+    "slot's axis, while real parts touch before"
+)
+
 
 class Mechanism(NamedTuple):
     """A Geneva mechanism."""
@@ -53,6 +58,7 @@ class Mechanism(NamedTuple):
     frame: float  # turns of the wheel's frame in a turn of the input: 0 but on a carrier
     wheel_places: tuple[AxisPlace, ...]  # more than one only on a carrier
     crank_places: tuple[AxisPlace, ...]  # about the wheel: several with ``crank_steps``
+    no_turn: str  # the reason why the full turn of drawn parts has no meaning; empty if it has one
 
     @property
     def designs(self) -> int:
@@ -149,16 +155,6 @@ class Mechanism(NamedTuple):
         wheels = self.spec.drive.wheels_on_carrier
         return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
 
-    @property
-    def no_turn(self) -> str:
-        """The reason why the full turn of drawn parts has no meaning; empty if it has one."""
-        if self.engagements[0].built is None:
-            return ""
-        return (
-            "the crank is taken as built: the wheel is at rest until the roller's centre crosses "
-            "its slot's axis, while real parts touch before"
-        )
-
     def index_deg(self, i: int) -> float:
         """Wheel step of engagement i, in degrees; unequal steps repeat."""
         wheel = self.spec.wheel
@@ -211,6 +207,7 @@ def build(spec: Spec, like: Mechanism | None = None) -> Mechanism:
         frame=wheel.SIGN if wheels else 0.0,
         wheel_places=wheel_places(max(1, wheels), wheel.SIGN, L),
         crank_places=tuple(cranks),
+        no_turn=_AS_BUILT if plan.engagements[0].built else "",
     )
 
 

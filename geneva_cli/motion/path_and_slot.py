@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from operator import attrgetter
 
@@ -57,11 +58,11 @@ def cuts(degrees: Sequence[float]) -> list[float]:
     return [*out, inner[-1] + near_end * (last - inner[-1])]
 
 
+@dataclass(eq=False)
 class RadialSlot(Slot):
     """A straight slot towards the wheel's centre."""
 
-    def __init__(self, path: AnchoredPath) -> None:
-        self.path = path
+    path: AnchoredPath
 
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:
         x, y = self.path.middle.place(input_deg, order)
@@ -88,12 +89,9 @@ class StraightSlotMotion(WheelMotion):
         mirrored: bool = True,
         closed: tuple[float, float, float] | None = None,
     ) -> None:
-        super().__init__(path.anchors[0].input_deg, path.anchors[-1].input_deg, half_step)
+        self.entry, self.half_step = path.anchors[0], half_step
+        self.entry_deg, self.exit_deg = self.entry.input_deg, path.anchors[-1].input_deg
         self.path, self.mirrored, self.closed = path, mirrored, closed
-
-    @property
-    def entry(self) -> Anchor:
-        return self.path.anchors[0]
 
     @property
     def seams_deg(self) -> tuple[float, ...]:

@@ -82,13 +82,13 @@ class GenevaPair(Transmission, kw_only=True):
             Dimension("first wheel's slots", self.first_z),
             Dimension("first centre distance", first, "mm"),
             Dimension(
-                "first crank radius", first * classic.HalfStep(1, self.first_z).sin_cos[0], "mm"
+                "first crank radius", first * classic.HalfStep.of(1, self.first_z).sin_cos[0], "mm"
             ),
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
         """The first crank, and the rim of the first wheel, at input angles."""
-        L, step = plan.center_distance_mm, classic.HalfStep(1, self.first_z)
+        L, step = plan.center_distance_mm, classic.HalfStep.of(1, self.first_z)
         turn, still, first = radians(input_deg), 0.0 * input_deg, self._distance_mm(L)
         m, R, far = library(turn), first * step.sin_cos[0], L + first
         pin = far - R * m.cos(turn), -sign * R * m.sin(turn)
@@ -109,12 +109,12 @@ class GenevaPair(Transmission, kw_only=True):
         """Reactions to the first crank's roller, which pushes across the first wheel's slot."""
         if self.first_distance_mm is None:
             return None
-        l = classic.HalfStep(1, self.first_z).sin_cos[0]
+        l = classic.HalfStep.of(1, self.first_z).sin_cos[0]
         return FirstRoller(l, self.first_distance_mm / L, wheel.SIGN, radians(mid_deg))
 
     def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about an angle of the second crank (degrees) within the first step."""
-        entry, middle, exit_ = classic.radial(1.0, classic.HalfStep(1, self.first_z))
+        entry, middle, exit_ = classic.radial(1.0, classic.HalfStep.of(1, self.first_z))
         reach = 180.0 / self.first_z  # of the second crank from mid-step
         inside = choose(abs(crank_deg) < reach, crank_deg, 0.0)
         running = _running(middle, _crank_at(self.first_z, inside))
@@ -164,7 +164,7 @@ def _crank_at(first_z: int, wheel_deg: float) -> float:
     if not (isinstance(first_z, int) and isinstance(wheel_deg, float)):
         each: float = of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]
         return each
-    step = classic.HalfStep(1, first_z)
+    step = classic.HalfStep.of(1, first_z)
     n, d = wheel_deg.as_integer_ratio()
     whole = 180 * d * step.q
     here, less = 180 * d * step.p, n * step.q  # b and psi, in fractions of pi

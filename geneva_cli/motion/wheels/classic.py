@@ -47,29 +47,26 @@ class PinTravel(NamedTuple):
 
 
 class HalfStep(NamedTuple):
-    """Half an index angle as the exact fraction b = pi p / q; equal steps have p/q = 1/z.
+    """Half an index angle b = pi p / q as an exact fraction; equal steps have p/q = 1/z.
 
     In a batch p or q is an array; p may then be in degrees, with q = 180.
     """
 
     p: int
     q: int
+    b: float  # radians
+    sin_cos: tuple[float, float]  # sin b and cos b
+
+    @classmethod
+    def of(cls, p: int, q: int) -> HalfStep:
+        """Half an index angle pi p / q."""
+        return cls(p, q, math.pi * p / q, sin_cos_pi(p, q))
 
     @classmethod
     def of_deg(cls, degrees: float) -> HalfStep:
         """Half an index angle in degrees."""
         p, q = degrees.as_integer_ratio() if isinstance(degrees, float) else (degrees, 1)
-        return cls(p, 180 * q)
-
-    @property
-    def b(self) -> float:
-        """Half the index angle, radians."""
-        return math.pi * self.p / self.q
-
-    @property
-    def sin_cos(self) -> tuple[float, float]:
-        """sin b and cos b."""
-        return sin_cos_pi(self.p, self.q)
+        return cls.of(p, 180 * q)
 
 
 class Skew(NamedTuple):
@@ -102,10 +99,10 @@ def middle(sign: float, l: float, gap: float) -> PinPose:
 def radial(sign: float, step: HalfStep) -> tuple[PinPose, PinPose, PinPose]:
     """Entry, middle and exit of a straight radial slot entered without shock: l = sin b."""
     l, cos_b = step.sin_cos
-    half = half_motion_deg(sign, *step)
+    half = half_motion_deg(sign, step.p, step.q)
     return (
         PinPose(-half, -step.b, cos_b, (-sign * l, 0.0), (0.0, l)),
-        middle(sign, l, gap(sign, *step)),
+        middle(sign, l, gap(sign, step.p, step.q)),
         PinPose(half, step.b, cos_b, (sign * l, 0.0), (0.0, -l)),
     )
 

@@ -10,6 +10,7 @@ from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSl
 from geneva_cli.motion.pivots import Layout, Pivot
 from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, radial
+from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
@@ -76,7 +77,9 @@ class Gearing(SpecTable):
     DISTANCE: ClassVar[str] = "centre distance"
     # what locks it in the dwell, on a crank
     LOCK: ClassVar[str] = "locking disc"
-    # An external wheel sets these two as it is made:
+    # Half the wheel's step, for equal steps. It is set as the wheel is made; and so are steps and
+    # stop of an external wheel.
+    step: ClassVar[HalfStep]
     steps: ClassVar[tuple[float, ...]] = ()  # pattern of unequal ones, degrees; empty if all equal
     stopped: ClassVar[bool] = False  # a convex face in place of a recess stops the crank
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
@@ -86,10 +89,10 @@ class Gearing(SpecTable):
         "device that holds the wheel at rest, if no locking disc does",
     ] = field(default=None, kw_only=True)
 
-    @property
-    def step(self) -> HalfStep:
-        """Half the wheel's step as an exact fraction, for equal steps."""
-        return HalfStep(1, self.z)
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        half = HalfStep(1, self.z, math.pi / self.z, sin_cos_pi(1, self.z))
+        vars(self)["step"] = half
 
     @property
     def skewed(self) -> bool:
@@ -135,12 +138,12 @@ class Gearing(SpecTable):
 
     def half_motion_deg(self, step: HalfStep) -> float:
         """Crank angle in degrees from entry to the line of centres, for an entry without shock."""
-        return classic.half_motion_deg(self.SIGN, *step)
+        return classic.half_motion_deg(self.SIGN, step.p, step.q)
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         """Place of a roller in a straight slot, which is radial in a flat wheel."""
         three, l = radial(self.SIGN, step), step.sin_cos[0]
-        closed = self.SIGN, l, classic.gap(1.0, *step)
+        closed = self.SIGN, l, classic.gap(1.0, step.p, step.q)
         return RollerPlace(step, three[2].crank_deg, three, l, closed=closed)
 
     def distance_mm(self, crank_radius_mm: float) -> float:

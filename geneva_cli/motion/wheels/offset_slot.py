@@ -126,9 +126,9 @@ def skew(step: HalfStep, e: float, spare: float) -> Skew:
     near = spare / cos_b * (cos_b + size)  # cos² b - sin² d
     narrow = near / wide  # cos(b + |d|)
     deepest = near / (cos_d + sin_b)  # cos d - sin b
-    least = gap(1.0, *step) + sin_b * size * size / (1.0 + cos_d)  # 1 - l
+    least = gap(1.0, step.p, step.q) + sin_b * size * size / (1.0 + cos_d)  # 1 - l
     l = sin_b * cos_d
-    long = half_motion_deg(1.0, *step) + m.degrees(d)
+    long = half_motion_deg(1.0, step.p, step.q) + m.degrees(d)
     short = m.degrees(m.atan2(narrow, sin_b * cos_d + cos_b * size))
     turn = m.atan2(size * (sin_b - cos_d * less), deepest * cos_d + abs(e) * size)
     mid = middle(1.0, l, least)
