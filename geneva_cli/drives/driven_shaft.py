@@ -42,16 +42,16 @@ class Timing(Batchable):
         self.rest_deg = mid - 360.0 * turns  # ``about`` covers one turn of the shaft
         self.ends_deg = (own.entry_deg, 0.0, own.exit_deg)  # of the own shaft
         local = [before.about(self.rest_deg + end) for end in self.ends_deg]
-        self.within_deg = local[1].input_deg  # input angle of mid-motion in that turn
+        self.within_deg = local[1][0]  # input angle of mid-motion in that turn
         self.mid_deg = 360.0 * before.turns * turns + self.within_deg
-        self.at_deg = tuple(one.input_deg - self.within_deg for one in local)
-        self.advances = tuple(one.advance for one in local)
+        self.at_deg = tuple(at_deg - self.within_deg for at_deg, _ in local)
+        self.advances = tuple(advance for _, advance in local)
         # input angles at which the formula about another place takes over
         self.cuts = cuts(self.at_deg)
 
     def input_deg(self, own_deg: float) -> float:
         """Machine's input angle at an angle of the driven shaft, both from mid-motion, degrees."""
-        return self.before.about(self.rest_deg + own_deg).input_deg - self.within_deg
+        return self.before.about(self.rest_deg + own_deg)[0] - self.within_deg
 
     def __call__(self, input_deg: Number, order: int) -> Jet:
         """Angle of the driven shaft in radians from mid-motion, at input angles in degrees."""

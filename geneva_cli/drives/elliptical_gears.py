@@ -53,7 +53,7 @@ class EllipticalGears(Transmission, kw_only=True):
 
     @property
     def gears(self) -> Gears:
-        return Gears(self.gear_distance_mm, self.about(0.0).advance)
+        return Gears(self.gear_distance_mm, self.about(0.0)[1])
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
         return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)
@@ -79,7 +79,7 @@ class EllipticalGears(Transmission, kw_only=True):
         size, phi = m.hypot(a, b), 2.0 * m.degrees(m.atan2(a, b))
         turns = (crank_deg - phi) / 720.0  # half angles repeat after two turns
         phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
-        return LocalTransmission(phi, Focal(e, sin_h, cos_h, a / size, b / size, size))
+        return phi, Focal(e, sin_h, cos_h, a / size, b / size, size)
 
 
 class Focal(NamedTuple):

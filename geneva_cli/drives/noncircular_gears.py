@@ -42,7 +42,7 @@ class NoncircularGears(Transmission, kw_only=True):
 
     @property
     def gears(self) -> Gears:
-        return Gears(self.gear_distance_mm, self.about(0.0).advance)
+        return Gears(self.gear_distance_mm, self.about(0.0)[1])
 
     def input_shaft(self, plan: Plan, sign: float, sense: float) -> ShaftPlace:
         return ShaftPlace(plan.center_distance_mm + self.gear_distance_mm, -sense)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, cast
+from typing import TYPE_CHECKING, ClassVar, TypeAlias, cast
 
 from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion import registry
@@ -28,12 +28,9 @@ if TYPE_CHECKING:
 ANGLES_KEY = ("drive", "roller_angles_deg")
 
 
-class LocalTransmission(NamedTuple):
-    """A transmission written about one crank angle, so that nothing cancels near it."""
-
-    input_deg: float  # input angle there
-    # sin d and 1 - cos d of the crank's rotation d since then, by the input's rotation since then
-    advance: Displacement
+# A transmission written about one crank angle, so that nothing cancels near it: the input angle
+# there; and sin d and 1 - cos d of the crank's rotation d since then, by the input's rotation.
+LocalTransmission: TypeAlias = "tuple[float, Displacement]"
 
 
 def same(tau: Number, order: int) -> tuple[Jet, Jet]:
@@ -61,17 +58,17 @@ class Transmission(Drive, kw_only=True):
         return None
 
     def crank_rate(self, crank_deg: Array) -> Array | float:
-        return self.about(parameter(crank_deg)).advance(0.0, 1)[0].c[1]
+        return self.about(parameter(crank_deg))[1](0.0, 1)[0].c[1]
 
     def input_deg(self, crank_deg: float) -> float:
         whole = 360.0 / self.turns  # angle of the crank in which the transmission repeats
         turns = round(crank_deg / whole)
-        return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
+        return 360.0 * turns + float(self.about(crank_deg - whole * turns)[0])
 
     def distance_mm(self, wheel: Gearing, motion: Motion | None, radius_mm: float) -> float:
         if motion is None:
             return wheel.distance_mm(radius_mm)
-        motion_deg = 2.0 * self.about(wheel.half_motion_deg(wheel.step)).input_deg
+        motion_deg = 2.0 * self.about(wheel.half_motion_deg(wheel.step))[0]
         return radius_mm / self._ratio(wheel, motion, motion_deg - motion.alpha0_deg)
 
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
@@ -86,13 +83,13 @@ class Transmission(Drive, kw_only=True):
             self._refuse_reach(wheel, larger(-entry.crank_deg, exit_.crank_deg))
         engagements, side_crank = [], None if self.direct else self.side_crank
         for place in rollers:
-            here, anchors = self.about(place.crank_deg), []
+            (middle_deg, turned), anchors = self.about(place.crank_deg), []
             for pose in place.poses:
                 at_deg, advance = self.about(place.crank_deg + pose.crank_deg)
                 travel = PinTravel(pose, advance)
-                anchors.append(Anchor(at_deg - here.input_deg, pose.wheel, pose.along, travel))
+                anchors.append(Anchor(at_deg - middle_deg, pose.wheel, pose.along, travel))
             path = AnchoredPath(tuple(anchors))
-            slot, motion = wheel.follow(path, place, here.advance)
+            slot, motion = wheel.follow(path, place, turned)
             first = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
             single = isinstance(side_crank, float) and isinstance(place.ratio, float)
             if place.closed and self.direct:
@@ -101,9 +98,9 @@ class Transmission(Drive, kw_only=True):
                 from geneva_cli.motion.wheels.side_crank_arrays import SideCrankMotion
 
                 motion = SideCrankMotion(path, place.step.b, side_crank, place.closed)
-            own = Engagement(here.input_deg, path, slot, motion, -wheel.SIGN * place.cone)
+            own = Engagement(middle_deg, path, slot, motion, -wheel.SIGN * place.cone)
             if not self.direct:
-                self._behind(wheel, own, here, L)
+                self._behind(wheel, own, turned, L)
             own.hub, own.built = place.hub, place.built
             engagements.append(own)
         turn = 360.0 * self.turns
@@ -124,7 +121,7 @@ class Transmission(Drive, kw_only=True):
 
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)
-        natural = 2.0 * self.about(half).input_deg
+        natural = 2.0 * self.about(half)[0]
         motion_deg = natural - motion.alpha0_deg
         solved.refuse_alpha0(motion.alpha0_deg, natural)
         refuse_jam(self.rollers, motion_deg, wheel.SIGN < 0.0)
@@ -132,16 +129,16 @@ class Transmission(Drive, kw_only=True):
         text = 'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
         text += "below 1; set a number, or change alpha0_deg or the law"
         refuse_text(ratio != ratio, ("motion", "ratio"), text)
-        here = self.about(0.0)
+        at_deg, advance = self.about(0.0)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
-        travel = PinTravel(pose, here.advance)
-        path = solved.MiddlePath(Anchor(0.0 * here.input_deg, pose.wheel, pose.along, travel))
+        travel = PinTravel(pose, advance)
+        path = solved.MiddlePath(Anchor(0.0 * at_deg, pose.wheel, pose.along, travel))
         end_deg, b = 0.5 * motion_deg, wheel.step.b
         turned = solved.LawMotion(-end_deg, end_deg, b, motion.law)
         slot = solved.SolvedSlot(path, turned)
         engagement = Engagement(0.0, path, slot, turned, -wheel.SIGN)
         if not self.direct:
-            self._behind(wheel, engagement, here, L)
+            self._behind(wheel, engagement, advance, L)
         period = 360.0 * self.turns / self.rollers
         return Plan((engagement,), period, ratio, rollers_max(motion_deg), L)
 
@@ -152,15 +149,15 @@ class Transmission(Drive, kw_only=True):
         return wheel.step.sin_cos[0] if motion.ratio is None else motion.ratio
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
-        crank = self.about(0.0).advance(0.0, 1)[0].c[1]
+        crank = self.about(0.0)[1](0.0, 1)[0].c[1]
         turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
         return wheel.matched_ratio(parameter(turned / crank))
 
-    def _behind(self, wheel: Gearing, own: Engagement, middle: LocalTransmission, L: float) -> None:
+    def _behind(self, wheel: Gearing, own: Engagement, advance: Displacement, L: float) -> None:
         """Complete an engagement whose crank is behind the transmission: its rate and reactions."""
         from geneva_cli.drives.pushed import CrankRate
 
-        own.body = CrankRate(middle.advance, cast(float, own.body))
+        own.body = CrankRate(advance, cast(float, own.body))
         own.reactions = self.reactions(wheel, own.path, own.mid_deg, L) if wheel.FLAT else None
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
@@ -179,7 +176,7 @@ class Direct(Transmission, kw_only=True):
     turned_at_crank: ClassVar[bool] = True
 
     def about(self, crank_deg: float) -> LocalTransmission:
-        return LocalTransmission(crank_deg, same)
+        return crank_deg, same
 
 
 def places(

@@ -65,15 +65,12 @@ class Slot(Batchable, ABC):
     curved = False
     # True if something other than the roller drives the wheel for part of the motion.
     relieved = False
+    # True if the roller presses on a straight wall throughout: neither of these
+    walls_flat = True
     # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0
     # The pin's position along the wheel's axis on a sphere, where the path is a projection.
     height: Height | None = None
-
-    @property
-    def walls_flat(self) -> bool:
-        """True if the roller presses on a straight wall throughout."""
-        return not (self.curved or self.relieved)
 
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> Vector:

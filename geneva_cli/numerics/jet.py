@@ -232,15 +232,14 @@ def atan2(y: Jet, x: Jet) -> Jet:
     return integral(turning(x, y), value)
 
 
-def turning(x: Jet, y: Jet) -> Jet:
-    """The rate at which the vector (x, y) turns, one order lower."""
-    low_x, low_y = x.lower, y.lower
-    return moment(x, y) / (low_x * low_x + low_y * low_y)
+def turning(x: Jet, y: Jet, less: Jet | None = None, square: Jet | None = None) -> Jet:
+    """The rate at which the vector (x, y) turns, (x y' - y x') / (x² + y²), one order lower.
 
-
-def moment(x: Jet, y: Jet) -> Jet:
-    """x y' - y x', one order lower."""
+    Or that less the derivative of a jet ``less`` in the numerator, and over another ``square``.
+    """
     a, b, out = x.c, y.c, []
+    if len(a) == 1:
+        return Jet(())
     for k in range(1, len(a)):  # the sum of (k - 2 i) (a[i] b[k - i] - b[i] a[k - i]), i below k/2
         total = a[0] * b[k] - b[0] * a[k]
         if k > 1:
@@ -249,7 +248,9 @@ def moment(x: Jet, y: Jet) -> Jet:
             more = a[i] * b[k - i] - b[i] * a[k - i]
             total = total + (more * (k - 2 * i) if k - 2 * i > 1 else more)
         out.append(total)
-    return Jet(out)
+    moment = Jet(out) if less is None else Jet(out) - less.derivative()
+    low_x, low_y = x.lower, y.lower
+    return moment / (low_x * low_x + low_y * low_y if square is None else square.lower)
 
 
 def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Number], Jet]]) -> Jet:

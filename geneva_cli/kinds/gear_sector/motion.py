@@ -157,7 +157,7 @@ class _SectorPath(NamedTuple):
 class _SectorSlot(Slot):
     """The slot, and the gears' pitch circle L/(1+u) while they drive, without sliding."""
 
-    relieved = True
+    relieved, walls_flat = True, False
 
     def __init__(self, inner: Slot, motion: _SectorMotion) -> None:
         self.inner, self.motion = inner, motion

@@ -120,7 +120,7 @@ class GenevaPair(Transmission, kw_only=True):
         running = _running(middle, _crank_at(self.first_z, inside))
         ends = choose_record(crank_deg < 0.0, entry, exit_)
         pose = choose_record(abs(crank_deg) == reach, ends, running)
-        return LocalTransmission(pose.crank_deg, FirstWheelRotation(pose))
+        return pose.crank_deg, FirstWheelRotation(pose)
 
 
 class FirstRoller(PushedCrank):

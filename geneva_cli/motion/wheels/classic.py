@@ -98,11 +98,11 @@ def middle(sign: float, l: float, gap: float) -> PinPose:
 
 def radial(sign: float, step: HalfStep) -> tuple[PinPose, PinPose, PinPose]:
     """Entry, middle and exit of a straight radial slot entered without shock: l = sin b."""
-    l, cos_b = step.sin_cos
-    half = half_motion_deg(sign, step.p, step.q)
+    (l, cos_b), half = step.sin_cos, 90.0 * (step.q - 2 * int(sign) * step.p) / step.q
+    least: float = 1.0 + l if sign < 0.0 else one_minus_sin_pi(step.p, step.q)
     return (
         PinPose(-half, -step.b, cos_b, (-sign * l, 0.0), (0.0, l)),
-        middle(sign, l, gap(sign, step.p, step.q)),
+        PinPose(0.0, 0.0, least, (0.0, l), (sign * l, 0.0)),
         PinPose(half, step.b, cos_b, (sign * l, 0.0), (0.0, -l)),
     )
 

@@ -10,7 +10,7 @@ from geneva_cli.motion.path_and_slot import AnchoredPath, RadialSlot, StraightSl
 from geneva_cli.motion.pivots import Layout, Pivot
 from geneva_cli.motion.wheels import classic
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, radial
-from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import Example, SpecTable
@@ -143,7 +143,7 @@ class Gearing(SpecTable):
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
         """Place of a roller in a straight slot, which is radial in a flat wheel."""
         three, l = radial(self.SIGN, step), step.sin_cos[0]
-        closed = self.SIGN, l, classic.gap(1.0, step.p, step.q)
+        closed = self.SIGN, l, one_minus_sin_pi(step.p, step.q)
         return RollerPlace(step, three[2].crank_deg, three, l, closed=closed)
 
     def distance_mm(self, crank_radius_mm: float) -> float:

@@ -14,7 +14,7 @@ from geneva_cli.motion.path_and_slot import AnchoredPath, StraightSlotMotion, tu
 from geneva_cli.motion.wheels.classic import HalfStep, PinPose, Skew, gap, half_motion_deg, middle
 from geneva_cli.numerics.angles import radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, enclosed, library
-from geneva_cli.numerics.jet import Jet, Number, integral, moment, piecewise, sqrt
+from geneva_cli.numerics.jet import Jet, Number, integral, piecewise, sqrt, turning
 
 
 class OffsetSlot(Slot):
@@ -68,7 +68,7 @@ class OffsetSlotMotion(StraightSlotMotion):
         square = along * along + more
         s = sqrt(square)
         gain = more / (s + along)
-        rate = _turning(along, across, gain * e, square + e * e)
+        rate = turning(along, across, gain * e, square + e * e)
         if not angle:
             return rate
         a, b, g, s0 = along.c[0], across.c[0], gain.c[0], s.c[0]
@@ -82,7 +82,7 @@ class OffsetSlotMotion(StraightSlotMotion):
         toward, across = _since(mid, x, order)
         s, rho2 = _depth(e, deepest, toward)
         along = toward + mid.along
-        rate = _turning(along, across, s * e, rho2)
+        rate = turning(along, across, s * e, rho2)
         if not angle:
             return rate
         m, u, depth = library(across.c[0], toward.c[0], e), toward.c[0], s.c[0]
@@ -104,13 +104,6 @@ def _depth(e: float, deepest: float, toward: Jet) -> tuple[Jet, Jet]:
     """
     square = toward * 2.0 + deepest**2
     return sqrt(square), square + e**2
-
-
-def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
-    """Rate of a wheel, (x y' - y x' - e s') / rho², for ``lever`` = e s; one order lower."""
-    if not x.order:
-        return Jet(())
-    return (moment(x, y) - lever.derivative()) / rho2.lower
 
 
 def skew(step: HalfStep, e: float, spare: float) -> Skew:
