@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 from geneva_cli.errors import GenevaError, refuse, refuse_text
 from geneva_cli.motion.drive import Drive
+from geneva_cli.motion.kind import Kind
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.records import KINDS
 from geneva_cli.numerics.arrays import choose, smaller
@@ -53,15 +54,7 @@ def _conflicts(spec: Spec) -> Iterator[Conflict]:
     for field in ("drive", "wheel", ""):
         for kind in KINDS:
             own = "drive" if kind.drive else "wheel" if kind.wheel else ""
-            if not kind.refuses or field != own:
-                continue
-            asked = bool(field) and kind.name == vars(spec)[field].NAME
-            for key in kind.keys:  # that it alone has
-                table, _, name = key.partition(".")
-                of = vars(spec)[table.replace(".", "_")]
-                value, default = vars(of).get(name), getattr(type(of), name, None)
-                asked |= value is not default and (is_array(value) or value != default)
-            if asked:
+            if kind.refuses and field == own and concerns(kind, spec):
                 yield from load_named(kind.refuses)(spec)
     size, wheel = spec.size, spec.wheel
     for key in ("mouth_radius_mm", "horn_tip_mm"):
@@ -77,6 +70,19 @@ def _conflicts(spec: Spec) -> Iterator[Conflict]:
         text = "dwell_position_max_deg limits the error of a wheel within its tolerances: set one "
         text += f"or more of {', '.join(sizes)} in [tolerance]"
         yield (exact, ("limits", "dwell_position_max_deg"), text)
+
+
+def concerns(kind: Kind, spec: Spec) -> bool:
+    """True if the spec has the kind, or sets a key of the kind's own."""
+    if kind.name == (spec.drive.NAME if kind.drive else spec.wheel.NAME if kind.wheel else ""):
+        return True
+    for key in kind.keys:
+        table, _, name = key.partition(".")
+        of = vars(spec)[table.replace(".", "_")]
+        value, default = vars(of).get(name), getattr(type(of), name, None)
+        if value is not default and (is_array(value) or value != default):
+            return True
+    return False
 
 
 def _of_drive_before(spec: Spec, before: Drive) -> Iterator[Conflict]:
