@@ -14,12 +14,13 @@ TINY = 1e-300
 class Range(NamedTuple):
     """Numbers from ``low`` to ``high``, 0 or at least ``TINY`` in size.
 
-    A round bracket in ``ends`` excludes that end.
+    A round bracket in ``ends`` excludes that end. ``words`` may stand for a computed number.
     """
 
     low: float
     high: float = math.inf
     ends: str = "[]"
+    words: tuple[str, ...] = ()
 
     def __contains__(self, x: object) -> bool:
         return isinstance(x, (int, float)) and bool(self.holds(x))
@@ -31,13 +32,19 @@ class Range(NamedTuple):
         return above & below & ((x == 0) | (abs(x) >= TINY))
 
     def __str__(self) -> str:
-        if math.isinf(self.low) and math.isinf(self.high):
-            return "a finite number"
-        if 0.0 < self.low < 1e-6:  # a bound that only keeps the arithmetic finite
-            return f"above 0 ({self.low:g} to {self.high:g})"
         low = f"{'above' if self.ends[0] == '(' else 'at least'} {self.low:.12g}"
         high = f"{'below' if self.ends[1] == ')' else 'at most'} {self.high:.12g}"
-        return low if math.isinf(self.high) else high if math.isinf(self.low) else f"{low}, {high}"
+        if math.isinf(self.low) and math.isinf(self.high):
+            text = "a finite number"
+        elif 0.0 < self.low < 1e-6:  # a bound that only keeps the arithmetic finite
+            text = f"above 0 ({self.low:g} to {self.high:g})"
+        elif math.isinf(self.low) or math.isinf(self.high):
+            text = low if math.isinf(self.high) else high
+        else:
+            text = f"{low}, {high}"
+        for number, word in enumerate(self.words):
+            text += f'{"" if number else ","} or "{word}"'
+        return text
 
 
 class OneOf(tuple[str, ...]):
@@ -47,23 +54,6 @@ class OneOf(tuple[str, ...]):
 
     def __str__(self) -> str:
         return "one of " + ", ".join(f'"{word}"' for word in self)
-
-
-class Words(NamedTuple):
-    """A number in a range, or a word that stands for a computed number."""
-
-    range: Range
-    words: tuple[str, ...]
-
-    def __contains__(self, x: object) -> bool:
-        return x in self.range
-
-    def holds(self, x: Any) -> Any:
-        """True if a number is in the range; for an array, a truth value for each number."""
-        return self.range.holds(x)
-
-    def __str__(self) -> str:
-        return f"{self.range}, or " + " or ".join(f'"{word}"' for word in self.words)
 
 
 class Csv:
