@@ -25,11 +25,11 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.wheels.gearing import Gearing
-from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_extra
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
 from geneva_cli.spec.tables import (
+    Accept,
     Limits,
     Load,
     Mass,
@@ -791,7 +791,7 @@ class Design:
         >>> Design(External(6), outline=Outline(wheel="wheel.dxf")).is_drawn
         True
         """
-        return self.spec.outline.is_given
+        return bool(self.spec.outline.files)
 
     def _of_drawing(self, answer: str, *values: object) -> Any:
         """An answer about the drawings that replace the outlines."""

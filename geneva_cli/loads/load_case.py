@@ -14,7 +14,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import Array, N, all_true, choose, library
-from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.workshops import Stock
 
 
@@ -68,7 +68,7 @@ def rubbing(mechanism: Mechanism) -> float:
     ratio.
     """
     load = mechanism.spec.load
-    if all_true(load.friction == 0.0) or load.rubs_in_slot:
+    if all_true(load.friction == 0.0) or load.friction_at == "slot":
         return load.friction
     thickness = 0.5 * pin_diameter_mm(mechanism) / mechanism.roller_radius_mm
     m = library(thickness, load.friction)

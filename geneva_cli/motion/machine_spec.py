@@ -14,10 +14,9 @@ from geneva_cli.motion.records import CRANK, named, thing
 from geneva_cli.motion.wheels.gearing import Gearing, Output
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec import tables
-from geneva_cli.spec.accept import Accept
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import SpecTable, refuse_kind
-from geneva_cli.spec.tables import LISTS, PLAIN, Z_DRAWN, Mass
+from geneva_cli.spec.tables import LISTS, PLAIN, Z_DRAWN, Accept, Mass
 
 BEFORE = "drive.before"  # table of the drive that turns the input shaft of [drive]
 # limits that need a load
@@ -204,10 +203,14 @@ class Spec(SpecTable):
 
     @property
     def _unloaded(self) -> bool:
-        load = self.load
+        load, support = self.load, self.support
         nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
         nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
-        return nothing & (self.support.own_torque_Nm == 0.0) & (not self.mass)
+        return (
+            nothing
+            & (support.friction * support.force_N * support.radius_mm == 0.0)
+            & (not self.mass)
+        )
 
     @property
     def unbalanced(self) -> bool:

@@ -151,6 +151,16 @@ def choose(condition: Truth, yes: Real, no: Real) -> Real:
     return cast("Real", chosen_value)
 
 
+def value_or(value: float | None, default: float) -> float:
+    """Return a value of the spec, or else the default."""
+    return default if value is None else value
+
+
+def half_or(diameter: float | None, default: float) -> float:
+    """Return half of a diameter, or the default radius if that is None."""
+    return default if diameter is None else 0.5 * diameter
+
+
 def record_of(like: Record, parts: Sequence[object]) -> Record:
     """A record of the type of ``like``."""
     make: Callable[..., object] = type(like)

@@ -42,7 +42,7 @@ from geneva_cli.parts.shafts.shaft import (
     wheel_shaft_radius,
 )
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 
 
 def framed(

@@ -15,6 +15,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import thing
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, assembly
@@ -35,8 +36,7 @@ from geneva_cli.parts.sizes import (
 )
 from geneva_cli.parts.slots.roller_paths import RollerPaths, mouth, roller_paths, roller_reaches
 from geneva_cli.parts.stressed import Unloaded
-from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
@@ -150,7 +150,7 @@ def keys_by_load(mechanism: Mechanism, locked: bool) -> tuple[str, ...]:
     if not all(map(math.isfinite, single_loads(mechanism))):
         return ()
     crank = size.crank_bore_mm is size.arm_bore_mm is spec.shaft.crank_diameter_mm is None
-    rubbed = spec.load.friction and not spec.load.rubs_in_slot  # loads depend on the usual pin
+    rubbed = spec.load.friction and spec.load.friction_at == "pin"  # loads depend on the usual pin
     free = {
         "crank_bore_mm": crank,
         "arm_bore_mm": crank,

@@ -10,11 +10,11 @@ from typing import NamedTuple
 from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Point, convex_hull
+from geneva_cli.numerics.arrays import half_or
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.parts.shafts.bores import around
 from geneva_cli.parts.shafts.screws import Screws, screw_through, tapped
-from geneva_cli.spec.default_sizes import half_or
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Size
 
 NAME = "frame"

@@ -12,7 +12,7 @@ from geneva_cli.motion.records import thing
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.wheel_circles import wheel_part
 from geneva_cli.parts.outlines.wheel_outline import turned_walls, wheel_contour
-from geneva_cli.spec.materials import wheel_material
+from geneva_cli.spec.defaults import wheel_material
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:

@@ -168,7 +168,10 @@ class SpecTable:
         >>> External(6).as_dict()
         {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None, 'stop': False}
         """
-        return {field.key: getattr(self, field.attribute) for field in fields(type(self))}
+        own, out = vars(self), {}
+        for field in fields(type(self)):
+            out[field.key] = own[field.attribute]
+        return out
 
     def with_key(self, key: str, value: Any) -> Self:
         """Return a copy with one key changed, written as in the file; None sets its default.

@@ -46,7 +46,7 @@ def compare(
     each: list[dict[str, Cell]] = []
     for design in designs.values():
         spec, machine = design.spec, design.mechanism
-        if spec.outline.is_given:
+        if spec.outline.files:
             raise GenevaError(
                 f"{spec.path}: [outline]: a comparison is of formulas, and turns no drawings; "
                 "`geneva check` and `geneva peaks` take each"

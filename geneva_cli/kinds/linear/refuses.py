@@ -10,7 +10,7 @@ from geneva_cli.kinds.linear.motion import guided
 from geneva_cli.motion.compatible import Conflict, is_set
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 
 if TYPE_CHECKING:
     from geneva_cli.verdict.checks.check import Check

@@ -15,6 +15,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.rollers import places
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.parts.machine_sizes import lock_between, refuse_edges, require_lock_between
 from geneva_cli.parts.sizes import (
     arm_bore,
@@ -25,8 +26,7 @@ from geneva_cli.parts.sizes import (
     refuse_wide_pin,
     wheel_bore,
 )
-from geneva_cli.spec.default_sizes import value_or
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 

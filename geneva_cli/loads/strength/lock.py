@@ -30,7 +30,7 @@ from geneva_cli.motion.batch import taken
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, blocks, parameter
 from geneva_cli.numerics.jet import Array, Number
-from geneva_cli.spec.materials import wheel_material
+from geneva_cli.spec.defaults import wheel_material
 
 
 class LockUnderTorque(NamedTuple):

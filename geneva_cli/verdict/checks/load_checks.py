@@ -10,8 +10,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.preferred import to_digits
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.spec import load_limits
-from geneva_cli.spec.load_limits import LIMITED
+from geneva_cli.spec.tables import LIMITED
 from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:  # a spec without limits or loads is checked without NumPy
@@ -27,7 +26,7 @@ def limited_load(name: str, mechanism: Mechanism) -> Check | None:
     from geneva_cli.verdict.quantities.batch_designs import number_of, single
     from geneva_cli.verdict.quantities.load_quantities import greatest
 
-    peaks, load = single(mechanism).columns(greatest), load_limits.limited_load(name)
+    peaks, load = single(mechanism).columns(greatest), LIMITED[name].split(".")[1]
     most, at_deg = (number_of(peaks[f"{load}.{end}"], 0) for end in ("max", "at_deg"))
     return compared(name, most, "at most", limit, at_deg)
 

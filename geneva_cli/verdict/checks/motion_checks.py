@@ -5,8 +5,8 @@ from __future__ import annotations
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.peaks import greatest_jumps, worst, worst_of
 from geneva_cli.motion.timing import timings
+from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.tolerances import keeps
-from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.verdict.checks.check import Check, compared
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT, turns_back
 

@@ -13,7 +13,7 @@ from geneva_cli.kept import Known, cached_property
 from geneva_cli.motion.batch import each_of
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.spec.load_limits import LIMITED, limits_by_key
+from geneva_cli.spec.tables import LIMITED
 
 if TYPE_CHECKING:
     from geneva_cli.loads.contact import LoadCase
@@ -136,4 +136,8 @@ def single(mechanism: Mechanism) -> Designs:
 
 def limited_loads(spec: Spec) -> list[str]:
     """The whole names of the loads that the spec limits, which its checks request."""
-    return [LIMITED[key] for key in limits_by_key(spec.limits)]
+    limits, names = vars(spec.limits), []
+    for key, name in LIMITED.items():
+        if name.startswith("loads.") and limits[key]:
+            names.append(name)
+    return names
