@@ -95,7 +95,8 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
 
 def refuse_text(where: Any, key: tuple[str, str], text: str, /, **values: object) -> None:
     """``refuse`` with a text of a key, in which ``values`` are put when it is raised."""
-    refuse(where, lambda: GenevaError(text.format(**values), key))
+    if where is not False:
+        refuse(where, lambda: GenevaError(text.format(**values), key))
 
 
 @contextmanager

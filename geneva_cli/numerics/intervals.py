@@ -12,9 +12,11 @@ from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Enclosed, Library, Number, Truth, Undecided, Whole
+from geneva_cli.numerics.arrays import Array, Enclosed, Number, Truth, Undecided, Whole
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Library
+
     Bound: TypeAlias = Array | float
 
 NEAR = 1e-9  # radians: a peak of the sine this near to an interval counts as inside

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from geneva_cli.answer import FAILS, PASSES, WARNS, SummaryLine
+from geneva_cli.answer import FAILS, PASSES, WARNS, SummaryLine, value_text
 from geneva_cli.errors import Notice, is_warning, open_warnings
 from geneva_cli.names import spoken
-from geneva_cli.output.document.blocks import value_text
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.all_checks import JAMS
 

@@ -7,9 +7,8 @@ import sys
 import textwrap
 from collections.abc import Iterable, Iterator
 
-from geneva_cli.answer import FAILS, PASSES, WARNS, Summary, SummaryLine
+from geneva_cli.answer import FAILS, NO_BREAK, PASSES, RAISED, TIMES, WARNS, Summary, SummaryLine
 from geneva_cli.errors import clean
-from geneva_cli.output.document.blocks import NO_BREAK, RAISED, TIMES
 from geneva_cli.output.terminal.layout import DIM, Window, styled, window
 from geneva_cli.output.text import WIDTH
 
