@@ -7,7 +7,6 @@ for a format that they do not write, and for a file that cannot be written.
 
 from __future__ import annotations
 
-import importlib
 import os
 import sys
 from collections.abc import Iterable, Iterator
@@ -66,10 +65,6 @@ def refuse_columns() -> None:
         raise GenevaError("--columns is for tables, and this run prints none; leave it out")
 
 
-def _module(name: str) -> Any:
-    return importlib.import_module(f"geneva_cli.output.{name}")
-
-
 def _function(name: str) -> Any:
     from geneva_cli.spec.load_named import load_named
 
@@ -85,15 +80,16 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
 def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
     from geneva_cli.output.finite import checked, only
 
-    table = checked(table, is_seen(output))
+    seen = is_seen(output)
+    table = checked(table, seen)
     if choice.columns:
         table = only(table, choice.columns)
-    if name == "table" and is_seen(output):
-        from geneva_cli.output.terminal.layout import window
+    if name == "table" and seen:
+        from geneva_cli.output.terminal.summary import window
         from geneva_cli.output.terminal.terminal_tables import chunks
 
         return chunks(table, window(bool(choice.columns), choice.wide))
-    return _module(FORMATS[name]).chunks(table)
+    return _function(f"{FORMATS[name]}:chunks")(table)
 
 
 def is_seen(output: str) -> bool:
@@ -149,7 +145,7 @@ def draw_sheet(
     name = sheet_as(output, format)
     own = _of_dxf(name, version)
     refuse_columns()
-    _put(_module(name).sheet_chunks(sheet, *own), output, inputs)
+    _put(_function(f"{name}:sheet_chunks")(sheet, *own), output, inputs)
 
 
 def _of_dxf(name: str, version: str) -> tuple[str, ...]:
@@ -176,7 +172,7 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
         raise GenevaError("a page is not for a terminal: give -o FILE.html, or --open to show it")
     if output != "-" and os.path.splitext(output)[1].lower() not in (".html", ".htm"):
         raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm')
-    _put(_module("page").chunks(scene), output, inputs)
+    _put(_function("page:chunks")(scene), output, inputs)
 
 
 def show_document(
@@ -185,7 +181,7 @@ def show_document(
     """Print the document, or write it to the file ``output``."""
     name = document_as(output, format)
     refuse_columns()
-    _put(_module(f"document.{DOCUMENTS[name]}").chunks(document), output, inputs)
+    _put(_function(f"document.{DOCUMENTS[name]}:chunks")(document), output, inputs)
 
 
 def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:
@@ -200,8 +196,8 @@ def show_markdown(text: str) -> None:
     if not is_seen("-"):
         _put([text], "-")
         return
-    from geneva_cli.output.terminal.layout import window
     from geneva_cli.output.terminal.page_reader import chunks
+    from geneva_cli.output.terminal.summary import window
 
     _put(chunks(text, window(False, choice.wide)), "-", (), "table")
 
