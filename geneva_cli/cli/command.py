@@ -98,10 +98,10 @@ class Command(PlainValues, TyperCommand):
         columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
         if not (columns or wide):
             return super().invoke(ctx)
-        from geneva_cli.output import Choice, choosing
+        from geneva_cli.output import choosing
 
         names = [name.strip() for name in (columns or "").split(",")]
-        with choosing(Choice(tuple(filter(None, names)), wide)):
+        with choosing([*filter(None, names)], wide):
             return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:

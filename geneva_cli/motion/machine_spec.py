@@ -88,7 +88,8 @@ class Spec(SpecTable):
     def __post_init__(self) -> None:
         for name, (kind, example) in _TABLE_TYPES.items():
             value = vars(self)[name]
-            if value is not None or name not in ("drive_before", "motion"):
+            is_left_out = value is None and name in ("drive_before", "motion")
+            if not (is_left_out or isinstance(value, kind)):
                 refuse_kind(value, name, kind, example)
         vars(self)["mass"] = tuple(self.mass)
         for one in self.mass:

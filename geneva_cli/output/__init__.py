@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import chain
-from typing import TYPE_CHECKING, Any, NamedTuple
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.formats import (
@@ -38,25 +39,20 @@ if TYPE_CHECKING:
     from geneva_cli.output.scene import Scene
 
 
-class Choice(NamedTuple):
-    """The columns that a run shows in its tables: some by name, or all whatever their width."""
-
-    columns: tuple[str, ...] = ()
-    wide: bool = False
-
-
-choice = Choice()  # the options --columns and --wide of this run
+# The options --columns and --wide of this run: the columns that its tables show, some by name, or
+# all whatever their width.
+choice = SimpleNamespace(columns=(), wide=False)
 
 
 @contextmanager
-def choosing(columns: Choice) -> Iterator[None]:
+def choosing(columns: Sequence[str], wide: bool) -> Iterator[None]:
     """Show tables by this choice of columns within the block."""
-    global choice
-    before, choice = choice, columns
+    before = dict(vars(choice))
+    vars(choice).update(columns=columns, wide=wide)
     try:
         yield
     finally:
-        choice = before
+        vars(choice).update(before)
 
 
 def refuse_columns() -> None:

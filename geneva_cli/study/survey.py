@@ -6,7 +6,8 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.timing import CamFactors, Timing, cam_factors, timing
 from geneva_cli.motion.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
-from geneva_cli.spec.rules import SPEED, Z_MAX, RangeText, range_text
+from geneva_cli.spec.rules import SPEED, Z_MAX
+from geneva_cli.spec.units import RangeText, range_text
 from geneva_cli.table import Reading, Table, rows_table
 
 NAMES = (

@@ -69,6 +69,7 @@ def style_of(output: str, is_seen: bool) -> Window:
 
 def chunks(summaries: Iterable[Summary], look: Window) -> Iterator[str]:
     """Each summary as text, with empty lines around one that has lines."""
+    inks, dim, plain = (INKS, DIM, PLAIN) if look.styled else ({}, "", "")
     before: Summary | None = None
     for summary in summaries:
         lines = summary.lines
@@ -79,8 +80,8 @@ def chunks(summaries: Iterable[Summary], look: Window) -> Iterator[str]:
         sign = sign if look.unicode else ASCII.get(sign, sign)
         indent = " " * (len(sign) + 1) if sign else ""
         text = f"\n{indent}".join(_wrapped(summary.head, look.columns - len(indent), look))
-        sign = styled(sign, INKS.get(summary.state, ""), look.styled)
-        yield f"{sign} {text}\n" if sign else f"{text}\n"
+        ink = inks.get(summary.state, "")
+        yield f"{ink}{sign}{plain} {text}\n" if sign else f"{text}\n"
         wide = 0
         for line in lines:
             if len(line.label) <= LABEL_MAX:
@@ -89,7 +90,8 @@ def chunks(summaries: Iterable[Summary], look: Window) -> Iterator[str]:
         if lines:
             yield "\n"
         for line in lines:
-            label = styled(clean(line.label), INKS.get(line.state, ""), look.styled)
+            label, ink = clean(line.label), inks.get(line.state, "")
+            label = f"{ink}{label}{plain}" if ink and label else label
             first = f"  {label}{' ' * (wide - len(line.label))}  "
             if len(line.label) > wide:
                 yield f"  {label}\n"
@@ -98,7 +100,7 @@ def chunks(summaries: Iterable[Summary], look: Window) -> Iterator[str]:
                 yield f"{first}{text}".rstrip() + "\n"
                 first = " " * (wide + 4)
             for note in _wrapped(line.note, width, look):
-                yield f"{first}{styled(note, DIM, look.styled)}".rstrip() + "\n"
+                yield f"{first}{dim}{note}{plain}".rstrip() + "\n"
                 first = " " * (wide + 4)
 
 

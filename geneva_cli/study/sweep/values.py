@@ -13,8 +13,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.spec.rules import RangeText, range_text
-from geneva_cli.spec.units import in_unit_of, unit_key
+from geneva_cli.spec.units import RangeText, in_unit_of, range_text, unit_key
 from geneva_cli.specfile.keys import is_whole
 from geneva_cli.specfile.reader import Setting, read_value, whole_key
 from geneva_cli.study.rows import Column, column_of
