@@ -61,7 +61,11 @@ def open_warnings(texts: Iterable[str]) -> list[str]:
     >>> open_warnings([Notice("many-slots", "", "agreed"), Notice("turns-back", "back")])
     ['back']
     """
-    return [text for text in texts if not (isinstance(text, Notice) and text.accepted)]
+    left = []
+    for text in texts:
+        if not (isinstance(text, Notice) and text.accepted):
+            left.append(text)
+    return left
 
 
 def is_warning(text: str) -> bool:

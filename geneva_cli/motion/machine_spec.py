@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import field
-from functools import partial
 from typing import Any, Self
 
-from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.errors import GenevaError, refuse_text
 from geneva_cli.motion.drive import Drive, Gears
 from geneva_cli.motion.motion import Motion
 from geneva_cli.motion.records import CRANK, named, thing
@@ -114,7 +113,7 @@ class Spec(SpecTable):
         for key in LOADED:
             if limits[key] is not None:
                 text = f"{key} needs a load, and without one there is nothing to limit: set "
-                refuse(self._unloaded, partial(GenevaError, text + self.load_keys, ("limits", key)))
+                refuse_text(self._unloaded, ("limits", key), text + self.load_keys)
 
     def table(self, name: str) -> dict[str, Any]:
         """Values of a table by key; those of ``motion`` include the keys of its law.

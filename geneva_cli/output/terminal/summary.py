@@ -51,8 +51,8 @@ def styled(text: str, style: str, is_styled: bool) -> str:
     return f"{style}{text}{PLAIN}" if is_styled and style and text else text
 
 
-def style_of(output: str, is_seen: bool) -> Window:
-    """The look for a terminal if ``is_seen``, a pipe, or a file, which is always UTF-8."""
+def style_of(output: str) -> Window:
+    """The look for a terminal, a pipe, or a file, which is always UTF-8."""
     if output != "-":
         return Window(WIDTH)
     try:
@@ -60,7 +60,7 @@ def style_of(output: str, is_seen: bool) -> Window:
         unicode = True
     except (UnicodeEncodeError, LookupError):
         unicode = False
-    if not is_seen:
+    if not sys.stdout.isatty():
         return Window(WIDTH, unicode=unicode)
     terminal = window(False, False)
     # Lines of more than 100 letters are hard to read.
