@@ -206,7 +206,7 @@ def read(path: str, set_keys: Iterable[str] = ()) -> Text:
 
     Raises GenevaError, with the message ready to print, if it cannot be read.
     """
-    name = shown_name(path)
+    name = path if path.strip() and path != "-" else shown_name(path)
     bytes_max = 1 << 20  # a spec is a page; a megabyte of it is a mistake
     try:
         if path == "-":

@@ -16,6 +16,7 @@ from geneva_cli.motion.motion import Motion
 from geneva_cli.names import unit_end
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import (
+    REQUIRED,
     Field,
     Points,
     SpecTable,
@@ -256,8 +257,10 @@ def _values(
     The table has the keys ``also`` too; they are only for the message about an unknown key.
     """
     known: dict[str, Field] = {}
+    is_whole = True
     for field in fields(cls):
         known[field.key] = field
+        is_whole = is_whole and (field.default is not REQUIRED or field.key in values)
     out: dict[str, Any] = {}
     for key, value in values.items():
         if key not in known:
@@ -272,5 +275,6 @@ def _values(
             files.append(below(os.path.dirname(files[0]), value))
             value = Points(tuple(read_pairs(files[-1], field.rule, place)), value)
         out[field.attribute] = value
-    require(cls, tuple(values), why)
+    if not is_whole:
+        require(cls, tuple(values), why)
     return out
