@@ -235,8 +235,8 @@ def record_taken(record: Record, which: Which) -> Record:
             out.append(record_taken(column, which))
         else:
             values = cast("Array", column)
-            is_slice = isinstance(which, slice)
-            out.append(values[..., which] if is_slice else values.take(which, axis=-1))
+            whole = isinstance(which, slice)
+            out.append(values[..., which] if whole else values.take(cast("Whole", which), axis=-1))
     return record_of(record, out)
 
 

@@ -114,7 +114,7 @@ def show_answer(
     if name == "md":
         first = summary.markdown(answer.summaries)
     else:
-        first = summary.chunks(answer.summaries, summary.style_of(output))
+        first = summary.chunks(answer.summaries, summary.style_of(output, is_seen(output)))
     page = answer.page
     rest = chain(["\n"] if name == "table" else (), _chunks(page, output, name)) if page else ()
     _put(chain(first, rest), output, inputs, name)
@@ -223,7 +223,7 @@ def _put(
     if name != "table":
         use_utf8()
     text = map(str, chunks)
-    if sys.stdout.isatty():
+    if is_seen(output):
         from geneva_cli.output.terminal import pager
 
         pager.write(text)

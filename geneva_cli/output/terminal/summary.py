@@ -51,8 +51,8 @@ def styled(text: str, style: str, is_styled: bool) -> str:
     return f"{style}{text}{PLAIN}" if is_styled and style and text else text
 
 
-def style_of(output: str) -> Window:
-    """The look for a terminal, a pipe, or a file, which is always UTF-8."""
+def style_of(output: str, is_seen: bool) -> Window:
+    """The look for a terminal if ``is_seen``, a pipe, or a file, which is always UTF-8."""
     if output != "-":
         return Window(WIDTH)
     try:
@@ -60,7 +60,7 @@ def style_of(output: str) -> Window:
         unicode = True
     except (UnicodeEncodeError, LookupError):
         unicode = False
-    if not sys.stdout.isatty():
+    if not is_seen:
         return Window(WIDTH, unicode=unicode)
     terminal = window(False, False)
     # Lines of more than 100 letters are hard to read.
@@ -114,7 +114,7 @@ def _wrapped(text: str, width: int, look: Window) -> list[str]:
         lowered = {raised: plain for plain, raised in RAISED.items()}
         power = f"{TIMES}10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)"
         text = re.sub(power, lambda match: f"e{match[1].translate(lowered)}", text)
-        text = text.translate(str.maketrans(ASCII))
+        text = text.translate({ord(letter): plain for letter, plain in ASCII.items()})
     lines = textwrap.wrap(text, max(width, 1), break_long_words=False, break_on_hyphens=False)
     return "\n".join(lines).replace(NO_BREAK, " ").split("\n") if lines else []
 
