@@ -7,6 +7,7 @@ for a format that they do not write, and for a file that cannot be written.
 
 from __future__ import annotations
 
+import importlib
 import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
@@ -62,9 +63,8 @@ def refuse_columns() -> None:
 
 
 def _function(name: str) -> Any:
-    from geneva_cli.spec.load_named import load_named
-
-    return load_named(f"output.{name}")
+    module, _, function = name.partition(":")
+    return vars(importlib.import_module(f"geneva_cli.output.{module}"))[function]
 
 
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:

@@ -130,3 +130,21 @@ def is_array(x: object) -> bool:
     numpy = sys.modules.get("numpy")
     array = vars(numpy).get("ndarray") if numpy else None
     return array is not None and isinstance(x, array)
+
+
+def range_text(text: str, option: str) -> tuple[str, str, str] | None:
+    """Return both ends and the step of a range; None for a text without ``..``.
+
+    A part that is left out is empty. ``option``, with its value, begins the text of errors. Raises
+    GenevaError for a step without its range, or without a number.
+
+    >>> range_text("0..0.9:0.01", "--vary drive.A")
+    ('0', '0.9', '0.01')
+    """
+    ends, colon, step = text.partition(":")
+    low, dots, high = ends.partition("..")
+    if colon and not (dots and step.strip()):
+        raise GenevaError(
+            f"{option}: a range is LOW..HIGH or LOW..HIGH:STEP, as 3..12 or 0..0.9:0.1"
+        )
+    return (low.strip(), high.strip(), step.strip()) if dots else None

@@ -9,9 +9,8 @@ from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.registry import STANDARD_LAWS as LAWS
-from geneva_cli.spec.rules import POSITIVE, Range
+from geneva_cli.spec.rules import POSITIVE, Range, range_text
 from geneva_cli.spec.schema import fields
-from geneva_cli.spec.units import range_text
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import (
     constraint,
