@@ -184,16 +184,13 @@ def test_any_table_fits(seed):
     ("number", "unit", "text"),
     [
         (0.123456789, "", "0.1235"),
-        (-1.23456e-10, "mm", "-1.235e-10 mm"),
         (-0.0, "deg", "0 deg"),
         (1234567, "", "1234567"),
         (393.91305, "mm", "393.913 mm"),
-        (12345.6, "rpm", "12350 rpm"),
         (2.8e8, "h", "practically unlimited"),
         (float("inf"), "mm", "no bound"),
         (None, "mm", "-"),
         (True, "", "yes"),
-        ("external", "", "external"),
     ],
 )
 def test_values_for_people(number, unit, text):
