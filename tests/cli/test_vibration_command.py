@@ -19,20 +19,6 @@ NAMES = [
     *("residual_deg", "dynamic_factor", "windup_deg", "speeds_to_avoid_rpm", "avoid", "stations"),
     "warnings",
 ]
-    "spec",
-    "title",
-    "period_ratio",
-    "damping_ratio",
-    "natural_Hz",
-    "residual_share",
-    "residual_deg",
-    "dynamic_factor",
-    "windup_deg",
-    "speeds_to_avoid_rpm",
-    "avoid",
-    "stations",
-    "warnings",
-]
 
 
 def run(*words):
