@@ -29,7 +29,8 @@ DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
 
 def table_as(output: str, format: str) -> str:
     """The format of a table. Raises GenevaError for an unknown one."""
-    return _chosen(output, format, FORMATS)
+    name = format or ("table" if output == "-" else _named(output, ""))
+    return name if name in FORMATS else _chosen(output, format, FORMATS)
 
 
 def is_for_people(output: str, format: str) -> bool:
