@@ -55,12 +55,12 @@ class Known(Generic[K, T]):
         if result is None:
             result = self.compute(of)
         self._kept[of] = result
-        while len(self._kept) > KEPT:
-            del self._kept[next(iter(self._kept))]
+        for old in [*self._kept][:-KEPT]:  # another thread may have removed it
+            self._kept.pop(old, None)
         return result
 
     def put(self, of: K, later: Callable[[], T | None]) -> None:
         """Let ``later`` compute the result of a design; if it returns None, the function does."""
         self._later[of] = later
-        while len(self._later) > KEPT:
-            del self._later[next(iter(self._later))]
+        for old in [*self._later][:-KEPT]:
+            self._later.pop(old, None)
