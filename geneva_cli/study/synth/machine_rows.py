@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from geneva_cli.drives.crank import Crank
 from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
+from geneva_cli.motion.records import thing
 from geneva_cli.numerics.angles import omega
 from geneva_cli.study.batches import batch_machines, columns, numbers
 from geneva_cli.study.synth.families.family import Family, allows
-from geneva_cli.study.synth.suiting import with_one_roller, with_rollers
-from geneva_cli.study.target import Target
+from geneva_cli.study.synth.suiting import suiting, with_roller
+from geneva_cli.study.target import USUAL_RPM, Target
 
+# Entries of the table for parts that pass a full turn, and for parts that were not turned.
+YES = "yes"
+MAYBE = "maybe"
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 TIMES = ("motion_deg", "dwell_deg", "tau", "k", "motion_s", "dwell_s")
 # Keys of wheel and drive that only some machines have, and that describe a row.
@@ -98,23 +104,16 @@ def rows(
 
     The reasons against others are added to ``errors``.
     """
-    specs = [spec for spec, _ in machines]
-    sized = with_rollers(specs)
-    limits = target.soft_bounds
-    alone = [with_one_roller(spec) for spec in specs]
-    each = [*dict.fromkeys(alone)]
-    costs: dict[Spec, list[float]] = {}  # and R/L
-    for members, machine in batch_machines(each):
-        values = columns(machine, COSTS, len(members)) or []
-        ratio = np.broadcast_to(np.ravel(machine.ratio), (len(members),))
-        own = np.column_stack((*values, ratio)).tolist() if values else ()
-        costs.update(zip((each[i] for i in members.tolist()), own, strict=False))
+    specs, limits = [spec for spec, _ in machines], target.soft_bounds
+    # at the usual speed with one of its equal rollers a machine has the same peaks
+    alone = [s.replace(drive=s.drive.replace(n_rpm=USUAL_RPM, rollers=1)) for s in specs]
+    costs, sized = _costs_and_rollers(specs, alone)
     names = [*(f"timing.{name}" for name in TIMES), *(b.name for b in limits.values())]
     known = numbers(batch_machines(specs), names, len(specs)).T.tolist()
     out: list[MachineRow] = []
-    for i, (spec, family) in enumerate(machines):
-        one, own = costs.get(alone[i]), known[i]
-        if one is None or not np.isfinite([one[1], own[0]]).all():
+    for (spec, family), one, own, (radius, why) in zip(machines, alone, known, sized, strict=True):
+        cost = costs.get(one)
+        if cost is None or not np.isfinite([cost[1], own[0]]).all():
             try:
                 build(spec)
             except GenevaError as error:
@@ -125,12 +124,55 @@ def rows(
             continue
         held = zip(limits.items(), own[len(TIMES) :], strict=True)
         over = [key for (key, bound), x in held if not (np.isnan(x) or bound.kept(x))]
-        with_roller, entry = sized[i]
-        if over and entry and not entry.startswith("no"):
-            entry = f"no: {', '.join(over)}"
-        candidate = _candidate(target, spec, one, own, entry)
-        out.append(MachineRow(with_roller, candidate, (), family))
+        parts = MAYBE if spec.is_turned else None
+        if why or (over and parts):
+            parts = f"no: {why or ', '.join(over)}"
+        candidate = _candidate(target, spec, cost, own, parts)
+        out.append(MachineRow(with_roller(spec, radius), candidate, (), family))
     return out
+
+
+def _costs_and_rollers(
+    specs: Sequence[Spec], alone: Sequence[Spec]
+) -> tuple[dict[Spec, list[float]], list[tuple[float, str]]]:
+    """The costs and R/L of the machines ``alone``; the rollers that suit specs, and obstacles.
+
+    ``alone`` are the specs with one roller each. Both come from the same batches. A spec that makes
+    no machine has no costs.
+    """
+    # with the same slots and rollers' paths: plain cranks, whatever turns them
+    slots = [
+        one.replace(drive=Crank(n_rpm=USUAL_RPM)) if s.motion is None and s.drive.crank else one
+        for s, one in zip(specs, alone, strict=True)
+    ]
+    several: dict[Spec, dict[int, None]] = {}  # the numbers of rollers with such slots
+    for spec, one in zip(specs, slots, strict=True):
+        if spec.is_flat:
+            several.setdefault(one, {})[spec.drive.rollers] = None
+    costs: dict[Spec, list[float]] = {}
+    found: dict[tuple[Spec, int], tuple[float, str]] = {}
+    each = [*dict.fromkeys((*alone, *several))]
+    for members, machine in batch_machines(each):
+        own = [each[i] for i in members.tolist()]
+        if values := columns(machine, COSTS, len(own)):
+            ratio = np.broadcast_to(np.ravel(machine.ratio), (len(own),))
+            costs.update(zip(own, np.column_stack((*values, ratio)).tolist(), strict=True))
+        pairs = [(i, one, m) for i, one in enumerate(own) for m in several.get(one, ())]
+        if pairs:
+            which, own, counts = zip(*pairs, strict=True)
+            radii, why = suiting(machine, np.array(which), np.array(counts))
+            suited = zip(radii.tolist(), why, strict=True)
+            found.update(zip(zip(own, counts, strict=True), suited, strict=True))
+    out = []
+    for spec, one in zip(specs, slots, strict=True):
+        roller = found.get((one, spec.drive.rollers), (math.nan, ""))
+        if not spec.is_flat and spec.is_turned and (suits := thing(spec.wheel.NAME, "roller")):
+            try:
+                roller = suits(build(spec))
+            except GenevaError as error:
+                roller = math.nan, str(error)
+        out.append(roller)
+    return costs, out
 
 
 def _candidate(

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from itertools import chain
 from typing import NamedTuple
+
+import numpy as np
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.machine_spec import Spec
+from geneva_cli.motion.mechanism import build
 from geneva_cli.progress import tracked
+from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.load_limits import LIMITED
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synth.built import built
-from geneva_cli.study.synth.machine_rows import Candidate, MachineRow, rows
-from geneva_cli.study.synth.suiting import MAYBE, YES
+from geneva_cli.study.synth.machine_rows import MAYBE, YES, Candidate, MachineRow, rows
+from geneva_cli.study.synth.suiting import SPARE, USUAL, slot_paths, with_roller
 from geneva_cli.study.synth.synth_search import (
     TURNED,
     Ranking,
@@ -25,6 +29,8 @@ from geneva_cli.study.synth.synth_search import (
 )
 from geneva_cli.study.target import Target
 from geneva_cli.table import Table, rows_table
+from geneva_cli.verdict.checks import all_pass, checks, quick_first
+from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, applicable
 
 # keys of [limits] and what they bound
 _LIMITED = {
@@ -32,6 +38,9 @@ _LIMITED = {
     "pressure_angle_max_deg": "sizes.pressure_angle_max_deg",
     "product_acceleration_max_m_s2": "product.acceleration_m_s2.max",
 }
+# keys that conflict with a crank's bore
+SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
+UNSIZED = {*MOTION, *LIMITS} - {"undercut_mm"}  # checks that no other roller can mend
 NAMES = ("no", *Candidate._fields)
 HALVINGS = 5  # of the numbers between a machine that fails in its turn and the plain crank's
 
@@ -100,16 +109,20 @@ def _turned(ranking: Ranking, buildable: bool, row: MachineRow) -> MachineRow:
         return row._replace(spec=spec, candidate=row.candidate._replace(parts=entry))
 
     out, family = row if row.trouble else with_result(row), row.family
-    if not (buildable and out.trouble and family and family.is_free and len(family.plain) == 1):
+    if not (
+        buildable and out.trouble and family and family.is_free and not math.isnan(family.plain)
+    ):
         return out
-    (low,), (high,), (plain,) = family.low, family.high, family.plain
+    low, high, plain = family.low, family.high, family.plain
+    if math.isnan(plain):
+        return out
     is_high = abs(high - plain) > abs(low - plain)  # the end that is farther from the plain crank
     fails, passing = (high, max(low, plain)) if is_high else (low, min(high, plain))
     if not math.isnan(family.best):
         fails = family.best
     for _ in range(HALVINGS):
         middle = 0.5 * (fails + passing)
-        spec, own = family.at((middle,)), None
+        spec, own = family.at(middle), None
         for other in rows(ranking.target, [(spec, family)], []) if spec else ():
             try:
                 (kept,) = bounded(
@@ -123,6 +136,45 @@ def _turned(ranking: Ranking, buildable: bool, row: MachineRow) -> MachineRow:
         else:
             fails = middle
     return out
+
+
+def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
+    """The spec with sizes with which its parts pass every check in a full turn, and what fails.
+
+    The largest of the usual rollers that passes is taken: smaller ones fail less. ``fixed`` are
+    keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
+    """
+    machine = build(spec)
+    quick = chain(applicable(MOTION, machine), applicable(LIMITS, machine))
+    failing = [check.name for check in quick if check.passes is False]
+    if not {*failing} & UNSIZED:
+        failing = [check.name for check in checks(machine) if check.passes is False]
+    trouble = {*failing}
+    if not trouble or trouble & UNSIZED:
+        return spec, ", ".join(failing)
+    own = spec
+    if "crank_bore_mm" not in fixed and trouble & SHAFT:
+        own = spec.with_("size.crank_bore_mm", 0.0)  # the shaft ends in the arm
+        if all_pass(quick_first(build(own))):
+            return own, ""
+    if trouble <= SHAFT or "roller_radius_mm" in fixed:
+        return spec, ", ".join(failing)
+    L = machine.center_distance_mm
+    least = SPARE * float(slot_paths(machine).least[0]) if spec.is_flat else 0.0
+    if spec.drive.LOCKS and spec.size.lock_radius_mm is None:
+        least = max(least, wall_min(spec.size, L))  # a horn is no thicker than its roller's radius
+    most = machine.roller_radius_mm * (1.0 - 1e-9)
+    radii = [r for r in 0.01 * L * np.array(USUAL) if least <= r < most]
+    best = None
+    low, high = 0, len(radii)  # those from ``high`` on pass
+    while low < high:
+        middle = (low + high) // 2
+        other = with_roller(own, radii[middle])
+        if all_pass(quick_first(build(other))):
+            best, high = other, middle
+        else:
+            low = middle + 1
+    return (best, "") if best else (spec, ", ".join(failing))
 
 
 def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[MachineRow, str]:
