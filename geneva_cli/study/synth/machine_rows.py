@@ -13,6 +13,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.records import thing
+from geneva_cli.motion.timing import Timing, timing
 from geneva_cli.numerics.angles import omega
 from geneva_cli.study.batches import batch_machines, columns, numbers
 from geneva_cli.study.synth.families.family import Family, allows
@@ -108,26 +109,34 @@ def rows(
     # at the usual speed with one of its equal rollers a machine has the same peaks
     alone = [s.replace(drive=s.drive.replace(n_rpm=USUAL_RPM, rollers=1)) for s in specs]
     costs, sized = _costs_and_rollers(specs, alone)
-    names = [*(f"timing.{name}" for name in TIMES), *(b.name for b in limits.values())]
-    known = numbers(batch_machines(specs), names, len(specs)).T.tolist()
+    limited = numbers(batch_machines(specs), [b.name for b in limits.values()], len(specs))
     out: list[MachineRow] = []
-    for (spec, family), one, own, (radius, why) in zip(machines, alone, known, sized, strict=True):
-        cost = costs.get(one)
-        if cost is None or not np.isfinite([cost[1], own[0]]).all():
+    for i, ((spec, family), one, (radius, why)) in enumerate(
+        zip(machines, alone, sized, strict=True)
+    ):
+        cost, drive = costs.get(one), spec.drive
+        motion_deg, dwell_deg = math.nan, math.nan
+        if cost is not None:
+            *_, motion_deg, period, entry, end = cost
+            dwell_deg = period / drive.rollers + entry - end
+        if cost is None or not math.isfinite(cost[1]) or not dwell_deg > -1e-9:  # rounding
             try:
                 build(spec)
             except GenevaError as error:
                 errors.append(str(error))
             continue
-        motion = target.motion_for(spec.drive.rollers / spec.drive.turns)
-        if motion is not None and not allows(motion, own[0]):
+        motion = target.motion_for(drive.rollers / drive.turns)
+        if motion is not None and not allows(motion, motion_deg):
             continue
-        held = zip(limits.items(), own[len(TIMES) :], strict=True)
+        dwell_deg = dwell_deg if dwell_deg > 1e-9 else 0.0
+        index_deg = spec.wheel.index_deg(0)
+        times = timing(motion_deg, dwell_deg, index_deg, drive.n_rpm, None, drive.stop_s)
+        held = zip(limits.items(), limited[:, i].tolist(), strict=True)
         over = [key for (key, bound), x in held if not (np.isnan(x) or bound.kept(x))]
         parts = MAYBE if spec.is_turned else None
         if why or (over and parts):
             parts = f"no: {why or ', '.join(over)}"
-        candidate = _candidate(target, spec, cost, own, parts)
+        candidate = _candidate(target, spec, cost, times, parts)
         out.append(MachineRow(with_roller(spec, radius), candidate, (), family))
     return out
 
@@ -135,10 +144,10 @@ def rows(
 def _costs_and_rollers(
     specs: Sequence[Spec], alone: Sequence[Spec]
 ) -> tuple[dict[Spec, list[float]], list[tuple[float, str]]]:
-    """The costs and R/L of the machines ``alone``; the rollers that suit specs, and obstacles.
+    """The costs, R/L, motion, period and ends of the machines ``alone``; the rollers that suit.
 
-    ``alone`` are the specs with one roller each. Both come from the same batches. A spec that makes
-    no machine has no costs.
+    ``alone`` are the specs with one roller each. The rollers are those of specs, with obstacles.
+    Both come from the same batches. A spec that makes no machine has no costs.
     """
     # with the same slots and rollers' paths: plain cranks, whatever turns them
     slots = [
@@ -155,8 +164,11 @@ def _costs_and_rollers(
     for members, machine in batch_machines(each):
         own = [each[i] for i in members.tolist()]
         if values := columns(machine, COSTS, len(own)):
-            ratio = np.broadcast_to(np.ravel(machine.ratio), (len(own),))
-            costs.update(zip(own, np.column_stack((*values, ratio)).tolist(), strict=True))
+            (moved,) = machine.engagements
+            ends = moved.mid_deg + moved.entry_deg, moved.mid_deg + moved.exit_deg
+            more = machine.ratio, moved.motion_deg, machine.period_deg, *ends
+            table = np.broadcast_arrays(*values, *map(np.ravel, more))
+            costs.update(zip(own, np.column_stack(table).tolist(), strict=True))
         pairs = [(i, one, m) for i, one in enumerate(own) for m in several.get(one, ())]
         if pairs:
             which, own, counts = zip(*pairs, strict=True)
@@ -176,13 +188,12 @@ def _costs_and_rollers(
 
 
 def _candidate(
-    target: Target, spec: Spec, costs: list[float], times: list[float], parts: str | None
+    target: Target, spec: Spec, costs: list[float], times: Timing, parts: str | None
 ) -> Candidate:
     keys = spec.wheel.as_dict() | spec.drive.as_dict()
     own: dict[str, Any] = {name: keys.get(name) for name in OWN_KEYS}
     own["offset_mm"] = own["offset_mm"] or None
-    known = zip(TIMES, times, strict=False)
-    own |= {name: x if np.isfinite(x) or name == "k" else None for name, x in known}
+    own |= {name: getattr(times, name) for name in TIMES}
     own |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=False)}
     own |= dict.fromkeys(("n_rpm", "acceleration_max_rad_s2"))
     if target.timed:
@@ -198,7 +209,7 @@ def _candidate(
         drive=spec.drive.NAME,
         alpha0_deg=motion.alpha0_deg if motion else None,
         law=motion.law.NAME if motion else None,
-        ratio=costs[-1],
+        ratio=costs[len(COSTS)],
         parts=parts,
         **own,
     )

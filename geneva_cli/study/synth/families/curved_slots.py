@@ -110,17 +110,18 @@ class _LawLine(NamedTuple):
 def _longest(lines: Sequence[_LawLine]) -> list[float]:
     """The longest motion of each line with parts that can be built; NaN if none can."""
     low, high = np.array([own.free for own in lines]).T
-    every = np.arange(len(lines))
     able = _buildable(lines, high)
     found = np.where(able, high, math.nan)
-    is_tried = [not own.is_extra for own in lines]
-    left, top, step = every[~able & (low < high) & is_tried], high, (high - low) / PARTS
-    for _ in range(ROUNDS):
-        tried = top[left, None] - step[left, None] * np.arange(1, PARTS + 1)
-        each = [lines[i] for i in left.tolist() for _ in range(PARTS)]
+    is_tried = np.array([not own.is_extra for own in lines])
+    left, top, step = np.flatnonzero(~able & (low < high) & is_tried), high, (high - low) / PARTS
+    for number in range(ROUNDS):
+        count = PARTS - (number > 0)  # the end of a part that is divided again can be built
+        tried = top[left, None] - step[left, None] * np.arange(1, count + 1)
+        each = [lines[i] for i in left.tolist() for _ in range(count)]
         able = _buildable(each, tried.ravel()).reshape(tried.shape)
-        left, tried, able = (part[able.any(axis=1)] for part in (left, tried, able))
-        found[left] = tried[np.arange(len(left)), able.argmax(axis=1)]
+        some = able.any(axis=1)
+        found[left[some]] = tried[some, able[some].argmax(axis=1)]
+        left = left if number else left[some]
         top, step = found + step, step / PARTS
     longest: list[float] = found.tolist()
     return longest
