@@ -25,77 +25,40 @@ YES = "yes"
 MAYBE = "maybe"
 COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "power.max")
 TIMES = ("motion_deg", "dwell_deg", "tau", "k", "motion_s", "dwell_s")
-# Keys of wheel and drive that only some machines have, and that describe a row.
-OWN_KEYS = (
-    *("A", "eccentricity", "phase", "axes_deg", "offset_mm", "planet_ratio", "fixed"),
-    *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
-    *("sector_deg", "first_z"),
+# The cells of a row: its number from 1, the machine's keys as far as it has them, its costs
+# (invariants), its times in seconds if they are required, and whether its parts can be built; None
+# if they are not drawn.
+CELLS = (
+    *("no", "z", "gearing", "rollers", "drive", "A", "eccentricity", "phase", "axes_deg"),
+    "alpha0_deg",
+    *("law", "ratio", "motion_deg", "dwell_deg", "tau", "k", "velocity_max", "acceleration_max"),
+    *("acceleration_entry", "jerk_max", "power_max", "n_rpm", "acceleration_max_rad_s2", "parts"),
+    *("offset_mm", "planet_ratio", "fixed", "motion_s", "dwell_s", "crank_mm", "ground_mm"),
+    *("coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg", "sector_deg", "first_z"),
 )
 
 
-class Candidate(NamedTuple):
-    """One machine as a row: its description, costs (invariants), and whether it can be built."""
-
-    z: int
-    gearing: str
-    rollers: int
-    drive: str
-    A: float | None
-    eccentricity: float | None
-    phase: str | None
-    axes_deg: float | None
-    alpha0_deg: float | None
-    law: str | None
-    ratio: float
-    motion_deg: float
-    dwell_deg: float
-    tau: float
-    k: float
-    velocity_max: float
-    acceleration_max: float
-    acceleration_entry: float
-    jerk_max: float
-    power_max: float
-    n_rpm: float | None  # with a cycle time: the input speed, and the peak in rad/s²
-    acceleration_max_rad_s2: float | None
-    parts: str | None  # whether they can be built; None if they are not drawn
-    offset_mm: float | None
-    planet_ratio: float | str | None
-    fixed: str | None
-    motion_s: float | None  # with a cycle time
-    dwell_s: float | None
-    crank_mm: float | None  # a four-bar's keys
-    ground_mm: float | None
-    coupler_mm: float | None
-    rocker_mm: float | None
-    point_mm: float | None
-    point_deg: float | None
-    entry_deg: float | None
-    sector_deg: float | None
-    first_z: int | None
-
-    @property
-    def peak(self) -> float:
-        """The greatest acceleration, in rad/s² if the speed is required."""
-        per_s2 = self.acceleration_max_rad_s2
-        return self.acceleration_max if per_s2 is None else per_s2
-
-
 class MachineRow(NamedTuple):
-    """A machine: its spec, description and costs, and further requested quantities.
+    """A machine: its spec, cells by their names, and further requested quantities.
 
     ``family`` is that of which it is the best.
     """
 
     spec: Spec
-    candidate: Candidate
+    cells: dict[str, Any]
     extra: tuple[float | int | str | bool | None, ...] = ()
     family: Family | None = None
 
     @property
+    def peak(self) -> float:
+        """The greatest acceleration, in rad/s² if the speed is required."""
+        per_s2: float | None = self.cells["acceleration_max_rad_s2"]
+        return self.cells["acceleration_max"] if per_s2 is None else per_s2
+
+    @property
     def trouble(self) -> str:
         """The reason why its parts cannot be built; empty if none is known."""
-        return (self.candidate.parts or "").partition(": ")[2]
+        return (self.cells["parts"] or "").partition(": ")[2]
 
 
 def rows(
@@ -136,8 +99,8 @@ def rows(
         parts = MAYBE if spec.is_turned else None
         if why or (over and parts):
             parts = f"no: {why or ', '.join(over)}"
-        candidate = _candidate(target, spec, cost, times, parts)
-        out.append(MachineRow(with_roller(spec, radius), candidate, (), family))
+        cells = _cells(target, spec, cost, times, parts)
+        out.append(MachineRow(with_roller(spec, radius), cells, (), family))
     return out
 
 
@@ -187,29 +150,22 @@ def _costs_and_rollers(
     return costs, out
 
 
-def _candidate(
+def _cells(
     target: Target, spec: Spec, costs: list[float], times: Timing, parts: str | None
-) -> Candidate:
-    keys = spec.wheel.as_dict() | spec.drive.as_dict()
-    own: dict[str, Any] = {name: keys.get(name) for name in OWN_KEYS}
-    own["offset_mm"] = own["offset_mm"] or None
-    own |= {name: getattr(times, name) for name in TIMES}
-    own |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=False)}
-    own |= dict.fromkeys(("n_rpm", "acceleration_max_rad_s2"))
-    if target.timed:
-        n = spec.drive.n_rpm
-        own |= {"n_rpm": n, "acceleration_max_rad_s2": costs[1] * omega(n) ** 2}
-    else:
-        own |= {"motion_s": None, "dwell_s": None}
-    motion = spec.motion
-    return Candidate(
-        z=spec.wheel.z,
-        gearing=spec.wheel.NAME,
-        rollers=spec.drive.rollers,
-        drive=spec.drive.NAME,
-        alpha0_deg=motion.alpha0_deg if motion else None,
-        law=motion.law.NAME if motion else None,
-        ratio=costs[len(COSTS)],
-        parts=parts,
-        **own,
-    )
+) -> dict[str, Any]:
+    keys, motion, n = spec.wheel.as_dict() | spec.drive.as_dict(), spec.motion, spec.drive.n_rpm
+    cells: dict[str, Any] = {name: keys.get(name) for name in CELLS}
+    cells |= {name.replace(".", "_"): cost for name, cost in zip(COSTS, costs, strict=False)}
+    cells |= {name: getattr(times, name) for name in TIMES if target.timed or name[-2:] != "_s"}
+    return cells | {
+        "gearing": spec.wheel.NAME,
+        "rollers": spec.drive.rollers,
+        "drive": spec.drive.NAME,
+        "alpha0_deg": motion.alpha0_deg if motion else None,
+        "law": motion.law.NAME if motion else None,
+        "ratio": costs[len(COSTS)],
+        "n_rpm": n if target.timed else None,
+        "acceleration_max_rad_s2": costs[1] * omega(n) ** 2 if target.timed else None,
+        "parts": parts,
+        "offset_mm": cells["offset_mm"] or None,
+    }
