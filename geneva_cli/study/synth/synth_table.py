@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from contextlib import suppress
 from functools import partial
-from itertools import chain
 
 import numpy as np
 
@@ -29,8 +28,7 @@ from geneva_cli.study.synth.synth_search import (
 )
 from geneva_cli.study.target import Target
 from geneva_cli.table import Table, rows_table
-from geneva_cli.verdict.checks import all_pass, checks, quick_first
-from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, applicable
+from geneva_cli.verdict.checks import LIMITS, MOTION, all_pass, checks, every_check
 
 # keys of [limits] and what they bound
 _LIMITED = {
@@ -126,8 +124,7 @@ def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
     keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
     """
     machine = build(spec)
-    quick = chain(applicable(MOTION, machine), applicable(LIMITS, machine))
-    failing = [check.name for check in quick if check.passes is False]
+    failing = [check.name for check in checks(machine, parts=False) if check.passes is False]
     if not {*failing} & UNSIZED:
         failing = [check.name for check in checks(machine) if check.passes is False]
     trouble = {*failing}
@@ -136,7 +133,7 @@ def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
     own = spec
     if "crank_bore_mm" not in fixed and trouble & SHAFT:
         own = spec.with_("size.crank_bore_mm", 0.0)  # the shaft ends in the arm
-        if all_pass(quick_first(build(own))):
+        if all_pass(every_check(build(own), quick=True)):
             return own, ""
     if trouble <= SHAFT or "roller_radius_mm" in fixed:
         return spec, ", ".join(failing)
@@ -151,7 +148,7 @@ def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
     while low < high:
         middle = (low + high) // 2
         other = with_roller(own, radii[middle])
-        if all_pass(quick_first(build(other))):
+        if all_pass(every_check(build(other), quick=True)):
             best, high = other, middle
         else:
             low = middle + 1
