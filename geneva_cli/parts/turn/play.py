@@ -185,10 +185,8 @@ def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Arra
     gaps, close = parts.gaps, parts.close
     pose, held = gaps.pose(at), parts.assembly.geared(at)
     if not fits:  # parts that overlap from the start leave no play
-        clear = np.minimum(
-            gaps.locking(pose, near=close), gaps.rollers(pose, near=close).min(axis=1)
-        )
-        held |= clear < -close
+        held |= gaps.locking(pose, near=close) < -close
+        held |= (gaps.rollers(pose, near=close) < -close).any(axis=1)
     leads, pressures = gaps.stops.first(pose, math.radians(search_deg(parts)), close)
     leads[:, held] = pressures[:, held] = 0.0
     return leads, pressures
