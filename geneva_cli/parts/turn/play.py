@@ -77,42 +77,31 @@ def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
         # in the rest of a motion an odd number, so that mid-motion is one
         grid += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
     play = _play_at(parts, every, rising(np.concatenate(grid)), fits, least)
-    angle = _push_deg(play, lever, least)
-    # 9 rounds: 5**-9 of some degrees is a millionth
-    for _ in range(9):
+    left = 9  # rounds: 5**-9 of some degrees is a millionth
+    while True:
+        # Where the play shrinks as the crank turns, a roller at the mouth of its slot pushes the
+        # wheel's corner along their common normal. A play that ends abruptly means that a corner
+        # blocks: 90 degrees.
+        travel = 0.5 * (play.speed[1:] + play.speed[:-1]) * np.diff(play.input_deg)
+        free, pushes = ~(play.guided[:-1] | play.guided[1:]), np.zeros(len(travel))
+        for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
+            closing = lever * np.radians(-np.diff(edge))
+            # a rim that moves more than 30 times the roller's travel is not pushed by the roller
+            angle = np.where(closing > 30.0 * travel, 90.0, push[1:])
+            known = free & (np.radians(edge[:-1]) > least) & (closing > 0.0)
+            pushes = np.maximum(pushes, np.where(known, angle, 0.0))
         # where the play closes fastest, with the neighbours
-        top = np.argsort(-angle, kind="stable")[: MOST if angle.max() > 0.0 else 0]
+        top = np.argsort(-pushes, kind="stable")[: MOST if pushes.max() > 0.0 else 0]
         i = rising(np.concatenate((*_peaks(parts, play, lever, least), top - 1, top, top + 1)))
         i = i[(i >= 0) & (i < len(play.input_deg) - 1)]
         low, wide = play.input_deg[i], np.diff(play.input_deg)[i]
         cut = wide > 1e-6  # narrower intervals are not divided
         more = (low[cut, None] + wide[cut, None] * (np.arange(1, AROUND) / AROUND)).ravel()
-        if not len(more):
-            break
+        if not left or not len(more):
+            return play, pushes
+        left -= 1
         play = joined((play, _play_at(parts, every, more, fits, least)))
         play = record_taken(play, np.argsort(play.input_deg, kind="stable"))
-        angle = _push_deg(play, lever, least)
-    return play, angle
-
-
-def _push_deg(play: Play, lever: float, least: float) -> Array:
-    """Return the pressure angle, degrees, at which the wheel is pushed into line; 0 if it is not.
-
-    It belongs to the intervals between positions. Where the play shrinks as the crank turns, a
-    roller at the mouth of its slot pushes the wheel's corner along their common normal. A play that
-    ends abruptly means that a corner blocks: 90 degrees.
-    """
-    step = np.diff(play.input_deg)
-    moved = 0.5 * (play.speed[1:] + play.speed[:-1]) * step
-    free = ~(play.guided[:-1] | play.guided[1:])
-    pushes = np.zeros(len(step))
-    for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
-        closing = lever * np.radians(-np.diff(edge))
-        # a rim that moves more than 30 times the roller's travel is not pushed by the roller
-        angle = np.where(closing > 30.0 * moved, 90.0, push[1:])
-        known = np.radians(edge[:-1]) > least
-        pushes = np.maximum(pushes, np.where(free & known & (closing > 0.0), angle, 0.0))
-    return pushes
 
 
 def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, least: float) -> Play:
