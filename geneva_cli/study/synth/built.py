@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 from geneva_cli.study.synth.suiting import SPARE, USUAL, slot_paths, with_roller
 from geneva_cli.verdict.checks import LIMITS, MOTION, all_pass, applicable, checks, every_check
 

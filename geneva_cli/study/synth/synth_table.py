@@ -9,7 +9,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.progress import tracked
-from geneva_cli.spec.load_limits import LIMITED
+from geneva_cli.spec.tables import LIMITED
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint
