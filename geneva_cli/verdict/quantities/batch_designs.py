@@ -12,6 +12,7 @@ import numpy as np
 from geneva_cli.kept import Known, cached_property
 from geneva_cli.motion.batch import each_of
 from geneva_cli.motion.mechanism import Mechanism, build
+from geneva_cli.spec.tables import LIMITED, Limits
 
 if TYPE_CHECKING:
     from geneva_cli.loads.contact import LoadCase
