@@ -9,7 +9,7 @@ from drawing_witness import polygon
 from sampling import some
 from shapely import affinity
 
-from geneva_cli.parts.turn.play import search_deg, wheel_stops, windows
+from geneva_cli.parts.turn.play import wheel_stops, windows
 from geneva_cli.parts.turn.turn_certificate import certificate, intervals
 
 TO_MM = 1e-3
@@ -37,7 +37,7 @@ def check_first_contacts(parts, at_deg, looks=50):
 
     By gaps that are distances of points, not contacts, at some turns of the wheel up to each stop.
     """
-    pose, most = parts.gaps.pose(at_deg), math.radians(search_deg(parts))
+    pose, most = parts.gaps.pose(at_deg), parts.assembly.half_step
     apart = smallest_clearance(parts, pose, np.zeros(len(at_deg))) + parts.close >= 0.0
     many, share = parts.gaps.pose(np.tile(at_deg, looks)), np.linspace(0.0, 1.0, looks)[:, None]
     for way, free in zip((-1.0, 1.0), wheel_stops(parts, at_deg)[0], strict=True):

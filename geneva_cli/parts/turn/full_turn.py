@@ -20,7 +20,6 @@ from geneva_cli.parts.turn.play import (
     EXACT,
     Play,
     play_of,
-    search_deg,
     wheel_stops,
     windows,
 )
@@ -123,7 +122,7 @@ def full_turn(parts: TurnedParts) -> FullTurn:
             known.add(engagement)
             found, at_deg = _contact(parts, i, own)
             offset, contact_deg = (found, at_deg) if found > offset else (offset, contact_deg)
-    free_deg = search_deg(parts)
+    free_deg = math.degrees(assembly.half_step)
     return FullTurn(
         driving,
         idle,

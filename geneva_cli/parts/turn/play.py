@@ -7,7 +7,6 @@ wheel that is off by it must be pushed into line, not blocked.
 from __future__ import annotations
 
 import math
-from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -144,7 +143,9 @@ def _peaks(
     edges = np.array((play.back, play.back, play.on, play.on, both, both))
     where = np.array((play.guided, ~play.guided) * 3)
     above = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
-    value = np.where(where & (edges < search_deg(parts)) & (edges > above), edges, -1.0)
+    # beyond half a step the place is lost
+    known = where & (edges < math.degrees(parts.assembly.half_step)) & (edges > above)
+    value = np.where(known, edges, -1.0)
     padded = np.pad(value, ((0, 0), (1, 1)), constant_values=-1.0)
     # around a local maximum below 0.8 of the greatest no greater play is expected
     great = np.maximum(0.8 * value.max(axis=1, keepdims=True), 0.0)
@@ -154,15 +155,9 @@ def _peaks(
     top = top[np.arange(len(row)) - np.searchsorted(row, row) < MOST]
     ends = np.array((play.back, play.on))
     most = np.maximum(ends[:, :-1], ends[:, 1:]).min(axis=0)
-    known = max(held, both[play.guided].max(initial=0.0))
-    change = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > known))
+    floor = max(held, both[play.guided].max(initial=0.0))
+    change = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > floor))
     return top - 1, top, change[np.argsort(-most[change], kind="stable")][:MOST]
-
-
-def search_deg(parts: TurnedParts) -> float:
-    """Return the largest play that is searched for, half a step: beyond it the place is lost."""
-    steps = map(attrgetter("engagement.half_step"), parts.assembly.motions)
-    return math.degrees(min(steps))
 
 
 def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Array, Array]:
@@ -176,6 +171,6 @@ def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Arra
     if not fits:  # parts that overlap from the start leave no play
         held |= gaps.locking(pose, near=close) < -close
         held |= (gaps.rollers(pose, near=close) < -close).any(axis=1)
-    leads, pressures = gaps.stops.first(pose, math.radians(search_deg(parts)), close)
+    leads, pressures = gaps.stops.first(pose, parts.assembly.half_step, close)
     leads[:, held] = pressures[:, held] = 0.0
     return leads, pressures
