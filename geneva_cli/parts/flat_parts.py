@@ -80,7 +80,8 @@ class FlatParts(EdgedParts):
     @property
     def built(self) -> Self:
         """These parts. Raises GenevaError where the sizes leave no wheel or no crank."""
-        _ = self.drawn
+        if self.mechanism.spec.is_flat:
+            _ = self._shape
         return self
 
     def past_mouth(self, motion: int, at: Array) -> Array:
@@ -178,13 +179,9 @@ class FlatParts(EdgedParts):
             centres = tuple(at for link, at in roller_pins(mechanism) if link.plane == 1)
         out = []
         for centre in centres:
-            out += [Member(plate, centre) for plate in plates]
+            for plate in plates:
+                out.append(Member(plate, centre))
         return tuple(out)
-
-    @cached_property
-    def crank_hub(self) -> Plate | None:
-        """The crank's hub above the disc or the arm, if the spec has one."""
-        return crank_hub(self.outlines)
 
     @property
     def horn_mm(self) -> float | None:
@@ -213,7 +210,7 @@ class FlatParts(EdgedParts):
         for plate in (*self.locking, arm):
             members += [Member(plate)] if plate else []
         members += self.rollers
-        if hub := self.crank_hub:
+        if hub := crank_hub(self.outlines):
             members.append(Member(hub))
         turn = float(assembly.crank(np.zeros(1))[0])
         return Member(Group("crank", tuple(members)), (assembly.L, 0.0), turn)
@@ -373,7 +370,7 @@ class FlatParts(EdgedParts):
             yield "locking disc", lambda: each * self.locking
             yield "arm", lambda: each * [self.arm_plate] if self.arm_plate else []
             yield "rollers", lambda: each * [one.part for one in self.rollers]
-            yield "crank's hub", lambda: each * [self.crank_hub] if self.crank_hub else []
+            yield "crank's hub", lambda: each * [hub] if (hub := crank_hub(self.outlines)) else []
         yield "links", lambda: [one.part for one in self.linked]
         yield "gears", lambda: [one.part for one in (*self.round_gears, *self.gear_pair)]
         yield "first wheel", lambda: [one.part for one in self.first]

@@ -58,7 +58,7 @@ def framed(
     top = _lowest(mechanism, outlines, bars, base, first) - size.washer_mm
     thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
     own = _all_shafts(mechanism, outlines, bars, top - thick, first)
-    bridge, hanging = None, list[Shaft]()
+    bridge, unborne = None, list[tuple[str, str]]()
     for k, shaft in enumerate(own):
         if not shaft.turns or shaft.low < top:
             continue
@@ -67,7 +67,7 @@ def framed(
             if bridge:
                 own[k] = shaft._replace(high=bridge.high)
                 continue
-        hanging.append(shaft)
+        unborne.append((shaft.name, _why_above(shaft, mechanism, bars, top)))
     axles = [one.member for one in own]
     standing, holes = _standing(mechanism, bars), list[Circle]()
     for at in standing:
@@ -101,7 +101,7 @@ def framed(
         tuple(spacers),
         tuple((hole, part.name) for hole, part in screwed),
         Member(bridge, (L, 0.0)) if bridge else None,
-        tuple((one.name, _why_above(one, mechanism, bars, top)) for one in hanging),
+        tuple(unborne),
     )
 
 

@@ -19,8 +19,8 @@ from geneva_cli.geometry.shapes import Arc
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
-from geneva_cli.parts.outlines.crank_outline import arc_floor, lock_of, reliefs, widened
-from geneva_cli.parts.outlines.cut_outlines import cut_arcs, drawn
+from geneva_cli.parts.outlines.crank_outline import arc_floor, reliefs, widened
+from geneva_cli.parts.outlines.cut_outlines import cut_arcs, cut_lock, drawn
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.slots.roller_paths import horn_corners
 from geneva_cli.spec.tables import Size
@@ -209,4 +209,4 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
         reach = off + sizes.relief / sizes.lock if one.motion in passed else one.half
         assert wide[one.motion].half == pytest.approx(reach, abs=math.radians(0.02))
     cut = [arc.sweep for arc in cut_arcs(parts.crank, sizes.lock, 0.0, 1e-6)]
-    assert lock_of(assembly, sizes).half == pytest.approx(0.5 * min(map(abs, cut)), rel=1e-12)
+    assert cut_lock(assembly, sizes).half == pytest.approx(0.5 * min(map(abs, cut)), rel=1e-12)

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from functools import cache, partial
-from itertools import chain, combinations
 from operator import attrgetter
 from typing import NamedTuple, TypeAlias
 
@@ -28,14 +27,13 @@ from geneva_cli.geometry.shapes import (
     closed,
     polar,
 )
-from geneva_cli.loads.tolerance.locking import Lock, loosest
 from geneva_cli.motion.engagement import Engagement
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.sizes import Sizes, reach_and_hub
-from geneva_cli.parts.slots.roller_paths import horn_corners, roller_centres
+from geneva_cli.parts.slots.roller_paths import horn_corners
 
 # radii of the corners of each kind of slot's mouth at entry and exit, mm
 Mouths: TypeAlias = Mapping[Engagement, tuple[float, float]]
@@ -148,25 +146,6 @@ def keyway_direction(assembly: Assembly) -> float:
     return 0.5 * (start + end)
 
 
-def lock_of(where: Assembly, size: Sizes, cut: Iterable[float] = ()) -> Lock:
-    """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
-    mouths = horn_corners(where, size.roller, size.half_width, size.recess, size.rim, size.horn_tip)
-    # arcs end where the motions do
-    arcs = not is_whole(where, size) or where.mechanism.spec.size.relief == "arc"
-    halves = [*cut]
-    for start, end in sectors(reliefs(where) if arcs else widened(where, size, mouths)):
-        halves.append(0.5 * (end - start))
-    edge, corners = where.full.spec.size.lock_edge_mm or 0.0, [*chain(*mouths.values())]
-    first = corners[0] if size.horn_tip else size.rim
-    half = min(halves, default=math.nan)
-    lock = Lock(where.L, where.sign, size.lock, size.recess, first, half, edge)
-    if max(corners) - min(corners) < SAME_LENGTH * where.L:
-        return lock
-    near, far = abs(where.L - size.recess), where.L + size.recess
-    tried = [lock._replace(corner=r) for r in sorted(corners) if near < r < far]
-    return loosest(tried) if tried else lock
-
-
 # points of the wheel inside the disc in one motion: x and y in the crank's frame
 Swept: TypeAlias = Callable[[int], tuple[Array, Array]]
 
@@ -240,14 +219,6 @@ def crank_bore(assembly: Assembly, sizes: Sizes) -> tuple[Shape, ...]:
         return ()
     own = bore_of(assembly.mechanism.spec.size, "crank", sizes.crank_bore)
     return (own.shape("BORE", keyway_direction(assembly)),)
-
-
-def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
-    """Return the gap of the rollers that start and stop the wheel, mm; None if they are one."""
-    if len(assembly.rollers) == len(assembly.motions):
-        return None
-    pairs = combinations(roller_centres(assembly), 2)
-    return min(math.dist(one, other) for one, other in pairs) - 2.0 * sizes.roller
 
 
 def _rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list[Contour]:

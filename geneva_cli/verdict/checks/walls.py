@@ -20,9 +20,10 @@ from geneva_cli.loads.carried import farthest_mm
 from geneva_cli.motion.pitch_curve import opposites
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.outlines.crank_outline import is_whole, rollers_gap
+from geneva_cli.parts.outlines.crank_outline import is_whole
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
 from geneva_cli.parts.shafts.bores import has_shape
+from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import roller_centres
 from geneva_cli.verdict.checks.check import Check, compared
@@ -51,8 +52,12 @@ def between_slots(name: str, parts: FlatParts) -> Check:
 
 def rollers_apart(name: str, parts: FlatParts) -> Check | None:
     """The gap between the roller that starts the wheel and the one that stops it, on one crank."""
-    gap = rollers_gap(parts.outlines.assembly, parts.outlines.sizes)
-    return None if gap is None else compared(name, gap, "at least", 0.0)
+    assembly, near = parts.outlines.assembly, math.inf
+    if len(assembly.rollers) == len(assembly.motions):
+        return None
+    for one, other in combinations(roller_centres(assembly), 2):
+        near = min(near, math.dist(one, other))
+    return compared(name, near - 2.0 * parts.outlines.sizes.roller, "at least", 0.0)
 
 
 def horn(name: str, parts: FlatParts) -> Check | None:
@@ -95,7 +100,7 @@ def crank_bore(name: str, parts: FlatParts) -> Check | None:
         - parts.mechanism.spec.size.allowances.around_shaft_mm
     )
     in_hub = size.crank_hub - size.crank_reach
-    return _wall(name, min(wall, in_hub) if parts.crank_hub else wall, size)
+    return _wall(name, min(wall, in_hub) if crank_hub(outlines) else wall, size)
 
 
 def _wall(name: str, value: float, sizes: Sizes) -> Check:
