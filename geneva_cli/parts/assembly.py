@@ -86,11 +86,6 @@ class Assembly(NamedTuple):
         x, y = engagement.path(at, 0)
         return self.L * np.column_stack((x.c[0] + 0.0 * at, y.c[0] + 0.0 * at))
 
-    def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel, turned on by ``lead`` radians."""
-        turn = self.wheel(input_deg) + lead
-        return self.plane_motion.into(self.pin(motion, input_deg, drives=True), turn)
-
     def geared(self, input_deg: Array) -> Mask:
         """Return a mask (n,) of the input angles at which gears drive the wheel, not a roller."""
         mask = np.zeros(len(input_deg), dtype=bool)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, NoReturn, Self, cast
+from typing import TYPE_CHECKING, NoReturn, Self
 
 import numpy as np
 
@@ -42,8 +42,7 @@ from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
 
 if TYPE_CHECKING:
     from geneva_cli.parts.projection import NamedParts
-    from geneva_cli.parts.turn.bounds import FlatPairs
-    from geneva_cli.parts.turn.gaps import Gaps
+    from geneva_cli.parts.turn.turn_certificate import FlatPairs
 
 
 class FlatParts(EdgedParts):
@@ -98,9 +97,9 @@ class FlatParts(EdgedParts):
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
         from geneva_cli.geometry.distance import farthest
-        from geneva_cli.parts.turn.bounds import FlatPairs
+        from geneva_cli.parts.turn.turn_certificate import FlatPairs
 
-        gaps, axis = cast("Gaps", self.outlines.gaps), np.zeros((1, 2))
+        gaps, axis = self.outlines.gaps, np.zeros((1, 2))
         outside = self.assembly.sign > 0.0
         rim = float(farthest(gaps.wheel, 0.0, 0.0).max() if outside else gaps.wheel.signed(axis)[0])
         return FlatPairs(gaps, self.outlines.crank, target, rim)
@@ -327,18 +326,14 @@ class FlatParts(EdgedParts):
     @property
     def screws(self) -> tuple[Screws, ...]:
         """The screws of dial, locking disc, and what is fixed to the frame."""
-        framed, drawn = self._framed.screws, self.drawn
-        if not drawn:
-            return framed
-        holes = {"dial": (dial_circle(drawn.assembly, drawn.sizes).holes, "the dial")}
-        if self.locking:
-            holes[self.locking[0].name] = bolts(drawn), "the arm"
-        own = (
-            Screws(fixed, len(some), 2.0 * some[0].radius, thread)
-            for fixed, (some, thread) in holes.items()
-            if some
-        )
-        return (*own, *framed)
+        own, drawn = list[Screws](), self.drawn
+        if drawn:
+            dial, locking = dial_circle(drawn.assembly, drawn.sizes).holes, self.locking
+            if dial:
+                own.append(Screws("dial", len(dial), 2.0 * dial[0].radius, "the dial"))
+            if locking and (some := bolts(drawn)):
+                own.append(Screws(locking[0].name, len(some), 2.0 * some[0].radius, "the arm"))
+        return (*own, *self._framed.screws)
 
     @property
     def required(self) -> tuple[Member, ...]:

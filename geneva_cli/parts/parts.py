@@ -18,7 +18,7 @@ from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import named, parts_class, thing
 from geneva_cli.parts.assembly import input_of
 from geneva_cli.parts.shafts.screws import Screws, tapped
-from geneva_cli.parts.turn.pairs import TurnedParts, WorkLimit
+from geneva_cli.parts.turn.turned_parts import TurnedParts, WorkLimit
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.fit import Writer

@@ -29,7 +29,7 @@ from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import horn_corners
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.pairs import Pose
+from geneva_cli.parts.turn.stops import Pose
 
 SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relief must clear
 

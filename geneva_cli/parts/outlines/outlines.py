@@ -14,7 +14,7 @@ from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.shafts.bores import bore_of, has_shape
 from geneva_cli.parts.shafts.screws import BoltCircle, bolt_circle
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.turn.pairs import Clearances
+from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.spec.tables import Size
 
 
@@ -32,7 +32,7 @@ class Outlines(NamedTuple):
     wheel: Contour
     crank: list[Contour]
     relief: str
-    gaps: Clearances
+    gaps: Gaps
     close: float
 
     @property

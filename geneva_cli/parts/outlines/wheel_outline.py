@@ -32,7 +32,7 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import Tip, corner, least_mouth, mouth, rest, rounded, tip
-from geneva_cli.parts.turn.pairs import CONTACT
+from geneva_cli.parts.turn.turned_parts import CONTACT
 
 CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
 
