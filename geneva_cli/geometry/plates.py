@@ -11,7 +11,7 @@ import numpy as np
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import S, mapped, turned
 from geneva_cli.geometry.moments import Moments, moments, total, with_material_left
-from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point, Shape
+from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point, Shape, as_contour
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.sphere import Region, Rotation, Vector
@@ -188,27 +188,26 @@ def face(plate: Plate) -> Moments:
 
 
 def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
-    """Return the least wall between holes, and to an outline; negative where they overlap."""
-    least = math.inf
-    whole = Polyarc([with_material_left(one, True) for one in outline]) if outline else None
+    """Return the least wall between holes, and to an outline; negative where they overlap.
+
+    The outline has its material on the left.
+    """
+    whole, least = Polyarc(map(as_contour, outline)) if outline else None, math.inf
     for i, hole in enumerate(holes):
         for other in holes[:i]:
             least = min(least, apart(other, hole))
-        if whole:
-            least = min(least, -beyond(whole, hole))
+        if whole is None:
+            continue
+        if isinstance(hole, Circle):
+            least = min(least, -float(whole.signed(np.array([hole.centre]))[0]) - hole.radius)
+        else:
+            least = min(least, -float(whole.signed(Polyarc([hole]).samples(*SAMPLED)).max()))
     return least
 
 
 def plate_wall(plate: Plate) -> float:
     """Return the least wall between the holes of a plate, and around them."""
     return least_wall(plate.holes, [plate.outline])
-
-
-def beyond(outline: Polyarc, hole: Shape) -> float:
-    """Return how far a hole's edge reaches past an outline, mm; negative inside."""
-    if isinstance(hole, Circle):
-        return float(outline.signed(np.array([hole.centre]))[0]) + hole.radius
-    return float(outline.signed(Polyarc([hole]).samples(*SAMPLED)).max())
 
 
 def apart(one: Shape, two: Shape) -> float:

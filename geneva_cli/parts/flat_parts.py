@@ -22,7 +22,6 @@ from geneva_cli.motion.records import thing
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.arm import (
     CrankArm,
-    arm_plate,
     bolts,
     crank_arm,
     locking_plates,
@@ -37,7 +36,7 @@ from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
 from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.shafts.shaft import crank_hub
-from geneva_cli.parts.sizes import Sizes, drawn_thicknesses, pin_radius
+from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
 
 if TYPE_CHECKING:
@@ -60,11 +59,6 @@ class FlatParts(EdgedParts):
     def outlines(self) -> Outlines:
         """The outlines of wheel and crank; raises GenevaError for a wheel that is not drawn."""
         return self._shape
-
-    @property
-    def sizes(self) -> Sizes:
-        """The lengths of the parts."""
-        return self._shape.sizes
 
     @property
     def close(self) -> float:
@@ -106,7 +100,7 @@ class FlatParts(EdgedParts):
 
     def _has_sizes_of(self, mechanism: Mechanism) -> bool:
         try:
-            return machine_sizes(mechanism)[1] == self.sizes
+            return machine_sizes(mechanism)[1] == self.outlines.sizes
         except GenevaError:
             return False
 
@@ -150,8 +144,12 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def arm_plate(self) -> Plate | None:
-        """The crank arm as a plate."""
-        return arm_plate(self.outlines, self.arm) if self.arm else None
+        """The crank arm as a plate below the wheel, at a distance of ``pin_gap_mm``."""
+        arm, high = self.arm, -self.mechanism.spec.size.allowances.pin_gap_mm
+        if arm is None:
+            return None
+        low, holes = high - self.outlines.sizes.arm_thickness, (arm.bore, *arm.pins, *arm.bolts)
+        return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
 
     @cached_property
     def locking(self) -> tuple[Plate, ...]:
@@ -185,11 +183,11 @@ class FlatParts(EdgedParts):
     @property
     def horn_mm(self) -> float | None:
         """Thickness of the horns between slots and recesses; None without a lock."""
-        return self.sizes.horn if self.outlines.crank else None
+        return self.outlines.sizes.horn if self.outlines.crank else None
 
     def axle_radius(self, part: str) -> float:
         """Return the radius of a part's shaft, or of its hub if the spec has one, mm; 0 if none."""
-        sizes = self.sizes
+        sizes = self.outlines.sizes
         bore = sizes.wheel_bore if part == "wheel" else sizes.crank_bore
         hub = sizes.wheel_hub if part == "wheel" else sizes.crank_hub
         return max(bore, hub) if self.mechanism.spec.size.has_hub(part) else bore

@@ -70,17 +70,13 @@ def framed(
         unborne.append((shaft.name, _why_above(shaft, mechanism, bars, top)))
     axles = [one.member for one in own]
     standing, holes = _standing(mechanism, bars), list[Circle]()
-    for at in standing:
+    for at, diameter_mm in standing.items():
         here = [axle._replace(at=at) for axle in axles if same(axle.at, at, L)]
-        holes += shaft_holes(size, here, top)
-        if not here:
-            table = mechanism.spec.shaft
-            on_crank = at in [one.at for one in mechanism.crank_places]
-            diameter = table.crank_diameter_mm if on_crank else table.wheel_diameter_mm
-            holes.append(hole_without_shaft(diameter, at, L))
-    screwed, spacers = _screwed(bars, (base, bridge), L), list[Member]()
-    for hole, part in screwed:
+        holes += shaft_holes(size, here, top) if here else [hole_without_shaft(diameter_mm, at, L)]
+    screwed, spacers = list[tuple[Circle, str]](), list[Member]()
+    for hole, part in _screwed(bars, (base, bridge), L):
         holes.append(tapped(hole))
+        screwed.append((hole, part.name))
         if part.low - top > SAME_LENGTH * L:
             # a ring twice as wide, turned from a rod: often it is higher than wide
             ring, bore = Circle("SHAFT", ORIGIN, 2.0 * hole.radius), hole._replace(centre=ORIGIN)
@@ -93,13 +89,15 @@ def framed(
         plate = Plate("carrier", "FRAME", outline, tuple(holes), top - thick, top)
     else:
         # a frame contains every axis, drilled or not
-        within = [*holes, *(Circle("BORE", at, 0.0) for at in (ORIGIN, *standing))]
+        within = [*holes, Circle("BORE", ORIGIN, 0.0)]
+        for at in standing:
+            within.append(Circle("BORE", at, 0.0))
         plate = mounted_plate(holes, within, eye, (top - thick, top))
     return FrameAndShafts(
         plate,
         tuple(outside_links(axles, bars, L)),
         tuple(spacers),
-        tuple((hole, part.name) for hole, part in screwed),
+        tuple(screwed),
         Member(bridge, (L, 0.0)) if bridge else None,
         tuple(unborne),
     )
@@ -132,20 +130,25 @@ def _lowest(
     return min(lows)
 
 
-def _standing(mechanism: Mechanism, bars: Links) -> list[Point]:
-    """Return the positions of shafts, each once: of the wheels, the crank, and its drive.
+def _standing(mechanism: Mechanism, bars: Links) -> dict[Point, float | None]:
+    """Return the positions of shafts, of the wheels, the crank, and its drive, each once.
 
-    An internal wheel is open in the middle, where its crank turns below it. It is held from above.
+    With each is the diameter that the spec gives its shaft. An internal wheel is open in the
+    middle, where its crank turns below it. It is held from above.
     """
-    wheels = mechanism.wheel_places if mechanism.spec.wheel.SIGN > 0.0 else ()
-    standing = [one.at for one in (*wheels, *mechanism.crank_places)]
+    standing, shaft = dict[Point, float | None](), mechanism.spec.shaft
+    for place in mechanism.wheel_places if mechanism.spec.wheel.SIGN > 0.0 else ():
+        standing[place.at] = shaft.wheel_diameter_mm
+    for place in mechanism.crank_places:
+        standing[place.at] = shaft.crank_diameter_mm
     if mechanism.spec.gears:
-        standing.append((mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0))
+        driver = mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0
+        standing[driver] = shaft.wheel_diameter_mm
     for axis in bars.axes:
         if axis.stands and not any(
             same(axis.at, one, mechanism.center_distance_mm) for one in standing
         ):
-            standing.append(axis.at)
+            standing[axis.at] = shaft.wheel_diameter_mm
     return standing
 
 
@@ -224,7 +227,7 @@ def _all_shafts(
     L, stop, out = mechanism.center_distance_mm, None, list[Shaft]()
     known: list[Point] = []  # axes whose shafts carry wheel or crank
     if outlines:
-        stop = crank_stop(outlines, bars)
+        stop = crank_stop(outlines, bars) if bars.sizes else None
         known += [(L, 0.0)] if crank_shaft_radius(outlines) > 0.0 else []
         known += [ORIGIN] if wheel_shaft_radius(outlines) > 0.0 else []
         half = mechanism.engagements[0].half_step

@@ -139,7 +139,7 @@ def test_keyways_of_a_shaft():
     circle's strip of width b beyond that.
     """
     size = Size(wheel_keyway="DIN 6885-1", wheel_bore_mm=20.0)
-    section = bore_of(size, "wheel", 10.0).section("SHAFT", 0.3)
+    section = bore_of(size, "wheel", 10.0).shape("SHAFT", 0.3, shaft=True)
     strip = 3.0 * math.sqrt(91.0) + 100.0 * math.asin(0.3)
     cut = strip - 6.0 * (10.0 - 3.5)
     assert moments(section).area == pytest.approx(100.0 * math.pi - cut, rel=1e-12)

@@ -11,7 +11,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import turned
-from geneva_cli.geometry.plates import apart, beyond, plate_wall
+from geneva_cli.geometry.plates import least_wall, plate_wall
 from geneva_cli.geometry.shapes import Arc, Circle, Line, Segment, backwards, closed
 from geneva_cli.loads.carried import farthest_mm
 from geneva_cli.motion.mechanism import Mechanism
@@ -85,15 +85,13 @@ def _between_slots(outlines: Outlines) -> float:
 def _dial_wall(outlines: Outlines) -> float:
     """The least wall around the bore with its keyway and around the dial's bolts."""
     inside = outlines.assembly.sign < 0.0  # the contour is that of the opening
-    edge = Polyarc([backwards(outlines.wheel) if inside else outlines.wheel])
     holes = wheel_holes(outlines.assembly, outlines.sizes)
-    found = [-beyond(edge, hole) for hole in holes]
-    found += [apart(one, two) for one, two in combinations(holes, 2)]
+    least = least_wall(holes, [backwards(outlines.wheel) if inside else outlines.wheel])
     for hole in holes if inside else ():
         assert isinstance(hole, Circle)  # an internal wheel has no bore
         x, y = hole.centre
-        found.append(outlines.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
-    return min(found)
+        least = min(least, outlines.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
+    return least
 
 
 def clearances(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
