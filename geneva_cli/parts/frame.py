@@ -58,17 +58,16 @@ def framed(
     top = _lowest(mechanism, outlines, bars, base, first) - size.washer_mm
     thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
     own = _all_shafts(mechanism, outlines, bars, top - thick, first)
-    bridge, unborne = None, list[tuple[str, str]]()
-    for k, shaft in enumerate(own):
-        if not shaft.turns or shaft.low < top:
-            continue
-        if outlines and not bridge and same(shaft.at, mechanism.crank_shaft.at, L):
+    bridge, unborne, axles = None, list[tuple[str, str]](), list[Member]()
+    for shaft in own:
+        borne = not shaft.turns or shaft.low < top
+        if outlines and not (borne or bridge) and same(shaft.at, mechanism.crank_shaft.at, L):
             bridge = _bridge(mechanism, outlines, bars, shaft, thick)
-            if bridge:
-                own[k] = shaft._replace(high=bridge.high)
-                continue
-        unborne.append((shaft.name, _why_above(shaft, mechanism, bars, top)))
-    axles = [one.member for one in own]
+            borne, high = bool(bridge), bridge.high if bridge else shaft.high
+            shaft = shaft._replace(high=high)
+        if not borne:
+            unborne.append((shaft.name, _why_above(shaft, mechanism, bars, top)))
+        axles.append(shaft.member)
     standing, holes = _standing(mechanism, bars), list[Circle]()
     for at, diameter_mm in standing.items():
         here = [axle._replace(at=at) for axle in axles if same(axle.at, at, L)]

@@ -19,7 +19,7 @@ from shapely.geometry import LineString, Point, Polygon
 from words import LAWS, Drive, Motion, Spec, Wheel
 
 from geneva_cli.geometry.measure import turned as turn
-from geneva_cli.geometry.moments import moments
+from geneva_cli.geometry.plates import moments
 from geneva_cli.geometry.shapes import Arc, Contour
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion as Given

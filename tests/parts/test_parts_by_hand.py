@@ -13,8 +13,7 @@ from geneva_cli import Design, External
 from geneva_cli.drawings.sheet.crank_views import draw_arm, draw_disc, draw_link
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel_views import draw_wheel
-from geneva_cli.geometry.moments import moments
-from geneva_cli.geometry.plates import plates
+from geneva_cli.geometry.plates import moments, plates
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.links.links import drawn_links
