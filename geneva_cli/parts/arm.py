@@ -158,22 +158,6 @@ def walls(arm: CrankArm, parts: Outlines) -> float:
     )
 
 
-def locking_plates(parts: Outlines) -> list[Plate]:
-    """Return the crank's locking disc, or its sectors, with bolts and bore."""
-    assembly, sizes = parts.assembly, parts.sizes
-    low = -assembly.mechanism.spec.size.allowances.pin_gap_mm  # the disc stands on the arm
-    high = low + sizes.lock_thickness
-    whole, screwed = is_whole(assembly, sizes), bolts(parts)
-    bore = crank_bore(assembly, sizes) if whole else ()
-    each = len(screwed) // max(1, len(parts.crank))
-    name = "locking disc" if whole else "locking sector"
-    out = []
-    for k, contour in enumerate(parts.crank):
-        holes = (*bore, *screwed[k * each : (k + 1) * each])
-        out.append(Plate(name, contour.layer, contour, holes, low, high))
-    return out
-
-
 def roller_plates(
     radius: float, pin_radius: float, low: float, high: float, fit: float
 ) -> list[Plate]:

@@ -24,12 +24,12 @@ from geneva_cli.parts.arm import (
     CrankArm,
     bolts,
     crank_arm,
-    locking_plates,
     roller_plates,
 )
 from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
+from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
@@ -153,8 +153,17 @@ class FlatParts(EdgedParts):
 
     @cached_property
     def locking(self) -> tuple[Plate, ...]:
-        """The locking disc, or its sectors."""
-        return tuple(locking_plates(self.outlines))
+        """The locking disc, or its sectors, with bolts and bore."""
+        parts, screwed = self.outlines, bolts(self.outlines)
+        whole = is_whole(parts.assembly, parts.sizes)
+        low = -self.mechanism.spec.size.allowances.pin_gap_mm  # it stands on the arm
+        high, name = low + parts.sizes.lock_thickness, "locking disc" if whole else "locking sector"
+        bore = crank_bore(parts.assembly, parts.sizes) if whole else ()
+        each, plates = len(screwed) // max(1, len(parts.crank)), list[Plate]()
+        for k, contour in enumerate(parts.crank):
+            holes = (*bore, *screwed[k * each : (k + 1) * each])
+            plates.append(Plate(name, contour.layer, contour, holes, low, high))
+        return tuple(plates)
 
     @cached_property
     def rollers(self) -> tuple[Member, ...]:
@@ -250,7 +259,7 @@ class FlatParts(EdgedParts):
         low, high = self.links.sizes.span(2)
         # at mid-motion the first slot of the first wheel's frame points at the first crank
         wheel = wheel_plate(first.assembly, first.sizes, first.wheel), L, 0.0
-        discs = ((plate, L + first.assembly.L, math.pi) for plate in locking_plates(first))
+        discs = ((plate, L + first.assembly.L, math.pi) for plate in self.front.locking)
         return tuple(
             Member(plate._replace(name=f"first {plate.name}", low=low, high=high), (x, 0.0), turn)
             for plate, x, turn in (wheel, *discs)

@@ -199,13 +199,13 @@ def test_a_relief_is_as_wide_as_the_wheel_reaches(wheel, passed):
     parts = drawn(*machine_sizes(Design(wheel, size=Size(100.0, 4.0)).mechanism))
     assembly, sizes = parts.assembly, parts.sizes
     mouths = horn_corners(assembly, sizes.roller, 0.0, sizes.recess, sizes.rim)
-    wide = {one.motion: one for one in widened(assembly, sizes, mouths)}
-    for one in reliefs(assembly):
-        middle = 0.5 * (one.start + one.end)
-        x, y = parts.gaps.swept(one.motion, 0.002)
+    wide = {motion: end - start for start, end, motion in widened(assembly, sizes, mouths)}
+    for start, end, motion in reliefs(assembly):
+        middle, half = 0.5 * (start + end), 0.5 * (end - start)
+        x, y = parts.gaps.swept(motion, 0.002)
         off = np.abs(np.remainder(np.arctan2(y, x) - middle + math.pi, math.tau) - math.pi).max()
-        assert (off > one.half + 1e-6) == (one.motion in passed)
-        reach = off + sizes.relief / sizes.lock if one.motion in passed else one.half
-        assert wide[one.motion].half == pytest.approx(reach, abs=math.radians(0.02))
+        assert (off > half + 1e-6) == (motion in passed)
+        reach = off + sizes.relief / sizes.lock if motion in passed else half
+        assert 0.5 * wide[motion] == pytest.approx(reach, abs=math.radians(0.02))
     cut = [arc.sweep for arc in cut_arcs(parts.crank, sizes.lock, 0.0, 1e-6)]
     assert cut_lock(assembly, sizes).half == pytest.approx(0.5 * min(map(abs, cut)), rel=1e-12)
