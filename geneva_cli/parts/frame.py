@@ -81,7 +81,7 @@ def framed(
             ring, bore = Circle("SHAFT", ORIGIN, 2.0 * hole.radius), hole._replace(centre=ORIGIN)
             name = f"spacer of the {part.name}"
             spacers.append(Member(Plate(name, "SHAFT", ring, (bore,), top, part.low), hole.centre))
-    eye = corner_radius(size, L)
+    eye = max(L / 20.0, 3.0 * wall_min(size, L))  # it leaves walls around mounting holes
     if mechanism.frame > 0.0:
         reach = max((c.radius for c in holes), default=0.0) + eye
         outline = convex_hull("FRAME", [Circle("FRAME", at, reach) for at in standing])
@@ -306,11 +306,6 @@ def mounted_plate(
             if mount:
                 mounts.append(Circle("BORE", (x, y), 0.5 * mount.through))
     return Plate(FRAME, "FRAME", convex_hull("FRAME", corners), (*holes, *mounts), *span)
-
-
-def corner_radius(size: Size, L: float) -> float:
-    """Return the radius of a frame's corners, which leaves walls around their mounting holes."""
-    return max(L / 20.0, 3.0 * wall_min(size, L))
 
 
 def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:

@@ -159,20 +159,23 @@ def crank_contours(
     if relief == "sector":
         lengths = sizes.roller, sizes.half_width, sizes.recess, sizes.rim, sizes.horn_tip
         around = widened(assembly, sizes, horn_corners(assembly, *lengths))
-    if sum(end - start for start, end, _ in around) > math.tau - SAME_ANGLE:
+    covered = 0.0
+    for start, end, _ in around:
+        covered += end - start
+    if covered > math.tau - SAME_ANGLE:
         raise GenevaError(
             "nothing is left of the locking disc: its reliefs go all the way round; use fewer "
             f"rollers, or a smaller one than {sizes.roller:g} mm",
             ("size", "roller_radius_mm"),
         )
     segments, locking = list[Segment](), dict(sectors(around))
-    for begin, last, _ in around:
-        middle, half = 0.5 * (begin + last), 0.5 * (last - begin)
+    for start, end, _ in around:
+        middle, half = 0.5 * (start + end), 0.5 * (end - start)
         if relief == "sector":  # down to where the wheel never comes
             floor = assembly.L - sizes.rim - sizes.relief
-            bottom = about(ORIGIN, floor, begin, last - begin)
-            start, end = polar(ORIGIN, sizes.lock, begin), polar(ORIGIN, sizes.lock, last)
-            segments += [Line(start, bottom.start), bottom, Line(bottom.end, end)]
+            bottom = about(ORIGIN, floor, start, end - start)
+            begin, last = polar(ORIGIN, sizes.lock, start), polar(ORIGIN, sizes.lock, end)
+            segments += [Line(begin, bottom.start), bottom, Line(bottom.end, last)]
         elif half > 0.5 * math.pi - SAME_ANGLE:
             raise GenevaError(
                 f'relief = "arc": the wheel moves over {math.degrees(2.0 * half):.6g} deg of '
@@ -185,8 +188,8 @@ def crank_contours(
             centre = polar(ORIGIN, sizes.lock / math.cos(half), middle)
             off, radius = math.pi / 2.0 - half, sizes.lock * math.tan(half)
             segments.append(about(centre, radius, middle + math.pi + off, -2.0 * off))
-        if last in locking:
-            segments.append(about(ORIGIN, sizes.lock, last, locking[last] - last))
+        if end in locking:
+            segments.append(about(ORIGIN, sizes.lock, end, locking[end] - end))
     return [closed("CRANK", segments)]
 
 
