@@ -8,7 +8,6 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Contour
-from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear.rack import RackSizes, locking_sector, rack_contour
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
@@ -121,12 +120,8 @@ class RackGaps(Gaps):
         self.around = rack.subset(np.flatnonzero(np.abs(rack.oy) <= 3.5 * radius))
         # a slot and the recess after it, whose pieces begin between two recesses
         self.one = rack.subset(np.flatnonzero((rack.y0 >= -radius) & (rack.y0 < radius)))
-
-    @cached_property
-    def stops(self) -> Stops:
-        """The stops of the rack, slid back and on."""
-        crank = [] if self.crank is None else [self.crank]
-        return SlidingStops(self.one, self.pitch, crank, self.assembly.L, self.sizes.roller)
+        cranks = [] if self.crank is None else [self.crank]
+        self.stops = SlidingStops(self.one, self.pitch, cranks, radius, sizes.roller)
 
 
 class RackOutlines(NamedTuple):

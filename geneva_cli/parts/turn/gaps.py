@@ -16,7 +16,6 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Contour, backwards
-from geneva_cli.kept import cached_property
 from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -59,34 +58,27 @@ class Gaps:
         self.pitch, self.one, self.around = 0.0, self.wheel, self.wheel
         count, outline = len(assembly.slots), self.wheel
         each, rest = divmod(len(outline.x0), count)
-        if rest:
-            return
         corners = np.column_stack((outline.x0, outline.y0))
         # the outline of an internal wheel runs clockwise
         angle = np.full(len(corners), math.tau / count * assembly.sign)
         off = turned_points(np.roll(corners, each, axis=0), angle) - corners
         bends = np.column_stack((outline.sense, outline.cos_half))
         other = np.abs(np.roll(bends, each, axis=0) - bends).max()
-        if np.abs(off).max() >= SAME_LENGTH * assembly.L or other >= SAME_LENGTH:
-            return
-        self.pitch = math.tau / count
-        middle = np.arctan2(outline.y0 + outline.y1, outline.x0 + outline.x1)
-        reach = math.asin(min(1.0, (self.near + sizes.roller) / sizes.rim))
-        keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
-        self.one, self.around = outline.subset(np.arange(each)), outline.subset(keep)
+        if not rest and np.abs(off).max() < SAME_LENGTH * assembly.L and other < SAME_LENGTH:
+            self.pitch = math.tau / count
+            middle = np.arctan2(outline.y0 + outline.y1, outline.x0 + outline.x1)
+            reach = math.asin(min(1.0, (self.near + sizes.roller) / sizes.rim))
+            keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
+            self.one, self.around = outline.subset(np.arange(each)), outline.subset(keep)
+        cranks = [] if self.crank is None else [self.crank]
+        self.stops = Stops(self.one, self.pitch or math.tau, cranks, assembly.L, sizes.roller)
 
     def with_crank(self, crank: list[Contour]) -> Gaps:
         """Return the gaps of this wheel and these rollers with another crank's outline."""
         out = copy.copy(self)
-        vars(out).pop("stops", None)
-        out.crank = Polyarc(crank) if crank else None
+        out.crank, out.stops = Polyarc(crank) if crank else None, copy.copy(self.stops)
+        out.stops.crank = [] if out.crank is None else [out.crank]
         return out
-
-    @cached_property
-    def stops(self) -> Stops:
-        """The stops of the wheel, turned back and on."""
-        crank = [] if self.crank is None else [self.crank]
-        return Stops(self.one, self.pitch or math.tau, crank, self.assembly.L, self.sizes.roller)
 
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
