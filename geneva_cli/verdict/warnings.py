@@ -15,7 +15,7 @@ from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME
-from geneva_cli.parts.wheel_body import known_wheel_body
+from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
 from geneva_cli.verdict.checks.play_checks import motion_play_max, slips_deg
@@ -40,7 +40,7 @@ def warnings(parts: Parts) -> list[Notice]:
         *motion_warnings(mechanism),
         *of_loads,
         *unlikely_warnings(mechanism),
-        *carried_warnings(mechanism, known_wheel_body(mechanism)),
+        *carried_warnings(mechanism, wheel_body(mechanism)),
         *of_strength,
         *turn_warnings(parts),
         *_process_warnings(parts),

@@ -97,7 +97,7 @@ def of_parts(
                 yield Check(name, None, "at most", limit, None, why)
         return
     from geneva_cli.parts.parts import parts_of
-    from geneva_cli.parts.turn.pairs import WorkLimit
+    from geneva_cli.parts.turn.turned_parts import WorkLimit
 
     machine = machine or parts_of(mechanism)
     try:

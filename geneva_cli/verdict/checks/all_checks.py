@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
+from geneva_cli.motion.compatible import concerns
 from geneva_cli.motion.records import KINDS, of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.verdict.checks.check import Check
@@ -165,7 +166,7 @@ def standing(mechanism: Mechanism) -> Checks:
     for kind in kinds:
         if kind.parts:
             own = kind.parts_checks
-        else:
+        elif concerns(kind, mechanism.spec):
             some |= kind.parts_checks
     return {**own, **some} if own else {**STATIC, **some, **PROCESS}
 

@@ -9,9 +9,8 @@ import math
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.parts import Parts
-from geneva_cli.parts.turn.bounds import UNKNOWN
 from geneva_cli.parts.turn.full_turn import FullTurn, Most
-from geneva_cli.parts.turn.turn_certificate import Certificate, certificate, tolerance_mm
+from geneva_cli.parts.turn.turn_certificate import UNKNOWN, Certificate, certificate
 from geneva_cli.verdict.checks.check import Check, compared
 
 DRY_FRICTION = 0.3  # of a sliding pair that nobody greases: steel on steel or PLA on PLA
@@ -150,12 +149,13 @@ def toleranced(name: str, parts: Parts, turn: FullTurn) -> Check | None:
 def least_gap(name: str, parts: Parts, to_mm: float | None) -> Check | None:
     """The proved lower bound of the gap, mm; None where parts are known to overlap.
 
-    ``to_mm`` is how far below the smallest gap the bound may be, by default ``tolerance_mm``.
+    ``to_mm`` is how far below the smallest gap the bound may be: by default 1 um, or twice the
+    overlap that counts as touching, if that is more.
     """
     gap = parts.turned.turn.smallest.mm
     if gap < -parts.contact:
         return None
-    to_mm = to_mm or tolerance_mm(parts)
+    to_mm = to_mm or max(1e-3, 2.0 * parts.contact)
     unproved = Check(name, None, "at least", -to_mm, None)
     found = certificate(parts, gap, to_mm)
     if found.open:
