@@ -28,8 +28,8 @@ from geneva_cli.parts.arm import (
     locking_plates,
     roller_plates,
 )
-from geneva_cli.parts.links.link_sizes import roller_pins
-from geneva_cli.parts.links.links import Links, drawn_links
+from geneva_cli.parts.assembly import links_at
+from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.cut_outlines import drawn
 from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
@@ -140,6 +140,10 @@ class FlatParts(EdgedParts):
     @cached_property
     def links(self) -> Links:
         """The links of the drive, with the pins and rollers between them, and round gears."""
+        if not links_at(self.mechanism, np.zeros(1)):
+            return Links()
+        from geneva_cli.parts.links.link_plates import drawn_links
+
         return drawn_links(self.mechanism, self.drawn)
 
     @cached_property
@@ -174,6 +178,8 @@ class FlatParts(EdgedParts):
         if drawn:
             centres = roller_centres(drawn.assembly)
         else:
+            from geneva_cli.parts.links.link_sizes import roller_pins
+
             centres = tuple(at for link, at in roller_pins(mechanism) if link.plane == 1)
         out = []
         for centre in centres:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,18 +20,14 @@ from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import gear_plane, links_at, same, turn_deg
-from geneva_cli.parts.links.link_sizes import LinkSizes, places
-from geneva_cli.parts.links.links import Links, joined, placed_holes
+from geneva_cli.parts.links.link_sizes import joined, places
+from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes, placed_holes
 from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub_length
 from geneva_cli.parts.shafts.shaft import (
     bore_at,
     wheel_shaft_ends,
     wheel_shaft_radius,
 )
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.links.links import LinkAxis
-
 
 Span: TypeAlias = tuple[float, float]  # lower and upper face, mm
 

@@ -14,13 +14,13 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Member, Plate
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, Shape
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Point
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import assembled, links_at, same
 from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole, keyway_direction
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape, round_bore
+from geneva_cli.parts.shafts.bores import Bore, ShaftBore, bore_of, has_shape, round_bore
 from geneva_cli.spec.tables import Size
 
 
@@ -130,17 +130,6 @@ def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
 def crank_shaft_radius(parts: Outlines) -> float:
     """Return the radius of the shaft of arm and locking disc; 0 if it carries only links."""
     return parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
-
-
-class ShaftBore(NamedTuple):
-    """A bore, and the direction of its keyway, flat or side at input angle 0, radians."""
-
-    bore: Bore = Bore(0.0)
-    direction: float = 0.0
-
-    def hole(self, turn: float = 0.0) -> Shape:
-        """Return the hole about the origin of a part that stands turned by an angle."""
-        return self.bore.shape("BORE", self.direction - turn)
 
 
 def bore_at(mechanism: Mechanism, at: Point, radius: float) -> ShaftBore:
