@@ -168,19 +168,19 @@ class FlatParts(EdgedParts):
         They are in the crank's frame. Of a wheel that is not drawn, they are those on links.
         """
         mechanism, low, drawn = self.mechanism, self.links.pin_low, self.drawn
-        size, r = mechanism.spec.size, mechanism.roller_radius_mm
-        sizes = drawn.sizes if drawn else None
-        thick = drawn_thicknesses(size, mechanism.center_distance_mm, sizes)
-        if low is None:
-            low = -size.allowances.pin_gap_mm - (thick.arm if drawn and drawn.has_arm else 0.0)
-        pin = pin_radius(size, r, sizes)
-        plates = roller_plates(r, pin, low, thick.wheel, size.allowances.shaft_fit_mm)
+        size, r, arm = mechanism.spec.size, mechanism.roller_radius_mm, 0.0
         if drawn:
-            centres = roller_centres(drawn.assembly)
+            sizes, centres = drawn.sizes, roller_centres(drawn.assembly)
+            pin, wide = sizes.pin, sizes.wheel_thickness
+            arm = sizes.arm_thickness if drawn.has_arm else 0.0
         else:
             from geneva_cli.parts.links.link_sizes import roller_pins
 
             centres = tuple(at for link, at in roller_pins(mechanism) if link.plane == 1)
+            pin = pin_radius(size, r)
+            wide = drawn_thicknesses(size, mechanism.center_distance_mm).wheel
+        low = -size.allowances.pin_gap_mm - arm if low is None else low
+        plates = roller_plates(r, pin, low, wide, size.allowances.shaft_fit_mm)
         out = []
         for centre in centres:
             out += [Member(plate, centre) for plate in plates]

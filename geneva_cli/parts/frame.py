@@ -54,7 +54,7 @@ def framed(
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     top = _lowest(mechanism, outlines, bars, base, first) - size.washer_mm
-    thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
+    thick = outlines.sizes.arm_thickness if outlines else drawn_thicknesses(size, L).arm
     own = _all_shafts(mechanism, outlines, bars, top - thick, first)
     bridge, hanging = None, list[Shaft]()
     for k, shaft in enumerate(own):
@@ -272,7 +272,7 @@ def _link_shafts(
     from geneva_cli.parts.links.link_shafts import carried
 
     size, L, (lowest, stop) = mechanism.spec.size, mechanism.center_distance_mm, ends
-    wheel = drawn_thicknesses(size, L, outlines.sizes if outlines else None).wheel
+    wheel = outlines.sizes.wheel_thickness if outlines else drawn_thicknesses(size, L).wheel
     for axis in bars.axes:
         if any(same(axis.at, at, L) for at in known):
             continue

@@ -186,7 +186,7 @@ def drawn_pin_radius(mechanism: Mechanism) -> float:
     """Return the radius of a roller's pin as its machine has it, 0 for none."""
     flat = sized(mechanism)
     parts = flat[1] if flat else None
-    return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm, parts)
+    return parts.pin if parts else pin_radius(mechanism.spec.size, mechanism.roller_radius_mm)
 
 
 def _usual_sizes(assembly: Assembly) -> tuple[Sizes, float]:

@@ -35,9 +35,12 @@ def link_sizes(
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, bars = spec.size, [link for link in links if not link.radius_mm]
     drawn = parts.sizes if parts else None
-    wall, thick = wall_min(size, L), drawn_thicknesses(size, L, drawn)
+    wall, thick = wall_min(size, L), drawn_thicknesses(size, L)
     first = drawn.first if drawn else None
-    stands = first.pin if first else pin_radius(size, mechanism.roller_radius_mm, drawn)
+    stands = drawn.pin if drawn else pin_radius(size, mechanism.roller_radius_mm)
+    stands, thickness, arm = first.pin if first else stands, thick.link, thick.arm
+    if drawn:
+        thickness, arm = drawn.link_thickness, drawn.arm_thickness
     own = None if size.link_bore_mm is None else 0.5 * size.link_bore_mm
     roller, loose = pin_hole(size, stands) if stands else 0.0, size.allowances.around_shaft_mm
     # a fifth of the distance to the next joint leaves eyes and a gap between
@@ -71,8 +74,8 @@ def link_sizes(
         roller_eye=eye_about(roller, wall, _eye_limit(mechanism, bars)) if roller else eye,
         shaft=first.shaft if first else own,
         crank_shaft=crank_shaft,
-        thickness=thick.link,
-        arm=thick.arm if spec.drive.ONE_ARM else thick.link,
+        thickness=thickness,
+        arm=arm if spec.drive.ONE_ARM else thickness,
         gap=size.allowances.pin_gap_mm,
         washer=size.washer_mm,
         loose=loose,
