@@ -29,10 +29,8 @@ from geneva_cli.parts.shafts.bores import around
 from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through, tapped
 from geneva_cli.parts.shafts.shaft import (
     Shaft,
-    crank_shaft_radius,
     shaft_ends,
     shafts,
-    wheel_shaft_radius,
 )
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
 from geneva_cli.spec.default_sizes import half_or
@@ -232,8 +230,9 @@ def _all_shafts(
             from geneva_cli.parts.links.link_shafts import crank_stop
 
             stop = crank_stop(outlines, bars)
-        known += [(L, 0.0)] if crank_shaft_radius(outlines) > 0.0 else []
-        known += [ORIGIN] if wheel_shaft_radius(outlines) > 0.0 else []
+        own = outlines.sizes
+        known += [(L, 0.0)] if (own.arm_bore if outlines.has_arm else own.crank_bore) else []
+        known += [ORIGIN] if own.wheel_bore else []
         half = mechanism.engagements[0].half_step
         for one in shafts(outlines, lowest, stop):
             out.append(one)

@@ -32,13 +32,13 @@ from geneva_cli.parts.sizes import (
     within_hub,
 )
 from geneva_cli.parts.slots.roller_paths import mouth, roller_paths, roller_reaches
-from geneva_cli.parts.stressed import Unloaded
 from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.least_wall import wall_min
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
+    from geneva_cli.parts.sized_by_load import Unloaded
 
 Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
 OF_AXLE = (
@@ -80,6 +80,8 @@ def sizes(assembly: Assembly) -> Sizes:
 
 def unloaded(assembly: Assembly) -> Unloaded:
     """Return the parts of a machine without its load; raises as ``sizes`` does."""
+    from geneva_cli.parts.sized_by_load import Unloaded
+
     usual, space = _usual_sizes(assembly)
     return Unloaded(assembly, usual, space, cut_lock(assembly, usual) if usual.lock else None)
 

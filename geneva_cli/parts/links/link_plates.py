@@ -20,13 +20,14 @@ from geneva_cli.motion.pivots import Joint, Link
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import links_at, same, turn_deg
+from geneva_cli.parts.links.link_records import LinkAxis, LinkSizes
 from geneva_cli.parts.links.link_sizes import (
     joined,
     link_sizes,
     places,
     point_at_zero,
 )
-from geneva_cli.parts.links.links import LinkAxis, Links, LinkSizes
+from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.shafts.bores import ShaftBore, round_bore
 from geneva_cli.parts.shafts.screws import screw_through
