@@ -168,8 +168,9 @@ def load_sizes(
     if first:
         sizes = sizes._replace(link_thickness=first.thickness)
     # the force between disc and wheel in the dwell loads both shafts
-    torque = lock.dwell_torque_Nm(machine)
-    held = float(lock.held_force_N(torque, by).item()) if by and torque.any() else 0.0
+    held = 0.0
+    if by and spec.load.dwell_torque_Nm:
+        held = float(lock.held_force_N(lock.dwell_torque_Nm(machine), by).item())
     carried = float(np.max(centrifugal_N(machine))) if machine.frame else 0.0
     loads = loads._replace(
         wheel_shaft_N=max(loads.wheel_shaft_N, held + carried), crank_N=max(loads.crank_N, held)

@@ -103,10 +103,8 @@ def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
 
 
 def orbiting_N(mechanism: Mechanism) -> Number:
-    """The force m L w² of the bodies of a wheel on a carrier; 0 for another."""
+    """The force m L w² of the bodies of a wheel on a carrier."""
     spec = mechanism.spec
-    if not spec.drive.wheels_on_carrier:
-        return 0.0
     return carried_kg(spec) * omega(spec.drive.n_rpm) ** 2 * (mechanism.center_distance_mm * MM)
 
 
@@ -120,7 +118,8 @@ def shafts_under_load(
     overhang or a load. What is held loads a shaft in the dwell, from the first motion's end on.
     """
     table, own = mechanism.spec.shaft, dict[str, LoadQuantity]()
-    orbiting, on_sphere = orbiting_N(mechanism), not mechanism.axes
+    orbiting = orbiting_N(mechanism) if mechanism.spec.drive.wheels_on_carrier else 0.0
+    on_sphere = not mechanism.axes
     for one in shafts:
         if mechanism.spec.is_loaded and one.overhang_mm is not None:
             torque = ShaftLoad(one.part, on_sphere, orbiting)
@@ -174,7 +173,8 @@ class PartLoads(NamedTuple):
 
 def part_loads(mechanism: Mechanism) -> PartLoads:
     """The greatest loads of m designs, or as numbers of a single one."""
-    orbiting, on_sphere = orbiting_N(mechanism), not mechanism.axes
+    spec, on_sphere = mechanism.spec, not mechanism.axes
+    orbiting = orbiting_N(mechanism) if spec.drive.wheels_on_carrier else 0.0
     own: dict[str, LoadQuantity] = {
         "wheel_Nm": ShaftLoad("wheel", on_sphere, orbiting),
         "crank_Nm": ShaftLoad("crank", on_sphere, orbiting),
@@ -182,9 +182,11 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
     peaks = load_peaks(mechanism, (FORCE, "wheel_bearing_N", "crank_bearing_N", *own), own)
     force, wheel = peaks[FORCE].max, peaks["wheel_bearing_N"].max
     jump = np.nan_to_num(reversal_impacts(mechanism).jump) + np.zeros(np.shape(force))
-    held = np.maximum(np.sqrt(peaks["wheel_Nm"].max), dwell_torque_Nm(mechanism))
-    crank, crank_Nm = peaks["crank_bearing_N"].max, np.sqrt(peaks["crank_Nm"].max)
-    rows = force, jump, wheel, wheel + np.ravel(orbiting), held, crank, crank_Nm
+    wheel_Nm, crank_Nm = np.sqrt(peaks["wheel_Nm"].max), np.sqrt(peaks["crank_Nm"].max)
+    if spec.load.dwell_torque_Nm is not None:
+        wheel_Nm = np.maximum(wheel_Nm, dwell_torque_Nm(mechanism))
+    crank = peaks["crank_bearing_N"].max
+    rows = force, jump, wheel, wheel + np.ravel(orbiting), wheel_Nm, crank, crank_Nm
     out = PartLoads(*map(parameter, rows))
     return out.of(0) if isinstance(mechanism.design, int) else out
 

@@ -240,6 +240,8 @@ class UnderLoad:
     @cached_property
     def held(self) -> tuple[Array, Array] | None:
         """Force and torque that the lock holds in the dwell, (m,) both; None without a torque."""
+        if self.machine.spec.load.dwell_torque_Nm is None:
+            return None
         torque = lock.dwell_torque_Nm(self.machine)
         if not torque.any():
             return None
