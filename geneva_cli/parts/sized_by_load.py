@@ -199,9 +199,9 @@ def load_sizes(
             trial = _wheel_bored(assembly, _thick(assembly, sizes, arm=thick), loads)
             trial = _crank_bored(assembly, trial, loads, space, keyed)
             parts = stressed(assembly, trial)
-            bent_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
-            key = key_holds(spec, parts.crank_key, loads.crank_Nm)
-            if key and keeps(bent_MPa, "at most", allowed):
+            arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
+            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
+            if key_lasts and keeps(arm_MPa, "at most", allowed):
                 return trial
     return trial
 

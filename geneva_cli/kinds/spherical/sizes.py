@@ -147,9 +147,9 @@ def ball(mechanism: Mechanism) -> Ball:
             trial = sizes._replace(arm_span_mm=(under, under + thick))
             trial = _crank_bored(mechanism, _wheel_bored(mechanism, trial), keyed)
             parts = sphere_stressed(spec, trial)
-            bent_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
-            key = key_holds(spec, parts.crank_key, loads.crank_Nm)
-            if key and keeps(bent_MPa, "at most", wheel_material(spec).allowed_MPa):
+            arm_MPa = float(arm_stress_MPa(parts.arm, loads.wheel_N))
+            key_lasts = key_holds(spec, parts.crank_key, loads.crank_Nm)
+            if key_lasts and keeps(arm_MPa, "at most", wheel_material(spec).allowed_MPa):
                 return trial
     return trial
 
