@@ -66,35 +66,39 @@ class ShaftLoad(NamedTuple):
 
     def __call__(self, i: Instant[Jet]) -> QuantityValue[Jet]:
         """The square, at an instant."""
-        at, rate = i.at, None
-        on_wheel = self.part == "wheel"
-        if self.on_sphere and not on_wheel:
-            away = at.velocity * at.lever
-            spin = at.spin + at.velocity * at.arm  # of the crank about the roller's axis
-            rate = sqrt(at.along * at.along + away * away + spin * spin)
-            torque = i.input_torque_Nm / rate
+        on_wheel, lever = self.part == "wheel", self.overhang_m
+        if self.on_sphere:
+            square, torque = sphere_moments(i, on_wheel, 0.0 if lever is None else lever)
         else:
             torque = i.wheel_torque_Nm if on_wheel else i.crank_torque_Nm
         turned = torque * self.torsion
-        if self.overhang_m is None:
+        if lever is None:
             return QuantityValue(turned * turned, i.grip)
-        if self.on_sphere:
-            # the moment that bends a shaft whose axis has these cosines along u, m, y
-            axis = at.arm, at.lever * -1.0, at.lever * 0.0
-            if rate is not None:
-                axis = spin / rate * -1.0, away / rate, at.along / rate * -1.0
-            L, b = i.case.L, i.case.L + self.overhang_m
-            rub = i.case.friction * i.slides
-            lever, turn = axis[0] * -b + L, axis[1] - axis[2] * (i.drives * rub)
-            bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
-            square = i.force_N * i.force_N * bent
-        else:
+        if not self.on_sphere:
             square = i.crank_bearing_squared
             if on_wheel:  # what orbits is added as if in one plane: an upper bound
                 force = i.wheel_bearing_N + self.orbiting_N
                 square = force * force
-            square = square * (self.overhang_m * self.overhang_m)
+            square = square * (lever * lever)
         return QuantityValue(square * (self.bending * self.bending) + turned * turned, i.grip)
+
+
+def sphere_moments(i: Instant[Jet], on_wheel: bool, overhang_m: Number) -> tuple[Jet, Jet]:
+    """Squared bending moment of a shaft of a sphere, and its torque; the overhang beyond L."""
+    at, L = i.at, i.case.L
+    # the shaft's axis by its cosines along u, m and y
+    if on_wheel:
+        axis, torque = (at.arm, at.lever * -1.0, at.lever * 0.0), i.wheel_torque_Nm
+    else:
+        away = at.velocity * at.lever
+        spin = at.spin + at.velocity * at.arm  # of the crank about the roller's axis
+        rate = sqrt(at.along * at.along + away * away + spin * spin)
+        axis = spin / rate * -1.0, away / rate, at.along / rate * -1.0
+        torque = i.input_torque_Nm / rate
+    b, rub = L + overhang_m, i.case.friction * i.slides
+    lever, turn = axis[0] * -b + L, axis[1] - axis[2] * (i.drives * rub)
+    bent = lever * lever * (1.0 + rub * rub) + turn * turn * ((b - L) * (b + L))
+    return i.force_N * i.force_N * bent, torque
 
 
 def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
