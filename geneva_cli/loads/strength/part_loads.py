@@ -129,7 +129,9 @@ def shafts_under_load(
             torque = ShaftLoad(one.part, on_sphere, orbiting)
             factors = table.bending_factor, table.torsion_factor
             moment = ShaftLoad(*torque[:3], one.overhang_mm / 1000.0, *factors)
-            own |= {f"{one.part} moment": moment, f"{one.part} torque": torque}
+            own[f"{one.part} moment"] = moment
+            if one.span_mm is not None and one.diameter_mm is not None:
+                own[f"{one.part} torque"] = torque
     peaks, each = load_peaks(mechanism, tuple(own), own) if own else {}, []
     for one in shafts:
         out = dict[str, Array]()
@@ -137,24 +139,24 @@ def shafts_under_load(
         d, span, overhang_mm = one.diameter_mm, one.span_mm, one.overhang_mm
         if not peaks or overhang_mm is None:
             continue
-        both, turned = peaks[f"{one.part} moment"], peaks[f"{one.part} torque"]
+        both, turned = peaks[f"{one.part} moment"], peaks.get(f"{one.part} torque")
         if np.any(np.asarray(one.held_N) > 0.0) or np.any(np.asarray(one.held_Nm) != 0.0):
             bent = np.ravel(table.bending_factor) * one.held_N * np.ravel(overhang_mm / 1000.0)
             square = bent**2 + (np.ravel(table.torsion_factor) * one.held_Nm) ** 2
             first = mechanism.under_load.engagements[0]
             exit_deg = np.ravel(mechanism.shown_deg(first.mid_deg + first.exit_deg))
             both = greater(both, PeakArray(square, np.broadcast_to(exit_deg, square.shape)))
-            turned = turned._replace(max=np.maximum(turned.max, np.square(one.held_Nm)))
         most = np.sqrt(both.max)
         out |= {"moment_Nm": most, "at_deg": both.at_deg}
         if d is not None:
             out["stress_MPa"] = shear_MPa(most, np.ravel(d))
         if one.allowed_MPa is not None:
             out["least_diameter_mm"] = np.cbrt(16e3 * most / (math.pi * np.ravel(one.allowed_MPa)))
-        if d is not None and span is not None:
+        if d is not None and span is not None and turned is not None:
             polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
             rate = np.ravel((overhang_mm + span) / (table.shear_modulus_GPa * polar))
-            torque_Nm = np.where(np.isfinite(turned.max), np.sqrt(turned.max), np.nan)
+            square = np.maximum(turned.max, np.square(one.held_Nm))
+            torque_Nm = np.where(np.isfinite(square), np.sqrt(square), np.nan)
             out["twist_deg"] = np.degrees(torque_Nm * rate)
     return each
 
