@@ -545,9 +545,9 @@ class Design:
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
             return None  # before the import of what draws parts
-        from geneva_cli.parts.wheel_body import known_wheel_body
+        from geneva_cli.parts.wheel_body import wheel_body
 
-        return known_wheel_body(self.mechanism)
+        return wheel_body(self.mechanism)
 
     @answer
     def life(self) -> dict[str, float | None]:
@@ -578,7 +578,7 @@ class Design:
         >>> Design(External(6), load=Load(0.4, 15)).loads_page.to_dict()["loads"][0]["quantity"]
         'omega_rad_s'
         """
-        from geneva_cli.verdict.headline import below_summary
+        from geneva_cli.verdict.failures import below_summary
 
         return below_summary(self._loads(for_people=True), without=("title", "chosen"))
 
@@ -835,13 +835,18 @@ class Design:
     @answer
     def _judged(self) -> list[Check]:
         """Every check but the proof."""
-        from geneva_cli.verdict.advice import judged
+        from geneva_cli.verdict.checks import all_pass, every_check
 
         if self.is_drawn:
             rows: list[Check] = self._of_drawing("checks")
             return rows
         # a machine without parts is judged without NumPy
-        return judged(self.mechanism, self.parts if self.spec.is_turned else None)
+        rows = [*every_check(self.mechanism, self.parts if self.spec.is_turned else None)]
+        if all_pass(rows):
+            return rows
+        from geneva_cli.verdict.advice import advised
+
+        return advised(self.mechanism, rows)
 
     @property
     def passes(self) -> bool:
@@ -864,14 +869,17 @@ class Design:
         ('', [])
         """
         from geneva_cli.drawings.catalogue import parts_having
-        from geneva_cli.verdict.advice import judged
-        from geneva_cli.verdict.headline import failures
+        from geneva_cli.verdict.advice import advised
+        from geneva_cli.verdict.checks import checks
+        from geneva_cli.verdict.failures import failures
 
         parts = parts_having(self.parts, part)
         if parts.mechanism.spec.is_flat:
             _ = parts.outlines  # their error comes before all checks
-        is_own = parts is self.parts
-        return failures(self._judged if is_own else judged(parts.mechanism, parts), parts)
+        if parts is self.parts:
+            return failures(self._judged, parts)
+        other = parts.mechanism
+        return failures(advised(other, checks(other, parts)), parts)
 
     @question
     def tolerance(

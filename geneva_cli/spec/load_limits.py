@@ -21,11 +21,10 @@ LIMITED = {
 }
 
 
-def limits_by_key(limits: Limits) -> dict[str, float]:
-    """The limits that a spec sets on loads, by their keys."""
+def limited_loads(limits: Limits) -> list[str]:
+    """The whole names of the loads that a spec limits."""
     values = limits.as_dict()
-    loads = (key for key, name in LIMITED.items() if name.startswith("loads."))
-    return {key: values[key] for key in loads if values[key]}
+    return [name for key, name in LIMITED.items() if name.startswith("loads.") and values[key]]
 
 
 def limited_load(key: str) -> str:

@@ -16,8 +16,8 @@ from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.load_tables import reversals_deg, summaries
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.angles import omega
-from geneva_cli.verdict.carried_warnings import unlikely_warnings
 from geneva_cli.verdict.cycle_warnings import back_driven_deg
+from geneva_cli.verdict.warnings import carried_warnings
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 TURRET = Spec(
@@ -187,4 +187,5 @@ def test_absurd_units_are_said():
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_design_of_ours_is_absurd(path):
-    assert not list(unlikely_warnings(load(str(path))))
+    names = {warning.name for warning in carried_warnings(load(str(path)), None)}
+    assert not names & {"tiny-machine", "heavy-inertia"}

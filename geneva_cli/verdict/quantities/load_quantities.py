@@ -79,7 +79,7 @@ def summaries(of: Designs) -> Columns:
 
 def _where_loaded(of: Designs, values: Array, is_motion: bool) -> Array:
     """Values of loads, infinite without one; those of the ``motion`` need none."""
-    without = np.ones(1, dtype=bool) if is_motion else of.resisted
+    without = np.ones(1, dtype=bool) if is_motion else ~np.isnan(of.loaded)
     return np.where(without, values, np.inf)
 
 
