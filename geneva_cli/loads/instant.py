@@ -63,6 +63,8 @@ class Instant(Generic[V]):
             self.drag = case.guide.drag(case, at, self.drives, self.slides)
             self.grip = self.slot_grip - self.drag * self.drives
         self.feeds = feeds if isinstance(feeds, float) else sign_of(self.feeding, feeds)
+        # ratio of the input's torque to that without losses: 1 where the wheel drives
+        self.losses = 0.5 * (1.0 + self.feeds) / case.efficiency + 0.5 * (1.0 - self.feeds)
 
     @cached_property
     def feeding(self) -> V:
@@ -127,11 +129,6 @@ class Instant(Generic[V]):
         """The part of the input's torque that goes through the slot, before the efficiency, N m."""
         slot = self.wheel_torque_Nm * self.at.velocity
         return slot + self.rubbed_Nm if self.case.rubs or self.case.guided else slot
-
-    @property
-    def losses(self) -> Number:
-        """Ratio of the input's torque to that without losses: 1 where the wheel drives."""
-        return 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
 
     @cached_property
     def input_torque_Nm(self) -> V:
@@ -232,7 +229,7 @@ class States(NamedTuple):
 
 
 # each state's quantity
-STATES = {name: name for name in States._fields} | {
+STATES = dict(zip(States._fields, States._fields, strict=True)) | {
     "pin_force_N": WALL_FORCE,
     "stress_squared": STRESS,
     "crank_bearing_squared": "crank_bearing_N",

@@ -30,7 +30,6 @@ from geneva_cli.numerics.arrays import Which, Whole, array, matrix_product, para
 from geneva_cli.numerics.cuts import gathered, spread
 from geneva_cli.numerics.extremes import SearchResult, bar
 from geneva_cli.numerics.jet import Array, Jet
-from geneva_cli.numerics.quadrature import Integrands, span_integrals
 
 S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of a batch
 
@@ -242,6 +241,8 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
     They are over the stretches of a search, (names, n), and infinite for quantities without a
     bound. Those searched by their squares behave as a root at the ends of their stretches.
     """
+    from geneva_cli.numerics.quadrature import Integrands, span_integrals  # a check has no means
+
     pieces, n = result.stretches, load.n
     bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
     # pieces of one span together: a motion of several pieces is evaluated in one of them at a time

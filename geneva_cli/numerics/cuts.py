@@ -11,9 +11,19 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
+from geneva_cli.numerics.chebyshev import (
+    GRID,
+    MIDDLE,
+    ON_GRID,
+    POINTS,
+    SERIES,
+    SLOPES,
+    at,
+    product,
+    remainder,
+    root,
+)
 
 BLOCK = 1024  # rows sampled at a time: that many fit in the processor's cache
 MOST_ROWS = 100  # of a design at a time, beyond twice those of its spans: more are rounding
@@ -178,8 +188,8 @@ class Cutter:
                 sign, value = sign.take(number, axis=1), value.take(number, axis=2)
             # parts in whose middle the function does not have the sign of their row
             some = np.flatnonzero(part[1] - part[0] != 2.0)
-            terms, t = chebyshev.series(q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some]
-            middles = np.where(chebyshev.at(terms, t) > 0.0, 1.0, -1.0)
+            terms, t = product(SERIES, q.take(some, axis=1)), 0.5 * part.sum(axis=0)[some]
+            middles = np.where(at(terms, t) > 0.0, 1.0, -1.0)
             flip = some[middles != sign[kind, some]]
             if len(flip):
                 sign[kind, flip] *= -1.0
@@ -194,7 +204,7 @@ class Cutter:
     ) -> tuple[Mask, Whole, Array]:
         """A mask of parts with unknown zeros, and the zeros of the other parts."""
         unsure, none = np.full(len(rows.design), False), (np.zeros(0, dtype=int), np.zeros(0))
-        size, left = np.abs(value).max(axis=0), chebyshev.remainder(value)
+        size, left = np.abs(value).max(axis=0), remainder(value)
         np.fmax.at(self.size[kind], rows.design, np.where(np.isfinite(size), size, 0.0))
         q = value * sign[kind]
         # where a point is below a twentieth of the size, the function may be 0 next to it
@@ -202,7 +212,7 @@ class Cutter:
         if not len(some):
             return unsure, *none
         q, size, left = q.take(some, axis=1), size[some], left[some]
-        g, d = chebyshev.on_grid(q)
+        g, d = product(ON_GRID, q), product(SLOPES, q)
         # below 1e-12 of its size on a row, or some roundings of that in its design's whole motion,
         # a function has no sign
         rounding = 4e-15 * self.size[kind, rows.design[some]]
@@ -230,8 +240,8 @@ class Cutter:
             return unsure, *none
         a, b, low, high = g[cell, own], g[cell + 1, own], GRID[cell], GRID[cell + 1]
         chord = (b - a) / (high - low)
-        terms = chebyshev.series(q.take(own, axis=1))
-        t, which = chebyshev.root(terms, low, high, low - a / chord, chord), some[own]
+        terms = product(SERIES, q.take(own, axis=1))
+        t, which = root(terms, low, high, low - a / chord, chord), some[own]
         kept = (t > part[0, which] + AT_END) & (t < part[1, which] - AT_END)
         which, t = which[kept], t[kept]
         t = self._refined(kind, record_taken(rows, which), sign[:, which], t)

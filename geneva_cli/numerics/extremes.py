@@ -12,9 +12,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.arrays import Array, Mask, Which, Whole, blocks, joined, record_taken
-from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
+from geneva_cli.numerics.chebyshev import (
+    GRID,
+    MIDDLE,
+    ON_GRID,
+    POINTS,
+    SERIES,
+    SLOPES,
+    at,
+    product,
+    remainder,
+)
 from geneva_cli.numerics.cuts import (
     BLOCK,
     LATER_TERMS,
@@ -201,7 +210,7 @@ class _Extremes:
     def judge(self, pieces: Pieces) -> None:
         """Keep candidates of pieces with precise series, and sample the others again."""
         value, (a, b), design = pieces.value, pieces.rows.x, pieces.rows.design
-        left = chebyshev.remainder(value)
+        left = remainder(value)
         low, high = value.min(axis=1), value.max(axis=1)
         size = np.maximum(np.abs(low), np.abs(high))
         open_ = ~(left <= PRECISE * size) | (left == np.inf)
@@ -212,7 +221,7 @@ class _Extremes:
         # towards a pole, whose series has no end, the reciprocal's bounds serve
         number, row = np.nonzero(open_)
         inverse = np.ascontiguousarray(1.0 / value[number, :, row].T)
-        rest, least, most = chebyshev.remainder(inverse), inverse.min(axis=0), inverse.max(axis=0)
+        rest, least, most = remainder(inverse), inverse.min(axis=0), inverse.max(axis=0)
         ended = rest <= PRECISE * np.maximum(np.abs(least), np.abs(most))
         beyond = 0.15 * (most - least) + UNFINISHED * rest
         for bound, own, end in (
@@ -245,9 +254,9 @@ class _Extremes:
         if len(cut):  # at the points of the piece itself
             a, b = part[:, cut]
             t = 0.5 * (a + b) + 0.5 * (b - a) * POINTS[:, None]
-            samples[:, cut] = chebyshev.at(chebyshev.series(samples.take(cut, axis=1)), t)
-        value, slope = chebyshev.on_grid(samples)
-        terms, every = chebyshev.series(samples), np.arange(len(number))
+            samples[:, cut] = at(product(SERIES, samples.take(cut, axis=1)), t)
+        value, slope = product(ON_GRID, samples), product(SLOPES, samples)
+        terms, every = product(SERIES, samples), np.arange(len(number))
         size = np.abs(samples).max(axis=0)
         # of a constant the start alone: a range of rounding says nothing about places
         varied = np.ptp(samples, axis=0) > 1e-13 * size
@@ -261,7 +270,7 @@ class _Extremes:
             cell, of = np.nonzero((d[:-1] > 0.0) & (d[1:] <= 0.0) & varied)
             before, after = d[cell, of], d[cell + 1, of]
             t = GRID[cell] + (GRID[cell + 1] - GRID[cell]) * before / (before - after)
-            top = 2.0 * sense * chebyshev.at(terms[:, of], t)
+            top = 2.0 * sense * at(terms[:, of], t)
             top = top - np.minimum(g[cell, of], g[cell + 1, of])
             turns.append(tuple(np.broadcast_arrays(to, of, t, sense, top)))
             for end, there in ((-1.0, every), (1.0, np.flatnonzero(varied))):
@@ -301,7 +310,18 @@ class _Extremes:
         for _ in range(20):  # most take two
             if not len(live):
                 break
-            v, slope, bend = self._jets(x[live], record_taken(some, live))
+            jets = np.empty((3, len(live)))  # value and two derivatives
+            # several functions at once: their common parts cost most
+            in_order = np.argsort(some.number[live], kind="stable")
+            for block in blocks(len(live), 8 * BLOCK):
+                here = in_order[block]
+                of = live[here]
+                requested, own = np.unique(some.number[of], return_inverse=True)
+                held, asked = some.sign[:, of, None], requested.tolist()
+                rows = self.f(x[of, None], some.design[of], 2, held, asked)[1]
+                for k in range(3):
+                    jets[k, here] = rows[k][self.f.signs + own, np.arange(len(of)), 0]
+            v, slope, bend = jets[0], jets[1], 2.0 * jets[2]
             step = np.nan_to_num(some.uphill[live] * slope / np.abs(bend))
             # at rest where the function has the other extreme: inwards, by less each time
             rests = np.abs(slope) <= 1e-6 * np.abs(bend) * near[live]
@@ -322,21 +342,6 @@ class _Extremes:
         for end in some.ends:
             x = np.where(np.abs(x - end) <= reached, end, x)
         self.add(some.number, some.design, x, value)
-
-    def _jets(self, x: Array, of: _Candidates) -> Array:
-        """Value and two derivatives of each candidate's function at places (m,)."""
-        out = np.empty((3, len(x)))
-        # several functions at once: their common parts cost most
-        in_order = np.argsort(of.number, kind="stable")
-        for block in blocks(len(x), 8 * BLOCK):
-            some = in_order[block]
-            requested, own = np.unique(of.number[some], return_inverse=True)
-            held = of.sign[:, some, None]
-            jets = self.f(x[some, None], of.design[some], 2, held, requested.tolist())[1]
-            for k in range(3):
-                out[k, some] = jets[k][self.f.signs + own, np.arange(len(some)), 0]
-        out[2] *= 2.0
-        return out
 
 
 def _raise(most: Array, index: tuple[Whole, ...], value: Array) -> None:

@@ -11,11 +11,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import NamedTuple, Protocol, cast
 
 import numpy as np
 
-from geneva_cli.loads.tolerance.dimensions import Deviations, deviations
+from geneva_cli.loads.tolerance.dimensions import AS_DRAWN, Deviations
 from geneva_cli.numerics.arrays import (
     Mask,
     Truth,
@@ -116,7 +117,7 @@ class Lock(NamedTuple):
         radius = choose(loose, choose(arcs, between, ended), math.inf)
         on = np.where(arcs, "recess", np.where(corner, "corner", "disc's end"))[()]
         # without clearance rounding may make it negative
-        play = np.maximum(self(deviations([0.0] * len(Deviations._fields))).angle.c[0], 0.0)
+        play = np.maximum(self(AS_DRAWN).angle.c[0], 0.0)
         return LockContact(cast("str", on), phi, parameter(play), radius)
 
 
@@ -137,8 +138,7 @@ def _truth(condition: Truth) -> Truth:
 
 
 def _chosen(condition: Truth, yes: Jet, no: Jet) -> Jet:
-    one = _truth(condition)
-    return Jet([choose(one, a, b) for a, b in zip(yes.c, no.c, strict=True)])
+    return Jet([*map(partial(choose, _truth(condition)), yes.c, no.c)])
 
 
 def loosest(locks: Sequence[Lock]) -> Lock:
