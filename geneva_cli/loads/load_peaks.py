@@ -28,7 +28,7 @@ from geneva_cli.motion.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Which, Whole, array, matrix_product, parameter
 from geneva_cli.numerics.cuts import gathered, spread
-from geneva_cli.numerics.extremes import SearchResult, bar
+from geneva_cli.numerics.extremes import SearchResult, bar, search
 from geneva_cli.numerics.jet import Array, Jet
 
 S = TypeVar("S", float, "float | None", Array)  # of one design, as printed, of a batch
@@ -66,7 +66,9 @@ def load_peaks(
     if by_force and FORCE not in sought:
         sought.append(FORCE)
     for engagement in mechanism.engagements:
-        result = LoadFunctions(engagement, case, sought, own).search(sized=True)
+        load = LoadFunctions(engagement, case, sought, own)
+        spans, known = load.to_search(sized=True)
+        result = search(load, spans, True, known, load.spread)
         at_deg = shown_deg(mechanism, engagement, result.x)
         for name, *row in zip(sought, result.most, at_deg, strict=True):
             here = PeakArray(*row)
@@ -168,7 +170,8 @@ def _extremes(mechanism: Mechanism, names: Sequence[str]) -> Found:
     case, searches, places = load_case(mechanism), list[Search](), list[Array]()
     for engagement in mechanism.engagements:
         load = LoadFunctions(engagement, case, sought)
-        result = load.search()
+        spans, beside = load.to_search()
+        result = search(load, spans, False, beside, load.spread)
         searches.append((load, result))
         places.append(np.stack((result.most, shown_deg(mechanism, engagement, result.x))))
     # by value and place, engagement, quantity: first the values, then those of the negatives
@@ -241,7 +244,7 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
     They are over the stretches of a search, (names, n), and infinite for quantities without a
     bound. Those searched by their squares behave as a root at the ends of their stretches.
     """
-    from geneva_cli.numerics.quadrature import Integrands, span_integrals  # a check has no means
+    from geneva_cli.numerics.quadrature import span_integrals  # a check has no means
 
     pieces, n = result.stretches, load.n
     bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
@@ -260,7 +263,7 @@ def _sums_of(load: LoadFunctions, result: SearchResult) -> Array:
     rooted = any(name in SQUARED for name in load.names)
     needed = np.tile(bounded, (2, 1))
     with np.errstate(all="ignore"):
-        total = span_integrals(Integrands(rows, spread(a, w), spread(b, w), rooted), design, needed)
+        total = span_integrals(rows, (spread(a, w), spread(b, w)), design, needed, rooted)
         if load.engagement.slot.curved:
             # No stretch reaches mid-motion. The integral of a cubic from 0 to 1 follows from its
             # values at 1, 2 and 3 (Adams and Bashforth).

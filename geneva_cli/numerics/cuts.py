@@ -7,7 +7,7 @@ smooth on it; it is cut at the zeros of the signs' functions, or halved where no
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -32,28 +32,31 @@ LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later term
 NEWTON_STEPS = 6  # of Newton's method, from the zero of a series
 
 
-class Functions(Protocol):
-    """The functions of designs: first those whose signs matter, then the wanted ones.
+if TYPE_CHECKING:
 
-    Each of the first is smooth while those before it keep their signs, the wanted ones while all
-    do. Called with places (m, k) of some designs, it returns masks of positive signs (signs, m, k)
-    and Taylor coefficients (order + 1, functions, m, k) by the place. ``held`` are known signs, 1.0
-    or -1.0, NaN where they are computed. ``requested`` are the numbers of the wanted functions to
-    evaluate, all by default. A function without a bound is infinite, and its slope 0.
-    """
+    class Functions(Protocol):
+        """The functions of designs: first those whose signs matter, then the wanted ones.
 
-    signs: int  # number of the functions whose signs matter
-    wanted: int  # number of the wanted ones
-    poled: Sequence[int]  # numbers of those that behave as 1/x at the place 0
+        Each of the first is smooth while those before it keep their signs, the wanted ones while
+        all do. Called with places (m, k) of some designs, it returns masks of positive signs
+        (signs, m, k) and Taylor coefficients (order + 1, functions, m, k) by the place. ``held``
+        are known signs, 1.0 or -1.0, NaN where they are computed. ``requested`` are the numbers of
+        the wanted functions to evaluate, all by default. A function without a bound is infinite,
+        and its slope 0.
+        """
 
-    def __call__(
-        self,
-        x: Array,
-        which: Which,
-        order: int,
-        held: Array | None = None,
-        requested: Sequence[int] | None = None,
-    ) -> tuple[Mask, Array]: ...
+        signs: int  # number of the functions whose signs matter
+        wanted: int  # number of the wanted ones
+        poled: Sequence[int]  # numbers of those that behave as 1/x at the place 0
+
+        def __call__(
+            self,
+            x: Array,
+            which: Which,
+            order: int,
+            held: Array | None = None,
+            requested: Sequence[int] | None = None,
+        ) -> tuple[Mask, Array]: ...
 
 
 class Rows(NamedTuple):
@@ -120,8 +123,8 @@ class Cutter:
             self.todo.append(Rows(design, np.full(len(design), number), u, x))
         self.first = np.bincount(joined(self.todo).design, minlength=len(self.noisy))
 
-    def pieces(self) -> list[Pieces]:
-        """The pieces of the rows to be sampled at the next level; none after the last.
+    def level(self) -> list[Rows]:
+        """The rows to be sampled at the next level, in blocks; none after the last.
 
         Rows that ``again`` puts back are sampled at the level after it. A kink or a pole leaves
         some rows at each level, noise twice as many as before.
@@ -135,7 +138,7 @@ class Cutter:
         self.noisy |= (count > MOST_ROWS + 2 * self.first) | (self.depth == 59)
         out = []
         for some in blocks(len(rows.design), BLOCK):
-            out.append(self._sampled(record_taken(rows, some)))
+            out.append(record_taken(rows, some))
         return out
 
     def again(self, rows: Rows, part: Array, which: Mask) -> Mask:
@@ -154,7 +157,7 @@ class Cutter:
             self.todo.append(record_taken(rows, which & ~whole))
         return which
 
-    def _sampled(self, rows: Rows) -> Pieces:
+    def pieces(self, rows: Rows) -> Pieces:
         """Pieces of rows, cut where a sign changes; parts with unknown zeros are sampled again."""
         f, count = self.f, len(rows.design)
         which: Which = rows.design
@@ -174,6 +177,10 @@ class Cutter:
             q = value[kind] * np.abs(x.take(own, axis=1)) if kind in f.poled else value[kind]
             here = record_taken(rows, own)
             unsure, cut, t = self._zeros(kind, here, sign, part, q)
+            if len(cut):
+                t = self._refined(kind, record_taken(here, cut), sign[:, cut], t)
+                inside = (t > part[0, cut]) & (t < part[1, cut])
+                cut, t = cut[inside], t[inside]
             if unsure.any():
                 unsure = self.again(here.part(part, self.w), part, unsure)
             if len(cut) or unsure.any():
@@ -202,7 +209,7 @@ class Cutter:
     def _zeros(
         self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
     ) -> tuple[Mask, Whole, Array]:
-        """A mask of parts with unknown zeros, and the zeros of the other parts."""
+        """A mask of parts with unknown zeros, and the zeros of the others' series."""
         unsure, none = np.full(len(rows.design), False), (np.zeros(0, dtype=int), np.zeros(0))
         size, left = np.abs(value).max(axis=0), remainder(value)
         np.fmax.at(self.size[kind], rows.design, np.where(np.isfinite(size), size, 0.0))
@@ -243,9 +250,6 @@ class Cutter:
         terms = product(SERIES, q.take(own, axis=1))
         t, which = root(terms, low, high, low - a / chord, chord), some[own]
         kept = (t > part[0, which] + AT_END) & (t < part[1, which] - AT_END)
-        which, t = which[kept], t[kept]
-        t = self._refined(kind, record_taken(rows, which), sign[:, which], t)
-        kept = (t > part[0, which]) & (t < part[1, which])
         return unsure, which[kept], t[kept]
 
     def _refined(self, kind: int, rows: Rows, sign: Array, t: Array) -> Array:

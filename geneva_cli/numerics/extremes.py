@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import factorial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -28,11 +28,13 @@ from geneva_cli.numerics.cuts import (
     BLOCK,
     LATER_TERMS,
     Cutter,
-    Functions,
     Pieces,
     Rows,
 )
 from geneva_cli.numerics.tolerances import TIE
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.cuts import Functions
 
 GROUP = 1 << 15  # functions of designs that are searched together
 UNFINISHED = 4.0 * LATER_TERMS  # times the last terms: the error of a series that has not ended
@@ -120,10 +122,12 @@ def search(
             extremes.add(np.full(len(design), number), design, x[design], value[design])
         for part in blocks(len(cutter.w), GROUP // max(f.wanted, 2)):
             cutter.begin(part)
-            while level := cutter.pieces():
-                for pieces in level:
-                    extremes.add_samples(pieces)
-                for pieces in level:
+            while level := cutter.level():
+                every = []
+                for rows in level:
+                    every.append(cutter.pieces(rows))
+                    extremes.add_samples(every[-1])
+                for pieces in every:
                     extremes.judge(pieces)
             extremes.refine()
         # the first places of the greatest values
@@ -143,8 +147,9 @@ def cuts(f: Functions, spans: Sequence[tuple[Array, Array]], w: Array | None = N
         cutter, out = Cutter(f, np.array(spans), w, ()), list[tuple[Rows, Array]]()
         for part in blocks(len(cutter.w), BLOCK):
             cutter.begin(part)
-            while level := cutter.pieces():
-                for pieces in level:
+            while level := cutter.level():
+                for rows in level:
+                    pieces = cutter.pieces(rows)
                     out.append((pieces.rows, pieces.sign))
         return _stretches(out)
 
