@@ -141,7 +141,5 @@ class Cycle:
         return out
 
 
-@lru_cache(maxsize=16)
-def cycle_of(mechanism: Mechanism) -> Cycle:
-    """The cycle of a machine, cached for its loads, strength and warnings."""
-    return Cycle(mechanism)
+# The cycle of a machine, cached for its loads, strength and warnings.
+cycle_of = lru_cache(maxsize=16)(Cycle)
