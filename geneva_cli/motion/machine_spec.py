@@ -37,11 +37,6 @@ NEEDED = {
 }
 
 
-def attribute(table: str) -> str:
-    """Name of the ``Spec`` field that holds a table of the file."""
-    return table.replace(".", "_")
-
-
 # Fields of ``Spec`` that hold a table, their type, and an example for the error message.
 _TABLE_TYPES: dict[str, tuple[type, str]] = {
     "wheel": (Gearing, "External(6)"),
@@ -173,7 +168,7 @@ class Spec(SpecTable):
         changed = part.with_key(name, value)
         one_of, _, number = table.partition(".")
         if one_of not in LISTS:
-            return self.replace(**{attribute(table): changed})
+            return self.replace(**{table.replace(".", "_"): changed})
         several, at = vars(self)[one_of], int(number)
         return self.replace(**{one_of: (*several[:at], changed, *several[at + 1 :])})
 

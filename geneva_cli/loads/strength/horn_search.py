@@ -53,7 +53,7 @@ class SlotEnd(NamedTuple):
     @property
     def mouth_deg(self) -> float:
         """Input angle at which the roller is at this end's mouth."""
-        return self.engagement.end_deg(self.end)
+        return self.engagement.entry_deg if self.end < 0.0 else self.engagement.exit_deg
 
 
 def slot_ends(mechanism: Mechanism) -> Iterator[SlotEnd]:
