@@ -53,6 +53,11 @@ class Transmission(Drive, kw_only=True):
         return plain(n_rpm=self.n_rpm, rollers=self.rollers, roller_angles_deg=angles)
 
     @property
+    def reach_deg(self) -> float:
+        """Greatest crank angle from mid-motion at which the crank may move the wheel, degrees."""
+        return 180.0
+
+    @property
     def side_crank(self) -> float | None:
         """A of the side-crank whose ratio it has; None for another ratio."""
         return None
@@ -164,9 +169,8 @@ class Transmission(Drive, kw_only=True):
         """Raise GenevaError if the transmission does not cover the whole motion."""
         text = "z = {z}: the crank must turn {far:.6g} deg to either side, but kind = "
         text += '"{name}" turns it only {most:.6g}: reduce z or first_z'
-        most = 180.0 / self.turns  # crank angle from mid-motion in a turn of the input
-        values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": most}
-        refuse_text(farthest_deg > most * (1.0 + 1e-12), ("wheel", "z"), text, **values)
+        values = {"z": wheel.z, "far": farthest_deg, "name": self.NAME, "most": self.reach_deg}
+        refuse_text(farthest_deg > self.reach_deg * (1.0 + 1e-12), ("wheel", "z"), text, **values)
 
 
 class Direct(Transmission, kw_only=True):
