@@ -55,7 +55,7 @@ MEMBERS = {
 }
 # Folders of like files, none of which imports another, and what stands beside them: what two
 # share, and the list of them.
-SHARED = {"cli.commands": set(), "verdict.checks": {"check", "all_checks"}}
+SHARED = {"cli.commands": set(), "verdict.checks": set()}
 STREAMS = {"streams", "__main__", "specfile", "output", "manual", "cli"}
 # What commands know besides designs and studies: laws alone, extras, templates, units and names of
 # parts; there is no machine yet.
@@ -170,14 +170,14 @@ def beside_designs(text):
 ASKS = {
     "drives.refuses": ["spec.wheel.NAME not in able"],
     "specfile.template": ["name != Crank.NAME"],
-    "study.synth.reading": ["f.key == 'stop'"],
+    "study.synth.reading": ["'stop' in keys[name]"],
 }
 # Keys and tables of a kind that stand in the core.
 NAMED = {
     "specfile.template": {"stop"},  # to be an example of the kind
     "study.synth.reading": {"stop"},  # the key of a wheel
     "study.target": {"stop"},  # the key of a wheel
-    "verdict.headline": {"stop"},  # a label
+    "study.verdicts": {"stop"},  # a label
 }
 
 CALLS = ("open", "io.open", "os.open", "print", "input", "exec")

@@ -112,7 +112,8 @@ def _record(
     None where a roller's centre never crosses the axis of the slot at rest inside the rim.
     """
     out: dict[str, float | None] = {}
-    ends, jumps, gained = peaks.ends, (0.0, 0.0), None
+    ends, gained = peaks.ends, None
+    jumps: Sequence[float | None] = (0.0, 0.0)
     if engagements[0].built is not None:
         jumps = greatest_jumps(engagements)
         gained = math.degrees(scalar(engagements[0].built.gained))  # all leave the rim alike

@@ -15,8 +15,8 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Reading, rows_table
-from geneva_cli.verdict.quantities.batch_designs import Numbers, Values, single
-from geneva_cli.verdict.quantities.groups import ECHOED, only, own_names
+from geneva_cli.verdict.quantities.batch_designs import Numbers, Values, only, single
+from geneva_cli.verdict.quantities.groups import ECHOED, own_names
 from geneva_cli.verdict.quantities.load_quantities import pressure
 from geneva_cli.verdict.quantities.motion_quantities import peak_values
 from geneva_cli.verdict.strength import NEEDY, strength

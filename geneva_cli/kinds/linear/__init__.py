@@ -39,12 +39,12 @@ KINDS = (
         scene="kinds.linear.drawings:RackScene",
         motion_checks={"rack_horn_mm": "kinds.linear.horn_check:rack_horn"},
         parts_checks={
-            "guide_locks": "kinds.linear.checks:guide_locks",
-            "beside_shafts_mm": "kinds.linear.checks:passing_shafts",
-            "gear_gap_mm": "kinds.linear.checks:passing_gears",
-            "cut_plate_mm": "kinds.linear.checks:thickest_plate",
-            "cut_slot_mm": "kinds.linear.checks:slot_width",
-            "parts": "verdict.checks.clearances:plates_built",
+            "guide_locks": "kinds.linear.checks:standing",
+            "beside_shafts_mm": "kinds.linear.checks:standing",
+            "gear_gap_mm": "kinds.linear.checks:standing",
+            "cut_plate_mm": "kinds.linear.checks:standing",
+            "cut_slot_mm": "kinds.linear.checks:standing",
+            "parts": "verdict.checks.part_checks:built",
         },
     ),
 )

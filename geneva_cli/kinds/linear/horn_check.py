@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 
 if TYPE_CHECKING:
     from geneva_cli.motion.mechanism import Mechanism
-    from geneva_cli.verdict.checks.check import Check
+    from geneva_cli.verdict.checks import Check
 
 
-def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
-    """The wall between slot and recess of a rack; None for a wheel, and without a lock."""
+def rack_horn(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
+    """The wall between slot and recess of a rack that is locked."""
     if mechanism.output.turns:
-        return None
+        return
     from geneva_cli.kinds.linear.rack import rack_sizes
-    from geneva_cli.spec.least_wall import wall_min
-    from geneva_cli.verdict.checks.check import compared
+    from geneva_cli.spec.defaults import wall_min
+    from geneva_cli.verdict.checks import compared
 
     try:
         sizes = rack_sizes(mechanism)
     except GenevaError:
-        return None  # the check of the parts reports the error
-    least = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
-    return compared(name, sizes.horn, "at least", least) if sizes.lock else None
+        return  # the check of the parts reports the error
+    if sizes.lock:
+        least = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
+        yield compared("rack_horn_mm", sizes.horn, "at least", least)

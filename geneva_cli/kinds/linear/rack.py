@@ -15,12 +15,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Circle, Contour, Line, Segment, about, closed, convex_hull
 from geneva_cli.kinds.linear.guide import GuidePlace, guide_place
 from geneva_cli.motion.mechanism import Mechanism
+from geneva_cli.numerics.arrays import half_or, value_or
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.machine_sizes import lock_between, require_lock_between
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.shafts.screws import bolt_radius, refuse_no_screw, tapped
 from geneva_cli.parts.sizes import (
-    NO_SIZES,
     KeySizes,
     arm_bore,
     drawn_thicknesses,
@@ -29,8 +29,7 @@ from geneva_cli.parts.sizes import (
     pin_hole,
     pin_radius,
 )
-from geneva_cli.spec.default_sizes import half_or, value_or
-from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.defaults import wall_min
 
 
 class RackSizes(NamedTuple):
@@ -119,7 +118,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
         sizes, bore = rack_sizes(mechanism), rack_bore(mechanism)
         arm = crank_arm(mechanism) if bore else None
     except GenevaError:  # reported by the check of the parts
-        return NO_SIZES
+        return {}, ()
     thick = drawn_thicknesses(size, sizes.arm)
     known = {
         "wheel_radius_mm": sizes.edge,
@@ -134,7 +133,7 @@ def key_sizes(mechanism: Mechanism) -> KeySizes:
     if arm:
         wide = {"bore": bore, "hub": arm.hub, "eye": arm.eye}
         known |= {f"arm_{name}_mm": 2.0 * radius for name, radius in wide.items()}
-    return KeySizes(known, ())
+    return known, ()
 
 
 def rack_contour(sizes: RackSizes, count: int) -> Contour:

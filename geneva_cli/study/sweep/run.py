@@ -17,15 +17,14 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.parts import Parts, parts_of
-from geneva_cli.specfile.reader import Text
-from geneva_cli.specfile.settings import Setting, setting
+from geneva_cli.specfile.reader import Setting, Text, setting
 from geneva_cli.study.batches import Batch, batch_rows, numbers
 from geneva_cli.study.fields import Pick, pick
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.rows import Cell, Column, Rows, rows_of
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
-from geneva_cli.verdict.quantities.under_load import share
+from geneva_cli.verdict.quantities.batch_members import share
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 ERROR = "error"  # the column that says why a design cannot be built
