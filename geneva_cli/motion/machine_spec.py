@@ -104,7 +104,7 @@ class Spec(SpecTable):
             vars(self)["size"] = size.replace(derived_distance_mm=L)
         turns = self.drive.turns * (self.drive_before.turns if self.drive_before else 1)
         L, before = self.size.distance_mm, self.drive_before
-        gears = (before and before.gears) or self.drive.gears
+        gears = (before and before.gears) or (None if self.drive.direct else self.drive.gears)
         lock = self.drive.LOCKS and self.size.lock_radius_mm != 0.0
         own = {"turns": turns, "given_distance_mm": L, "gears": gears, "has_lock": lock}
         vars(self).update(own, output=self.wheel.output(L))
@@ -174,8 +174,10 @@ class Spec(SpecTable):
 
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
-        shaft_deg = self.drive.input_deg(crank_deg)
         before = self.drive_before
+        if before is None and self.drive.direct:
+            return float(crank_deg)
+        shaft_deg = self.drive.input_deg(crank_deg)
         return shaft_deg if before is None else before.input_deg(shaft_deg)
 
     @property
@@ -196,7 +198,10 @@ class Spec(SpecTable):
     @property
     def unbalanced(self) -> bool:
         """True if a single body stands off the wheel's axis."""
-        return any(one.to_one_side for one in self.mass)
+        for one in self.mass:
+            if one.to_one_side:
+                return True
+        return False
 
     @property
     def is_flat(self) -> bool:
