@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import field
+from operator import attrgetter
 from typing import Any, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse_text
@@ -198,10 +199,7 @@ class Spec(SpecTable):
     @property
     def unbalanced(self) -> bool:
         """True if a single body stands off the wheel's axis."""
-        for one in self.mass:
-            if one.to_one_side:
-                return True
-        return False
+        return any(map(attrgetter("to_one_side"), self.mass))
 
     @property
     def is_flat(self) -> bool:
