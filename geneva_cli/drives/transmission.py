@@ -16,7 +16,7 @@ from geneva_cli.motion.wheels.classic import HalfStep, PinTravel, middle, refuse
 from geneva_cli.motion.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Array, larger, parameter
-from geneva_cli.numerics.jet import Jet, Number, sine_versine
+from geneva_cli.numerics.jet import rotation
 
 if TYPE_CHECKING:
     from geneva_cli.drives.pushed import PushedCrank
@@ -31,11 +31,6 @@ ANGLES_KEY = ("drive", "roller_angles_deg")
 # A transmission written about one crank angle, so that nothing cancels near it: the input angle
 # there; and sin d and 1 - cos d of the crank's rotation d since then, by the input's rotation.
 LocalTransmission: TypeAlias = "tuple[float, Displacement]"
-
-
-def same(tau: Number, order: int) -> tuple[Jet, Jet]:
-    """sin d and 1 - cos d of a crank that turns as the input does."""
-    return sine_versine(Jet.variable(tau, order))
 
 
 class Transmission(Drive, kw_only=True):
@@ -180,7 +175,7 @@ class Direct(Transmission, kw_only=True):
     turned_at_crank: ClassVar[bool] = True
 
     def about(self, crank_deg: float) -> LocalTransmission:
-        return crank_deg, same
+        return crank_deg, rotation  # the crank turns as the input does
 
 
 def places(
