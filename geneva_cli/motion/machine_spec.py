@@ -140,18 +140,11 @@ class Spec(SpecTable):
         """
         if name == "motion":
             return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
-        part = self._part(name)
-        return {} if part is None else part.as_dict()
-
-    def _part(self, name: str) -> SpecTable | None:
-        """Table by its name in the file (``mass.0`` is the first of a list), or None if absent."""
-        table, _, number = name.partition(".")
-        if table in LISTS:
-            several = vars(self)[table]
-            known = number.isdecimal() and int(number) < len(several)
-            return several[int(number)] if known else None
+        one_of, _, number = name.partition(".")  # ``mass.0`` is the first of a list
         part = vars(self).get(name.replace(".", "_")) if "_" not in name else None
-        return part if isinstance(part, SpecTable) else None
+        if one_of in LISTS and number.isdecimal() and int(number) < len(vars(self)[one_of]):
+            part = vars(self)[one_of][int(number)]
+        return part.as_dict() if isinstance(part, SpecTable) else {}
 
     def with_(self, key: str, value: object) -> Self:
         """Return a copy with one key changed, written ``table.key``; None sets its default.
@@ -162,16 +155,17 @@ class Spec(SpecTable):
         8
         """
         table, _, name = key.rpartition(".")
-        part = self._part(table)
-        if part is None:
+        one_of, _, number = table.partition(".")
+        several = [*vars(self)[one_of]] if one_of in LISTS else []
+        if number.isdecimal() and int(number) < len(several):
+            several[int(number)] = several[int(number)].with_key(name, value)
+            return self.replace(**{one_of: tuple(several)})
+        attribute = table.replace(".", "_")
+        part = vars(self).get(attribute) if "_" not in table else None
+        if not isinstance(part, SpecTable):
             missing = table or key
             raise GenevaError(f"{key}: this spec has no [{missing}]", tuple(key.split(".")))
-        changed = part.with_key(name, value)
-        one_of, _, number = table.partition(".")
-        if one_of not in LISTS:
-            return self.replace(**{table.replace(".", "_"): changed})
-        several, at = vars(self)[one_of], int(number)
-        return self.replace(**{one_of: (*several[:at], changed, *several[at + 1 :])})
+        return self.replace(**{attribute: part.with_key(name, value)})
 
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
