@@ -76,6 +76,8 @@ class StraightSlotMotion(WheelMotion):
     external wheel or -1 for an internal one, l = sin b and 1 - l.
     """
 
+    entry: Anchor
+
     def __init__(
         self,
         path: AnchoredPath,
