@@ -940,6 +940,8 @@ class Design:
         >>> Design(External(6), accept=Accept(many_slots="agreed")).unused_acceptances
         ['many-slots']
         """
+        if not self.spec.accept.reasons:
+            return []
         # of drawings without turning parts of ours, which check does not need
         drawn = [*self.ideal_notes, *self.check_warnings] if self.is_drawn else None
         return self.spec.accept.unused(self.warnings if drawn is None else drawn)
