@@ -559,7 +559,7 @@ class Design:
         >>> Design(External(6), load=Load(0.4, 15)).loads_page.to_dict()["loads"][0]["quantity"]
         'omega_rad_s'
         """
-        from geneva_cli.verdict.headline import below_summary
+        from geneva_cli.verdict.failures import below_summary
 
         return below_summary(self._loads(for_people=True), without=("title", "chosen"))
 
@@ -817,13 +817,18 @@ class Design:
     @answer
     def _judged(self) -> list[Check]:
         """Every check but the proof."""
-        from geneva_cli.verdict.advice import judged
+        from geneva_cli.verdict.checks import all_pass, every_check
 
         if self.is_drawn:
             rows: list[Check] = self._of_drawing("checks")
             return rows
         # a machine without parts is judged without NumPy
-        return judged(self.mechanism, self.parts if self.spec.is_turned else None)
+        rows = [*every_check(self.mechanism, self.parts if self.spec.is_turned else None)]
+        if all_pass(rows):
+            return rows
+        from geneva_cli.verdict.advice import advised
+
+        return advised(self.mechanism, rows)
 
     @property
     def passes(self) -> bool:
@@ -846,14 +851,17 @@ class Design:
         ('', [])
         """
         from geneva_cli.drawings.catalogue import parts_having
-        from geneva_cli.verdict.advice import judged
-        from geneva_cli.verdict.headline import failures
+        from geneva_cli.verdict.advice import advised
+        from geneva_cli.verdict.checks import checks
+        from geneva_cli.verdict.failures import failures
 
         parts = parts_having(self.parts, part)
         if parts.mechanism.spec.is_flat:
             _ = parts.outlines  # their error comes before all checks
-        is_own = parts is self.parts
-        return failures(self._judged if is_own else judged(parts.mechanism, parts), parts)
+        if parts is self.parts:
+            return failures(self._judged, parts)
+        other = parts.mechanism
+        return failures(advised(other, checks(other, parts)), parts)
 
     @question
     def tolerance(

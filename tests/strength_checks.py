@@ -1,8 +1,8 @@
 """Names of the strength checks that default sizes must pass, and a spec's checks by name."""
 
 from geneva_cli.motion.mechanism import build
-from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.all_checks import applicable, standing
+from geneva_cli.verdict.advice import advised
+from geneva_cli.verdict.checks import applicable, checks, standing
 
 PARTS = (
     "pin_stress_MPa",
@@ -21,3 +21,8 @@ def rows(spec):
 
 def standing_checks(parts):
     return applicable(standing(parts.mechanism), parts)
+
+
+def judged(mechanism, machine=None, parts=True):
+    """Every check, those that fail with their advice."""
+    return advised(mechanism, checks(mechanism, machine, parts), parts)

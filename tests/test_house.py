@@ -55,7 +55,7 @@ MEMBERS = {
 }
 # Folders of like files, none of which imports another, and what stands beside them: what two
 # share, and the list of them.
-SHARED = {"cli.commands": set(), "verdict.checks": {"check", "all_checks"}}
+SHARED = {"cli.commands": set(), "verdict.checks": set()}
 STREAMS = {"streams", "__main__", "specfile", "output", "manual", "cli"}
 # What commands know besides designs and studies: laws alone, extras, templates, units and names of
 # parts; there is no machine yet.
@@ -177,7 +177,7 @@ NAMED = {
     "specfile.template": {"stop"},  # to be an example of the kind
     "study.synth.reading": {"stop"},  # the key of a wheel
     "study.target": {"stop"},  # the key of a wheel
-    "verdict.headline": {"stop"},  # a label
+    "study.verdicts": {"stop"},  # a label
 }
 
 CALLS = ("open", "io.open", "os.open", "print", "input", "exec")

@@ -7,11 +7,12 @@ type checkers.
 
 import json
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 import pytest
+from strength_checks import judged
 from typer.testing import CliRunner
 from words import Spec, Wheel
 
@@ -25,10 +26,9 @@ from geneva_cli.output.formats import FORMATS
 from geneva_cli.spec.rules import Range
 from geneva_cli.specfile import template
 from geneva_cli.table import Table, rows_table
-from geneva_cli.verdict.advice import judged
-from geneva_cli.verdict.checks import all_checks as checks
-from geneva_cli.verdict.checks import single_check
-from geneva_cli.verdict.checks.check import NONE, Check, compared
+from geneva_cli.verdict import checks
+from geneva_cli.verdict.advice import NONE
+from geneva_cli.verdict.checks import Check, compared, single_check
 from geneva_cli.verdict.quantities import groups
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 
@@ -107,9 +107,9 @@ def test_a_law_with_a_parameter(add: Add, run: Callable[..., Any]) -> None:
     assert "flattened" in {row["law"] for row in laws}
 
 
-def slots(name: str, mechanism: Mechanism) -> Check:
+def slots(names: Collection[str], mechanism: Mechanism) -> Iterator[Check]:
     """A check."""
-    return compared(name, float(mechanism.spec.wheel.z), "at least", 5.0)
+    yield compared("slots", float(mechanism.spec.wheel.z), "at least", 5.0)
 
 
 def test_a_check(add: Add, run: Callable[..., Any]) -> None:

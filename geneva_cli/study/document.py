@@ -39,8 +39,8 @@ from geneva_cli.study.summary.report_summary import (
     machine_lines,
     parts_of,
 )
+from geneva_cli.study.verdicts import headline
 from geneva_cli.table import Table, in_digits
-from geneva_cli.verdict.headline import headline
 from geneva_cli.verdict.strength import OF_LIFE
 
 SOURCES = (

@@ -2,45 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import NamedTuple
 
-from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary
+from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine, value_text
 from geneva_cli.design import load
-from geneva_cli.errors import GenevaError, Notice
+from geneva_cli.errors import GenevaError, Notice, open_warnings
+from geneva_cli.names import spoken
 from geneva_cli.parts.chosen import ByLoad
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Reading, Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
-from geneva_cli.verdict.headline import (
-    anew_lines,
-    chosen_lines,
-    failure_lines,
-    headline,
-    proof_lines,
-    tightest,
-    unused_lines,
-    warning_lines,
-)
+from geneva_cli.verdict.failures import meaning
+
+# yes or no, and what a machine that turns always keeps
+WITHOUT_MARGIN = ("dwell_hold", "parts", "full_turn", "turns", "turning_slack_mm")
 
 
 class Verdict(NamedTuple):
     """The checks and warnings of one spec, or why it could not be read."""
 
     path: str
+    passes: bool = False  # no check fails; one without a proof does not
     files: tuple[str, ...] = ()  # all files that the design was read from
     checks: tuple[Check, ...] = ()
     warnings: tuple[Notice, ...] = ()
     unused: tuple[str, ...] = ()  # names of accepted warnings that do not occur
     error: str = ""
     chosen: ByLoad = ByLoad({}, {})
-
-    @property
-    def passes(self) -> bool:
-        """Return True if no check fails; a check without a proof does not fail."""
-        return not self.error and all_pass(self.checks)
 
 
 def verdict(
@@ -53,9 +45,23 @@ def verdict(
     """
     try:
         design = load(path, settings, reverse)
+        if design.spec.is_loaded and not design.is_drawn:
+            from geneva_cli.loads.cycle import cycle_of
+            from geneva_cli.loads.load_tables import summaries
+            from geneva_cli.loads.strength.part_loads import single_loads
+            from geneva_cli.verdict.strength import strength
+
+            # loads, the parts that they size, their strength: what checks and warnings read
+            with suppress(GenevaError):  # a check says why
+                single_loads(design.mechanism)
+                summaries(cycle_of(design.mechanism))
+                _ = design.parts.built
+                of = strength(design.mechanism)
+                _ = of["strength.wheel_shaft.stress_MPa"], of["strength.horn.stress_MPa"]
         checks = design.checks if to_mm is None else design.proved_to(to_mm)
         return Verdict(
             path=design.spec.path,
+            passes=all_pass(checks),
             files=design.spec.files,
             checks=tuple(checks),
             warnings=tuple(design.check_warnings),
@@ -79,17 +85,22 @@ def verdicts(
     if list(paths).count("-") > 1:
         raise GenevaError("<stdin>: given twice, but it can be read only once; name it once")
     judge = partial(verdict, settings=settings, to_mm=to_mm, reverse=reverse)
+    if len(paths) == 1:
+        return map(judge, paths)
     files = [path for path in paths if path != "-"]
     others = mapped(judge, files, min(len(files), cores()), "specs")
-    for path in tracked(paths, "specs", len(paths)):
-        yield judge(path) if path == "-" else next(others)
+    each = (judge(path) if path == "-" else next(others) for path in paths)
+    return tracked(each, "specs", len(paths))
 
 
 def checks_table(verdicts: Sequence[Verdict]) -> Table:
     """A table with one row for each check of each spec."""
     names = "spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why"
-    own = "name", *names[2:-1], "remark"
-    rows = [(v.path, *(getattr(c, name) for name in own)) for v in verdicts for c in v.checks]
+    rows = [
+        (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.remark)
+        for v in verdicts
+        for c in v.checks
+    ]
     # a narrow window shows the limit rather than the angle, which is not known for most checks
     first = ("spec", "check", "value", "must_be", "limit", "passes", "nearest", "at_deg", "why")
     return rows_table(names, rows).replaced(reading=Reading(first))
@@ -123,23 +134,27 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     """
     table = checks_table(verdicts)
     data = checks_record(verdicts) if as_json else table
-    judged = [v for v in verdicts if not v.error]
-    is_single = len(verdicts) == len(judged) == 1
-    heads, details = list[Summary](), list[Summary]()
-    for v in judged:
+    is_single = len(verdicts) == 1
+    heads, details, sized = list[Summary](), list[Summary](), 0
+    for v in verdicts:
+        if v.error:
+            continue
+        sized += bool(v.chosen.sizes)
         state, text = headline(v.checks, v.warnings)
-        lines = (
-            *failure_lines(v.checks),
-            *warning_lines(v.checks, v.warnings),
-            *unused_lines(v.unused),
-        )
+        lines = failure_lines(v.checks) + warning_lines(v.checks, v.warnings, v.unused)
         if is_single:
-            lines += (*proof_lines(v.checks), *tightest(v.checks), *chosen_lines(v.chosen, v.path))
-        elif own := (*lines, *anew_lines(v.chosen)):
-            details.append(Summary(v.path, own))
-        heads.append(Summary(f"{v.path}: {text}", lines if is_single else (), state=state))
+            # what is proved: that no parts collide, and that a stop blocks the crank
+            for check in v.checks:
+                if check.passes and check.why:
+                    label = "stop" if check.name == "stop_turns" else "turn"
+                    lines.append(SummaryLine(label, check.why))
+            lines += tightest(v.checks) + chosen_lines(v.chosen, v.path)
+        elif own := lines + chosen_lines(v.chosen):
+            details.append(Summary(v.path, tuple(own)))
+        heads.append(Summary(f"{v.path}: {text}", tuple(lines) if is_single else (), state=state))
     if not is_single:
-        many, unread = len(verdicts), len(verdicts) - len(judged)
+        many, judged = len(verdicts), len(heads)
+        unread = many - judged
         failed, warned = (sum(head.state == state for head in heads) for state in (FAILS, WARNS))
         passed = many - failed - unread
         text = f"all {many} specs pass"
@@ -151,7 +166,132 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
         text += f", {warned} with warnings" if warned else ""
         state = FAILS if failed or unread else WARNS if warned else PASSES
         heads.append(Summary(text, state=state))
-        if sized := sum(bool(v.chosen.sizes) for v in judged):
-            of = f"in {sized} of {len(judged)} specs (geneva size SPEC writes them)"
+        if sized:
+            of = f"in {sized} of {judged} specs (geneva size SPEC writes them)"
             heads.append(Summary(f"sizes chosen by load {of}"))
     return Answer((*heads, *details), table if page else None, data)
+
+
+def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
+    """State of a design (PASSES, WARNS or FAILS), and counts of its checks and warnings in words.
+
+    >>> from geneva_cli.verdict.checks import Check
+    >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
+    ('fails', '1 of 1 checks fails')
+    """
+    many, failed, not_proved, driven = len(checks), 0, 0, ""
+    for check in checks:
+        failed += check.passes is False
+        not_proved += check.passes is None
+        if check.name == "driven_fraction" and check.passes and check.value and check.value < 1.0:
+            driven = f", {meaning(check)}"
+    if failed:
+        text = f"{failed} of {many} checks fail{'s' * (failed == 1)}"
+    elif not_proved:
+        passed = many - not_proved
+        text = f"{passed} of {many} checks pass{'es' * (passed == 1)}"
+    else:
+        text = f"all {many} checks pass"
+    if not_proved:
+        text += f", {not_proved} not proved"
+    text += driven
+    left = open_warnings(warnings)
+    if left:
+        text += f", {len(left)} warning{'s' * (len(left) != 1)}"
+    if accepted := len(warnings) - len(left):
+        text += f", {accepted} warning{'s' * (accepted != 1)} accepted"
+    state = FAILS if failed else WARNS if not_proved or left else PASSES
+    return state, text
+
+
+def chosen_lines(by_load: ByLoad, path: str | None = None) -> list[SummaryLine]:
+    """The lines of the sizes that the load chose, for a spec's path, and an option chose anew."""
+    lines = []
+    if path is not None and (words := by_load.words):
+        name = {"": "SPEC", "<stdin>": "-"}.get(path, path)
+        text = f"chosen by load: {words} (geneva size {name} writes them)"
+        lines.append(SummaryLine("sizes", text))
+    if changes := by_load.changes:
+        lines.append(SummaryLine("note", f"sizes chosen anew: {changes}"))
+    return lines
+
+
+def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
+    """A line for each check that fails: its value, its limit, and the change."""
+    lines = []
+    for check in checks:
+        if check.passes is not False:
+            continue
+        label, unit = spoken(check.name)
+        explained = f"geneva explain {check.name}"
+        if check.value is None or check.limit is None:
+            lines.append(SummaryLine(label, check.why, explained, FAILS))
+            continue
+        how = "with" if "=" in check.nearest else "by"  # a value, or leaving out a key
+        advice = f"passes {how} {check.nearest}" if check.nearest else ""
+        advice += f" (sizes chosen anew: {check.anew})" if check.anew else ""
+        refused = check.nearest and check.name in ("parts", "full_turn")  # the reason is the text
+        change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
+        note = f"{change} ({explained})" if change else explained
+        text = check.why if refused else meaning(check) or compared_text(check, unit)
+        lines.append(SummaryLine(label, text, note, FAILS))
+    return lines
+
+
+def warning_lines(
+    checks: Iterable[Check], warnings: Iterable[str], unused: Iterable[str] = ()
+) -> list[SummaryLine]:
+    """A line for each check without a proof, each warning, and each acceptance of none."""
+    lines = []
+    for check in checks:
+        if check.passes is None:
+            text = f"{spoken(check.name)[0]}: {check.why}"
+            lines.append(SummaryLine("not proved", text, "", WARNS))
+    lines += map(warning, warnings)
+    for name in unused:
+        text = f"{name}: no such warning occurs: it can be removed from [accept]"
+        lines.append(SummaryLine("note", text))
+    return lines
+
+
+def warning(text: str) -> SummaryLine:
+    """The line of a warning, and the command that explains it; of an accepted one its reason."""
+    explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
+    if isinstance(text, Notice) and text.accepted:
+        return SummaryLine("accepted", f"{text.name}: {text.accepted}", explained)
+    return SummaryLine("warning", text, explained, WARNS)
+
+
+def tightest(checks: Iterable[Check]) -> list[SummaryLine]:
+    """The line of the passing check with the least relative margin, or none."""
+    most, tight = 0.0, None
+    for check in checks:
+        value, limit = check.value, check.limit
+        # where it passes, a reason says what is proved
+        if not (check.passes and value and limit) or check.why or check.name in WITHOUT_MARGIN:
+            continue
+        used = value / limit if check.must_be == "at most" else limit / value
+        if tight is None or used > most:
+            most, tight = used, check
+    if tight is None:
+        return []
+    label, unit = spoken(tight.name)
+    return [SummaryLine("tightest", f"{label} {compared_text(tight, unit)}")]
+
+
+def compared_text(check: Check, unit: str) -> str:
+    """The value of a check, its place, and its limit."""
+    assert check.value is not None
+    assert check.limit is not None
+    where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
+    limit = measured(check.limit, unit) if unit == "deg" else value_text(check.limit)
+    return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
+
+
+def measured(value: float, unit: str = "", digits: int = 4) -> str:
+    """A value with its unit, and with the significant digits of a sentence.
+
+    >>> measured(8.25622, "mm"), measured(-58.2111, "deg")
+    ('8.256 mm', '-58.21°')
+    """
+    return value_text(value, "°" if unit == "deg" else unit, digits)

@@ -19,12 +19,23 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.motion.records import KINDS
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.checks import all_checks, checks, quick_first, single_check
-from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
+from geneva_cli.verdict.checks import (
+    LIMITS,
+    MOTION,
+    OF_TURN,
+    PUSHED,
+    TOLERANCES,
+    Check,
+    every_check,
+    single_check,
+)
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
 
+# The reason why a failing check has no advice.
+NONE = "no single change that was tried passes all checks"
+STOPPED = "no single change passed all checks within the limit of trials"
 FINE = 0.005  # fraction of a change to which its least value is searched
 NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 TRIALS = 80  # machines that are built for all searches of a design
@@ -139,8 +150,7 @@ class Remedy(NamedTuple):
         out: list[float | int] = [short] if abs(short - value) <= near else []
         for digits in range(3, 12):
             step = 10.0 ** (math.floor(math.log10(abs(value) or 1.0)) + 1 - digits)
-            count = value / step
-            whole = math.ceil(count) if self.end > self.now else math.floor(count)
+            whole = (math.ceil if self.end > self.now else math.floor)(value / step)
             away = float(f"{whole * step:.{digits + 1}g}")
             if abs(away - value) <= near:
                 return [*out, away]
@@ -164,7 +174,7 @@ def _words() -> dict[str, str]:
 def remedies(check: Check, mechanism: Mechanism) -> Iterator[Remedy]:
     """Changes of the spec that may make a failing check pass, the likeliest first."""
     spec, size = mechanism.spec, mechanism.spec.size.as_dict()
-    apart = (*all_checks.MOTION, *all_checks.LIMITS, *all_checks.TOLERANCES, *all_checks.PUSHED)
+    apart = (*MOTION, *LIMITS, *TOLERANCES, *PUSHED)
     usual = {} if check.name in apart else Size().as_dict()
     own = [key for key in usual if size[key] != usual[key] and key not in REQUIRED]
     # first a size that the reason names, such as "wheel_bore_mm = 30: it must be below 20"
@@ -192,19 +202,15 @@ def _of_word(word: str, mechanism: Mechanism) -> Iterator[Remedy]:
         return
     now = _now(mechanism, table, key)
     if isinstance(now, float | int) and not isinstance(now, bool):
-        if how == "?" and isinstance(now, int):
-            ends = [(0.0, True)]
-        elif how == "?":
-            usual: Value = None
+        ends = [(float(end or 0.0) + (now if how == "+" else 0.0), True)]
+        if how == "*":
+            ends = [(now * float(end), False)]
+        elif how == "?" and not isinstance(now, int):
+            ends = [(0.1 * now, False), (10.0 * now, False)]
             with suppress(GenevaError):
                 bare = mechanism.spec.with_(f"size.{key}", None)
                 usual = _now(mechanism._replace(spec=bare), table, key)
-            ends = [(usual, True)] if isinstance(usual, float) else []
-            ends += [(0.1 * now, False), (10.0 * now, False)]
-        elif how == "*":
-            ends = [(now * float(end), False)]
-        else:
-            ends = [(float(end) + (now if how == "+" else 0.0), True)]
+                ends = [(usual, True), *ends] if isinstance(usual, float) else ends
         for last, even in ends:
             if last != now:
                 yield Remedy(table, key, (), now, last, even)
@@ -222,41 +228,45 @@ def _now(mechanism: Mechanism, table: str, key: str) -> Value:
     return value
 
 
-def judged(mechanism: Mechanism, machine: Parts | None = None, parts: bool = True) -> list[Check]:
-    """Every check of a design; failing ones have one change with which all checks pass.
+def advised(mechanism: Mechanism, rows: list[Check], parts: bool = True) -> list[Check]:
+    """The checks, those that fail with one change of the spec with which all checks pass.
 
     Without such a change they say why, and name a change with which they pass themselves.
     """
-    rows = checks(mechanism, machine, parts)
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
     adviser, count = Adviser(mechanism, failing, parts), len(failing)
     one, why = adviser.advice(failing, TRIALS if count == 1 else TRIALS // 2)
-    each = [one] if one else []
-    own = [""] * count
+    each, own = [one] if one else [], [""] * count
     if not one and count > 1:
         # one trial is for all changes together
         some = [
             adviser.advice([c], (adviser.left - 1) // (count - i))[0] for i, c in enumerate(failing)
         ]
         by_key = {one[0][:2]: one for one in some if one}
-        if all(some) and adviser.suffice([*by_key.values()]):
+        adviser.aim(failing, 0)
+        if all(some) and adviser.margin([*by_key.values()], True) >= 0.0:
             each = sorted(by_key.values(), key=lambda advice: advice[1] is None)
         own = [f"{line(*one)} passes this one" if one else "" for one in some]
-    anew, change = adviser.chosen_anew(each), " and ".join(line(*one) for one in each)
-    advised = []
-    for c, more in zip(failing, own, strict=True):
-        if each:
+    anew, change = "", " and ".join(line(*one) for one in each)
+    if each and mechanism.spec.is_loaded:
+        from geneva_cli.parts.chosen import ByLoad, by_load
+
+        changed = build(adviser.changed(each), mechanism)
+        anew = ByLoad(by_load(changed), by_load(mechanism)).changes
+    advice = dict(zip(map(id, failing), own, strict=True))
+    out = []
+    for c in rows:
+        if c.passes is False and each:
             # where the same key passes, the other sizes may have changed with it
             value, but, _ = c.why.partition(", but ")
             same = but and value.startswith(f"{change.partition(' ')[0]} is ")
-            advised.append(c._replace(nearest=change, why=value if same else c.why, anew=anew))
-        else:
-            reasons = "; ".join(text for text in (c.why, why, more) if text)
-            advised.append(c._replace(why=reasons))
-    left = iter(advised)
-    return [next(left) if c.passes is False else c for c in rows]
+            c = c._replace(nearest=change, why=value if same else c.why, anew=anew)
+        elif c.passes is False:
+            c = c._replace(why="; ".join(filter(None, (c.why, why, advice[id(c)]))))
+        out.append(c)
+    return out
 
 
 def line(remedy: Remedy, value: Value) -> str:
@@ -270,10 +280,6 @@ def line(remedy: Remedy, value: Value) -> str:
     return f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value:.12g}"
 
 
-class OutOfTrials(Exception):
-    """The adviser has no trials left: not a fault of the spec, so not a GenevaError."""
-
-
 class Adviser:
     """Search for changes with which the ``failing`` checks pass; without ``parts`` of the others"""
 
@@ -282,57 +288,41 @@ class Adviser:
         self.left = TRIALS
         self._last: tuple[Mechanism, Parts] | None = None
 
-    def advice(self, wanted: list[Check], trials: int) -> tuple[Advice | None, str]:
-        """The change with which some failing checks pass and no other fails; else the reason."""
-        self._aim(wanted, self.left - trials)
-        tried = set()
-        try:
-            for check in wanted:
-                for remedy in remedies(check, self.mechanism):
-                    way = remedy[:3] if remedy.values else (*remedy[:2], remedy.end > remedy.now)
-                    if way not in tried and (advice := self._least(remedy)):
-                        return advice, ""
-                    tried.add(way)
-        except OutOfTrials:
-            return None, STOPPED
-        return None, NONE
-
-    def suffice(self, each: list[Advice]) -> bool:
-        """True if all failing checks pass with several changes at once, and no other fails."""
-        self._aim(self.failing, 0)
-        try:
-            return self._margin(each, True) >= 0.0
-        except OutOfTrials:
-            return False
-
-    def chosen_anew(self, each: list[Advice]) -> str:
-        """The sizes that the load chooses anew with these changes, in words; empty if none."""
-        if not (each and self.mechanism.spec.is_loaded):
-            return ""
-        from geneva_cli.parts.chosen import ByLoad, by_load
-
-        changed = build(self._with(each), self.mechanism)
-        return ByLoad(by_load(changed), by_load(self.mechanism)).changes
-
-    def _with(self, each: Sequence[Advice]) -> Spec:
+    def changed(self, changes: Sequence[Advice]) -> Spec:
+        """The spec with some changes."""
         spec = self.mechanism.spec
-        for (table, key, *_), value in each:
+        for (table, key, *_), value in changes:
             spec = spec.with_(f"{table}.{key}", value)
         return spec
 
-    def _aim(self, wanted: list[Check], stop: int) -> None:
+    def aim(self, wanted: list[Check], stop: int) -> None:
         """Search for these checks, the quick ones first, until so many trials are left."""
-        quick = {*all_checks.MOTION, *all_checks.LIMITS}
-        turned = (*all_checks.OF_TURN, *all_checks.PUSHED, "parts")
+        quick = {*MOTION, *LIMITS}
+        turned = (*OF_TURN, *PUSHED, "parts")
         by_cost = sorted(wanted, key=lambda c: (c.name in turned, c.name not in quick))
         self.units = {c.name: -c.spare if c.spare > -math.inf else 1.0 for c in by_cost}
         self.turns = any(c.name in turned for c in wanted)
         self.stop = stop
 
+    def advice(self, wanted: list[Check], trials: int) -> tuple[Advice | None, str]:
+        """The change with which some failing checks pass and no other fails; else the reason."""
+        self.aim(wanted, self.left - trials)
+        tried = set()
+        for check in wanted:
+            for remedy in remedies(check, self.mechanism):
+                way = remedy[:3] if remedy.values else (*remedy[:2], remedy.end > remedy.now)
+                found = None if way in tried else self._least(remedy)
+                if self.left < self.stop:
+                    return None, STOPPED
+                if found:
+                    return found, ""
+                tried.add(way)
+        return None, NONE
+
     def _least(self, remedy: Remedy) -> Advice | None:
         """The least sufficient value of one key, with its remedy; None if there is none."""
         for value in remedy.values:
-            if self._margin([(remedy, value)], True) >= 0.0:
+            if self.margin([(remedy, value)], True) >= 0.0:
                 return remedy, value
         if remedy.values:
             return None
@@ -341,32 +331,32 @@ class Adviser:
         for every in (True,) if self.turns else (False, True):
 
             def margin(fraction: float, every: bool = every) -> float:
-                return self._margin([(remedy, remedy.at(fraction))], every)
+                return self.margin([(remedy, remedy.at(fraction))], every)
 
             edge = _edge(margin, at, short)
             if edge is None:
                 return None
             for value in remedy.rounded(edge):
-                if self._margin([(remedy, value)], True) >= 0.0:
+                if self.margin([(remedy, value)], True) >= 0.0:
                     return remedy, value
             at, short = edge, -math.inf
         return remedy, remedy.at(at)
 
-    def _margin(self, changes: Sequence[Advice], every: bool) -> float:
+    def margin(self, changes: Sequence[Advice], every: bool) -> float:
         """The least margin of the wanted checks, relative to its present violation.
 
         With ``every`` it is -1 if another check begins to fail; -inf for a spec that makes no
-        machine, or whose turn takes too long.
+        machine, or whose turn takes too long, and without trials left.
         """
         from geneva_cli.parts.parts import parts_of
 
         least = math.inf
         try:
-            spec = self._with(changes)
+            spec = self.changed(changes)
             if self._last is None or self._last[0].spec != spec:
-                self.left -= 1
+                self.left = max(self.left, self.stop) - 1
                 if self.left < self.stop:
-                    raise OutOfTrials
+                    return -math.inf
                 machine = build(spec, self.mechanism)
                 self._last = machine, parts_of(machine, advice=False)
             machine, parts = self._last
@@ -377,7 +367,7 @@ class Adviser:
                     return least
             if every:
                 failed = {c.name for c in self.failing} - self.units.keys()
-                for check in quick_first(machine, parts, self.parts):
+                for check in every_check(machine, parts, self.parts, quick=True):
                     if check.passes is False and check.name not in failed:
                         return -1.0
         except GenevaError:

@@ -23,26 +23,29 @@ from geneva_cli.numerics.tolerances import ROUNDED
 def cycle_warnings(mechanism: Mechanism) -> list[Notice]:
     """Warnings about a loaded machine: loads without a bound, a wheel that drives or lags."""
     cycle = cycle_of(mechanism)
-    return [*_unbounded(cycle), *_driven(cycle), *_unbalanced(cycle)]
+    off_axis = _unbalanced(cycle) if mechanism.spec.unbalanced else ()
+    return [*_unbounded(cycle), *_driven(cycle), *off_axis]
 
 
 def _unbounded(cycle: Cycle) -> Iterator[Notice]:
     """Warnings about loads that nothing bounds."""
-    mechanism, case, force = cycle.mechanism, cycle.case, cycle.extremes[FORCE]
-    ends = (force.max_at_deg, force.max), (force.min_at_deg, force.min)
-    endless = [at for at, value in ends if math.isinf(value)]
-    if case.all_friction and endless:
+    case, force = cycle.case, cycle.extremes[FORCE]
+    endless_deg = math.inf
+    for value, at_deg in ((force.max, force.max_at_deg), (force.min, force.min_at_deg)):
+        if math.isinf(value):
+            endless_deg = min(endless_deg, at_deg)
+    if case.all_friction and endless_deg < math.inf:
         held, of, more, less = "wheel", f"{case.friction:g}", "torque as the wall", "friction"
         if case.guide and case.guided:  # the slot's friction holds nothing: it is across the travel
-            held, of = mechanism.output.noun, f"{case.guide.friction:g} in the guide"
+            held, of = cycle.mechanism.output.noun, f"{case.guide.friction:g} in the guide"
             more, less = "force as the roller", "guide_friction"
         yield Notice(
             "friction-holds-the-wheel",
-            f"friction of {of} holds the {held} at {min(endless):.4g}°, however hard the roller "
+            f"friction of {of} holds the {held} at {endless_deg:.4g}°, however hard the roller "
             f"presses: it takes as much {more} gives. Use a smaller roller or less {less}",
         )
     stress = cycle.extremes.get(STRESS)
-    if stress is not None and not math.isfinite(stress.max) and not endless:
+    if stress is not None and not math.isfinite(stress.max) and endless_deg == math.inf:
         yield Notice(
             "sharp-wall",
             f"the contact stress has no bound at {stress.max_at_deg:.4g}°: the roller bears on an "
@@ -98,7 +101,7 @@ def _unbalanced(cycle: Cycle) -> Iterator[Notice]:
     spec, bearing = cycle.mechanism.spec, summaries(cycle)["wheel_bearing_N"].max
     bodies = [one for one in spec.mass if one.to_one_side]
     # on a carrier the loads count that force; behind gears another shaft bears it
-    if bodies and bearing is not None and not cycle.case.frame and spec.support.gear_ratio == 1.0:
+    if bearing is not None and not cycle.case.frame and spec.support.gear_ratio == 1.0:
         peaks = worst(cycle.mechanism)
         # at most: the peaks need not coincide, nor the bodies stand on one side
         most = math.hypot(peaks.velocity.max**2, peaks.acceleration.max)
@@ -124,7 +127,7 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
         driven = stretch.feeds < 0.0 and b - a > 1e-4 * engagement.motion_deg
         if driven:  # where friction alone holds the wheel, it drives nothing
             at = contact(engagement, 0.5 * (stretch.start + stretch.end), 1, reactions=False)
-            grip = Instant(cycle.case, at, stretch.drives, stretch.slides).grip
+            grip = Instant(cycle.case, at, *stretch[2:]).grip
             driven = grip.scalars()[0] > 0.0
         if driven and last == a:
             out[-1] = out[-1][0], shown(b)

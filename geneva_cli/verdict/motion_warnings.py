@@ -22,12 +22,8 @@ SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's toleran
 
 def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     """The warnings about a machine that need neither its loads nor its parts."""
-    return [
-        *_of_sizes(mechanism),
-        *_fits(mechanism),
-        *_of_rounded_points(mechanism),
-        *(_of_law(mechanism, mechanism.law) if mechanism.law else ()),
-    ]
+    of_law = _of_law(mechanism, mechanism.law) if mechanism.law else ()
+    return [*_of_sizes(mechanism), *_fits(mechanism), *of_law]
 
 
 def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
@@ -57,7 +53,7 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
         yield Notice("no-centre-distance", text)
     if drive.stop_s:
         brake, start = drive.brake_and_start_deg
-        least = min(mechanism.dwell_deg(i) for i in range(len(mechanism.engagements)))
+        least = min(map(mechanism.dwell_deg, range(len(mechanism.engagements))))
         if not keeps(brake + start, "at most", least):
             yield Notice(
                 "stop-in-motion",
@@ -67,12 +63,13 @@ def _of_sizes(mechanism: Mechanism) -> Iterator[Notice]:
             )
     if engagement.built is not None:
         needed = spec.wheel.place(spec.wheel.step, L).ratio
-        jumps = greatest_jumps(mechanism.engagements)
-        sizes = [abs(jump) for jump in jumps if jump is not None]
-        impact = "the roller's centre never crosses the axis of the slot at rest inside the rim"
-        if sizes:
-            impact = f"the wheel's velocity jumps by up to {max(sizes):.4g} of the input's, an "
-            impact += "impact that the loads leave out"
+        most, impact = 0.0, "the roller's centre never crosses the axis of the slot at rest inside "
+        impact += "the rim"
+        for jump in greatest_jumps(mechanism.engagements):
+            if jump is not None:
+                most = max(most, abs(jump))
+                impact = f"the wheel's velocity jumps by up to {most:.4g} of the input's, an "
+                impact += "impact that the loads leave out"
         yield Notice(
             "taken-as-built",
             f"crank_radius_mm = {size.crank_radius_mm:.9g} and center_distance_mm = {L:.9g} have "
@@ -125,12 +122,13 @@ def _fits(mechanism: Mechanism) -> Iterator[Notice]:
             )
 
 
-def _of_rounded_points(mechanism: Mechanism) -> Iterator[Notice]:
-    """A warning about points of a file that round the jerk."""
-    law = mechanism.law
-    doubt = law.doubt() if law else None
-    if doubt is not None:
-        own = mechanism.engagements[0].own  # the law holds by the angle of its shaft
+def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
+    """Warnings about a wheel that follows a law, and about its slots."""
+    from geneva_cli.motion.pitch_curve import retraces
+
+    engagement = mechanism.engagements[0]
+    if doubt := law.doubt():  # points of a file that round the jerk
+        own = engagement.own  # the law holds by the angle of its shaft
         move = doubt[1] * 2.0 * own.half_step / (own.motion_deg * DEGREE) ** 3
         fraction = move / peak(own.motion, "jerk").max
         if not fraction < 0.01:  # less is not worth a warning
@@ -139,13 +137,6 @@ def _of_rounded_points(mechanism: Mechanism) -> Iterator[Notice]:
                 f"the points have {doubt[0]} decimals, so the jerk is known only to about "
                 f"{float(f'{100.0 * fraction:.2g}'):g} %: use more decimals, or fewer points",
             )
-
-
-def _of_law(mechanism: Mechanism, law: Law) -> Iterator[Notice]:
-    """Warnings about a wheel that follows a law, and about its slots."""
-    from geneva_cli.motion.pitch_curve import retraces
-
-    engagement = mechanism.engagements[0]
     if back := turns_back(mechanism):
         yield Notice(
             "turns-back",

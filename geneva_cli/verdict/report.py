@@ -14,7 +14,7 @@ from geneva_cli.motion.timing import timings
 from geneva_cli.parts.chosen import ByLoad
 from geneva_cli.parts.parts import Parts
 from geneva_cli.table import Table, in_digits, record_table
-from geneva_cli.verdict.checks.check import Check, all_pass
+from geneva_cli.verdict.checks import Check, all_pass
 from geneva_cli.verdict.quantities.batch_designs import Values
 from geneva_cli.verdict.quantities.groups import REPORT
 from geneva_cli.verdict.quantities.groups import values as values_of
@@ -54,7 +54,7 @@ def report(
 def _in_one_line(check: Check) -> str:
     """A failing check in one line."""
     if check.value is None or check.limit is None:
-        return check.not_computed
+        return f"{check.name} is not computed: {check.why}" if check.value is None else ""
     where = "" if check.at_deg is None else f" at {check.at_deg:.6g}°"
     value, limit = in_digits(check.value, 6), in_digits(check.limit, 6)
     change = f"; nearest change: {check.nearest}" if check.nearest else ""

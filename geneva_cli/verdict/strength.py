@@ -3,24 +3,40 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from functools import lru_cache
+from collections.abc import Callable, Sequence
+from functools import cache, lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.errors import Notice
 from geneva_cli.kept import cached_property
 from geneva_cli.loads.strength.horn import STOUT
-from geneva_cli.loads.strength.lock import held_torque_Nm
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.numerics.arrays import Number
+from geneva_cli.numerics.arrays import Number, value_or
 from geneva_cli.parts.machine_sizes import sized
-from geneva_cli.verdict.quantities.batch_designs import single
-from geneva_cli.verdict.quantities.groups import REPORT, only
+from geneva_cli.verdict.quantities import part_strength
+from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, only, single
 from geneva_cli.verdict.quantities.under_load import under_load
 
-# The groups by the names of their tables, and by the whole names of their quantities.
-REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
+if TYPE_CHECKING:
+    from geneva_cli.verdict.quantities.groups import QuantityGroup
+
+# Functions of the values that checks compare, by the names of their tables, or their whole names:
+# a check does not read the registry of all quantities.
+CHECKED: dict[str, Callable[[Designs], Columns]] = {
+    "strength.pin": part_strength.pin,
+    "strength.horn": part_strength.horn,
+    "strength.lock": part_strength.lock,
+    "strength.wheel_shaft": part_strength.wheel_shaft,
+    "strength.crank_shaft": part_strength.crank_shaft,
+    "strength.arm": part_strength.arm,
+    "strength.arm.least_thickness_mm": part_strength.arm_thickness,
+    "strength.wheel_key": part_strength.wheel_key,
+    "strength.crank_key": part_strength.crank_key,
+    "life.pv_max_W_m2": part_strength.pressure_speed,
+    "life.roller_life_h": part_strength.wear,
+}
 # Values of ``life``, in the order in which `geneva loads` lists their needs.
 OF_LIFE = (
     *("roller_life_turns", "roller_life_motions", "roller_life_h", "equivalent_force_N"),
@@ -42,6 +58,14 @@ _EDGE = "lock_edge_mm in [size]"
 _SHORT = "lock_clearance_mm = 0 in [size]: the end of a short locking disc is sharp"
 
 
+@cache
+def report_groups() -> dict[str, QuantityGroup]:
+    """The groups of a report, by the names of their tables, and by whole names of quantities."""
+    from geneva_cli.verdict.quantities.groups import REPORT
+
+    return {name: group for group in REPORT for name in (group.table, *group.names)}
+
+
 class Strength:
     """The strength and life of one design; a value is computed when it is first used."""
 
@@ -58,19 +82,22 @@ class Strength:
     def _column(self, name: str) -> Number | None:
         """A value by its whole name as its group has it: infinite if it is unbounded."""
         table, _, own = name.rpartition(".")
-        return (REPORT_GROUPS.get(name) or REPORT_GROUPS[table]).columns(self.design).get(own)
+        if compute := CHECKED.get(name) or CHECKED.get(table):
+            return self.design.columns(compute).get(own)
+        groups = report_groups()
+        return (groups.get(name) or groups[table]).columns(self.design).get(own)
 
     @cached_property
     def life(self) -> dict[str, float | None]:
         """The values of the group ``life``, by name."""
-        names = (name for name in REPORT_GROUPS if name.startswith("life."))
+        names = (name for name in report_groups() if name.startswith("life."))
         return {name.removeprefix("life."): self[name] for name in names}
 
     @cached_property
     def reversal(self) -> dict[str, float | None]:
         """The impact at a change of sides: the values of ``shock.reversal``, by name."""
         table = "shock.reversal"
-        return {name: self[f"{table}.{name}"] for name in REPORT_GROUPS[table].own}
+        return {name: self[f"{table}.{name}"] for name in report_groups()[table].own}
 
     @property
     def contact_mm(self) -> float | None:
@@ -143,7 +170,7 @@ class Strength:
         if not (drawn if locked else load.has_horns):
             return None
         needs = [] if load.contact_mm is not None else [_WIDTH]
-        if locked and not held_torque_Nm(self.mechanism):
+        if locked and not value_or(self.spec.load.dwell_torque_Nm, self.spec.load.torque_Nm):
             needs.append("dwell_torque_Nm in [load]")
         if not locked and not math.isfinite(load.force_N[0]):
             needs.append(BOUND)

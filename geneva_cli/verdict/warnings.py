@@ -1,4 +1,6 @@
-"""All warnings about a design in one list; those about its parts and their whole turn."""
+"""All warnings about a design: those about what the wheel carries, unlikely numbers, keys without
+effect, the parts and their whole turn stand here.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.geometry.measure import bounds
+from geneva_cli.loads.carried import G, inertia_kgm2, weight_kg
 from geneva_cli.motion.compatible import is_geared
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism
@@ -16,12 +19,13 @@ from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.parts.wheel_body import wheel_body
+from geneva_cli.spec.tables import Motor
 from geneva_cli.spec.workshops import workshop
-from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
-from geneva_cli.verdict.checks.play_checks import motion_play_max, slips_deg
+from geneva_cli.verdict.checks.turn_checks import motion_play_max, slips_deg
 from geneva_cli.verdict.motion_warnings import motion_warnings
 
 if TYPE_CHECKING:
+    from geneva_cli.geometry.plates import MassProperties
     from geneva_cli.parts.projection import Missing, NamedParts
 
 STEEP_DEG = 60.0  # a pressure angle that friction of 0.58 would hold, more than a dry pair has
@@ -39,12 +43,112 @@ def warnings(parts: Parts) -> list[Notice]:
     return [
         *motion_warnings(mechanism),
         *of_loads,
-        *unlikely_warnings(mechanism),
         *carried_warnings(mechanism, wheel_body(mechanism)),
+        *key_warnings(mechanism.spec),
         *of_strength,
         *turn_warnings(parts),
         *_process_warnings(parts),
     ]
+
+
+def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> Iterator[Notice]:
+    """Warnings about lengths and inertias in another unit, a wheel left out, and weight aside."""
+    spec, L, inertia = mechanism.spec, mechanism.center_distance_mm, inertia_kgm2(mechanism.spec)
+    least_mm = 5.0  # the smallest watches have stops of some mm
+    if not least_mm <= L:
+        yield Notice(
+            "tiny-machine",
+            f"the {spec.wheel.DISTANCE} of {L:.4g} mm is below {least_mm:g} mm: check that it is "
+            f"in mm. If it is in metres, write {1e3 * L:.4g}; if it is in inches, {25.4 * L:.4g}",
+        )
+    # The largest table expected is solid steel, 6 L across and L/2 thick; J = pi rho h D^4 / 32. A
+    # larger inertia is nearly always meant in kg cm2.
+    diameter, thickness, density = 6e-3 * L, 0.5e-3 * L, 7850.0  # m, m, kg/m3
+    most = math.pi * density * thickness * diameter**4 / 32.0
+    if mechanism.output.turns and inertia > most:
+        yield Notice(
+            "heavy-inertia",
+            f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {L:.4g} "
+            f"mm. A solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
+            f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
+        )
+    # a [[mass]] of this name is the wheel itself; a twentieth is within what loads are known to
+    counted = False
+    for mass in spec.mass:
+        counted = counted or mass.name == "wheel"
+    if plate and inertia and not counted and plate.inertia_kgm2 > 0.05 * inertia:
+        own = plate.inertia_kgm2
+        helps = f"{own:.4g} on inertia_kgm2 in [load]"
+        if spec.support.gear_ratio == 1.0:  # masses are on the table, behind its gears
+            across = 1e3 * math.sqrt(8.0 * own / plate.mass_kg)
+            helps = f'[[mass]] with name = "wheel", shape = "disc", mass_kg = {plate.mass_kg:.4g} '
+            helps += f"and diameter_mm = {across:.4g}"
+        yield Notice(
+            "wheel-left-out",
+            f"the wheel's own inertia, as drawn, is {own:.4g} kg m², "
+            f"{100.0 * own / inertia:.3g} % of the {inertia:.4g} kg m² of the load: if the load "
+            f"leaves it out, add {helps}",
+        )
+    for mass in spec.mass if spec.support.axis == "horizontal" else ():
+        if mass.to_one_side:
+            torque = spec.support.gear_ratio * weight_kg(mass) * G * mass.radius_mm * 1e-3
+            yield Notice(
+                "weight-to-one-side",
+                f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal "
+                f"axis. Its weight puts up to {torque:.4g} N m on the wheel in either "
+                "direction. That is not counted: balance it with another body (count = 2), or "
+                "add the torque to torque_Nm in [load]",
+            )
+
+
+def key_warnings(spec: Spec) -> Iterator[Notice]:
+    """Warnings about materials that seem to be in another unit, and about keys that lack others."""
+    # No material is stiffer than diamond, heavier than osmium, or as light as a density in g/cm3
+    # suggests.
+    diamond_GPa, osmium_kgm3, foam_kgm3 = 1220.0, 22590.0, 25.0
+    said, dense = list[str](), list[tuple[str, float | None]]()
+    for mass in spec.mass:
+        dense.append(("[[mass]]", mass.density_kgm3))
+    for table in ("material.wheel", "material.roller"):
+        part = spec.table(table)
+        dense.append((f"[{table}]", part["density_kgm3"]))
+        modulus = part["youngs_modulus_GPa"]
+        if modulus is not None and modulus > diamond_GPa:
+            said.append(
+                f"youngs_modulus_GPa = {modulus:g} in [{table}] is stiffer than diamond "
+                f"({diamond_GPa:g} GPa): if it is in MPa, write {1e-3 * modulus:g}"
+            )
+    for table, density in dense:
+        if density is not None and density < foam_kgm3:
+            said.append(
+                f"density_kgm3 = {density:g} in {table} is lighter than foam: if it is in g/cm³, "
+                f"write {1e3 * density:g}"
+            )
+        elif density is not None and density > osmium_kgm3:
+            said.append(
+                f"density_kgm3 = {density:g} in {table} is heavier than osmium: if it is in g/m³, "
+                f"write {1e-3 * density:g}"
+            )
+    for text in said:
+        yield Notice("unlikely-material", text)
+    support = spec.support
+    if not spec.is_loaded and spec.motor != Motor():
+        text = "[motor] has no load to drive, so no motor or flywheel is computed: set "
+        yield Notice("nothing-to-act-on", f"{text}{spec.load_keys}")
+    if bool(support.friction) != bool(support.radius_mm):
+        keys = ("friction", "radius_mm")
+        present, lacking = keys if support.friction else reversed(keys)
+        yield Notice(
+            "nothing-to-act-on",
+            f"{present} in [support] has no effect without {lacking}: set {lacking}, or remove "
+            f"{present}",
+        )
+    elif support.friction and not (spec.mass or support.force_N):
+        yield Notice(
+            "nothing-to-act-on",
+            "friction in [support] has no effect, because nothing presses on the support: set "
+            "force_N there, or give the weight as [[mass]]",
+        )
 
 
 def _process_warnings(parts: Parts) -> Iterator[Notice]:

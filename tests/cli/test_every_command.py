@@ -27,7 +27,7 @@ from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.writer import keys_in, values_of
-from geneva_cli.verdict.checks.all_checks import BEFORE_TURN, OF_TURN
+from geneva_cli.verdict.checks import BEFORE_TURN, OF_TURN
 from geneva_cli.verdict.quantities.groups import GROUPS
 
 DESIGNS = sorted(path.stem for path in repo.DESIGNS.glob("*.toml"))

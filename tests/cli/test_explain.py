@@ -38,9 +38,8 @@ from geneva_cli.study import law_values, survey
 from geneva_cli.study.sweep.run import ERROR
 from geneva_cli.study.synth.synth_table import NAMES as SYNTH
 from geneva_cli.study.verdicts import checks_table
-from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, STANDING, TURNING
-from geneva_cli.verdict.checks.all_checks import PROOFS as PROVED
+from geneva_cli.verdict.checks import LIMITS, MOTION, STANDING, TURNING, checks
+from geneva_cli.verdict.checks import PROOFS as PROVED
 from geneva_cli.verdict.quantities import groups
 from geneva_cli.verdict.tolerance import ANGLES
 

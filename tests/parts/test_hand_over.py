@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from geneva_cli import Design, External, Size
 from geneva_cli.design import load
-from geneva_cli.verdict.headline import headline
+from geneva_cli.study.verdicts import headline
 
 L, R, ROLLER, CLEARANCE = 60.0, 30.0, 3.0, 0.25
 HALF_STEP = math.radians(30.0)

@@ -9,7 +9,7 @@ from repo import DESIGNS
 
 from geneva_cli import Design, External, Size, load
 from geneva_cli.spec.workshops import PROCESSES, deviation_mm
-from geneva_cli.verdict.checks.check import Check
+from geneva_cli.verdict.checks import Check
 
 
 def test_a_mill_keeps_the_nominal_sizes() -> None:

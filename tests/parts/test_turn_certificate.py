@@ -24,12 +24,13 @@ from geneva_cli.motion.laws.standard import Cycloidal, ModifiedSine
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion
-from geneva_cli.motion.wheels.external import External, Internal
+from geneva_cli.motion.wheels.external import External
+from geneva_cli.motion.wheels.internal import Internal
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn import turn_certificate as halving
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.spec.tables import Size
-from geneva_cli.verdict.checks.play_checks import least_gap as least_gap_check
+from geneva_cli.verdict.checks.turn_checks import proof as gap_proof
 
 MACHINES = some(300, 8)
 FLAT = [path.name for path in sorted(repo.DESIGNS.glob("*.toml")) if load(path).spec.wheel.FLAT]
@@ -149,7 +150,7 @@ def checked(parts, turn_of=None, to_mm=None):
     """The check of parts whose sampled turn may be that of other parts."""
     own = with_shape(parts)
     vars(own)["_turn"] = full_turn(turn_of or parts)
-    return least_gap_check("gap_proved_mm", own, to_mm)
+    return next(gap_proof(["gap_proved_mm"], own, to_mm), None)
 
 
 def test_the_check_passes_with_its_proof_and_fails_where_samples_missed_a_collision():

@@ -22,11 +22,11 @@ from geneva_cli import (
 from geneva_cli.motion import registry
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
-from geneva_cli.verdict.carried_warnings import carried_warnings, unlikely_warnings
+from geneva_cli.verdict.warnings import carried_warnings, key_warnings
 
 
 def told(spec, plate):
-    return carried_warnings(build(spec), plate)
+    return [*carried_warnings(build(spec), plate), *key_warnings(spec)]
 
 
 def polygon(points):
@@ -79,12 +79,12 @@ def test_the_mass_that_is_suggested_adds_the_wheel():
 def test_lengths_in_metres_are_said(gearing):
     """A quarter of a metre is 250 mm, and no machine is below 5 mm."""
     wheel = registry.gearing(gearing)(6)
-    (said,) = unlikely_warnings(build(Spec(wheel, size=Size(0.25))))
+    (said,) = told(Spec(wheel, size=Size(0.25)), None)
     assert said.name == "tiny-machine"
     assert "in metres, write 250;" in said
     assert f"in inches, {0.25 * 25.4:.4g}" in said
-    assert list(unlikely_warnings(build(Spec(wheel, size=Size(4.99)))))
-    assert not list(unlikely_warnings(build(Spec(wheel, size=Size(5.0)))))
+    assert told(Spec(wheel, size=Size(4.99)), None)
+    assert not told(Spec(wheel, size=Size(5.0)), None)
 
 
 def test_a_weight_to_one_side_of_a_horizontal_axis():

@@ -15,6 +15,7 @@ import numpy as np
 from fuzz_machines import machine_text
 from load_states import greatest
 from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, overlaps
+from strength_checks import judged
 
 from geneva_cli import design
 from geneva_cli.design import Design
@@ -29,7 +30,6 @@ from geneva_cli.output import dxf, pdf, svg
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.study.verdicts import Verdict, checks_table
 from geneva_cli.table import Table, flat
-from geneva_cli.verdict.advice import judged
 
 PLACE = re.compile(r"(<stdin>|law\.csv|ratio\.csv)(:(\d+))?: ", re.DOTALL)
 TOLERANCE = 0.01  # mm at L = 100, of the drawings

@@ -10,7 +10,7 @@ from geneva_cli.design import Design, load
 from geneva_cli.loads.motor import RATED_kW, recommended_motor
 from geneva_cli.study.summary.load_lines import of_loads
 from geneva_cli.study.summary.report_summary import of_tolerance, of_vibration
-from geneva_cli.verdict.headline import tightest
+from geneva_cli.study.verdicts import tightest
 
 pytestmark = pytest.mark.usefixtures("made_once")
 
@@ -80,7 +80,7 @@ def test_the_tightest_check_is_nearest_to_its_limit() -> None:
     """No other passing check uses more of its limit; 61.41 of 82.5 MPa here."""
     checks = design("turret").checks
     (told,) = tightest(checks)
-    bounded = [c for c in checks if c.passes and not c.is_proof and c.value and c.limit]
+    bounded = [c for c in checks if c.passes and not c.why and c.value and c.limit]
     used = {
         c.name: c.value / c.limit if c.must_be == "at most" else c.limit / c.value
         for c in bounded

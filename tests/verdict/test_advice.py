@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 import repo
 from sampling import some
+from strength_checks import judged
 from words import load
 
 from geneva_cli import Design
@@ -13,9 +14,8 @@ from geneva_cli.motion.mechanism import Mechanism, build
 from geneva_cli.spec.schema import fields
 from geneva_cli.specfile.writer import keys_of
 from geneva_cli.verdict import advice
-from geneva_cli.verdict.advice import judged, remedies
+from geneva_cli.verdict.advice import NONE, STOPPED, remedies
 from geneva_cli.verdict.checks import Check, all_pass, checks
-from geneva_cli.verdict.checks.check import NONE, STOPPED
 
 DESIGNS = repo.DESIGNS
 

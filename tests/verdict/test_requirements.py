@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from strength_checks import judged
 
 from geneva_cli import (
     Crank,
@@ -20,9 +21,7 @@ from geneva_cli.motion.registry import gearing, law
 from geneva_cli.study.sweep.constraints import constraint
 from geneva_cli.study.synth.reading import read_target
 from geneva_cli.study.synth.synth_table import with_limits
-from geneva_cli.verdict.advice import judged
-from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.check import Check
+from geneva_cli.verdict.checks import Check, checks
 
 
 def check_of(design: Design, name: str, parts: bool = False) -> Check:

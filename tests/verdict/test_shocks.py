@@ -15,7 +15,7 @@ from geneva_cli.loads.impacts.entry import mouth_contacts
 from geneva_cli.loads.impacts.reversal import changes, drag_over
 from geneva_cli.parts.machine_sizes import built
 from geneva_cli.study.summary.load_lines import load_lines
-from geneva_cli.verdict.checks import single_check
+from geneva_cli.verdict.checks import checks
 
 LOOSE = Size(face_width_mm=18.0, slot_clearance_mm=0.02)
 WIDE = Tolerance(crank_radius_mm=0.02, center_distance_mm=0.03, slot_width_mm=0.02)
@@ -27,8 +27,7 @@ def design(force=None, **more):
 
 
 def row(of, name):
-    check = single_check(of.mechanism, name)
-    return check and check.with_reason
+    return next((c for c in checks(of.mechanism, parts=False) if c.name == name), None)
 
 
 def test_no_tolerance_no_row():

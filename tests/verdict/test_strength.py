@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 import repo
+from strength_checks import judged
 from words import Drive, Motion, Spec, Wheel
 
 import geneva_cli
@@ -13,7 +14,6 @@ from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.machine_sizes import sized
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
-from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.strength import Strength
 

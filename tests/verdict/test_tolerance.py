@@ -20,7 +20,7 @@ from geneva_cli.motion.laws.standard import Cycloidal
 from geneva_cli.motion.many import many
 from geneva_cli.motion.motion import Motion
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.verdict.checks.all_checks import TURNING, applicable
+from geneva_cli.verdict.checks import TURNING, applicable
 from geneva_cli.verdict.tolerance import flat_locks
 from tests.repo import ROOT
 

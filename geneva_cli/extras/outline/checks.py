@@ -33,7 +33,7 @@ from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.free_ranges import one_sector
 from geneva_cli.spec.defaults import wall_min
-from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.checks.motion_checks import entry_velocity_limit
 
 ROUNDING_DEG = 1e-3  # a smaller play comes from the slack

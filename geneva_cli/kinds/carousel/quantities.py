@@ -9,7 +9,7 @@ from geneva_cli.loads.carried import carried_kg
 from geneva_cli.loads.load_case import centrifugal_N
 from geneva_cli.motion.many import worst_peaks
 from geneva_cli.parts.parts import Parts
-from geneva_cli.verdict.checks.walls import reach_mm
+from geneva_cli.verdict.checks.part_checks import reach_mm
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, Values
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 
 import numpy as np
 
@@ -23,63 +23,49 @@ from geneva_cli.numerics.arrays import value_or
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sizes import drawn_thicknesses
-from geneva_cli.verdict.checks.check import Check, compared, gap
-from geneva_cli.verdict.checks.clearances import cut_width, plate_thickness
+from geneva_cli.verdict.checks import Check, compared
+from geneva_cli.verdict.checks.part_checks import cuts, least_gap
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
 from geneva_cli.verdict.shaft_gap import gear_rings, ring_gaps, rings_of
 from geneva_cli.verdict.strength import strength
 
 
-def guide_locks(name: str, parts: RackParts) -> Check | None:
-    """The friction from which a rack's guide locks, above that of the guide."""
-    load = parts.mechanism.spec.load
-    friction = value_or(load.guide_friction, load.friction)
-    value = strength(parts.mechanism)["guide.locks_at_friction"] if friction else None
-    return compared(name, value, "at least", friction) if value else None
+def standing(names: Collection[str], parts: RackParts) -> Iterator[Check]:
+    """Whether its guide locks, gaps of shafts and gears, and what the process can cut."""
+    mechanism, load = parts.mechanism, parts.mechanism.spec.load
+    L, friction = mechanism.center_distance_mm, value_or(load.guide_friction, load.friction)
+    if friction and "guide_locks" in names:
+        value = strength(mechanism)["guide.locks_at_friction"]  # the friction from which it locks
+        if value:
+            yield compared("guide_locks", value, "at least", friction)
+    if mechanism.spec.has_parts and "beside_shafts_mm" in names:  # there is a frame with shafts
+        yield from least_gap("beside_shafts_mm", _shaft_gaps(parts), L)
+    if "gear_gap_mm" in names:
+        yield from least_gap("gear_gap_mm", _gear_gaps(parts), L)
+    thick = drawn_thicknesses(mechanism.spec.size, parts.sizes.arm)
+    most, wide = max(thick.wheel, thick.lock, thick.arm), 2.0 * parts.sizes.half_width
+    yield from cuts(mechanism, most, wide, thick.wheel)
 
 
-def passing_shafts(name: str, parts: RackParts) -> Check | None:
-    """The least gap between shafts and a rack, of a crank's shaft that ends above the arm."""
-    if not parts.mechanism.spec.has_parts:
-        return None  # without a frame there are no shafts
-    L = parts.mechanism.center_distance_mm
-
-    def gaps() -> Iterator[float]:
-        (rack,) = plates(parts.wheel.part)
-        edge = bounds(rack.outline).x1
-        for shaft in rings_of(parts.shafts):
-            if shaft.high - rack.low > SAME_LENGTH * L:
-                yield shaft.axis[0] - shaft.outer - edge
-
-    return gap(name, gaps, L)
+def _shaft_gaps(parts: RackParts) -> Iterator[float]:
+    """The gaps between shafts and a rack, of a crank's shaft that ends above the arm."""
+    (rack,) = plates(parts.wheel.part)
+    edge = bounds(rack.outline).x1
+    for shaft in rings_of(parts.shafts):
+        if shaft.high - rack.low > SAME_LENGTH * parts.mechanism.center_distance_mm:
+            yield shaft.axis[0] - shaft.outer - edge
 
 
-def passing_gears(name: str, parts: RackParts) -> Check | None:
-    """The least gap of gears before a rack's crank to its guide and to shafts."""
-    L = parts.mechanism.center_distance_mm
-
-    def gaps() -> Iterator[float]:
-        rings = list(gear_rings(parts.mechanism, None))
-        yield from ring_gaps(parts.mechanism, [], rings, parts.shafts)
-        for plate in (plate for one in parts.guide for plate in plates(one.part)):
-            outline = Polyarc([as_contour(plate.outline)])
-            for ring in rings:
-                if min(ring.high, plate.high) - max(ring.low, plate.low) > SAME_LENGTH * L:
-                    yield float(outline.signed(np.array([ring.axis]))[0]) - ring.outer
-
-    return gap(name, gaps, L)
-
-
-def thickest_plate(name: str, parts: RackParts) -> Check | None:
-    """The thickest plate of a rack's machine, where the process has a limit."""
-    thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm)
-    return plate_thickness(name, parts.mechanism, max(thick.wheel, thick.lock, thick.arm))
-
-
-def slot_width(name: str, parts: RackParts) -> Check | None:
-    """The width of a rack's slots, where the process cuts none that is narrow for its plate."""
-    thick = drawn_thicknesses(parts.mechanism.spec.size, parts.sizes.arm).wheel
-    return cut_width(name, parts.mechanism, 2.0 * parts.sizes.half_width, thick)
+def _gear_gaps(parts: RackParts) -> Iterator[float]:
+    """The gaps of gears before a rack's crank to its guide and to shafts."""
+    rings = list(gear_rings(parts.mechanism, None))
+    yield from ring_gaps(parts.mechanism, [], rings, parts.shafts)
+    near = SAME_LENGTH * parts.mechanism.center_distance_mm
+    for plate in (plate for one in parts.guide for plate in plates(one.part)):
+        outline = Polyarc([as_contour(plate.outline)])
+        for ring in rings:
+            if min(ring.high, plate.high) - max(ring.low, plate.low) > near:
+                yield float(outline.signed(np.array([ring.axis]))[0]) - ring.outer
 
 
 def guide(of: Designs) -> Columns:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Plate, plates
 from geneva_cli.geometry.sphere import POLE
 from geneva_cli.geometry.sphere_arcs import RoundHole
@@ -17,75 +18,58 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.shafts.bores import around, reach_or_bore
 from geneva_cli.parts.sizes import refuse_thin_hub
-from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
-from geneva_cli.verdict.checks.clearances import built, cut_width, plate_thickness
+from geneva_cli.verdict.checks import Check, compared, refused
+from geneva_cli.verdict.checks.part_checks import cuts, least_gap
 from geneva_cli.verdict.shaft_gap import ring_gap
 
 
-def between_slots(name: str, parts: SphereParts) -> Check:
-    """The wall between adjacent slots: at their ends, or at a rim beyond a quarter sphere."""
-    ball = parts.ball
+def standing(names: Collection[str], parts: SphereParts) -> Iterator[Check]:
+    """Walls of wheel and arm, gaps at shafts, and what the process can cut."""
+    ball, sizes, least = parts.ball, parts.shells.sizes, parts.shells.sizes.wall_min
+    # between adjacent slots: at their ends, or at a rim beyond a quarter sphere
     apart = 2.0 * math.asin(math.sin(ball.bottom) * math.sin(ball.half_step))
     wall = apart - 2.0 * ball.half_width
     if ball.rim > 0.5 * math.pi:
         corners = math.sin(ball.rim) * math.sin(ball.half_step - ball.corner)
         wall = min(wall, 2.0 * math.asin(corners))
-    return compared(name, wall * ball.radius_mm, "at least", parts.shells.sizes.wall_min)
+    yield compared("wall_between_slots_mm", wall * ball.radius_mm, "at least", least)
+    if parts.shells.crank:  # between a slot and the recess of the locking sectors
+        yield compared("horn_mm", sizes.horn, "at least", least)
+    try:
+        yield compared("wheel_bore_wall_mm", _bore_wall(parts), "at least", least)
+    except GenevaError as error:
+        yield Check("wheel_bore_wall_mm", None, "at least", least, False, str(error))
+    wall_of_arm: Check | None = None
+    try:
+        if parts.arm:
+            wall_of_arm = compared("arm_wall_mm", parts.arm.wall, "at least", least)
+    except GenevaError as error:
+        wall_of_arm = Check("arm_wall_mm", None, "at least", least, False, str(error))
+    if "beside_shafts_mm" in names and not (wall_of_arm and wall_of_arm.value is None):
+        yield from least_gap("beside_shafts_mm", _shaft_gaps(parts), ball.radius_mm)
+    if wall_of_arm:
+        yield wall_of_arm
+    spans = ball.span_mm, ball.lock_span_mm, ball.arm_span_mm
+    (inner, outer), thickest = ball.span_mm, max(end - start for start, end in spans)
+    wide = 2.0 * inner * math.sin(ball.half_width)  # of the slots inside
+    yield from cuts(parts.mechanism, thickest, wide, outer - inner)
+    if "parts" in names:
+        try:
+            _ = parts.members
+        except GenevaError as error:
+            yield refused("parts", error)
 
 
-def horn(name: str, parts: SphereParts) -> Check | None:
-    """The wall between a slot and the recess of the locking sectors."""
-    sizes = parts.shells.sizes
-    return compared(name, sizes.horn, "at least", sizes.wall_min) if parts.shells.crank else None
-
-
-def wheel_bore(name: str, parts: SphereParts) -> Check | None:
+def _bore_wall(parts: SphereParts) -> float:
     """The wall between the slots' ends and what is about the wheel's axis, and the hub's own."""
     ball = parts.ball
     opening = RoundHole(POLE, ball.opening_mm).angle(ball.span_mm[0]) or ball.inner
     to_slots = ball.radius_mm * (ball.slot_end - opening)
-
-    def least() -> float:
-        if not 0.0 < ball.bore_mm < ball.hub_mm:
-            return to_slots
-        bored = reach_or_bore(parts.mechanism.spec.size, "wheel", ball.bore_mm)
-        refuse_thin_hub("wheel", ball.hub_mm, bored, ball.bore_mm)
-        return min(to_slots, ball.hub_mm - bored)
-
-    return at_least(name, least, parts.shells.sizes.wall_min)
-
-
-def arm_wall(name: str, parts: SphereParts) -> Check | None:
-    """The least wall around the holes of the crank arm, and of bolts in the locking sectors."""
-    wall_min = parts.shells.sizes.wall_min
-    return at_least(name, lambda: parts.arm.wall if parts.arm else None, wall_min)
-
-
-def passing_parts(name: str, parts: SphereParts) -> Check | None:
-    """The gap between hubs or shafts and parts that turn about the other axis."""
-    row = arm_wall(name, parts)
-    if row and row.value is None:
-        return None
-    return gap(name, lambda: _shaft_gaps(parts), parts.ball.radius_mm)
-
-
-def thickest(name: str, parts: SphereParts) -> Check | None:
-    """The thickest shell of a sphere, where the process has a limit for plates."""
-    ball = parts.ball
-    spans = ball.span_mm, ball.lock_span_mm, ball.arm_span_mm
-    return plate_thickness(name, parts.mechanism, max(outer - inner for inner, outer in spans))
-
-
-def slot_width(name: str, parts: SphereParts) -> Check | None:
-    """The width of a sphere's slots inside, where the process cuts none that is narrow."""
-    inner, outer = parts.ball.span_mm
-    wide = 2.0 * inner * math.sin(parts.ball.half_width)
-    return cut_width(name, parts.mechanism, wide, outer - inner)
-
-
-def solids_built(name: str, parts: SphereParts) -> Check | None:
-    """The check that fails if a solid of a spherical machine cannot be built; else None."""
-    return built(name, lambda: parts.members)
+    if not 0.0 < ball.bore_mm < ball.hub_mm:
+        return to_slots
+    bored = reach_or_bore(parts.mechanism.spec.size, "wheel", ball.bore_mm)
+    refuse_thin_hub("wheel", ball.hub_mm, bored, ball.bore_mm)
+    return min(to_slots, ball.hub_mm - bored)
 
 
 class _Sweep(NamedTuple):

@@ -24,9 +24,9 @@ KINDS = (
         },
         scene="kinds.stop.scene:StopScene",
         parts_checks={
-            "stop_turns": "kinds.stop.parts:turns",
-            "stop_overlap_mm": "kinds.stop.parts:overlap",
-            "stop_stress_max_MPa": "kinds.stop.parts:stress",
+            "stop_turns": "kinds.stop.parts:standing",
+            "stop_overlap_mm": "kinds.stop.parts:standing",
+            "stop_stress_max_MPa": "kinds.stop.parts:standing",
         },
     ),
 )

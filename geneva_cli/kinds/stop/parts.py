@@ -12,6 +12,7 @@ crank turns by 360° (z - 1) + 2 (c - gamma).
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -25,7 +26,7 @@ from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.spec.defaults import wheel_material
-from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.checks import Check, compared
 from geneva_cli.verdict.quantities.batch_designs import Values
 
 if TYPE_CHECKING:
@@ -125,49 +126,42 @@ def stop_contact(
     return force, hertz_MPa(modulus, force / size.face_width_mm, radius)
 
 
-def turns(name: str, parts: FlatParts) -> Check | None:
-    """The turns from stop to stop: nothing touches before, and a degree beyond parts overlap."""
-    stop = _stop_of(parts)
+def standing(names: Collection[str], parts: FlatParts) -> Iterator[Check]:
+    """The stop: its turns, the overlap of disc and face, and their Hertz stress if bounded.
+
+    The turns are those from stop to stop: nothing touches before, and a degree beyond parts
+    overlap. Disc and face overlap so far that wear does not free the crank.
+    """
+    stop = wheel_stop(parts.outlines) if parts.mechanism.spec.is_flat else None
     if stop is None:
-        return None
+        return
     outlines, z = parts.outlines, parts.mechanism.spec.wheel.z
-    before = float(clearances_before(outlines, stop).min())
-    beyond = float(clearances_before(outlines, stop, past_deg=1.0)[:, -1].max())
-    if stop.face_mm < 0.0:
-        text = "the disc meets the mouth of a slot, not the face"
-    elif before < -parts.contact:
-        text = f"disc and wheel overlap by {-before:.4g} mm before the stop"
-    elif beyond > -parts.contact:
-        text = "the disc slips past the face: a degree beyond the stop they do not overlap"
-    else:
-        text = (
-            f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from "
-            f"the middle of its first engagement: {stop.turns:.4f} turns"
-        )
-        return Check(name, stop.turns, "at most", float(z), True, text)
-    return Check(name, stop.turns, "at most", float(z), False, text)
-
-
-def overlap(name: str, parts: FlatParts) -> Check | None:
-    """How far the circles of disc and face overlap, so that wear does not free the crank."""
-    if not (stop := _stop_of(parts)):
-        return None
-    return compared(name, stop.overlap_mm, "at least", parts.outlines.sizes.wall_min)
-
-
-def stress(name: str, parts: FlatParts) -> Check | None:
-    """The Hertz stress of disc and face, where ``[limits]`` bounds it."""
-    stop, limit = _stop_of(parts), parts.mechanism.spec.limits.stop_stress_max_MPa
-    if stop is None or limit is None:
-        return None
-    force, value = stop_contact(parts.mechanism, stop.lever_mm, parts.outlines.sizes.rim)
+    if "stop_turns" in names:
+        before = float(clearances_before(outlines, stop).min())
+        beyond = float(clearances_before(outlines, stop, past_deg=1.0)[:, -1].max())
+        passes = False
+        if stop.face_mm < 0.0:
+            text = "the disc meets the mouth of a slot, not the face"
+        elif before < -parts.contact:
+            text = f"disc and wheel overlap by {-before:.4g} mm before the stop"
+        elif beyond > -parts.contact:
+            text = "the disc slips past the face: a degree beyond the stop they do not overlap"
+        else:
+            passes = True
+            text = (
+                f"the face blocks the crank at {stop.first_deg:.4g} and {stop.last_deg:.6g}° from "
+                f"the middle of its first engagement: {stop.turns:.4f} turns"
+            )
+        yield Check("stop_turns", stop.turns, "at most", float(z), passes, text)
+    yield compared("stop_overlap_mm", stop.overlap_mm, "at least", outlines.sizes.wall_min)
+    limit, name = parts.mechanism.spec.limits.stop_stress_max_MPa, "stop_stress_max_MPa"
+    if limit is None:
+        return
+    force, value = stop_contact(parts.mechanism, stop.lever_mm, outlines.sizes.rim)
     if value is None:
         needs = "lock_edge_mm in [size]: the end of the disc is sharp"
         if force is None:
             needs = "winding_torque_Nm in [load]"
-        return Check(name, None, "at most", limit, None, f"not known: it needs {needs}")
-    return compared(name, value, "at most", limit)
-
-
-def _stop_of(parts: FlatParts) -> WheelStop | None:
-    return wheel_stop(parts.outlines) if parts.mechanism.spec.is_flat else None
+        yield Check(name, None, "at most", limit, None, f"not known: it needs {needs}")
+    else:
+        yield compared(name, value, "at most", limit)

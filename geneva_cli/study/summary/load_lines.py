@@ -14,8 +14,9 @@ from geneva_cli.loads.load_tables import no_load
 from geneva_cli.loads.motor import RATED_kW, recommended_motor
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
+from geneva_cli.study.verdicts import chosen_lines, measured, warning
 from geneva_cli.table import Table
-from geneva_cli.verdict.headline import below_summary, chosen_lines, measured, warning
+from geneva_cli.verdict.failures import below_summary
 
 NO_BOUND = "no bound: see the warnings"
 

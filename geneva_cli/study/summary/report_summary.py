@@ -19,18 +19,17 @@ from geneva_cli.study.summary.load_lines import (
     record_answer,
     title_of,
 )
-from geneva_cli.table import Reading, Table, record_table, rows_table
-from geneva_cli.verdict.checks.all_checks import LIMITS
-from geneva_cli.verdict.headline import (
-    below_summary,
+from geneva_cli.study.verdicts import (
     chosen_lines,
     failure_lines,
     headline,
     measured,
     tightest,
-    unused_lines,
     warning_lines,
 )
+from geneva_cli.table import Reading, Table, record_table, rows_table
+from geneva_cli.verdict.checks import LIMITS
+from geneva_cli.verdict.failures import below_summary
 
 LOADS = (
     *("alpha_rad_s2", "rack_acceleration_m_s2", "wheel_torque_Nm", "rack_force_N", "pin_force_N"),
@@ -82,8 +81,8 @@ def of_report(design: Design, is_full: bool) -> Answer:
     state, text = headline(design.checks, design.warnings)
     checks, warnings = design.checks, design.warnings
     first = failure_lines(checks)
-    lines = (*first, *key_figures(design), *warning_lines(checks, warnings))
-    lines = (*lines, *unused_lines(design.unused_acceptances))
+    last = warning_lines(checks, warnings, design.unused_acceptances)
+    lines = (*first, *key_figures(design), *last)
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
     shown = ("title", "passes", "checks_failed", "not_proved", "chosen")
     page = below_summary(record, without=shown)

@@ -24,7 +24,7 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.rows import Cell, Column, Rows, rows_of
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
-from geneva_cli.verdict.quantities.under_load import share
+from geneva_cli.verdict.quantities.batch_members import share
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 ERROR = "error"  # the column that says why a design cannot be built

@@ -10,8 +10,7 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.spec.defaults import wall_min
 from geneva_cli.study.synth.suiting import SPARE, USUAL, slot_paths, with_roller
-from geneva_cli.verdict.checks import all_pass, checks, quick_first
-from geneva_cli.verdict.checks.all_checks import LIMITS, MOTION, applicable
+from geneva_cli.verdict.checks import LIMITS, MOTION, all_pass, applicable, checks, every_check
 
 # keys that conflict with a crank's bore
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
@@ -35,7 +34,7 @@ def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
     own = spec
     if "crank_bore_mm" not in fixed and trouble & SHAFT:
         own = spec.with_("size.crank_bore_mm", 0.0)  # the shaft ends in the arm
-        if all_pass(quick_first(build(own))):
+        if all_pass(every_check(build(own), quick=True)):
             return own, ""
     if trouble <= SHAFT or "roller_radius_mm" in fixed:
         return spec, ", ".join(failing)
@@ -50,7 +49,7 @@ def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> tuple[Spec, str]:
     while low < high:
         middle = (low + high) // 2
         other = with_roller(own, radii[middle])
-        if all_pass(quick_first(build(other))):
+        if all_pass(every_check(build(other), quick=True)):
             best, high = other, middle
         else:
             low = middle + 1

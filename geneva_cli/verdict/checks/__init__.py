@@ -1,58 +1,283 @@
-"""The checks of a design, each with its value and its limit."""
+"""The checks of a design: each has a value, a limit, and says whether the value keeps it.
+
+A check is a name in a table here, in the order shown, with the function that yields it. The
+function gets the names that are asked for, and what it checks. It yields no check that does not
+apply. Its module is imported when the first of its checks is asked for.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+import math
+from collections.abc import Callable, Iterable, Iterator
+from operator import attrgetter
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion.compatible import concerns
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.spec.load_named import load_extra
-from geneva_cli.verdict.checks.all_checks import (
-    BEFORE_TURN,
-    LIMITS,
-    MOTION,
-    OF_TURN,
-    PLAYS,
-    PROOFS,
-    PUSHED,
-    TURNING,
-    applicable,
-    check_named,
-    standing,
-    without_reasons,
-)
-from geneva_cli.verdict.checks.check import Check as Check
-from geneva_cli.verdict.checks.check import all_pass as all_pass
-from geneva_cli.verdict.checks.check import refused
+from geneva_cli.motion.records import KINDS, of_wheel
+from geneva_cli.numerics.tolerances import keeps
+from geneva_cli.spec.load_named import load_extra, load_named
 
 if TYPE_CHECKING:
     from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.quantities.batch_designs import Values
 
+Checks: TypeAlias = dict[str, str]  # name -> module:function
+
+# Checks of the motion, if they apply.
+MOTION: Checks = dict.fromkeys(
+    (
+        *("dwell_deg", "driver_gear_convexity", "driven_gear_convexity", "velocity_min"),
+        *("groove_pressure_deg", "pressure_angle_deg", "driven_fraction", "undercut_mm"),
+    ),
+    "verdict.checks.motion_checks:motion",
+)
+MOTION |= dict.fromkeys(
+    ("entry_shock_N", "reversal_shock_N", "reversal_stress_MPa", "stopping_torque_Nm"),
+    "verdict.checks.load_checks:shocks",
+)
+# Checks of limits that the spec sets.
+LIMITS: Checks = dict.fromkeys(
+    (
+        *("velocity_max", "acceleration_max", "acceleration_entry_max", "jerk_max"),
+        *("entry_velocity_max", "dwell_min_s", "motion_max_s", "cycle_max_s"),
+        *("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa"),
+    ),
+    "verdict.checks.motion_checks:limits",
+)
+LIMITS |= dict.fromkeys(
+    (
+        *("pv_max_W_m2", "roller_life_min_h", "pin_stress_MPa", "horn_stress_MPa"),
+        *("lock_horn_stress_MPa", "lock_stress_max_MPa", "lock_deflection_max_deg"),
+        *("wheel_shaft_stress_MPa", "crank_shaft_stress_MPa", "arm_stress_MPa"),
+        *("wheel_key_pressure_MPa", "crank_key_pressure_MPa"),
+    ),
+    "verdict.checks.load_checks:strength_limits",
+)
+LIMITS |= dict.fromkeys(
+    ("product_acceleration_max_m_s2", "product_slip"), "verdict.checks.load_checks:product"
+)
+# Checks of flat parts at rest.
+STATIC: Checks = dict.fromkeys(
+    (
+        *("wall_between_slots_mm", "horn_mm", "rollers_apart_mm", "wheel_bore_wall_mm"),
+        *("outer_wall_mm", "dial_wall_mm", "crank_bore_wall_mm"),
+    ),
+    "verdict.checks.part_checks:walls",
+)
+STATIC |= dict.fromkeys(
+    (
+        *("crank_shaft_mm", "crank_hub_mm", "wheel_shaft_mm", "beside_shafts_mm", "gear_gap_mm"),
+        *("arm_wall_mm", "arm_to_hub_mm", "link_wall_mm", "link_gap_mm"),
+    ),
+    "verdict.checks.part_checks:clearances",
+)
+FIRST = "first_"  # of the first of two wheels in series, and of its crank
+STATIC |= dict.fromkeys(
+    (
+        *("first_pin_stress_MPa", "first_horn_stress_MPa", "first_crank_shaft_stress_MPa"),
+        "first_arm_stress_MPa",
+    ),
+    "verdict.checks.load_checks:first_stresses",
+)
+STATIC |= dict.fromkeys(
+    ("branches_apart_mm", "branches_crossed_mm", "wheels_apart_mm", "cranks_apart_mm"),
+    "verdict.checks.part_checks:places",
+)
+# Checks of flat parts at rest, shown behind those that a kind adds.
+PROCESS: Checks = dict.fromkeys(
+    ("cut_plate_mm", "cut_slot_mm"), "verdict.checks.part_checks:process"
+)
+PROCESS["parts"] = "verdict.checks.part_checks:built"
+# All checks of parts at rest, of whatever kind.
+STANDING: Checks = {**STATIC}
+for _kind in KINDS:
+    MOTION |= _kind.motion_checks
+    STANDING |= _kind.parts_checks
+STANDING |= PROCESS
+# Checks of plates or shells in a whole turn. JAMS are those that fail where a roller does not find
+# its slot, or meets the rim next to it, and jams.
+JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg", "hand_over_offset_mm")
+TURNING: Checks = dict.fromkeys(
+    (
+        *("dwell_hold", "gap_mm", "idle_roller_mm", "dwell_play_deg", "dwell_play_mm"),
+        *(*JAMS, "motion_play_deg", "motion_play_mm"),
+    ),
+    "verdict.checks.turn_checks:turning",
+)
+# Plays that the spec limits; a machine whose parts cannot be turned has no value of them.
+PLAYS = ("index_play_max_deg", "dwell_play_max_deg", "dwell_position_max_deg")
+# Of all the machines within the tolerances.
+TOLERANCES = ("tolerance_slot_mm", "tolerance_lock_mm")
+TURNING |= dict.fromkeys((*PLAYS, *TOLERANCES), "verdict.checks.turn_checks:within_tolerances")
+# Of flat parts at every angle of the turn, made for a design's own answer.
+PROOFS: Checks = {"gap_proved_mm": "verdict.checks.turn_checks:proof"}
+# Of machines as built, by what touches.
+PUSHED = ("turns", "strike_velocity")
+# The names of all checks but those of the whole turn; ``parts``: they can be built.
+BEFORE_TURN = tuple(dict.fromkeys((*MOTION, *LIMITS, "parts", *STANDING)))
+# The names of those of the whole turn; ``full_turn``: the parts can be turned.
+OF_TURN = ("full_turn", *TURNING)
+
+
+class Check(NamedTuple):
+    """One check of one design.
+
+    ``passes`` is None if it is not known. ``why`` is the reason for an unknown value, or for
+    missing advice on a failing check; of a check that passes it says what is proved. ``at_deg`` is
+    the input angle of the value, None if it is not a value at one angle. ``nearest`` is one change
+    of the spec with which all checks pass, or one for each failing check: "a = 1 and b = 2".
+    ``anew`` are the sizes that the load chooses anew with that change.
+    """
+
+    name: str
+    value: float | None
+    must_be: str
+    limit: float | None
+    passes: bool | None
+    why: str = ""
+    at_deg: float | None = None
+    nearest: str = ""
+    anew: str = ""
+    # makes ``why`` of a failing check, which an adviser's trials do not need
+    reason: Callable[[], str] | None = None
+
+    @property
+    def remark(self) -> str:
+        """The reason, and the sizes that ``nearest`` changes."""
+        if not self.anew:
+            return self.why
+        anew = f"sizes chosen anew with {self.nearest}: {self.anew}"
+        return f"{self.why}; {anew}" if self.why else anew
+
+    @property
+    def where(self) -> str:
+        """Input angle of the value in words, with a space before it."""
+        return "" if self.at_deg is None else f" at input angle {self.at_deg:.6g}°"
+
+    @property
+    def spare(self) -> float:
+        """The margin to the limit, negative if the check fails; infinite without a value."""
+        if self.value is None or self.limit is None:
+            return -math.inf if self.passes is False else math.inf
+        left = self.limit - self.value
+        left = left if self.must_be == "at most" else -left
+        return min(left, -5e-324) if self.passes is False else max(left, 0.0)
+
+
+def compared(
+    name: str,
+    value: float,
+    must_be: str,
+    limit: float,
+    at_deg: float | None = None,
+    noise: float = 0.0,
+) -> Check:
+    """The check that a value is "at least", "at most" or "above" a limit.
+
+    ``noise`` is the rounding error of the value, if it is larger than the limit's.
+
+    >>> compared("jerk_max", 31.4, "at most", 30.0).passes
+    False
+    """
+    passes = keeps(value, must_be, limit, noise)
+    return Check(name, value, must_be, limit, passes, at_deg=at_deg)
+
+
+def refused(name: str, error: GenevaError) -> Check:
+    """A failing check for parts that cannot be built, with the reason."""
+    return Check(name, 0.0, "at least", 1.0, False, str(error))
+
+
+def all_pass(rows: Iterable[Check]) -> bool:
+    """Return True if no check fails; a check without a proof does not fail."""
+    return False not in map(attrgetter("passes"), rows)
+
+
+def standing(mechanism: Mechanism) -> Checks:
+    """The checks of the parts of a machine at rest."""
+    own, added = Checks(), Checks()
+    for kind in of_wheel(mechanism.spec.wheel.NAME):
+        if kind.parts:
+            own |= kind.parts_checks
+        elif concerns(kind, mechanism.spec):
+            added |= kind.parts_checks
+    return own | added if own else {**STATIC, **added, **PROCESS}
+
+
+def applicable(among: Checks, *of: object, reasons: bool = True) -> Iterator[Check]:
+    """The checks of a table that apply to ``of``; of those that fail for one reason, the first.
+
+    Without ``reasons`` all of them, without words that may take longer than the checks.
+    """
+    said, by_function = set[str](), dict[str, list[str]]()
+    for name, path in among.items():
+        by_function.setdefault(path, []).append(name)
+    for path, names in by_function.items():
+        for check in load_named(path)(names, *of):
+            if reasons and check.reason:
+                check = check._replace(why=check.reason(), reason=None)
+            if not reasons or check.passes is not False:
+                yield check
+            elif check.why not in said:
+                yield check
+                said |= {check.why} - {""}
+
+
+def every_check(
+    mechanism: Mechanism,
+    machine: Parts | None = None,
+    parts: bool = True,
+    turned: bool = True,
+    quick: bool = False,
+) -> Iterator[Check]:
+    """Every check of one design: its motion, its parts unless left out, its own ``[limits]``.
+
+    Without ``turned`` those of the whole turn are left out, which take the longest. If ``quick``
+    they come in the order of their cost, for those who stop at one that fails. If wheel or crank
+    cannot be built, or turned, a single check says so instead. A rack can be turned although some
+    of its machine's parts are not built.
+    """
+    spec, limits = mechanism.spec, applicable(LIMITS, mechanism, reasons=not quick)
+    yield from applicable(MOTION, mechanism, reasons=not quick)
+    if quick:
+        yield from limits
+    unbuilt = [] if spec.has_parts else [Check("parts", None, "proved", None, None, spec.no_parts)]
+    if parts and not spec.is_turned:
+        yield from unbuilt
+        for name in PLAYS:
+            if (limit := spec.limits.as_dict()[name]) is not None:
+                why = "not computed, because the parts of this machine are not turned"
+                yield Check(name, None, "at most", limit, None, why)
+    elif parts:
+        from geneva_cli.parts.parts import parts_of
+        from geneva_cli.parts.turn.turned_parts import WorkLimit
+
+        machine = machine or parts_of(mechanism)
+        try:
+            rows = unbuilt or [*applicable(standing(mechanism), machine.built)]
+            _ = machine.turned
+        except GenevaError as error:
+            rows, turned = [refused("parts", error)], False
+        yield from rows
+        if turned and mechanism.no_turn:
+            yield from pushed_round(mechanism)
+        elif turned:
+            try:
+                turn = machine.turn
+            except WorkLimit as error:
+                yield refused("full_turn", error)
+            else:
+                yield from applicable(TURNING, machine, turn)
+    yield from limits
+
 
 def checks(
     mechanism: Mechanism, machine: Parts | None = None, parts: bool = True, turned: bool = True
 ) -> list[Check]:
-    """Every check of one design: its motion, its parts unless left out, its own ``[limits]``.
-
-    Without ``turned`` those of the whole turn are left out, which take the longest.
-    """
-    shown = of_parts(mechanism, machine, turned) if parts else ()
-    return [*applicable(MOTION, mechanism), *shown, *applicable(LIMITS, mechanism)]
-
-
-def quick_first(
-    mechanism: Mechanism, machine: Parts | None = None, parts: bool = True
-) -> Iterator[Check]:
-    """The same checks in the order of their cost, for those who stop at one that fails.
-
-    Those of loads have no reason in words, which may take longer than the check.
-    """
-    yield from without_reasons(MOTION, mechanism)
-    yield from without_reasons(LIMITS, mechanism)
-    if parts:
-        yield from of_parts(mechanism, machine)
+    """Every check of one design, in the order shown."""
+    return [*every_check(mechanism, machine, parts, turned)]
 
 
 def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) -> Check | None:
@@ -60,62 +285,27 @@ def single_check(mechanism: Mechanism, name: str, machine: Parts | None = None) 
 
     Raises GenevaError if its parts cannot be built, or turned if it is of the turn.
     """
-    check = check_named(MOTION, name, mechanism) or check_named(LIMITS, name, mechanism)
-    if check or name in (*MOTION, *LIMITS) or not mechanism.spec.is_turned:
-        return check
-    if name in PUSHED:
-        pushed = pushed_round(mechanism) if mechanism.no_turn else []
-        return next((one for one in pushed if one.name == name), None)
-    from geneva_cli.parts.parts import parts_of
+    among = MOTION if name in MOTION else LIMITS
+    of: tuple[object, ...] = (mechanism,)
+    if name not in among:
+        if not mechanism.spec.is_turned:
+            return None
+        from geneva_cli.parts.parts import parts_of
 
-    machine = machine or parts_of(mechanism)
-    if name in OF_TURN:
-        return check_named(TURNING, name, machine, machine.turned.turn)
-    if name == "parts":
-        _ = machine.turned
-    return (
-        check_named(standing(mechanism), name, machine.built) if mechanism.spec.has_parts else None
-    )
-
-
-def of_parts(
-    mechanism: Mechanism, machine: Parts | None = None, turned: bool = True
-) -> Iterator[Check]:
-    """Walls, shafts and, if ``turned``, the full turn of a machine whose parts are drawn.
-
-    If wheel or crank cannot be built, or turned, a single check says so instead. A rack can be
-    turned although some of its machine's parts are not built.
-    """
-    spec, none = mechanism.spec, list[Check]()
-    if not spec.has_parts:
-        none = [Check("parts", None, "proved", None, None, spec.no_parts)]
-    if not spec.is_turned:
-        yield from none
-        for name in PLAYS:
-            if (limit := spec.limits.as_dict()[name]) is not None:
-                why = "not computed, because the parts of this machine are not turned"
-                yield Check(name, None, "at most", limit, None, why)
-        return
-    from geneva_cli.parts.parts import parts_of
-    from geneva_cli.parts.turn.turned_parts import WorkLimit
-
-    machine = machine or parts_of(mechanism)
-    try:
-        rows = none or list(applicable(standing(mechanism), machine.built))
-        _ = machine.turned
-    except GenevaError as error:
-        yield refused("parts", error)
-        return
-    yield from rows
-    if turned and mechanism.no_turn:
-        yield from pushed_round(mechanism)
-    elif turned:
-        try:
-            turn = machine.turn
-        except WorkLimit as error:
-            yield refused("full_turn", error)
-            return
-        yield from applicable(TURNING, machine, turn)
+        machine = machine or parts_of(mechanism)
+        if name in PUSHED:
+            pushed = pushed_round(mechanism) if mechanism.no_turn else []
+            return next((check for check in pushed if check.name == name), None)
+        if name in OF_TURN:
+            among, of = TURNING, (machine, machine.turned.turn)
+        else:
+            if name == "parts":
+                _ = machine.turned
+            if not mechanism.spec.has_parts:
+                return None
+            among, of = standing(mechanism), (machine.built,)
+    found = load_named(among[name])([name], *of) if name in among else ()
+    return next((check for check in found if check.name == name), None)
 
 
 def pushed_round(mechanism: Mechanism) -> list[Check]:
@@ -133,7 +323,7 @@ def pushed_round(mechanism: Mechanism) -> list[Check]:
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
     """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
 
-    ``to_mm`` is the tolerance of the proof, by default ``certificate.tolerance_mm``.
+    ``to_mm`` is the tolerance of the proof, by default that of ``least_gap``.
     """
     if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return []
@@ -162,7 +352,7 @@ def check_values(parts: Parts) -> Values:
 
 def passed(parts: Parts) -> Values:
     """Whether no check fails, computed until the first that does."""
-    return {"passes": all_pass(quick_first(parts.mechanism, parts))}
+    return {"passes": all_pass(every_check(parts.mechanism, parts, quick=True))}
 
 
 def proved(parts: Parts) -> Values:

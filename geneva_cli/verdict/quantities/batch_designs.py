@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import copy
+import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Self, TypeAlias, TypeVar
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.kept import Known, cached_property
 from geneva_cli.motion.batch import each_of
-from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import Mechanism, build
-from geneva_cli.spec.tables import LIMITED
+from geneva_cli.spec.tables import limited_loads
 
 if TYPE_CHECKING:
     from geneva_cli.loads.contact import LoadCase
-    from geneva_cli.numerics.arrays import Array, Mask, Number
+    from geneva_cli.numerics.arrays import Array, Number
     from geneva_cli.table import Table
 
 T = TypeVar("T")
@@ -42,6 +41,7 @@ class Designs:
         self.spec = machine.spec
         self.names = names  # the names of all requested quantities
         self.single = isinstance(machine.design, int)  # its numbers are floats: m = 1
+        self.are_built = self.single or bool(each)  # the machines of the single designs are
         self._kept: dict[object, object] = {}
 
     def requested(self, table: str) -> set[str]:
@@ -70,11 +70,6 @@ class Designs:
         result: Columns = self._kept[key]  # type: ignore[assignment]
         return result
 
-    @property
-    def are_built(self) -> bool:
-        """Return True if the machines of the single designs are built already."""
-        return self.single or bool(self._each)
-
     @cached_property
     def each(self) -> Sequence[Mechanism]:
         """The machines of the single designs."""
@@ -92,33 +87,8 @@ class Designs:
     @cached_property
     def loaded(self) -> Array:
         """1 if something resists the wheel, else NaN."""
-        return np.where(self.resisted, 1.0, np.nan)
-
-    @cached_property
-    def resisted(self) -> Mask:
-        """True for designs with a load."""
-        return np.asarray(np.ravel(self.load_case.inertia_Nm + self.load_case.resists_Nm > 0.0))
-
-
-class BatchMember(Designs):
-    """One design of a batch, which takes its values from the batch if they are known there."""
-
-    def __init__(self, batch: Designs, number: int) -> None:
-        super().__init__(batch.each[number], batch.names)
-        self.batch, self.number = batch, number
-
-    def columns(self, compute: Callable[[Designs], Columns]) -> Columns:
-        """The values of this design, from the batch or computed alone."""
-        try:
-            every = self.batch.columns(compute)
-        except GenevaError:  # of another design, or of this one, which then raises it again
-            return super().columns(compute)
-        own = {
-            name: None if column is None else number_of(column, self.number)
-            for name, column in every.items()
-        }
-        is_unknown = any(value is not None and np.isnan(value) for value in own.values())
-        return super().columns(compute) if is_unknown else own
+        case = self.load_case
+        return np.where(np.ravel(case.inertia_Nm + case.resists_Nm > 0.0), 1.0, np.nan)
 
 
 def number_of(column: Number | None, i: int) -> float:
@@ -128,16 +98,16 @@ def number_of(column: Number | None, i: int) -> float:
     return float(values[i] if len(values) > 1 else values[0])
 
 
+def only(column: Number | None) -> float | None:
+    """The value of the one design of a batch; None if there is none."""
+    value = column if column is None or isinstance(column, int | float) else column.item()
+    return value if value is not None and math.isfinite(value) else None
+
+
 @Known
 def single(mechanism: Mechanism) -> Designs:
-    """A machine as a batch of one, cached for its checks, advice and report."""
-    return Designs(mechanism, limited_loads(mechanism.spec))
+    """A machine as a batch of one, cached for its checks, advice and report.
 
-
-def limited_loads(spec: Spec) -> list[str]:
-    """The whole names of the loads that the spec limits, which its checks request."""
-    limits, names = vars(spec.limits), []
-    for key, name in LIMITED.items():
-        if name.startswith("loads.") and limits[key]:
-            names.append(name)
-    return names
+    Requested are the loads that the spec limits, which its checks compare.
+    """
+    return Designs(mechanism, limited_loads(mechanism.spec.limits))

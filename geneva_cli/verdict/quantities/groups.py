@@ -5,7 +5,6 @@ A new quantity is a name in one group here, and a value of the group's function.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
@@ -14,11 +13,10 @@ from geneva_cli.motion.records import KINDS, of_wheel
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
-from geneva_cli.verdict.checks.all_checks import BEFORE_TURN, OF_TURN, PROOFS
+from geneva_cli.verdict.checks import BEFORE_TURN, OF_TURN, PROOFS
 
 if TYPE_CHECKING:
     from geneva_cli.motion.machine_spec import Spec
-    from geneva_cli.numerics.arrays import Number
     from geneva_cli.parts.parts import Parts
     from geneva_cli.verdict.quantities.batch_designs import Columns, Designs, Values
 
@@ -98,7 +96,7 @@ class QuantityGroup(NamedTuple):
         if self.alone:
             computed = load_named(self.alone)(parts)
         else:
-            from geneva_cli.verdict.quantities.batch_designs import single
+            from geneva_cli.verdict.quantities.batch_designs import only, single
 
             columns = self.columns(single(parts.mechanism).requesting(self.names))
             computed = {name: only(columns[name]) for name in self.own}
@@ -122,12 +120,6 @@ class QuantityGroup(NamedTuple):
 
     def _whole(self, name: str) -> str:
         return f"{self.table}.{name}" if self.table else name
-
-
-def only(column: Number | None) -> float | None:
-    """The value of the one design of a batch; None if there is none."""
-    value = column if column is None or isinstance(column, int | float) else column.item()
-    return value if value is not None and math.isfinite(value) else None
 
 
 def own_names(table: str) -> tuple[str, ...]:

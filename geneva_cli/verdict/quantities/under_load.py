@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
-from functools import cache, partial
-from typing import TYPE_CHECKING, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
 
@@ -18,8 +16,7 @@ from geneva_cli.loads.impacts.shock_force import Impacts, forces_N
 from geneva_cli.loads.load_peaks import load_peaks
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength import pin as pins
-from geneva_cli.loads.strength.horn import horns
-from geneva_cli.loads.strength.horn_search import greatest_stress, single_stress
+from geneva_cli.loads.strength.horn import greatest_stress, horns, single_stress
 from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
 from geneva_cli.loads.strength.pin import PinSize
 from geneva_cli.loads.tolerance.locking import Lock
@@ -34,22 +31,15 @@ from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.sized_by_load import horn_MPa
 from geneva_cli.parts.stressed import Stressed, Unloaded, stressed
 from geneva_cli.spec.defaults import roller_material
-from geneva_cli.verdict.quantities.batch_designs import BatchMember, Designs, limited_loads, single
+from geneva_cli.verdict.quantities.batch_designs import Designs
 
 if TYPE_CHECKING:
-    from geneva_cli.loads.strength.horn_search import HornStress, Sides, Sizes
+    from geneva_cli.loads.strength.horn import HornStress, Sides, Sizes
     from geneva_cli.loads.strength.lock import LockUnderTorque
     from geneva_cli.motion.mechanism import Mechanism
 
 K = TypeVar("K")
 T = TypeVar("T")
-
-
-class LockSizes(NamedTuple):
-    """Sizes of slot and lock, mm; (m, 1) for m designs, NaN for those without."""
-
-    half_width: float  # half the slot's width: roller and clearance
-    lock: Lock  # in its narrowest sector
 
 
 class UnderLoad:
@@ -58,6 +48,8 @@ class UnderLoad:
     def __init__(self, of: Designs) -> None:
         self.machine, self.designs = of.machine, of
         self.loaded = of.loaded
+        # the function that returns the horns: those of a flat wheel for most kinds
+        self._sides: Sides = thing(of.spec.wheel.NAME, "horns") or horns
 
     @cached_property
     def force_N(self) -> Array:
@@ -107,18 +99,16 @@ class UnderLoad:
         return [_or_none(parts, one) for one in self.designs.each]
 
     @cached_property
-    def lock_sizes(self) -> LockSizes | None:
-        """The sizes of slot and lock, (m, 1); None if no design has a lock."""
-        if self.designs.are_built:
-            each = [
-                LockSizes(one[1].half_width, cut_lock(*one)) if one and one[1].lock else None
-                for one in self.layouts
-            ]
-        else:
-            each = [
-                LockSizes(one.sizes.half_width, one.lock) if one and one.lock else None
-                for one in self._unloaded
-            ]
+    def lock_sizes(self) -> tuple[float, Lock] | None:
+        """Half the slot's width, and the lock in its narrowest sector, mm; (m, 1) for m designs.
+
+        NaN for designs without a lock; None if none has one.
+        """
+        each = list[tuple[float, Lock] | None]()
+        for one in self.layouts if self.designs.are_built else ():
+            each.append((one[1].half_width, cut_lock(*one)) if one and one[1].lock else None)
+        for bare in self._unloaded if not self.designs.are_built else ():
+            each.append((bare.sizes.half_width, bare.lock) if bare and bare.lock else None)
         return batched(each, as_numbers)
 
     @cached_property
@@ -128,19 +118,12 @@ class UnderLoad:
         of_kind = thing(self.machine.spec.wheel.NAME, "horn_sizes")
         if of_kind:
             return batched([of_kind(one) for one in self.designs.each], as_numbers)
-        sizes = self.lock_sizes
-        return (sizes.half_width, sizes.lock.recess) if sizes else None
+        return (self.lock_sizes[0], self.lock_sizes[1].recess) if self.lock_sizes else None
 
     @property
     def has_horns(self) -> bool:
         """True if a design has horns: a locking disc and its recesses."""
         return self.horn_sizes is not None and bool(np.any(np.asarray(self.horn_sizes[1]) > 0.0))
-
-    @property
-    def _sides(self) -> Sides:
-        """The function that returns the horns; those of a flat wheel for most kinds."""
-        sides: Sides = thing(self.machine.spec.wheel.NAME, "horns") or horns
-        return sides
 
     def horn_stress(self, width: float) -> HornStress:
         """The greatest stress in the horns under the roller, for a width of its contact."""
@@ -163,14 +146,16 @@ class UnderLoad:
     def stoutest_horn(self) -> tuple[float, float]:
         """A single design's greatest thickness at the mouth over the recess's radius, and that."""
         assert self.horn_sizes
-        each = self._sides(self.machine, *self.horn_sizes)
-        return max((float(one.stoutness[0]), float(one.recess_mm)) for one in each)
+        each = []
+        for one in self._sides(self.machine, *self.horn_sizes):
+            each.append((float(one.stoutness[0]), float(one.recess_mm)))
+        return max(each)
 
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:
         """Assembly and sizes of each design; None for one without flat parts."""
         if self.designs.are_built or not self.machine.spec.is_loaded:
-            return [sized(one) for one in self.designs.each]
+            return [*map(sized, self.designs.each)]
         machines, size = self.designs.each, self.machine.spec.size
         bent: Sequence[float | None] = [None] * len(machines)
         if self.lock_sizes and size.wheel_thickness_mm is None and size.face_width_mm is None:
@@ -191,7 +176,7 @@ class UnderLoad:
         sizes, width = self.lock_sizes, self.contact_mm
         if sizes is None or width is None:
             return None
-        return lock.loaded_locks(self.machine, sizes.half_width, sizes.lock, width)
+        return lock.loaded_locks(self.machine, *sizes, width)
 
     @cached_property
     def parts(self) -> Stressed | None:
@@ -201,9 +186,12 @@ class UnderLoad:
         own: Callable[[Mechanism], Stressed | None] | None
         own = thing(self.machine.spec.wheel.NAME, "stressed")
         if own:
-            each = self.designs.each
-            return batched([_or_none(own, one) if one.spec.has_parts else None for one in each])
-        return batched([stressed(*one) if one else None for one in self.layouts])
+            machines = self.designs.each
+            return batched([_or_none(own, one) if one.spec.has_parts else None for one in machines])
+        each = list[Stressed | None]()
+        for one in self.layouts:
+            each.append(stressed(*one) if one else None)
+        return batched(each)
 
     @property
     def contact_mm(self) -> float | None:
@@ -237,7 +225,7 @@ class UnderLoad:
         if size.pin_mm is not None or width is None:
             return usual
         force = self.pin_N(PinSize(usual, width))
-        stress = pins.pin(size, width, usual).under(force).equivalent
+        stress = pins.pin_stress_MPa(size, width, usual, force)[2]
         # where the usual pin holds, it is drawn
         holds = ~(stress > roller_material(self.machine.spec).allowed_MPa)
         parts = None if np.all(holds) else self.parts
@@ -257,7 +245,7 @@ class UnderLoad:
         if not torque.any():
             return None
         sizes = self.lock_sizes  # without a disc something else holds the wheel, by a couple
-        force = lock.held_force_N(torque[:, None], sizes.lock) if sizes else 0.0 * torque
+        force = lock.held_force_N(torque[:, None], sizes[1]) if sizes else 0.0 * torque
         return np.nan_to_num(np.ravel(force)), torque
 
 
@@ -276,17 +264,20 @@ def batched(
 
     Each number of it is ``column`` of the (m,) numbers of the designs, NaN for those without.
     """
-    like = next((one for one in records if one is not None), None)
+    like: Record | None = None
+    for like in records:
+        if like is not None:
+            break
     if like is None:
         return None
-
-    def member(k: int) -> object:
+    fields = list[object]()
+    for k, field in enumerate(like):
         each = [None if one is None else one[k] for one in records]
-        if isinstance(like[k], tuple):
-            return batched(cast("Sequence[tuple[object, ...] | None]", each), column)
-        return column(np.array([math.nan if one is None else one for one in each], dtype=float))
-
-    return record_of(like, [member(k) for k in range(len(like))])
+        if isinstance(field, tuple):
+            fields.append(batched(cast("Sequence[tuple[object, ...] | None]", each), column))
+        else:
+            fields.append(column(np.array(each, dtype=float)))  # None is NaN
+    return record_of(like, fields)
 
 
 def as_numbers(values: Array) -> float:
@@ -303,28 +294,3 @@ def drawn_pin(of: Designs) -> PinSize | None:
     """The pin that an impact bends, and its contact; None where nothing has a width."""
     width = under_load(of).contact_mm
     return None if width is None else PinSize(under_load(of).pin_mm, width)
-
-
-def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
-    """Let the machines of a batch's designs take from it what their checks need.
-
-    The batch is searched when the first of them needs a value. A value that the batch lacks is
-    computed for the design alone. There are at most ``kept.KEPT`` machines.
-    """
-    designs = Designs(batch, limited_loads(batch.spec), machines)
-
-    @cache
-    def sizing() -> PartLoads | None:
-        try:
-            return under_load(designs).part_loads
-        except GenevaError:  # which one of the designs raises it again
-            return None
-
-    def loads_of(i: int) -> PartLoads | None:
-        every = sizing()
-        one = every and every.of(i)
-        return None if one is None or any(map(math.isnan, one)) else one
-
-    for i, machine in enumerate(machines):
-        single.put(machine, partial(BatchMember, designs, i))
-        single_loads.put(machine, partial(loads_of, i))

@@ -11,15 +11,14 @@ import numpy as np
 import pytest
 import shapely
 from drawing_witness import polygon
+from strength_checks import judged
 from witness import mp
 
 from geneva_cli import Design, External, GearSector, Load, Size
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import Arc
 from geneva_cli.loads.impacts.reversal import arrival
-from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import single_check
-from geneva_cli.verdict.checks.load_checks import stopping_torque
 from geneva_cli.verdict.cycle_warnings import cycle_warnings
 
 MACHINES = {
@@ -197,7 +196,7 @@ def test_what_is_said_of_a_wheel_that_lags():
     def of(torque, inertia=0.01):
         design = loaded(torque, inertia)
         said = cycle_warnings(design.mechanism)
-        return stopping_torque("", design.mechanism), {c.name: str(c) for c in said}
+        return single_check(design.mechanism, "stopping_torque_Nm"), {c.name: str(c) for c in said}
 
     check, said = of(0.0)
     assert (check.value, check.passes) == (0.0, True)

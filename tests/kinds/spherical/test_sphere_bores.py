@@ -7,13 +7,13 @@ from shapely.geometry import Point
 from geneva_cli import Design, Size, Spherical
 from geneva_cli.geometry.plates import plates
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.verdict.checks.all_checks import check_named, standing
+from geneva_cli.verdict.checks import single_check
 
 
 def standing_check(name, **size):
     """A check of a spherical machine's parts at rest: shafts at 75 degrees."""
     design = Design(Spherical(5, axes_deg=75.0), size=Size(100.0, 5.0, **size))
-    return check_named(standing(design.mechanism), name, parts_of(design.mechanism).built)
+    return single_check(design.mechanism, name)
 
 
 def test_a_shaft_fits_a_spherical_hub():

@@ -1,0 +1,115 @@
+"""Failing checks in words, and what stands of a record below its summary."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from geneva_cli.errors import is_warning
+from geneva_cli.table import Table, in_digits, record_table
+from geneva_cli.verdict.checks import JAMS
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.parts import Parts
+    from geneva_cli.verdict.checks import Check
+
+# The meaning of a failing check, by its name; without one its value says enough.
+_PLAY = (
+    "between lock and slot the {moves} by {value:.4g}{unit}{where}, more than the "
+    "{limit:.4g}{unit} at which the roller still finds its slot"
+)
+_MOTION_PLAY = (
+    "in its slot the {moves} by {value:.4g}{unit} either way{where}, more than {limit:.4g}{unit}"
+)
+MEANINGS = {
+    "dwell_hold": "nothing holds the wheel in its dwell",
+    "turns": "{value:.0f} of {limit:.0f} slots pass{where}",
+    "gap_mm": "{parts} overlap by {short:.4g} mm{where}",
+    "idle_roller_mm": "an idle roller overlaps the wheel by {short:.4g} mm{where}",
+    "hand_over_play_deg": _PLAY,
+    "hand_over_play_mm": _PLAY,
+    "hand_over_pressure_deg": (
+        "the roller meets the wheel{where} at a pressure angle of {value:.4g}°, above {limit:g}°"
+    ),
+    "hand_over_offset_mm": (
+        "the mouth does not reach the roller, which first touches the wheel{where}, {value:.4g} mm "
+        "farther off the slot's middle than the clearance"
+    ),
+    "driven_fraction": "not positively driven during {idle:.3g} % of the motion",
+    "motion_play_deg": _MOTION_PLAY,
+    "motion_play_mm": _MOTION_PLAY,
+}
+NO_WALL = {  # of a negative wall
+    "wall_between_slots_mm": "neighbouring slots cut each other",
+    "horn_mm": "the recess breaks into the slot",
+    "wheel_bore_wall_mm": "the wheel's bore breaks into the slots",
+    "crank_bore_wall_mm": "the crank's bore breaks through the relief",
+    "rollers_apart_mm": "the rollers overlap each other",
+    "outer_wall_mm": "the slots break through the wheel's outside",
+}
+
+
+def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
+    """A record as it stands below its summary, without the warnings and the names shown there.
+
+    Notes on unknown values remain, as ``not_known``. Of an angle in two units, degrees remain. An
+    allowed stress without a stress is left out.
+    """
+    values = dict(zip(record.names, next(record.rows()), strict=True))
+    notes = tuple(text for text in values.pop("warnings") if not is_warning(text))
+    left = {name: value for name, value in values.items() if name not in without}
+    left = {name: value for name, value in left.items() if not name.endswith("_arcsec")}
+    for name in [n for n in left if n.endswith(".allowed_MPa")]:
+        if left.get(name.replace("allowed_MPa", "margin")) is None:  # there is no stress
+            del left[name]
+    return record_table(left | ({"not_known": notes} if notes else {}), prose=record.prose)
+
+
+def failures(rows: list[Check], parts: Parts) -> tuple[str, list[str]]:
+    """The reason why the parts jam or cannot be cut, and a sentence on each other failing check.
+
+    The first text is empty if the parts can be written.
+    """
+    refused, warned, advice = [], [], ""
+    for c in rows:
+        if c.passes is not False:
+            continue
+        if c.name == "full_turn":
+            refused.append(c.why)
+        elif c.name == "parts":  # the reason why there are none
+            warned.append(c.why)
+        elif c.value is None:
+            warned.append(f"{c.name} is not computed: {c.why}")
+        elif c.name in JAMS or (
+            # Links and gears lie below the wheel's plane, so the wheel can be cut all the same.
+            c.name not in ("link_wall_mm", "link_gap_mm", "gear_gap_mm")
+            and c.must_be == "at least"
+            and c.name.endswith("_mm")
+            and (c.value or 0.0) < 0.0
+        ):
+            refused.append(in_words(c, parts.turn.smallest.parts if c.name == "gap_mm" else ""))
+            advice = advice or c.nearest
+        else:
+            more = f"{c.nearest} would pass" if c.nearest else c.why
+            warned.append("; ".join(text for text in (in_words(c), more) if text))
+    return "; ".join(refused) + (f"; {advice} would free it" if advice else ""), [
+        *dict.fromkeys(warned)
+    ]
+
+
+def in_words(c: Check, parts: str = "") -> str:
+    """A failing check in words; ``parts`` names those that overlap, where they are known."""
+    shown = in_digits(c.value or 0.0, 6)
+    general = f"{c.name} is {shown}{c.where}; it must be {c.must_be} {c.limit or 0.0:.6g}"
+    return meaning(c, parts) or general
+
+
+def meaning(c: Check, parts: str = "") -> str:
+    """The meaning of a failing check; empty if its value is enough."""
+    value, limit = c.value or 0.0, c.limit or 0.0
+    if c.name in NO_WALL and value < 0.0:
+        return f"{NO_WALL[c.name]} by {-value:.4g} mm"
+    moves, unit = ("rack can move", " mm") if c.name.endswith("_mm") else ("wheel can turn", "°")
+    named = {"value": value, "limit": limit, "short": -value, "idle": 100.0 * (1.0 - value)}
+    words = {"where": c.where, "moves": moves, "unit": unit, "parts": parts or "parts"}
+    return MEANINGS.get(c.name, "").format(**named, **words)
