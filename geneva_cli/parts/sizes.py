@@ -91,7 +91,7 @@ def drawn_thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thick
 
 def pin_radius(size: Size, r: float, parts: Sizes | None = None) -> float:
     """Return the radius of a roller's pin, that of ``parts`` or else of a spec; 0 for none."""
-    return parts.pin if parts else 0.5 * size.pin_diameter(r, rounded_below)
+    return parts.pin if parts else 0.5 * value_or(size.pin_mm, rounded_below(r))
 
 
 def plane_span(

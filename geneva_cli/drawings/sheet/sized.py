@@ -7,7 +7,7 @@ from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.shafts.fits import Fits, toleranced
 from geneva_cli.parts.shafts.screws import SCREWS, screw_through
 from geneva_cli.spec.tables import Size
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.spec.written import length
 
 
@@ -45,7 +45,7 @@ def made(fits: Fits, mechanism: Mechanism, what: str, half: float) -> str:
         "pin hole": ("H7" if clear.press_fit_mm else "P7", 0.0),
     }[what]
     shown = fitted(fits, 2.0 * half, "" if what == "slot" else "Ø ", fit, deviation)
-    is_pressed = size.press_fit_mm is not None or workshop(size.process).cut_mm is None
+    is_pressed = size.press_fit_mm is not None or WORKSHOPS[size.process].cut_mm is None
     if what != "pin hole" or is_pressed:
         return shown
     pin = 2.0 * half + clear.press_fit_mm

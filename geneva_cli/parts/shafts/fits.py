@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from geneva_cli.spec.workshops import workshop
+from geneva_cli.spec.workshops import WORKSHOPS
 from geneva_cli.spec.written import signed
 
 # ISO 286-1:2010, micrometres for sizes up to a number of mm: grades IT6 and IT7 by its table 1, the
@@ -106,7 +106,7 @@ class Fits(NamedTuple):
 
     def text(self, nominal_mm: float, shown: str, fit: str) -> str:
         """Return a size with its fit, with the deviation of a cut, or alone if none is kept."""
-        shop = workshop(self.process)
+        shop = WORKSHOPS[self.process]
         if self.thickness_mm is not None and shop.cut_mm:
             return f"{shown} ±{shop.cut_mm(self.thickness_mm, nominal_mm):g}"
         return toleranced(nominal_mm, shown, fit) if shop.fits else shown
@@ -114,7 +114,7 @@ class Fits(NamedTuple):
     @property
     def is_iso(self) -> bool:
         """True if the part has fits of ISO 286."""
-        shop = workshop(self.process)
+        shop = WORKSHOPS[self.process]
         return shop.fits and (self.thickness_mm is None or shop.cut_mm is None)
 
     @property
