@@ -775,24 +775,20 @@ class Accept(SpecTable):
         *("short-motion", "tolerance-left-out", "not-every-machine-turns"),
     )
 
+    reasons: ClassVar[dict[str, str]]  # of each record, by the names of the accepted warnings
+
     def __post_init__(self) -> None:
         super().__post_init__()
-        for name, reason in self.reasons.items():
-            if not reason.strip():
+        reasons = vars(self)["reasons"] = self.as_dict()
+        for name, reason in [*reasons.items()]:
+            if reason is None:
+                del reasons[name]
+            elif not reason.strip():
                 raise GenevaError(
                     f'{name} needs the reason for accepting it, as {name} = "agreed with the '
                     'customer"',
                     (self.TABLE, name),
                 )
-
-    @property
-    def reasons(self) -> dict[str, str]:
-        """The reasons by the names of the accepted warnings."""
-        reasons = self.as_dict()
-        for name, reason in [*reasons.items()]:
-            if reason is None:
-                del reasons[name]
-        return reasons
 
     def applied(self, notices: Iterable[Notice]) -> list[Notice]:
         """The warnings, the accepted ones with their reason.
@@ -809,7 +805,7 @@ class Accept(SpecTable):
 
     def unused(self, notices: Iterable[Notice]) -> list[str]:
         """Names of accepted warnings that do not occur among those of ``check``."""
-        unused = self.reasons
+        unused = dict(self.reasons)
         for name in (*self.ELSEWHERE, *map(attrgetter("name"), notices)):
             unused.pop(name, None)
         return list(unused)
