@@ -219,6 +219,11 @@ def joined(records: Sequence[Record], axis: int = -1) -> Record:
     return record_of(records[0], out)
 
 
+def numbers_of(which: Mask | Whole) -> Whole:
+    """Numbers of some designs, from a mask or from their numbers; a third faster to take by."""
+    return cast("Whole", which.nonzero()[0] if which.dtype == bool else which)
+
+
 def record_taken(record: Record, which: Which) -> Record:
     """A record of arrays (..., m), or of such records, with some of their columns."""
     # NumPy's own indexing puts each column's values side by side in memory; reductions over them
