@@ -116,8 +116,8 @@ class Spec(SpecTable):
         load, support = self.load, self.support
         nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
         nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
-        rubs = support.friction * support.force_N * support.radius_mm
-        nothing = nothing & (rubs == 0.0) & (not self.mass)
+        support_Nmm = support.friction * support.force_N * support.radius_mm
+        nothing = nothing & (support_Nmm == 0.0) & (not self.mass)
         vars(self)["unloaded"] = nothing
         limits = vars(self.limits)
         for limit, (key, of, what) in NEEDED.items():

@@ -711,15 +711,6 @@ LIMITED = {
 }
 
 
-def limited_loads(limits: Limits) -> list[str]:
-    """The whole names of the loads that a spec limits."""
-    values, names = vars(limits), []
-    for key, name in LIMITED.items():
-        if name.startswith("loads.") and values[key]:
-            names.append(name)
-    return names
-
-
 Reason = Annotated[str | None, None, "reason for accepting this warning"]
 
 
