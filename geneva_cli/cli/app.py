@@ -14,7 +14,8 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from geneva_cli import __version__, progress
+import geneva_cli.progress as progress
+from geneva_cli import __version__
 from geneva_cli.cli.command import HELP, USAGE, PlainValues, as_command, table_options
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import ProgressBar, close

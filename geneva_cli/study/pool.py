@@ -11,7 +11,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeVar
 
-from geneva_cli import progress
+import geneva_cli.progress as progress
 from geneva_cli.errors import GenevaError
 
 if TYPE_CHECKING:

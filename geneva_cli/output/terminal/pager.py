@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from itertools import chain
 
-from geneva_cli import progress
+import geneva_cli.progress as progress
 
 is_wanted = True  # False after --no-pager
 
