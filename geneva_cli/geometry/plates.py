@@ -194,7 +194,7 @@ def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
     for i, hole in enumerate(holes):
         for other in holes[:i]:
             least = min(least, apart(other, hole))
-        if whole:
+        if whole is not None:
             least = min(least, -beyond(whole, hole))
     return least
 
