@@ -26,7 +26,8 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
 
     Its look is for a terminal if ``is_seen``, a pipe, or a file, which is always UTF-8.
     """
-    columns, unicode, (inks, dim, plain) = WIDTH, True, ({}, "", "")
+    columns, unicode, dim, plain = WIDTH, True, "", ""
+    inks: dict[str, str] = {}
     if output == "-":
         try:
             "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii")
@@ -38,7 +39,8 @@ def chunks(summaries: Iterable[Summary], output: str, is_seen: bool) -> Iterator
         terminal = window(False, False)
         # Lines of more than 100 letters are hard to read.
         columns = min(terminal.columns, 100)
-        inks, dim, plain = (INKS, DIM, PLAIN) if terminal.styled else (inks, dim, plain)
+        if terminal.styled:
+            inks, dim, plain = INKS, DIM, PLAIN
     before: Summary | None = None
     for summary in summaries:
         lines = summary.lines
