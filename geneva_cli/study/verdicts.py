@@ -172,7 +172,7 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     return Answer((*heads, *details), table if page else None, data)
 
 
-def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
+def headline(checks: Sequence[Check], warnings: Sequence[Notice]) -> tuple[str, str]:
     """State of a design (PASSES, WARNS or FAILS), and counts of its checks and warnings in words.
 
     >>> from geneva_cli.verdict.checks import Check
