@@ -25,7 +25,7 @@ def rows(spec, vary, picks, random=None):
         plan([axis(v, random is not None) for v in vary], random, 5),
         picks=picks,
     )
-    together = [*found.rows(0, len(found.plan))]
+    together = [*found.rows_of(found.plan.columns(0, len(found.plan)))]
     alone = [Sweep.row(found, some) for some in found.plan.rows(0, len(found.plan))]
     return together, alone, found
 

@@ -16,7 +16,7 @@ def test_a_design_that_cannot_be_built_spoils_no_batch():
     text = read(os.path.join(DESIGNS, "turret.toml"))
     picks = ["checks.pin_stress_MPa", "checks.passes"]
     checked = sweep(text, plan([axis("load.efficiency=0.5,2,0.9")], None, 0), picks=picks)
-    first, refused, last = checked.rows(0, 3)
+    first, refused, last = checked.rows_of(checked.plan.columns(0, 3))
     assert refused[1:3] == [None, None] and "efficiency" in refused[3]
     assert first[2] is last[2] is True and first[1] == pytest.approx(last[1], rel=1e-14)
 
@@ -36,5 +36,5 @@ def test_designs_with_equal_parts_have_one_turn(name, varied):
     """It is computed once for all designs whose parts are equal, and for no others."""
     text = read(os.path.join(DESIGNS, name))
     checked = sweep(text, plan([axis(varied)], None, 0), picks=["checks.gap_mm", *CHECKED])
-    together = [*checked.rows(0, len(checked.plan))]
+    together = [*checked.rows_of(checked.plan.columns(0, len(checked.plan)))]
     assert together == [checked.row(row[:1]) for row in together]
