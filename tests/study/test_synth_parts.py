@@ -33,15 +33,14 @@ def curved(found):
 
 @pytest.mark.long
 @pytest.mark.parametrize("z", [6, 8, 11])
-def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
-    """No motion of a dense sweep between the two has parts that may be built."""
+def test_the_longest_motion_is_the_longest_that_may_be_built(z):
+    """No longer motion of a dense sweep has parts that may be built."""
     target = read_target(motion_deg="100..200", z=str(z), **CURVED)
-    first, other, *_ = curved(search(target))
-    assert first.cells["parts"] == "no: island"
-    assert first.cells["motion_deg"] == pytest.approx(200.0)
+    other = curved(search(target))[0]
     assert other.cells["parts"] == "maybe"
-    # a 4096th of the range is how near the search goes
-    found = other.cells["motion_deg"] + 100.0 / 4096.0
+    assert other.cells["motion_deg"] < 199.0
+    # a 1024th of the range is how near the search goes
+    found = other.cells["motion_deg"] + 100.0 / 1024.0
     natural, steps = 180.0 - 360.0 / z, some(300, 60)
     for k in range(steps + 1):
         alpha0 = natural - (found + (200.0 - found) * k / steps)
@@ -133,9 +132,9 @@ def listed(tmp_path, *options):
 @pytest.mark.long
 def test_a_search_marks_a_machine_that_is_not_driven(tmp_path):
     """The curved slots of a modified sine over 72 degrees drive during 15.7 % of the motion."""
-    found = listed(tmp_path, "--check", "0")
+    found = listed(tmp_path, "--check", "5")
     assert ("crank", "modified-sine", "no: driven_fraction") in found
-    assert ("cam", "modified-sine", "maybe") in found  # straight slots drive any law
+    assert ("cam", "modified-sine", "yes") in found  # straight slots drive any law
 
 
 @pytest.mark.long
