@@ -8,13 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import reduce
-from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Enclosed, Library, Number, Truth, Undecided, Whole
+from geneva_cli.numerics.arrays import Array, Enclosed, Number, Truth, Undecided, Whole
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Library
     from geneva_cli.numerics.jet import Jet
 
     Bound: TypeAlias = Array | float
@@ -310,7 +311,7 @@ def curve_rates(curve: Curve, start: Array, end: Array) -> Array:
             left.append((np.tile(cell, 2), np.append(low, half), np.append(half, high)))
         else:
             for k, total in enumerate(rates, start=1):
-                both = (x.c[k], y.c[k])  # intervals, or doubles that need none
+                both: tuple[Any, ...] = (x.c[k], y.c[k])  # intervals, or doubles that need none
                 sizes = [one.size if isinstance(one, Interval) else abs(one) for one in both]
                 np.maximum.at(total, cell, k * np.hypot(*sizes))
         np.add.at(tries, cell, 1)

@@ -7,11 +7,10 @@ from contextlib import suppress
 from functools import partial
 from typing import NamedTuple
 
-from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
+from geneva_cli.answer import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine, value_text
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice, open_warnings
 from geneva_cli.names import spoken
-from geneva_cli.output.document.blocks import value_text
 from geneva_cli.parts.chosen import ByLoad
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped

@@ -16,7 +16,7 @@ import repo
 from typer.testing import CliRunner
 
 from geneva_cli.cli.app import app
-from geneva_cli.cli.options import say
+from geneva_cli.cli.command import say
 from geneva_cli.design import load
 from geneva_cli.drawings import parts_list
 from geneva_cli.drawings.catalogue import PARTS

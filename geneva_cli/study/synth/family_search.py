@@ -40,7 +40,7 @@ def best(
     """
     numbers = [f.low if math.isnan(f.best) else f.best for f in families]
     searched = [i for i, f in enumerate(families) if f.is_free and math.isnan(f.best)]
-    keeps = dict.fromkeys(range(len(families)), True)
+    keeps: dict[int, bool | None] = dict.fromkeys(range(len(families)), True)
     keeps |= dict.fromkeys(searched)  # None without a machine
     if searched:
         free = FamilyCosts([families[i] for i in searched], target)

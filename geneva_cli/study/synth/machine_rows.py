@@ -134,10 +134,10 @@ def _costs_and_rollers(
             costs.update(zip(own, np.column_stack(table).tolist(), strict=True))
         pairs = [(i, one, m) for i, one in enumerate(own) for m in several.get(one, ())]
         if pairs:
-            which, own, counts = zip(*pairs, strict=True)
+            which, suited_specs, counts = zip(*pairs, strict=True)
             radii, why = suiting(machine, np.array(which), np.array(counts))
             suited = zip(radii.tolist(), why, strict=True)
-            found.update(zip(zip(own, counts, strict=True), suited, strict=True))
+            found.update(zip(zip(suited_specs, counts, strict=True), suited, strict=True))
     out = []
     for spec, one in zip(specs, slots, strict=True):
         roller = found.get((one, spec.drive.rollers), (math.nan, ""))

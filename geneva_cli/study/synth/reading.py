@@ -65,7 +65,8 @@ def read_target(
     refuse_contradictions(bounds)
     refuse_words(dict.fromkeys([b.name for b in bounds], "--subject-to"), "only numbers are bound")
     phrases += [str(bound) for bound in bounds]
-    able, chosen = GEARINGS, dict(zip(GEARINGS, (external, internal, spherical), strict=True))
+    able: tuple[str, ...] = GEARINGS
+    chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     gearings = tuple(name for name, is_chosen in chosen.items() if is_chosen)
     if rollers is not None and not 1 <= rollers <= ROLLERS_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {ROLLERS_MAX}")

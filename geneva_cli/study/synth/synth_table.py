@@ -14,8 +14,8 @@ from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.progress import tracked
-from geneva_cli.spec.least_wall import wall_min
-from geneva_cli.spec.load_limits import LIMITED
+from geneva_cli.spec.defaults import wall_min
+from geneva_cli.spec.tables import LIMITED
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep.constraints import Constraint

@@ -18,7 +18,7 @@ from geneva_cli.loads.strength.part_loads import (
 )
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.numerics.arrays import Array, Number, array, parameter
-from geneva_cli.spec.materials import roller_material, wheel_material
+from geneva_cli.spec.defaults import roller_material, wheel_material
 from geneva_cli.spec.tables import Material
 from geneva_cli.spec.workshops import Stock
 from geneva_cli.verdict.quantities.batch_designs import Columns, Designs
@@ -85,9 +85,10 @@ def horn(of: Designs) -> Columns:
     if not np.isfinite(force).any():
         return out | dict.fromkeys(("stress_MPa", "at_deg", "inwards_mm", "thickness_mm"), force)
     for name, row in load.horn_stress(width)._asdict().items():
-        out[name] = np.where(np.isfinite(force), _known(row), force)
+        column = np.where(np.isfinite(force), _known(row), force)
+        out[name] = column
         if name == "stress_MPa":
-            out["margin"] = margin(out[name], allowed)
+            out["margin"] = margin(column, allowed)
     return out
 
 
