@@ -228,7 +228,7 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
         ({"tau": "0.3", "law": "modified-sin"}, ["--law", '"modified-sine"']),
         (
             {"subject_to": ["acceleration.max <= 0.1"], "z": "3", "internal": True},
-            ["nearest 0.299222"],
+            ["nearest 0.321833"],
         ),
     ],
     ids=str,

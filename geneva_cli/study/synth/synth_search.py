@@ -64,7 +64,7 @@ def search(target: Target) -> Ranking:
     narrowed, errors = target.with_times(), list[str]()
     narrowed.refuse_contradictions()
     every = _all_groups(narrowed, target.names, False, errors)
-    if every is None:  # the error message says how near they come
+    if not every:  # the error message says how near they come
         errors.clear()
         every = _all_groups(target, target.names, True, errors)
     if not every:
@@ -87,12 +87,12 @@ def search(target: Target) -> Ranking:
 
 def _all_groups(
     target: Target, names: Sequence[str], how_near: bool, errors: list[str]
-) -> list[MachineRow] | None:
+) -> list[MachineRow]:
     """The rows of all independent groups of machines, in order, from all cores.
 
     They are straight slots, and laws, of each gearing; those of kinds. Each has some of the numbers
-    of slots. None if no machine keeps the bounds, unless ``how_near``. The reasons against machines
-    are added to ``errors``.
+    of slots. With ``how_near`` those that break the bounds are among them. The reasons against
+    machines are added to ``errors``.
     """
     count = max(len(target.z) // GROUP, 1)
     ends = [-(-len(target.z) * i // count) for i in range(count + 1)]
@@ -107,18 +107,17 @@ def _all_groups(
     is_small = len(target.gearings) * len(target.z) * len(target.laws) <= 6
     workers = 1 if is_small else min(len(tasks), cores())
     done = mapped(partial(_group, names=names, how_near=how_near), tasks, workers, "machines")
-    out, some_keep = list[MachineRow](), how_near
-    for rows_of_group, keeps, reasons in tracked(done, "groups of machines", len(tasks)):
-        out += rows_of_group
-        some_keep |= keeps
+    out = list[MachineRow]()
+    for found, reasons in tracked(done, "groups of machines", len(tasks)):
+        out += found
         errors += reasons
-    return out if some_keep else None
+    return out
 
 
 def _group(
     task: tuple[Kind, Target], names: Sequence[str], how_near: bool
-) -> tuple[list[MachineRow], bool, list[str]]:
-    """The rows of a group, whether one keeps the bounds, and the reasons against the others."""
+) -> tuple[list[MachineRow], list[str]]:
+    """The rows of a group, and the reasons against the other machines."""
     kind, target = task
     wheels = [target.wheel(gearing, z) for gearing in target.gearings for z in target.z]
     families: Sequence[Family] = [*kind(target, wheels)]
@@ -138,7 +137,7 @@ def _group(
         shown += [*(machines[i] for i in np.flatnonzero(~keeps).tolist()), *near]
     errors: list[str] = []
     found = rows(target, [*dict(shown).items()], errors)
-    return with_batch_values(names, found), bool(keeps.any()), errors
+    return with_batch_values(names, found), errors
 
 
 def with_batch_values(names: Sequence[str], found: Sequence[MachineRow]) -> list[MachineRow]:
