@@ -545,9 +545,9 @@ class Design:
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
             return None  # before the import of what draws parts
-        from geneva_cli.parts.wheel_body import known_wheel_body
+        from geneva_cli.parts.wheel_body import wheel_body
 
-        return known_wheel_body(self.mechanism)
+        return wheel_body(self.mechanism)
 
     @answer
     def life(self) -> dict[str, float | None]:

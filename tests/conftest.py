@@ -20,8 +20,7 @@ from words import Drive, Keys, Motion, Spec, Wheel
 from geneva_cli import extras, kinds, load, study
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts import flat_parts
-from geneva_cli.parts.outlines import curved_walls, path_walls
-from geneva_cli.parts.outlines import cut_outlines as outline
+from geneva_cli.parts.outlines import curved_walls, cut_outlines, path_walls
 from geneva_cli.parts.turn import full_turn
 from geneva_cli.verdict import advice, motion_warnings
 from geneva_cli.verdict.checks import turn_checks
@@ -141,7 +140,7 @@ def of_slot(assembly, sizes, of):
     return id(assembly), sizes, id(of)
 
 
-OUTLINES = kept(outline.drawn, of_sizes)
+OUTLINES = kept(cut_outlines.drawn, of_sizes)
 TURNED = kept(full_turn.full_turn, of_outlines)
 PROVED = kept(turn_checks.certificate, of_certificate)
 WALLS = kept(path_walls.walls, of_slot)
@@ -156,7 +155,7 @@ def made_once():
     Not for tests of their computation, or of its time.
     """
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(outline, "drawn", OUTLINES)
+        patch.setattr(cut_outlines, "drawn", OUTLINES)
         patch.setattr(flat_parts, "drawn", OUTLINES)
         patch.setattr(full_turn, "full_turn", TURNED)
         patch.setattr(turn_checks, "certificate", PROVED)

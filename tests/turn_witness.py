@@ -4,10 +4,13 @@ import math
 from functools import partial
 
 import numpy as np
+import shapely
+from drawing_witness import polygon
 from sampling import some
+from shapely import affinity
 
 from geneva_cli.parts.turn.play import windows
-from geneva_cli.parts.turn.turn_certificate import certificate, intervals, spans
+from geneva_cli.parts.turn.turn_certificate import certificate, intervals
 
 TO_MM = 1e-3
 ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here
@@ -33,6 +36,16 @@ def check_proof(parts, gap_mm, to_mm=TO_MM):
     return proof
 
 
+def check_overlap(worse, depth, walls_mm=0.0):
+    """Parts that overlap by a known depth, of walls that may be off, are proved to no less."""
+    found = certificate(worse, 0.0, TO_MM)
+    assert (found.open is None) == (depth < TO_MM)
+    if found.open is None:
+        assert found.least_mm <= -depth + walls_mm
+    else:
+        assert -depth - walls_mm - ROUNDING <= found.open[2] < -TO_MM
+
+
 def turn_of(parts, count=DENSE):
     start = parts.assembly.start_deg
     return np.linspace(start, start + parts.assembly.turn_deg, count)
@@ -49,10 +62,10 @@ def pairs(parts, window):
         def gap(at, roller=roller):
             return parts.gaps.rollers(parts.gaps.pose(at))[:, roller]
 
-        yield (window.start, window.end), partial(every.free, roller, window), gap
-        for span, driver in spans(parts, window):
+        yield (window.start, window.end), partial(every.roller, roller, window, None), gap
+        for *span, driver in window.spans:
             if roller == driver:
-                yield span, partial(every.driving, roller, span), gap
+                yield span, partial(every.roller, roller, window, span), gap
 
 
 def check_bounds(parts, rng):
@@ -60,10 +73,36 @@ def check_bounds(parts, rng):
         for (low, high), pair, gap in pairs(parts, window):
             width = (high - low) * 10.0 ** rng.uniform(-5.0, -0.5, 40)
             start = low + (high - low - width) * rng.random(40)
-            bounds = pair(intervals(parts.gaps, start, start + width))
+            found, least = pair(intervals(parts.gaps, start, start + width))
             at = start[:, None] + width[:, None] * np.linspace(0.0, 1.0, 41)
             dense = gap(at.ravel()).reshape(at.shape).min(axis=1)
             near = parts.gaps.near  # wider gaps are returned as this
-            assert (np.minimum(bounds.least, near) <= dense + ROUNDING).all()
+            assert (np.minimum(least, near) <= dense + ROUNDING).all()
             middle = gap(start + 0.5 * width)
-            assert np.allclose(np.minimum(bounds.middle, near), middle, atol=ROUNDING)
+            assert np.allclose(np.minimum(found, near), middle, atol=ROUNDING)
+
+
+def overlapping(parts, at_deg, lead=0.0, flat=1e-5):
+    """Whether fine polygons overlap at input angles, the wheel turned on by ``lead`` radians.
+
+    They stray by ``flat`` of the centre distance. The crank's parts are taken smaller by twice
+    that, and must not even touch the wheel.
+    """
+    assembly, flat = parts.assembly, flat * parts.assembly.L
+    less = 2.0 * flat + parts.close
+    wheel = polygon(parts.outlines.wheel, flat)
+    if assembly.sign < 0.0:
+        wheel = shapely.Point(0.0, 0.0).buffer(parts.sizes.outer, quad_segs=512).difference(wheel)
+    shapely.prepare(wheel)
+    roller = shapely.Point(0.0, 0.0).buffer(parts.sizes.roller - less, quad_segs=800)
+    cranks = [polygon(contour, flat).buffer(-less) for contour in parts.outlines.crank]
+    poses, out = assembly.crank(at_deg), []
+    for i, turn in enumerate(assembly.wheel(at_deg) + lead):
+        pins = [assembly.pin(k, at_deg[i : i + 1])[0] for k in range(len(assembly.rollers))]
+        moved = [affinity.translate(roller, *pin) for pin in pins]
+        for crank in cranks:
+            own = affinity.rotate(crank, poses[i], (0.0, 0.0), use_radians=True)
+            moved.append(affinity.translate(own, assembly.L))
+        back = (affinity.rotate(one, -turn, (0.0, 0.0), use_radians=True) for one in moved)
+        out.append(any(wheel.intersects(one) for one in back))
+    return out

@@ -7,11 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.geometry.measure import directions
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Segment, about
 from geneva_cli.numerics.arrays import Array, Mask, Number, Whole
 from geneva_cli.numerics.tolerances import SAME_ANGLE
@@ -20,35 +18,31 @@ PLACES = (0, 2, 4, 8, 12, 16)  # columns of a boundary that are x, and y behind 
 BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
 
 
-class PieceDistances(NamedTuple):
-    """Distances and sides of points relative to pieces."""
-
-    distance: Array
-    side: Array  # signed distance from the whole line or circle
-    facing: Mask  # True if the nearest point is inside the piece
-    along: Array  # position along its chord, from the middle
-
-
 class Polyarc:
     """The boundary of a part, of closed contours with the material on their left."""
 
     def __init__(self, contours: Iterable[Contour]) -> None:
-        rows = []
+        rows: list[tuple[float, ...]] = []
         for contour in contours:
-            pieces = [s for s in contour.segments if isinstance(s, Line | Arc)]
-            assert len(pieces) == len(contour.segments), "cubics have no exact distance here"
-            ends = [directions(piece) for piece in pieces]
-            steps = (math.remainder(on[0] - ends[i - 1][1], math.tau) for i, on in enumerate(ends))
-            turns = [turn if abs(turn) > SAME_ANGLE else 0.0 for turn in steps]
-            for piece, before, after in zip(pieces, turns, [*turns[1:], *turns[:1]], strict=True):
-                circle = 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
+            own, ends = [], []  # of the contour's pieces, and their directions at both ends
+            for piece in contour.segments:
+                assert isinstance(piece, Line | Arc), "cubics have no exact distance here"
+                (x0, y0), (x1, y1) = piece.start, piece.end
+                chord, half, circle = math.atan2(y1 - y0, x1 - x0), 0.0, (0.0,) * 5
                 if isinstance(piece, Arc):
-                    half, sense = 0.5 * abs(piece.sweep), math.copysign(1.0, piece.bulge)
-                    sine = math.sin(half)
+                    half = 0.5 * piece.sweep
+                    sine, sense = math.sin(abs(half)), math.copysign(1.0, piece.bulge)
                     # as ``piece.radius``, without another arc tangent and sine
                     radius = 0.5 * math.dist(piece.start, piece.end) / abs(sine)
-                    circle = (*piece.centre, radius, sense, sine, math.cos(half))
-                rows.append((*piece.start, *piece.end, *circle, before, after))
+                    circle = (*piece.centre, radius, sense, sine)
+                own.append((x0, y0, x1, y1, *circle, math.cos(half)))
+                ends.append((chord - half, chord + half))
+            turns = []  # at the start of each
+            for i in range(len(own)):
+                turn = math.remainder(ends[i][0] - ends[i - 1][1], math.tau)
+                turns.append(turn if abs(turn) > SAME_ANGLE else 0.0)
+            for i, row in enumerate(own):
+                rows.append((*row, turns[i], turns[(i + 1) % len(own)]))
         x0, y0, x1, y1, cx, cy, radius, sense, sin_half, cos_half, *turned = np.array(rows).T
         dx, dy = x1 - x0, y1 - y0
         dx = np.where((dx == 0.0) & (dy == 0.0), 1e-150, dx)  # a point has a direction too
@@ -98,31 +92,33 @@ class Polyarc:
 
     def signed(self, points: Array) -> Array:
         """Distance of each of (n, 2) points from the boundary, negative inside the material."""
-        size = max(1, BLOCK // len(self))
-        blocks = [self._signed(points[i : i + size]) for i in range(0, len(points), size)]
-        return np.concatenate(blocks) if blocks else np.empty(0)
+        size, out = max(1, BLOCK // len(self.x0)), np.empty(len(points))
+        for begin in range(0, len(points), size):
+            px, py = points[begin : begin + size].T
+            # The nearest piece is among those whose circles come nearer than the ends of any piece.
+            dx, dy = px[:, None] - self.ox, py[:, None] - self.oy
+            away = np.sqrt(dx * dx + dy * dy)
+            most = (away + 0.5 * self.length).min(axis=1, keepdims=True)
+            # 1e-9 of a distance is more than its rounding
+            row, piece = np.nonzero(away - self.size <= most * (1.0 + 1e-9))
+            some = self.subset(piece)
+            distance, side, facing, along = some.distances(px[row], py[row])
+            # the first of the nearest pieces of each point
+            least = np.minimum.reduceat(distance, np.flatnonzero(np.diff(row, prepend=-1)))
+            equal = np.flatnonzero(distance == least[row])
+            first = equal[np.flatnonzero(np.diff(row[equal], prepend=-1))]
+            # Outside at a convex corner, inside at a hollow one; at a smooth joint by the side.
+            turn = np.where(along[first] < 0.0, some.turn_start[first], some.turn_end[first])
+            inside = np.where(~facing[first] & (turn != 0.0), turn < 0.0, side[first] > 0.0)
+            out[begin : begin + size] = np.where(inside, -1.0, 1.0) * distance[first]
+        return out
 
-    def _signed(self, points: Array) -> Array:
-        # The nearest piece is among those whose circles come nearer than the ends of any piece.
-        dx, dy = points[:, :1] - self.ox, points[:, 1:] - self.oy
-        away = np.sqrt(dx * dx + dy * dy)
-        most = (away + 0.5 * self.length).min(axis=1, keepdims=True)
-        # 1e-9 of a distance is more than its rounding
-        row, piece = np.nonzero(away - self.size <= most * (1.0 + 1e-9))
-        some = self.subset(piece)
-        seen = some.distances(*points[row].T)
-        # the first of the nearest pieces of each point
-        least = np.minimum.reduceat(seen.distance, np.flatnonzero(_changes(row)))
-        equal = np.flatnonzero(seen.distance == least[row])
-        first = equal[_changes(row[equal])]
-        distance, side, facing, along = seen
-        # Outside at a convex corner, inside at a hollow one; at a smooth joint the side decides.
-        turn = np.where(along[first] < 0.0, some.turn_start[first], some.turn_end[first])
-        inside = np.where(~facing[first] & (turn != 0.0), turn < 0.0, side[first] > 0.0)
-        return np.where(inside, -1.0, 1.0) * distance[first]
-
-    def distances(self, x: Array, y: Array) -> PieceDistances:
+    def distances(self, x: Array, y: Array) -> tuple[Array, Array, Mask, Array]:
         """Distances and sides of points relative to pieces; x and y broadcast with the pieces.
+
+        Returned are the distance from the piece, that from its whole line or circle, positive on
+        its left, True where the nearest point is inside the piece, and the place along its chord,
+        from the middle.
 
         A fitted arc may have a radius of kilometres. So nothing is measured from its centre, but
         all from the middle of its chord. A line is an arc without curvature.
@@ -139,7 +135,7 @@ class Polyarc:
         inside = bend * (0.25 * self.square - along * along - square)
         side = (inside - 2.0 * self.cos_half * outward) / (1.0 + far)
         distance = np.where(facing, np.abs(side), np.sqrt(square + beyond * beyond))
-        return PieceDistances(distance, np.where(self.sense < 0.0, -side, side), facing, along)
+        return distance, np.where(self.sense < 0.0, -side, side), facing, along
 
     def samples(self, sagitta: float, longest: float) -> Array:
         """Points of the boundary, (n, 2): all corners, and points at the requested spacing."""
@@ -164,13 +160,6 @@ class Polyarc:
         return np.column_stack((x, y))
 
 
-def _changes(numbers: Whole) -> Mask:
-    """True where a number differs from the one before; the first is True."""
-    out = np.ones(len(numbers), dtype=bool)
-    out[1:] = numbers[1:] != numbers[:-1]
-    return out
-
-
 def farthest(outline: Polyarc, x: Number, y: Number) -> Array:
     """Return the distance from points to the farthest point of each piece; both broadcast."""
     vx, vy = outline.cx - x, outline.cy - y
@@ -193,38 +182,35 @@ def from_segments(outline: Polyarc, start: Array, end: Array, reach: float) -> A
     near = outline.subset(piece)
     (x, y), (dx, dy), (ex, ey) = start[row].T, (end - start)[row].T, end[row].T
     square = np.maximum(dx * dx + dy * dy, 1e-300)
-
-    def nearest(px: Array, py: Array) -> tuple[Array, Array]:
-        """The points of the segments that are nearest to points."""
-        along = np.clip(((px - x) * dx + (py - y) * dy) / square, 0.0, 1.0)
-        return x + along * dx, y + along * dy
-
-    def away(px: Array, py: Array) -> Array:
-        fx, fy = nearest(px, py)
-        return np.hypot(fx - px, fy - py)
-
-    places = (x, y), (ex, ey), nearest(near.cx, near.cy)
-    from_places = [near.distances(*place).distance for place in places]
-    corners = away(near.x0, near.y0), away(near.x1, near.y1)
+    # the points of the segments that are nearest to the pieces' ends and centres
+    px, py = np.array((near.x0, near.x1, near.cx)), np.array((near.y0, near.y1, near.cy))
+    along = np.clip(((px - x) * dx + (py - y) * dy) / square, 0.0, 1.0)
+    fx, fy = x + along * dx, y + along * dy
+    from_ends, *_ = near.distances(np.array((x, ex, fx[2])), np.array((y, ey, fy[2])))
+    corners = np.hypot(fx[:2] - px[:2], fy[:2] - py[:2])
     out = np.full(len(start), reach)
-    np.minimum.at(out, row, np.minimum.reduce((*from_places, *corners)))
+    np.minimum.at(out, row, np.minimum(from_ends.min(axis=0), corners.min(axis=0)))
     return out
 
 
 def short_pieces(contours: Iterable[Contour], step: float) -> Polyarc:
     """Return an outline in short pieces: arcs of at most ``step`` radians, and parts of lines."""
     pieces: list[Segment] = []
-    for segment in (segment for contour in contours for segment in contour.segments):
-        if isinstance(segment, Arc):
-            (cx, cy), sweep = segment.centre, segment.sweep
-            start = math.atan2(segment.start[1] - cy, segment.start[0] - cx)
-            count = max(1, math.ceil(abs(sweep) / step))
-            turns = (start + sweep * i / count for i in range(count))
-            pieces += [about((cx, cy), segment.radius, turn, sweep / count) for turn in turns]
-            continue
-        (x0, y0), (x1, y1) = segment.start, segment.end
-        count = math.ceil(0.5 * math.pi / step)
-        shares = [i / count for i in range(count + 1)]
-        corners = [(x0 + (x1 - x0) * share, y0 + (y1 - y0) * share) for share in shares]
-        pieces += map(Line, corners[:-1], corners[1:])
+    for contour in contours:
+        for segment in contour.segments:
+            if isinstance(segment, Arc):
+                (cx, cy), sweep = segment.centre, segment.sweep
+                start = math.atan2(segment.start[1] - cy, segment.start[0] - cx)
+                count = max(1, math.ceil(abs(sweep) / step))
+                for i in range(count):
+                    turn = start + sweep * i / count
+                    pieces.append(about((cx, cy), segment.radius, turn, sweep / count))
+                continue
+            (x0, y0), (x1, y1) = segment.start, segment.end
+            before, count = segment.start, math.ceil(0.5 * math.pi / step)
+            for i in range(1, count + 1):
+                share = i / count
+                after = x0 + (x1 - x0) * share, y0 + (y1 - y0) * share
+                pieces.append(Line(before, after))
+                before = after
     return Polyarc([Contour("", tuple(pieces))])

@@ -156,7 +156,7 @@ def _crossing(outline: Polyarc, i: Whole, j: Whole, adjacent: Mask) -> Point | N
         known = np.isfinite(x) & np.isfinite(y)
         px, py = np.where(known, x, 0.0), np.where(known, y, 0.0)
         seen = [some.distances(px, py) for some in (one, two)]
-        inside = known & np.all([(s.distance < SHORTEST_MM) & s.facing for s in seen], axis=0)
+        inside = known & np.all([(away < SHORTEST_MM) & on for away, _, on, _ in seen], axis=0)
         # at a joint that is rounded, two tangent pieces cross, but at hardly any angle
         normals = []
         for some in (one, two):

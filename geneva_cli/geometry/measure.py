@@ -110,8 +110,8 @@ def halved(segment: Segment, is_long: Callable[[float], bool]) -> list[Segment]:
     """A segment alone; an arc halved until no part ``is_long`` by the size of its bulge."""
     if isinstance(segment, Arc) and is_long(abs(segment.bulge)):
         middle, bulge = at(segment, 0.5), math.tan(0.125 * segment.sweep)
-        halves = Arc(segment.start, middle, bulge), Arc(middle, segment.end, bulge)
-        return [part for half in halves for part in halved(half, is_long)]
+        first, last = Arc(segment.start, middle, bulge), Arc(middle, segment.end, bulge)
+        return [*halved(first, is_long), *halved(last, is_long)]
     return [segment]
 
 
@@ -145,12 +145,17 @@ def mapped(
 def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
     """Rotate a shape about a point, counterclockwise."""
     (x, y), c, s = centre, math.cos(radians), math.sin(radians)
-
-    def point(p: Point) -> Point:
-        u, v = p[0] - x, p[1] - y
-        return x + c * u - s * v, y + s * u + c * v
-
-    return mapped(shape, point)
+    if isinstance(shape, Circle):
+        u, v = shape.centre[0] - x, shape.centre[1] - y
+        return shape._replace(centre=(x + c * u - s * v, y + s * u + c * v))
+    pieces: list[Segment] = []
+    for one in shape.segments:
+        moved: list[Point] = []
+        for px, py in one[:2] if isinstance(one, Arc) else one:
+            u, v = px - x, py - y
+            moved.append((x + c * u - s * v, y + s * u + c * v))
+        pieces.append(Arc(*moved, one.bulge) if isinstance(one, Arc) else type(one)(*moved))
+    return shape._replace(segments=tuple(pieces))
 
 
 def turned_pieces(pieces: Iterable[Segment], radians: float) -> tuple[Segment, ...]:

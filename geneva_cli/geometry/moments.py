@@ -9,37 +9,27 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from geneva_cli.geometry.measure import (
-    STRAIGHT,
-    at,
-    directions,
-    halved,
-    mapped,
-    segment_length,
-)
+from geneva_cli.geometry.measure import STRAIGHT, at, directions, segment_length
 from geneva_cli.geometry.shapes import (
     Arc,
     Circle,
     Contour,
+    Cubic,
     Line,
     Point,
-    Segment,
     Shape,
     as_contour,
     backwards,
 )
 
-# Gauss-Legendre's abscissae and weights of eight points on 0..1
-GAUSS = tuple(
-    (0.5 + 0.5 * sign * node, 0.5 * weight)
-    for node, weight in (
-        (0.18343464249564980, 0.36268378337836198),
-        (0.52553240991632899, 0.31370664587788729),
-        (0.79666647741362674, 0.22238103445337447),
-        (0.96028985649753623, 0.10122853629037626),
-    )
-    for sign in (-1.0, 1.0)
+# Gauss-Legendre's abscissae and weights of eight points on -1..1, of which four are below 0
+GAUSS = (
+    (0.18343464249564980, 0.36268378337836198),
+    (0.52553240991632899, 0.31370664587788729),
+    (0.79666647741362674, 0.22238103445337447),
+    (0.96028985649753623, 0.10122853629037626),
 )
+RADIAN = math.tan(0.25)  # the bulge of an arc of one
 
 
 class Moments(NamedTuple):
@@ -55,68 +45,70 @@ class Moments(NamedTuple):
         """Centre of mass of a uniform plate."""
         return self.x / self.area, self.y / self.area
 
-    def times(self, factor: float) -> Moments:
-        """Moments multiplied by a factor."""
-        return Moments(*[factor * part for part in self])
-
 
 def moments(shape: Shape) -> Moments:
-    """Moments of a closed contour, or of a circle."""
+    """Moments of a closed contour, or of a circle.
+
+    They are those of the areas that the ray from the origin to a point of the outline sweeps.
+    """
     if isinstance(shape, Circle):
         (x, y), square = shape.centre, shape.radius * shape.radius
         area = math.pi * square
         return Moments(area, area * x, area * y, area * (x * x + y * y + 0.5 * square))
-    radian = math.tan(0.25)  # the bulge of an arc of one
-    pieces = (p for s in shape.segments for p in halved(s, lambda bulge: bulge > radian))
-    return total(map(_swept, pieces))
+    rows: list[tuple[float, float, float, float]] = []
+    pieces = [*shape.segments]
+    while pieces:
+        piece = pieces.pop()
+        if isinstance(piece, Arc) and abs(piece.bulge) > RADIAN:
+            middle, bulge = at(piece, 0.5), math.tan(0.125 * piece.sweep)
+            pieces += Arc(piece.start, middle, bulge), Arc(middle, piece.end, bulge)
+            continue
+        if isinstance(piece, Line) or (isinstance(piece, Arc) and abs(piece.bulge) < STRAIGHT):
+            (a, b), (c, d) = piece.start, piece.end
+            cross = a * d - b * c
+            squares = (a * a + b * b) + (a * c + b * d) + (c * c + d * d)
+            x, y = (a + c) / 6.0, (b + d) / 6.0
+            rows.append((cross / 2.0, cross * x, cross * y, cross * squares / 12.0))
+            continue
+        if isinstance(piece, Arc):
+            length, (first, _), sweep = segment_length(piece), directions(piece), piece.sweep
+        own = []
+        for node, weight in GAUSS:
+            for t in (0.5 - 0.5 * node, 0.5 + 0.5 * node):
+                x, y = at(piece, t)
+                if isinstance(piece, Cubic):
+                    dx, dy = _velocity(piece, t)
+                else:
+                    turn = first + t * sweep
+                    dx, dy = length * math.cos(turn), length * math.sin(turn)
+                swept = 0.5 * weight * (x * dy - y * dx)
+                polar = 0.25 * (x * x + y * y)
+                own.append((swept * 0.5, swept * (x / 3.0), swept * (y / 3.0), swept * polar))
+        rows.append(total(own))
+    return total(rows)
 
 
-def area(shape: Shape) -> float:
-    """Area inside, positive if the contour runs counterclockwise; a chord closes an open one."""
-    if isinstance(shape, Circle):
-        return math.pi * shape.radius * shape.radius
-    if not shape.segments:
-        return 0.0
-    x, y = shape.segments[0].start
-    return moments(mapped(shape, lambda p: (p[0] - x, p[1] - y))).area
+def _velocity(piece: Cubic, t: float) -> Point:
+    """The derivative of a cubic's point by its parameter."""
+    a, b, c = 3.0 * (1.0 - t) ** 2, 6.0 * t * (1.0 - t), 3.0 * t * t
+    (x0, y0), (x1, y1), (x2, y2), (x3, y3) = piece
+    return (
+        a * (x1 - x0) + b * (x2 - x1) + c * (x3 - x2),
+        a * (y1 - y0) + b * (y2 - y1) + c * (y3 - y2),
+    )
 
 
-def with_material_left(shape: Contour, outside: bool) -> Contour:
+def total(rows: Iterable[tuple[float, float, float, float]]) -> Moments:
+    """Sum of the moments of several shapes."""
+    return Moments(*map(math.fsum, zip((0.0, 0.0, 0.0, 0.0), *rows, strict=True)))
+
+
+def with_material_left(shape: Shape, outside: bool) -> Contour:
     """Contour that runs counterclockwise as an outline, and clockwise as a hole."""
-    return shape if (area(shape) > 0.0) is outside else backwards(shape)
+    contour = as_contour(shape)
+    return contour if (moments(contour).area > 0.0) is outside else backwards(contour)
 
 
 def oriented(outline: Shape, holes: Iterable[Shape]) -> list[Contour]:
     """A face's outline and holes as contours with the material on their left."""
-    inner = [with_material_left(as_contour(hole), False) for hole in holes]
-    return [with_material_left(as_contour(outline), True), *inner]
-
-
-def total(parts: Iterable[Moments]) -> Moments:
-    """Sum of the moments of several shapes."""
-    rows = list(parts) or [Moments(0.0, 0.0, 0.0, 0.0)]
-    return Moments(*map(math.fsum, zip(*rows, strict=True)))
-
-
-def _swept(segment: Segment) -> Moments:
-    """Moments of the area that the ray from the origin to the segment's point sweeps."""
-    (a, b), (c, d) = segment.start, segment.end
-    if isinstance(segment, Line) or (isinstance(segment, Arc) and abs(segment.bulge) < STRAIGHT):
-        cross = a * d - b * c
-        squares = (a * a + b * b) + (a * c + b * d) + (c * c + d * d)
-        thirds = (a + c) / 6.0, (b + d) / 6.0
-        return Moments(cross / 2.0, cross * thirds[0], cross * thirds[1], cross * squares / 12.0)
-    rows = []
-    for t, weight in GAUSS:
-        x, y = at(segment, t)
-        if isinstance(segment, Arc):
-            length = segment_length(segment)
-            direction = directions(segment)[0] + t * segment.sweep
-            dx, dy = length * math.cos(direction), length * math.sin(direction)
-        else:
-            by = 3.0 * (1.0 - t) ** 2, 6.0 * t * (1.0 - t), 3.0 * t * t
-            steps = [(q[0] - p[0], q[1] - p[1]) for p, q in zip(segment, segment[1:], strict=False)]
-            dx, dy = (sum(b * step[k] for b, step in zip(by, steps, strict=True)) for k in (0, 1))
-        swept = weight * (x * dy - y * dx)
-        rows.append(Moments(0.5, x / 3.0, y / 3.0, 0.25 * (x * x + y * y)).times(swept))
-    return total(rows)
+    return [with_material_left(outline, True), *(with_material_left(h, False) for h in holes)]

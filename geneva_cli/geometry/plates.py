@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -12,7 +11,7 @@ import numpy as np
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.measure import S, mapped, turned
 from geneva_cli.geometry.moments import Moments, moments, total, with_material_left
-from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point, Shape, as_contour
+from geneva_cli.geometry.shapes import Circle, Contour, Layer, Point, Shape
 
 if TYPE_CHECKING:
     from geneva_cli.geometry.sphere import Region, Rotation, Vector
@@ -159,34 +158,45 @@ class MassProperties(NamedTuple):
 
 def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     """Mass, centroid and inertia J = rho h Ip of a plate."""
-    whole, per = face(plate).times(plate.thickness), density_kgm3 * MM**3
-    return MassProperties(per * whole.area, whole.centroid, per * MM**2 * whole.polar)
+    thick, per = plate.high - plate.low, density_kgm3 * MM**3
+    area, x, y, polar = face(plate)
+    volume = thick * area
+    return MassProperties(
+        per * volume, (thick * x / volume, thick * y / volume), per * MM**2 * (thick * polar)
+    )
 
 
 def added(one: MassProperties, other: MassProperties) -> MassProperties:
     """Mass, centroid and inertia of two bodies with one origin."""
-    mass = one.mass_kg + other.mass_kg
-    x, y = (
-        (one.mass_kg * a + other.mass_kg * b) / mass
-        for a, b in zip(one.centroid_mm, other.centroid_mm, strict=True)
+    mass, (x, y), (u, v) = one.mass_kg + other.mass_kg, one.centroid_mm, other.centroid_mm
+    centroid = (
+        (one.mass_kg * x + other.mass_kg * u) / mass,
+        (one.mass_kg * y + other.mass_kg * v) / mass,
     )
-    return MassProperties(mass, (x, y), one.inertia_kgm2 + other.inertia_kgm2)
+    return MassProperties(mass, centroid, one.inertia_kgm2 + other.inertia_kgm2)
 
 
 def face(plate: Plate) -> Moments:
     """Area, first moments and polar moment of a plate's face about the origin."""
-    out, *holes = (moments(shape) for shape in (plate.outline, *plate.holes))
-    cut = (hole.times(-math.copysign(1.0, hole.area)) for hole in holes)
-    return total((out.times(math.copysign(1.0, out.area)), *cut))
+    rows, sign = [], 1.0
+    for shape in (plate.outline, *plate.holes):
+        area, x, y, polar = moments(shape)
+        factor = sign * math.copysign(1.0, area)
+        rows.append((factor * area, factor * x, factor * y, factor * polar))
+        sign = -1.0  # the outline is the first
+    return total(rows)
 
 
 def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
     """Return the least wall between holes, and to an outline; negative where they overlap."""
-    least = [apart(one, two) for one, two in combinations(holes, 2)]
-    if outline:
-        whole = _boundary(outline)
-        least += [-beyond(whole, hole) for hole in holes]
-    return min(least, default=math.inf)
+    least = math.inf
+    whole = Polyarc([with_material_left(one, True) for one in outline]) if outline else None
+    for i, hole in enumerate(holes):
+        for other in holes[:i]:
+            least = min(least, apart(other, hole))
+        if whole:
+            least = min(least, -beyond(whole, hole))
+    return least
 
 
 def plate_wall(plate: Plate) -> float:
@@ -198,20 +208,16 @@ def beyond(outline: Polyarc, hole: Shape) -> float:
     """Return how far a hole's edge reaches past an outline, mm; negative inside."""
     if isinstance(hole, Circle):
         return float(outline.signed(np.array([hole.centre]))[0]) + hole.radius
-    return float(outline.signed(_boundary([hole]).samples(*SAMPLED)).max())
+    return float(outline.signed(Polyarc([hole]).samples(*SAMPLED)).max())
 
 
 def apart(one: Shape, two: Shape) -> float:
     """Return the wall between two holes, mm; negative where they overlap."""
-    if isinstance(one, Circle) and isinstance(two, Circle):
-        return math.dist(one.centre, two.centre) - one.radius - two.radius
     if isinstance(one, Circle):
+        if isinstance(two, Circle):
+            return math.dist(one.centre, two.centre) - one.radius - two.radius
         one, two = two, one
-    away = _boundary([one])
+    away = Polyarc([with_material_left(one, True)])
     if isinstance(two, Circle):
         return float(away.signed(np.array([two.centre]))[0]) - two.radius
-    return float(away.signed(_boundary([two]).samples(*SAMPLED)).min())
-
-
-def _boundary(shapes: Iterable[Shape]) -> Polyarc:
-    return Polyarc([with_material_left(as_contour(shape), True) for shape in shapes])
+    return float(away.signed(Polyarc([two]).samples(*SAMPLED)).min())

@@ -37,7 +37,7 @@ def refuse_conflicts(spec: Spec) -> None:
     """Raise GenevaError if the spec combines kinds that make no machine together."""
     rules: list[Callable[[Spec], Iterator[Conflict]]] = [_of_drive_before]
     for kind in _KINDS:
-        if _concerns(kind, spec):
+        if concerns(kind, spec):
             rules.append(load_named(kind.refuses))
     for rule in (*rules, _of_sizes):
         for when, key, text in rule(spec):
@@ -47,7 +47,7 @@ def refuse_conflicts(spec: Spec) -> None:
                 raise GenevaError(text.format(spec=spec), key)
 
 
-def _concerns(kind: Kind, spec: Spec) -> bool:
+def concerns(kind: Kind, spec: Spec) -> bool:
     """True if the spec has the kind, or sets a key of the kind's own."""
     if (kind.drive and kind.name == spec.drive.NAME) or (
         kind.wheel and kind.name == spec.wheel.NAME

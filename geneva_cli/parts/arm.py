@@ -14,9 +14,9 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.plates import Plate, least_wall
-from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Shape, convex_hull, polar
+from geneva_cli.geometry.shapes import ORIGIN, Circle, Contour, Point, Shape, convex_hull, polar
 from geneva_cli.parts.outlines.crank_outline import (
-    crank_circles,
+    crank_bore,
     is_whole,
     keyway_direction,
     reliefs,
@@ -53,27 +53,34 @@ def crank_arm(parts: Outlines) -> CrankArm:
             ("drive", "kind"),
         )
     centres, hole = roller_centres(assembly), pin_hole(size, sizes.pin)
-    away = [math.hypot(*c) for c in centres]
+    near, far = math.inf, 0.0
+    for centre in centres:
+        near, far = min(near, math.hypot(*centre)), max(far, math.hypot(*centre))
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
-    passing = sizes.passing_eye(assembly.L - max(away))
+    passing = sizes.passing_eye(assembly.L - far)
     free = 0.0 if size.has_hub("wheel") else max(sizes.wheel_hub - sizes.wheel_bore, 0.0)
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
     form = bore_of(size, "crank", radius)
     hub, eye = hub_and_eye(size, wall, hole, radius, passing, standing)
-    if form.reach + hole >= min(away):
+    if form.reach + hole >= near:
         raise GenevaError(
             f"arm_bore_mm = {2.0 * radius:g}: the bore cuts the pin's hole; with its keyway it "
-            f"must be below {2.0 * (min(away) - hole):.6g}",
+            f"must be below {2.0 * (near - hole):.6g}",
             ("size", "arm_bore_mm"),
         )
-    screwed, bolted = bolts(parts), wall_of_bolts(size, wall)
-    about = [Circle("ARM", (0.0, 0.0), hub), *(Circle("ARM", c, eye) for c in centres)]
-    about += [Circle("ARM", c.centre, eye_about(c.radius, bolted)) for c in screwed]
+    bolted = wall_of_bolts(size, wall)
+    around, pins, threads = [Circle("ARM", ORIGIN, hub)], list[Circle](), list[Circle]()
+    for centre in centres:
+        around.append(Circle("ARM", centre, eye))
+        pins.append(Circle("BORE", centre, hole))
+    for screw in bolts(parts):
+        around.append(Circle("ARM", screw.centre, eye_about(screw.radius, bolted)))
+        threads.append(tapped(screw))
     return CrankArm(
-        convex_hull("ARM", about),
+        convex_hull("ARM", around),
         form.shape("BORE", keyway_direction(assembly)),
-        [Circle("BORE", c, hole) for c in centres],
-        [tapped(one) for one in screwed],
+        pins,
+        threads,
         hub,
         eye,
         passing + free - eye,
@@ -86,65 +93,68 @@ def bolts(parts: Outlines) -> list[Circle]:
     By default there are as many as leave walls in disc and arm, up to two in each sector, where the
     arm passes the wheel's hub, unless a key, a flat or a hexagon holds both.
     """
-    assembly, sizes = parts.assembly, parts.sizes
-    size = assembly.mechanism.spec.size
+    assembly, sizes, size = parts.assembly, parts.sizes, parts.assembly.mechanism.spec.size
     if size.lock_bolts is not None:
         return _bolts(parts, size.lock_bolts)
     held = has_shape(size, "crank") and sizes.crank_bore > 0.0
     if held or not (parts.crank and parts.has_arm):
         return []
     wall = wall_of_bolts(size, sizes.wall_min)
-    pins = [Circle("BORE", c, pin_hole(size, sizes.pin)) for c in roller_centres(assembly)]
-    shaft = Circle("BORE", (0.0, 0.0), bore_of(size, "crank", sizes.arm_bore).reach)
+    holes = [Circle("BORE", ORIGIN, bore_of(size, "crank", sizes.arm_bore).reach)]
+    for centre in roller_centres(assembly):
+        holes.append(Circle("BORE", centre, pin_hole(size, sizes.pin)))
+    space = math.inf
+    if assembly.sign > 0.0:
+        space = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub)
     for count in (2, 1):
-        screwed = _bolts(parts, count)
-        reach = max(
-            (math.hypot(*c.centre) + eye_about(c.radius, wall) for c in screwed), default=0.0
-        )
-        passing = (
-            assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) >= reach or assembly.sign < 0.0
-        )
-        apart = bool(screwed) and least_wall([shaft, *pins, *screwed]) >= wall
-        if passing and apart and least_wall(screwed, parts.crank) >= wall:
+        screwed, reach = _bolts(parts, count), 0.0
+        for one in screwed:
+            reach = max(reach, math.hypot(*one.centre) + eye_about(one.radius, wall))
+        apart = bool(screwed) and least_wall([*holes, *screwed]) >= wall
+        if reach <= space and apart and least_wall(screwed, parts.crank) >= wall:
             return screwed
     return []
 
 
 def _bolts(parts: Outlines, count: int) -> list[Circle]:
-    """Return the holes of so many bolts in each sector, all of one size."""
-    size, L = parts.assembly.mechanism.spec.size, parts.assembly.L
-    spans = sectors(reliefs(parts.assembly)) if parts.crank and count else []
-    directions = lock_bolt_directions([(start, end - start) for start, end in spans], count)
-    rings = [_widest(parts, at) for at in directions]
-    r = bolt_radius(size.lock_bolt_mm, L, min((half for _, half in rings), default=0.0))
-    if directions:
-        refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
-    return [
-        Circle("BORE", polar(ORIGIN, far, turn), r)
-        for (far, _), at in zip(rings, directions, strict=True)
-        for turn in at
-        if r
-    ]
+    """Return the holes of so many bolts in each sector, all of one size.
 
-
-def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
-    """Return the radius at which bolts leave the widest walls in the disc, and half of these."""
-    own = parts.assembly.mechanism.spec.size.lock_bolt_circle_mm
+    They are at the radius that leaves the widest walls in the disc.
+    """
+    size, sizes, spans = (
+        parts.assembly.mechanism.spec.size,
+        parts.sizes,
+        list[tuple[float, float]](),
+    )
+    for start, end in sectors(reliefs(parts.assembly)) if parts.crank and count else ():
+        spans.append((start, end - start))
+    directions = lock_bolt_directions(spans, count)
+    if not directions:
+        return []
     # 400 radii: their spacing is far below a wall
-    radii = np.linspace(0.0, parts.sizes.lock, 400) if own is None else np.array([0.5 * own])
-    points = [np.outer(radii, f(np.asarray(at))).ravel() for f in (np.cos, np.sin)]
-    walls = -Polyarc(parts.crank).signed(np.column_stack(points)).reshape(len(radii), len(at))
-    inner = parts.sizes.arm_bore if parts.has_arm else parts.sizes.crank_bore
-    nearest = np.minimum(walls, radii[:, None] - inner).min(axis=1)
-    best = int(nearest.argmax())
-    return float(radii[best]), max(0.0, float(nearest[best]))
+    radii, circle = np.linspace(0.0, sizes.lock, 400), size.lock_bolt_circle_mm
+    if circle is not None:
+        radii = np.array([0.5 * circle])
+    inner = sizes.arm_bore if parts.has_arm else sizes.crank_bore
+    edge, half, places = Polyarc(parts.crank), math.inf, list[Point]()
+    for turns in directions:
+        x, y = np.outer(radii, np.cos(turns)).ravel(), np.outer(radii, np.sin(turns)).ravel()
+        walls = -edge.signed(np.column_stack((x, y))).reshape(len(radii), len(turns))
+        nearest = np.minimum(walls, radii[:, None] - inner).min(axis=1)
+        best = int(nearest.argmax())
+        half = min(half, max(0.0, float(nearest[best])))
+        for turn in turns:
+            places.append(polar(ORIGIN, float(radii[best]), turn))
+    r = bolt_radius(size.lock_bolt_mm, parts.assembly.L, half)
+    refuse_no_screw("lock_bolt", size.lock_bolts or 0, r)
+    return [Circle("BORE", place, r) for place in places] if r else []
 
 
 def walls(arm: CrankArm, parts: Outlines) -> float:
     """Return the least wall around the arm's holes, and around the disc's bolts and keyway."""
     in_disc: list[Shape] = [*bolts(parts)]
     if parts.sizes.crank_bore and is_whole(parts.assembly, parts.sizes):
-        in_disc += [s for s in crank_circles(parts.assembly, parts.sizes) if s.layer == "BORE"]
+        in_disc += crank_bore(parts.assembly, parts.sizes)
     return min(
         least_wall([arm.bore, *arm.pins, *arm.bolts], [arm.outline]),
         least_wall(in_disc, parts.crank),
@@ -164,17 +174,15 @@ def locking_plates(parts: Outlines) -> list[Plate]:
     assembly, sizes = parts.assembly, parts.sizes
     low = -assembly.mechanism.spec.size.allowances.pin_gap_mm  # the disc stands on the arm
     high = low + sizes.lock_thickness
-    whole = is_whole(assembly, sizes)
-    bores = [c for c in crank_circles(assembly, sizes) if c.layer == "BORE" and whole]
-    screwed = bolts(parts)
+    whole, screwed = is_whole(assembly, sizes), bolts(parts)
+    bore = crank_bore(assembly, sizes) if whole else ()
     each = len(screwed) // max(1, len(parts.crank))
     name = "locking disc" if whole else "locking sector"
-    return [
-        Plate(
-            name, contour.layer, contour, (*bores, *screwed[k * each : (k + 1) * each]), low, high
-        )
-        for k, contour in enumerate(parts.crank)
-    ]
+    out = []
+    for k, contour in enumerate(parts.crank):
+        holes = (*bore, *screwed[k * each : (k + 1) * each])
+        out.append(Plate(name, contour.layer, contour, holes, low, high))
+    return out
 
 
 def roller_plates(
@@ -187,8 +195,8 @@ def roller_plates(
     outline = Circle("ROLLER", ORIGIN, radius)
     if not pin_radius:
         return [Plate("roller", "ROLLER", outline, (), 0.0, high)]
-    pin, bore = (Circle("ROLLER", ORIGIN, r) for r in (pin_radius, pin_radius + 0.5 * fit))
+    bore = Circle("ROLLER", ORIGIN, pin_radius + 0.5 * fit)
     return [
         Plate("roller", "ROLLER", outline, (bore,), 0.0, high),
-        Plate("pin", "ROLLER", pin, (), low, high),
+        Plate("pin", "ROLLER", Circle("ROLLER", ORIGIN, pin_radius), (), low, high),
     ]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from functools import lru_cache
+from operator import itemgetter
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -57,9 +58,11 @@ class Assembly(NamedTuple):
     L: float
     sign: float  # +1 external, -1 internal
     turn_deg: float  # input angle in a whole turn of the crank
+    start_deg: float  # where the first engagement begins, and a whole turn
     motions: tuple[Passage, ...]
     rollers: tuple[Passage, ...]
     slots: tuple[tuple[Engagement, float], ...]
+    kinds: tuple[Engagement, ...]  # of slots, each once; most wheels have one kind
     rests: tuple[float, ...]
     full: Mechanism  # the machine of the spec, with the drive of its crank
     to_input: Callable[[float], float]  # input angle of the plain crank -> of ``full``, degrees
@@ -69,33 +72,13 @@ class Assembly(NamedTuple):
         """Return the input angle as commands show it, for an input angle of the assembly."""
         return self.full.shown_deg(self.to_input(input_deg))
 
-    def pin(self, number: int, input_deg: Array) -> Array:
-        """Return a roller's centre, mm, at input angles in degrees (n,): an array (n, 2)."""
-        return self._path(*self.rollers[number], input_deg)
+    def pin(self, number: int, input_deg: Array, drives: bool = False) -> Array:
+        """Return a roller's centre, mm, at input angles in degrees (n,): an array (n, 2).
 
-    def driving(self, number: int, input_deg: Array) -> Array:
-        """Return the centre of a roller that drives, or beside gears will drive, mm, (n, 2)."""
-        return self._path(*self.motions[number], input_deg)
-
-    def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
-        """Return it as seen from the wheel, turned on by ``lead`` radians: see ``driving``."""
-        turn = self.wheel(input_deg) + lead
-        return self.plane_motion.into(self.driving(motion, input_deg), turn)
-
-    def geared(self, input_deg: Array) -> Mask:
-        """Return a mask (n,) of the input angles at which gears drive the wheel, not a roller."""
-        mask = np.zeros(len(input_deg), dtype=bool)
-        for engagement, behind in self.motions:
-            mask |= engagement.slot.touches(self.from_mid(input_deg, behind)) == 0.0
-        return mask
-
-    def from_mid(self, input_deg: Array, mid: float) -> Array:
-        """Return input angles from a mid-motion, in degrees, within half a turn of it."""
-        half = 0.5 * self.turn_deg
-        return (input_deg - mid + half) % self.turn_deg - half
-
-    def _path(self, engagement: Engagement, behind: float, input_deg: Array) -> Array:
-        at = self.from_mid(input_deg, behind)
+        With ``drives`` it is that of a motion's roller, which drives, or beside gears will drive.
+        """
+        engagement, mid = (self.motions if drives else self.rollers)[number]
+        at = self.from_mid(input_deg, mid)
         if engagement.groove is not None:
             from geneva_cli.motion.groove_path import roller_in_groove
 
@@ -103,36 +86,41 @@ class Assembly(NamedTuple):
         x, y = engagement.path(at, 0)
         return self.L * np.column_stack((x.c[0] + 0.0 * at, y.c[0] + 0.0 * at))
 
+    def geared(self, input_deg: Array) -> Mask:
+        """Return a mask (n,) of the input angles at which gears drive the wheel, not a roller."""
+        mask = np.zeros(len(input_deg), dtype=bool)
+        for engagement, mid in self.motions:
+            mask |= engagement.slot.touches(self.from_mid(input_deg, mid)) == 0.0
+        return mask
+
+    def from_mid(self, input_deg: Array, mid: float) -> Array:
+        """Return input angles from a mid-motion, in degrees, within half a turn of it."""
+        half = 0.5 * self.turn_deg
+        return (input_deg - mid + half) % self.turn_deg - half
+
     def crank(self, input_deg: Array, first: Array | None = None) -> Array:
         """Return the crank's direction, radians: that of its first roller at input angle 0.
 
         ``first`` has the first roller's centres at these angles, mm (n, 2), if they are known.
         """
-        engagement = self.rollers[0][0]
-        if engagement.crank_sense:
-            return self._ahead - self.sign * engagement.crank_sense * np.radians(input_deg)
+        sense = self.rollers[0].engagement.crank_sense
+        if sense:
+            ahead = math.pi if self.sign > 0.0 else 0.0
+            return ahead - self.sign * sense * np.radians(input_deg)
         x, y = ((self.pin(0, input_deg) if first is None else first) - (self.L, 0.0)).T
         # in long numbers, since processors differ in the last bit of doubles' arc tangents
         return np.arctan2(y.astype(np.longdouble), x).astype(np.float64)
 
-    @property
-    def _ahead(self) -> float:
-        """The crank's direction at input 0: to the wheel's axis if external, away if internal."""
-        return math.pi if self.sign > 0.0 else 0.0
-
-    def lock(self, input_deg: float) -> float:
-        """Return the wheel's direction from the crank's axis, radians, in the crank's frame."""
-        return self._ahead - float(self.crank(np.array([input_deg]))[0])
-
     def wheel(self, input_deg: Array) -> Array:
         """Return the wheel's angle at input angles (n,), degrees; it adds up over the turns."""
         turns = np.floor((input_deg - self.start_deg) / self.turn_deg)
-        within = input_deg - turns * self.turn_deg
-        out = 2.0 * sum(engagement.half_step for engagement, _ in self.motions) * turns
-        begins = np.array([one.entry for one in self.motions])
-        # rounding may put an angle before the turn
-        number = np.maximum(np.searchsorted(begins, within, side="right") - 1, 0)
-        turned = 0.0
+        within, steps = input_deg - turns * self.turn_deg, 0.0
+        # rounding may put an angle before the turn: into its first motion
+        number = np.zeros(len(within), dtype=int)
+        for i, one in enumerate(self.motions):
+            number[within >= one.entry] = i
+            steps += one.engagement.half_step
+        out, turned = 2.0 * steps * turns, 0.0
         for i, (engagement, mid) in enumerate(self.motions):
             here = number == i
             at = np.clip(within[here] - mid, engagement.entry_deg, engagement.exit_deg)
@@ -140,16 +128,6 @@ class Assembly(NamedTuple):
             out[here] += turned + engagement.motion(at, 0).c[0]
             turned += engagement.half_step
         return out
-
-    @property
-    def kinds(self) -> tuple[Engagement, ...]:
-        """The kinds of slots, each once; most wheels have one kind."""
-        return tuple(dict.fromkeys(engagement for engagement, _ in self.slots))
-
-    @property
-    def start_deg(self) -> float:
-        """Input angle of the first engagement's entry, where a whole turn starts."""
-        return self.motions[0][0].entry_deg
 
 
 @lru_cache(maxsize=16)
@@ -177,60 +155,54 @@ def input_of(mechanism: Mechanism) -> Callable[[float], float]:
     return spec.drive_before.input_deg if spec.drive_before else _same
 
 
-def assembled(mechanism: Mechanism) -> Assembly:
-    """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
-    spec, plain = mechanism.spec, mechanism.spec
+def _same(input_deg: float) -> float:
+    return input_deg
+
+
+def assembled(mechanism: Mechanism, by_input: bool = False) -> Assembly:
+    """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis.
+
+    With ``by_input`` its angles are those of the machine's own input shaft.
+    """
+    spec = plain = mechanism.spec
     if mechanism.law is None and (crank := spec.drive.crank):
         plain = spec.replace(drive=crank, drive_before=None)
     elif spec.drive_before:  # slots and path are by the angle of the drive's own input shaft
         plain = spec.replace(drive_before=None)
-    turned = mechanism if plain == spec else build(plain)
-    return assembled_by_input(turned)._replace(full=mechanism, to_input=input_of(mechanism))
-
-
-def assembled_by_input(mechanism: Mechanism) -> Assembly:
-    """Return the assembly of a machine by the angle of its own input shaft."""
-    turn = 360.0 * mechanism.spec.turns
-    motions = tuple(
-        Passage(engagement, engagement.mid_deg + k * mechanism.period_deg)
-        for k in range(round(turn / mechanism.period_deg))
-        for engagement in mechanism.engagements
-    )
-    rollers = tuple(
-        Passage(passage, behind - ahead)
-        for engagement, behind in motions
-        for passage, ahead in engagement.passages
-    )
-    L, wheel, engagements = (
-        mechanism.center_distance_mm,
-        mechanism.spec.wheel,
-        mechanism.engagements,
-    )
+    turned = mechanism if by_input or plain == spec else build(plain)
+    turn, engagements = 360.0 * turned.spec.turns, turned.engagements
+    motions, rollers = list[Passage](), list[Passage]()
+    for k in range(round(turn / turned.period_deg)):
+        for engagement in engagements:
+            mid = engagement.mid_deg + k * turned.period_deg
+            motions.append(Passage(engagement, mid))
+            for passage, ahead in engagement.passages:
+                rollers.append(Passage(passage, mid - ahead))
     # around the wheel counterclockwise; later slots follow clockwise
-    z, several = wheel.z, len(engagements) if wheel.steps else 1
-    kinds = [engagements[k % several] for k in range(z)]
-    slots, rests, at = [], [], 0.0
-    for k, engagement in enumerate(kinds):
+    L, wheel = turned.center_distance_mm, turned.spec.wheel
+    several, at = len(engagements) if wheel.steps else 1, 0.0
+    slots, rests = list[tuple[Engagement, float]](), list[float]()
+    for k in range(wheel.z):
+        engagement, following = engagements[k % several], engagements[(k + 1) % wheel.z % several]
         slots.append((engagement, at % math.tau))
         rests.append((at - engagement.half_step) % math.tau)
-        at -= engagement.half_step + kinds[(k + 1) % z].half_step
+        at -= engagement.half_step + following.half_step
+    slots.sort(key=itemgetter(1))
     return Assembly(
-        mechanism,
-        L,
-        wheel.SIGN,
-        turn,
-        motions,
-        rollers,
-        tuple(sorted(slots, key=lambda slot: slot[1])),
-        tuple(sorted(rests)),
-        mechanism,
-        _same,
-        wheel.plane_motion(L),
+        mechanism=turned,
+        L=L,
+        sign=wheel.SIGN,
+        turn_deg=turn,
+        start_deg=motions[0].engagement.entry_deg,
+        motions=tuple(motions),
+        rollers=tuple(rollers),
+        slots=tuple(slots),
+        kinds=tuple(dict.fromkeys(map(itemgetter(0), slots))),
+        rests=tuple(sorted(rests)),
+        full=mechanism,
+        to_input=_same if by_input else input_of(mechanism),
+        plane_motion=wheel.plane_motion(L),
     )
-
-
-def _same(input_deg: float) -> float:
-    return input_deg
 
 
 def turn_deg(mechanism: Mechanism) -> Array:
@@ -239,45 +211,37 @@ def turn_deg(mechanism: Mechanism) -> Array:
     return np.linspace(-180.0 * turns, 180.0 * turns, 1440 * turns + 1)
 
 
-def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
+def links_at(mechanism: Mechanism, input_deg: Array, before: bool = True) -> tuple[Link, ...]:
     """Return a machine's links at input angles (n,), in degrees within half a period of mid-motion.
 
-    They are those of the drive and of the one before it and, for a cam-Geneva, the crank along
-    which its rollers slide.
+    They are those of the drive and, for a cam-Geneva, the crank along which its rollers slide; with
+    ``before`` also those of the drive before it.
     """
-    own, spec = _own_links(mechanism, input_deg), mechanism.spec
-    if spec.drive_before is None:
+    spec, sign, own_deg = mechanism.spec, mechanism.spec.wheel.SIGN, mechanism.own_deg(input_deg)
+    own, L = spec.drive.links(mechanism.plan, sign, own_deg), mechanism.center_distance_mm
+    groove = mechanism.engagements[0].groove
+    if groove is not None:
+        from geneva_cli.motion.groove_path import roller_in_groove
+
+        m, still = spec.drive.rollers, 0.0 * input_deg
+        joints = [(still + L, still)]
+        for k in range(m):
+            x, y = L * roller_in_groove(groove, own_deg - 360.0 * k / m).T
+            joints.append((x, y))
+        own = (*own, Link("crank", tuple(joints), (Joint.SHAFT, *[Joint.CARRIED] * m), 1))
+    if spec.drive_before is None or not before:
         return own
     # the links of the drive before are on the shaft that it turns, below all others
-    shaft, sign, names = mechanism.own_shaft, spec.wheel.SIGN, {link.name for link in own}
-    mirror, shift = -sign * shaft.sense, shaft.x_mm - mechanism.center_distance_mm
-    below = _deepest(mechanism, own)
-    before = (
-        link._replace(
+    shaft, names, links = mechanism.own_shaft, {link.name for link in own}, [*own]
+    mirror, shift, below = -sign * shaft.sense, shaft.x_mm - L, _deepest(mechanism, own)
+    for link in spec.drive_before.links(mechanism.plan, sign, input_deg):
+        moved = link._replace(
             name=f"first {link.name}" if link.name in names else link.name,
             joints=tuple((x + shift, y * mirror) for x, y in link.joints),
             plane=link.plane - 1 + below,
         )
-        for link in spec.drive_before.links(mechanism.plan, sign, input_deg)
-    )
-    return (*own, *before)
-
-
-def _own_links(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
-    """Return the links of the drive itself."""
-    sign, own_deg = mechanism.spec.wheel.SIGN, mechanism.own_deg(input_deg)
-    own = mechanism.spec.drive.links(mechanism.plan, sign, own_deg)
-    groove = mechanism.engagements[0].groove
-    if groove is None:
-        return own
-    from geneva_cli.motion.groove_path import roller_in_groove
-
-    L, m, still = mechanism.center_distance_mm, mechanism.spec.drive.rollers, 0.0 * input_deg
-    joints = [(still + L, still)]
-    for k in range(m):
-        x, y = L * roller_in_groove(groove, own_deg - 360.0 * k / m).T
-        joints.append((x, y))
-    return (*own, Link("crank", tuple(joints), (Joint.SHAFT, *[Joint.CARRIED] * m), 1))
+        links.append(moved)
+    return tuple(links)
 
 
 def _deepest(mechanism: Mechanism, own: Iterable[Link]) -> int:
@@ -289,7 +253,7 @@ def _deepest(mechanism: Mechanism, own: Iterable[Link]) -> int:
 
 def gear_plane(mechanism: Mechanism) -> int:
     """Return the number of the plane of noncircular gears: below the arm and the drive's links."""
-    return 1 + _deepest(mechanism, _own_links(mechanism, np.zeros(1)))
+    return 1 + _deepest(mechanism, links_at(mechanism, np.zeros(1), before=False))
 
 
 @Known
@@ -300,16 +264,19 @@ def is_bridged(mechanism: Mechanism) -> bool:
     own_ends = size.crank_shaft_low_mm is None and size.crank_shaft_high_mm is None
     if spec.drive_before or spec.wheel.SIGN < 0.0 or not (single and own_ends):
         return False
-    bars = [link for link in links_at(mechanism, np.array([-180.0, 0.0])) if not link.radius_mm]
-    joints = {link.name: [x + 1j * y - L for x, y in link.joints] for link in bars}
-    near = SAME_LENGTH * L
-    on_shaft = [link.plane for link in bars if np.abs(joints[link.name][0]).max() < near]
-    below = (link for link in bars if link.plane > max(on_shaft, default=math.inf))
-    # the axis lies between the ends of the link, with which it is in line
-    return any(
-        bool(np.any((np.abs(np.imag(p * np.conj(q))) < near * L) & (np.real(p * np.conj(q)) < 0.0)))
-        for p, q, *_ in (joints[link.name] for link in below)
-    )
+    near, lowest, over = SAME_LENGTH * L, -math.inf, -math.inf
+    for link in links_at(mechanism, np.array([-180.0, 0.0])):
+        if link.radius_mm:
+            continue
+        (x, y), (u, v), *_ = link.joints
+        p, q = x + 1j * y - L, u + 1j * v - L
+        if np.abs(p).max() < near:
+            lowest = max(lowest, link.plane)  # of the links on the crank's shaft
+        # the axis lies between the ends of a link with which it is in line
+        across, along = np.imag(p * np.conj(q)), np.real(p * np.conj(q))
+        if np.any((np.abs(across) < near * L) & (along < 0.0)):
+            over = max(over, link.plane)
+    return over > lowest > -math.inf
 
 
 def same(p: Point, q: Point, L: float) -> bool:

@@ -15,8 +15,7 @@ from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.crank_outline import reliefs, sectors
 from geneva_cli.parts.outlines.cut_outlines import drawn
-from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import dial_circle, wheel_hub_length
+from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub_length
 from geneva_cli.parts.shafts.bores import bore_of
 from geneva_cli.parts.shafts.shaft import crank_hub
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, NoReturn, Self, cast
+from typing import TYPE_CHECKING, NoReturn, Self
 
 import numpy as np
 
@@ -32,20 +32,17 @@ from geneva_cli.parts.links.link_sizes import roller_pins
 from geneva_cli.parts.links.links import Links, drawn_links
 from geneva_cli.parts.machine_sizes import machine_sizes
 from geneva_cli.parts.outlines.cut_outlines import drawn
-from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import dial_circle, wheel_part, wheel_plate
+from geneva_cli.parts.outlines.outlines import Outlines, dial_circle, wheel_hub, wheel_plate
 from geneva_cli.parts.outlines.wheel_outline import slot_walls, wheel_contour
-from geneva_cli.parts.parts import EdgedParts, NamedBuilds
+from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.shafts.shaft import crank_hub
 from geneva_cli.parts.sizes import Sizes, drawn_thicknesses, pin_radius
 from geneva_cli.parts.slots.roller_paths import roller_centres, wall_lost
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.mounted_plate import FrameAndShafts
     from geneva_cli.parts.projection import NamedParts
-    from geneva_cli.parts.turn.bounds import FlatPairs
-    from geneva_cli.parts.turn.gaps import Gaps
+    from geneva_cli.parts.turn.turn_certificate import FlatPairs
 
 
 class FlatParts(EdgedParts):
@@ -87,26 +84,21 @@ class FlatParts(EdgedParts):
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
+        own, sizes, lost = self.outlines, self.outlines.sizes, 0.0
         # the corners are on the rim, half a slot's width from the slot's middle
-        level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
-        far = np.hypot(*self.assembly.driving(motion, at).T)
-        return self.assembly.sign * (level - far) - self._wall_lost
-
-    @cached_property
-    def _wall_lost(self) -> float:
-        """By how much the walls of slots end deeper than at sharp mouths, mm."""
-        own = self.outlines
-        if not (own.sizes.mouth_radius or own.sizes.horn_tip):
-            return 0.0
-        each = [turned(own.slots[kind], at) for kind, at in own.assembly.slots]
-        return max(wall_lost(walls, own.wheel) for walls in each)
+        level = math.sqrt(max(sizes.rim**2 - sizes.half_width**2, 0.0))
+        if sizes.mouth_radius or sizes.horn_tip:  # the walls end deeper than at sharp mouths
+            each = [turned(own.slots[kind], turn) for kind, turn in own.assembly.slots]
+            lost = max(wall_lost(walls, own.wheel) for walls in each)
+        far = np.hypot(*own.assembly.pin(motion, at, drives=True).T)
+        return own.assembly.sign * (level - far) - lost
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
         from geneva_cli.geometry.distance import farthest
-        from geneva_cli.parts.turn.bounds import FlatPairs
+        from geneva_cli.parts.turn.turn_certificate import FlatPairs
 
-        gaps, axis = cast("Gaps", self.outlines.gaps), np.zeros((1, 2))
+        gaps, axis = self.outlines.gaps, np.zeros((1, 2))
         outside = self.assembly.sign > 0.0
         rim = float(farthest(gaps.wheel, 0.0, 0.0).max() if outside else gaps.wheel.signed(axis)[0])
         return FlatPairs(gaps, self.outlines.crank, target, rim)
@@ -128,12 +120,15 @@ class FlatParts(EdgedParts):
     def wheel(self) -> Member:
         """The wheel, with its hub below it if the spec has one."""
         parts = self.outlines
-        contour, walls = parts.wheel, {slot: self.walls(slot) for slot in parts.slots}
-        if walls != parts.slots:
-            stopped = self.mechanism.spec.wheel.stopped
-            contour = wheel_contour(parts.assembly, parts.sizes, walls, stopped)
-        turn = float(parts.assembly.wheel(np.zeros(1))[0])
-        return Member(wheel_part(parts.assembly, parts.sizes, contour), turn=turn)
+        contour, where, sizes = parts.wheel, parts.assembly, parts.sizes
+        if self.tolerance is not None:
+            walls = {slot: self.walls(slot) for slot in parts.slots}
+            if walls != parts.slots:
+                contour = wheel_contour(where, sizes, walls, where.full.spec.wheel.stopped)
+        turn, plate = float(where.wheel(np.zeros(1))[0]), wheel_plate(where, sizes, contour)
+        hub = wheel_hub(where, sizes)
+        part = Group(plate.name, (Member(plate), Member(hub))) if hub else plate
+        return Member(part, turn=turn)
 
     @cached_property
     def orbiting(self) -> tuple[Member, ...]:
@@ -180,7 +175,10 @@ class FlatParts(EdgedParts):
             centres = roller_centres(drawn.assembly)
         else:
             centres = tuple(at for link, at in roller_pins(mechanism) if link.plane == 1)
-        return tuple(Member(plate, centre) for centre in centres for plate in plates)
+        out = []
+        for centre in centres:
+            out += [Member(plate, centre) for plate in plates]
+        return tuple(out)
 
     @cached_property
     def crank_hub(self) -> Plate | None:
@@ -210,21 +208,24 @@ class FlatParts(EdgedParts):
         return self._crank(None)
 
     def _crank(self, arm: Plate | None) -> Member:
-        hub, assembly = self.crank_hub, self.outlines.assembly
-        below = (Member(plate) for plate in (*self.locking, *([arm] if arm else [])))
-        group = Group("crank", (*below, *self.rollers, *([Member(hub)] if hub else [])))
-        return Member(group, (assembly.L, 0.0), float(assembly.crank(np.zeros(1))[0]))
+        assembly, members = self.outlines.assembly, list[Member]()
+        for plate in (*self.locking, arm):
+            members += [Member(plate)] if plate else []
+        members += self.rollers
+        if hub := self.crank_hub:
+            members.append(Member(hub))
+        turn = float(assembly.crank(np.zeros(1))[0])
+        return Member(Group("crank", tuple(members)), (assembly.L, 0.0), turn)
 
     def about_wheel(self, crank: Member) -> tuple[Member, ...]:
         """Return the first crank, or a part of it, and its copies on all cranks about the wheel."""
         first, *others = self.mechanism.crank_places
         before = np.array([-place.behind_deg for place in (first, *others)])
         _, *turns = self.outlines.assembly.crank(before) - self.outlines.assembly.crank(np.zeros(1))
-        copies = (
-            crank._replace(at=place.at, turn=crank.turn + place.turn + float(turn))
-            for place, turn in zip(others, turns, strict=True)
-        )
-        return (crank, *copies)
+        out = [crank]
+        for place, turn in zip(others, turns, strict=True):
+            out.append(crank._replace(at=place.at, turn=crank.turn + place.turn + float(turn)))
+        return tuple(out)
 
     @cached_property
     def cranks(self) -> tuple[Member, ...]:

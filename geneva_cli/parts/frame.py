@@ -8,32 +8,27 @@ axis, in a bridge over the crank, on two posts beside all that turns.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc, farthest
+from geneva_cli.geometry.measure import bounds_of
 from geneva_cli.geometry.plates import Member, Plate
 from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, as_contour, convex_hull
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.pivots import Joint
-from geneva_cli.numerics.preferred import rounded_radius
+from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import crank_arm
 from geneva_cli.parts.assembly import is_bridged, links_at, same, turn_deg
 from geneva_cli.parts.links.link_shafts import carried, crank_stop, outside_links
 from geneva_cli.parts.links.link_sizes import places
 from geneva_cli.parts.links.links import Links, placed_holes
-from geneva_cli.parts.mounted_plate import (
-    FrameAndShafts,
-    corner_radius,
-    hole_without_shaft,
-    mounted_plate,
-    shaft_holes,
-)
-from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import wheel_hub
-from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, tapped
+from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub
+from geneva_cli.parts.parts import FRAME, FrameAndShafts
+from geneva_cli.parts.shafts.bores import around
+from geneva_cli.parts.shafts.screws import SCREWS, bolt_radius, screw_through, tapped
 from geneva_cli.parts.shafts.shaft import (
     Shaft,
     crank_shaft_radius,
@@ -42,7 +37,9 @@ from geneva_cli.parts.shafts.shaft import (
     wheel_shaft_radius,
 )
 from geneva_cli.parts.sizes import HUB, bridge_low, drawn_thicknesses
+from geneva_cli.spec.default_sizes import half_or
 from geneva_cli.spec.least_wall import wall_min
+from geneva_cli.spec.tables import Size
 
 
 def framed(
@@ -58,46 +55,32 @@ def framed(
     first wheel and its locking disc of two in series.
     """
     size, L = mechanism.spec.size, mechanism.center_distance_mm
-    moving = [one.part for one in (*bars.cut, *bars.joined, *first)]
-    lows = [part.low for part in moving if isinstance(part, Plate)]
-    lows += [gear.plate.low for gear in bars.gears]
-    lows += [base.low] if base else []
-    if mechanism.spec.gears:
-        from geneva_cli.parts.gears.gear_pair import gear_span
-
-        lows.append(gear_span(mechanism, outlines)[0])
-    arm = outlines.sizes.arm_thickness if outlines and outlines.has_arm else 0.0
-    lows.append(-size.allowances.pin_gap_mm - arm)
-    hub = wheel_hub(outlines.assembly, outlines.sizes) if outlines else None
-    lows += [hub.low] if hub else []
-    top = min(lows) - size.washer_mm
+    top = _lowest(mechanism, outlines, bars, base, first) - size.washer_mm
     thick = drawn_thicknesses(size, L, outlines.sizes if outlines else None).arm
-    own = list(_all_shafts(mechanism, outlines, bars, top - thick, first))
-    hanging = [one for one in own if one.turns and one.low >= top]
-    crank = next((one for one in hanging if same(one.at, mechanism.crank_shaft.at, L)), None)
-    bridge = _bridge(mechanism, outlines, bars, crank, thick) if outlines and crank else None
-    if bridge and crank:
-        own[own.index(crank)] = crank._replace(high=bridge.high)
-        hanging.remove(crank)
+    own = _all_shafts(mechanism, outlines, bars, top - thick, first)
+    bridge, hanging = None, list[Shaft]()
+    for k, shaft in enumerate(own):
+        if not shaft.turns or shaft.low < top:
+            continue
+        if outlines and not bridge and same(shaft.at, mechanism.crank_shaft.at, L):
+            bridge = _bridge(mechanism, outlines, bars, shaft, thick)
+            if bridge:
+                own[k] = shaft._replace(high=bridge.high)
+                continue
+        hanging.append(shaft)
     axles = [one.member for one in own]
-    standing = list(_standing(mechanism, bars))
-    holes: list[Circle] = []
+    standing, holes = _standing(mechanism, bars), list[Circle]()
     for at in standing:
-        here = [one._replace(at=at) for one in axles if same(one.at, at, L)]
+        here = [axle._replace(at=at) for axle in axles if same(axle.at, at, L)]
         holes += shaft_holes(size, here, top)
         if not here:
             table = mechanism.spec.shaft
             on_crank = at in [one.at for one in mechanism.crank_places]
             diameter = table.crank_diameter_mm if on_crank else table.wheel_diameter_mm
             holes.append(hole_without_shaft(diameter, at, L))
-    fixed = list(_fixed(bars))
-    for plate in (base, bridge):
-        if plate:  # about the crank's axis
-            bored = placed_holes(Member(plate, (L, 0.0)))
-            fixed += [(hole, plate) for hole in bored if not same(hole.centre, (L, 0.0), L)]
-    holes += [tapped(hole) for hole, _ in fixed]
-    spacers = []
-    for hole, part in fixed:
+    screwed, spacers = _screwed(bars, (base, bridge), L), list[Member]()
+    for hole, part in screwed:
+        holes.append(tapped(hole))
         if part.low - top > SAME_LENGTH * L:
             # a ring twice as wide, turned from a rod: often it is higher than wide
             ring, bore = Circle("SHAFT", ORIGIN, 2.0 * hole.radius), hole._replace(centre=ORIGIN)
@@ -116,10 +99,74 @@ def framed(
         plate,
         tuple(outside_links(axles, bars, L)),
         tuple(spacers),
-        tuple((hole, part.name) for hole, part in fixed),
+        tuple((hole, part.name) for hole, part in screwed),
         Member(bridge, (L, 0.0)) if bridge else None,
         tuple((one.name, _why_above(one, mechanism, bars, top)) for one in hanging),
     )
+
+
+def _lowest(
+    mechanism: Mechanism,
+    outlines: Outlines | None,
+    bars: Links,
+    base: Plate | None,
+    first: Sequence[Member],
+) -> float:
+    """Return the lowest height of all parts above the frame."""
+    size = mechanism.spec.size
+    arm = outlines.sizes.arm_thickness if outlines and outlines.has_arm else 0.0
+    lows = [-size.allowances.pin_gap_mm - arm]
+    for moving in (*bars.cut, *bars.joined, *first):
+        if isinstance(moving.part, Plate):
+            lows.append(moving.part.low)
+    for gear in bars.gears:
+        lows.append(gear.plate.low)
+    if base:
+        lows.append(base.low)
+    if mechanism.spec.gears:
+        from geneva_cli.parts.gears.gear_pair import gear_span
+
+        lows.append(gear_span(mechanism, outlines)[0])
+    if outlines and (hub := wheel_hub(outlines.assembly, outlines.sizes)):
+        lows.append(hub.low)
+    return min(lows)
+
+
+def _standing(mechanism: Mechanism, bars: Links) -> list[Point]:
+    """Return the positions of shafts, each once: of the wheels, the crank, and its drive.
+
+    An internal wheel is open in the middle, where its crank turns below it. It is held from above.
+    """
+    wheels = mechanism.wheel_places if mechanism.spec.wheel.SIGN > 0.0 else ()
+    standing = [one.at for one in (*wheels, *mechanism.crank_places)]
+    if mechanism.spec.gears:
+        standing.append((mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0))
+    for axis in bars.axes:
+        if axis.stands and not any(
+            same(axis.at, one, mechanism.center_distance_mm) for one in standing
+        ):
+            standing.append(axis.at)
+    return standing
+
+
+def _screwed(bars: Links, plates: Iterable[Plate | None], L: float) -> list[tuple[Circle, Plate]]:
+    """Return the holes of screws into the frame, each with the part that they fix.
+
+    They fix guides and gears that stand still, and ``plates`` about the crank's axis.
+    """
+    fixed: list[tuple[Circle, Plate]] = []
+    for member in bars.cut:
+        if isinstance(member.part, Plate) and member.part.name in bars.standing:
+            fixed += [(hole, member.part) for hole in placed_holes(member)]
+    for gear in bars.gears:
+        for hole in gear.screws.holes if gear.screws else ():
+            (x, y), (u, v) = gear.at, hole.centre
+            fixed.append((Circle("BORE", (x + u, y + v), hole.radius), gear.plate))
+    for plate in plates:
+        if plate:
+            bored = placed_holes(Member(plate, (L, 0.0)))
+            fixed += [(hole, plate) for hole in bored if not same(hole.centre, (L, 0.0), L)]
+    return fixed
 
 
 def _why_above(shaft: Shaft, mechanism: Mechanism, bars: Links, top: float) -> str:
@@ -166,70 +213,41 @@ def _bridge(
     return Plate("bearing bridge", "FRAME", outline, holes, low, low + thick)
 
 
-def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
-    """Yield the positions of shafts, each once: of the wheels, the crank, and its drive.
-
-    An internal wheel is open in the middle, where its crank turns below it. It is held from above.
-    """
-    L = mechanism.center_distance_mm
-    wheels = [one.at for one in mechanism.wheel_places]
-    cranks = [one.at for one in mechanism.crank_places]
-    seen = [*(wheels if mechanism.spec.wheel.SIGN > 0.0 else []), *cranks]
-    if mechanism.spec.gears:
-        seen.append((mechanism.gear_shaft.x_mm + mechanism.spec.gears.distance_mm, 0.0))
-    yield from seen
-    for axis in bars.axes:
-        if axis.stands and not any(same(axis.at, one, L) for one in seen):
-            seen.append(axis.at)
-            yield axis.at
-
-
-def _fixed(bars: Links) -> Iterator[tuple[Circle, Plate]]:
-    """Yield the screws' holes of a guide or a gear that is fixed to the frame, with that part."""
-    for member in bars.cut:
-        if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            for hole in placed_holes(member):
-                yield hole, member.part
-    for gear in bars.gears:
-        for hole in gear.screws.holes if gear.screws else ():
-            (x, y), (u, v) = gear.at, hole.centre
-            yield Circle("BORE", (x + u, y + v), hole.radius), gear.plate
-
-
 def _all_shafts(
     mechanism: Mechanism,
     outlines: Outlines | None,
     bars: Links,
     lowest: float,
     first: Sequence[Member],
-) -> Iterator[Shaft]:
-    """Yield all shafts and pivots, as ``framed``; ``lowest`` is the frame's lower face."""
-    L, stop = mechanism.center_distance_mm, None
+) -> list[Shaft]:
+    """Return all shafts and pivots, as ``framed``; ``lowest`` is the frame's lower face."""
+    L, stop, out = mechanism.center_distance_mm, None, list[Shaft]()
     known: list[Point] = []  # axes whose shafts carry wheel or crank
     if outlines:
         stop = crank_stop(outlines, bars)
         known += [(L, 0.0)] if crank_shaft_radius(outlines) > 0.0 else []
         known += [ORIGIN] if wheel_shaft_radius(outlines) > 0.0 else []
-        _, *wheels = mechanism.wheel_places
-        _, *cranks = mechanism.crank_places
         half = mechanism.engagements[0].half_step
         for one in shafts(outlines, lowest, stop):
-            yield one
+            out.append(one)
             if same(one.at, ORIGIN, L):
-                for place in wheels:
-                    yield one._replace(at=place.at, turn=one.turn + place.turn - half)
+                for place in mechanism.wheel_places[1:]:
+                    turn = one.turn + place.turn - half
+                    out.append(one._replace(at=place.at, turn=turn))
                 continue
-            for place in cranks:
+            for place in mechanism.crank_places[1:]:
                 turn = 0.0
                 if not one.bore.is_plain:  # a plain one has no direction
                     crank = outlines.assembly.crank(np.array([-place.behind_deg, 0.0]))
                     turn = one.turn + place.turn + float(crank[0] - crank[1])
-                yield one._replace(at=place.at, turn=turn)
-    yield from _link_shafts(mechanism, outlines, bars, (lowest, stop), known, first)
+                out.append(one._replace(at=place.at, turn=turn))
+    if bars.axes:
+        out += _link_shafts(mechanism, outlines, bars, (lowest, stop), known, first)
     if mechanism.spec.gears:
         from geneva_cli.parts.gears.gear_pair import gear_shafts
 
-        yield from gear_shafts(mechanism, outlines, lowest, (L, 0.0) in known)
+        out += gear_shafts(mechanism, outlines, lowest, (L, 0.0) in known)
+    return out
 
 
 def _link_shafts(
@@ -268,3 +286,42 @@ def _link_shafts(
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those are pins between links
             name = f"shaft of {', '.join(axis.names)}"
             yield Shaft(name, axis.names[0], bore, low, high, axis.at, turns=False)
+
+
+def mounted_plate(
+    holes: Sequence[Circle], within: Iterable[Circle], eye: float, span: tuple[float, float]
+) -> Plate:
+    """Return a frame with its holes, around circles that it contains.
+
+    Mounting holes are in its corners, whose radius is ``eye``. ``span`` has its lower and upper
+    face.
+    """
+    box, away = bounds_of(within), 3.0 * eye
+    mount, corners, mounts = screw_through(0.8 * eye), list[Circle](), list[Circle]()
+    for x in (box.x0 - away, box.x1 + away):
+        for y in (box.y0 - away, box.y1 + away):
+            corners.append(Circle("FRAME", (x, y), eye))
+            if mount:
+                mounts.append(Circle("BORE", (x, y), 0.5 * mount.through))
+    return Plate(FRAME, "FRAME", convex_hull("FRAME", corners), (*holes, *mounts), *span)
+
+
+def corner_radius(size: Size, L: float) -> float:
+    """Return the radius of a frame's corners, which leaves walls around their mounting holes."""
+    return max(L / 20.0, 3.0 * wall_min(size, L))
+
+
+def shaft_holes(size: Size, axles: Iterable[Member], top: float) -> list[Circle]:
+    """Return the holes of a frame for the shafts that reach below its upper face ``top``."""
+    holes = []
+    for axle in axles:
+        assert isinstance(axle.part, Plate)
+        if axle.part.low < top:
+            radius = around(axle.part.outline) + 0.5 * size.allowances.shaft_fit_mm
+            holes.append(Circle("BORE", axle.at, radius))
+    return holes
+
+
+def hole_without_shaft(diameter_mm: float | None, at: Point, L: float) -> Circle:
+    """Return the hole for a part that is one piece with its shaft, of the spec or L/10 wide."""
+    return Circle("BORE", at, half_or(diameter_mm, bore_radius(L / 20.0)))

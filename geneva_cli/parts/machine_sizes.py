@@ -18,7 +18,7 @@ from geneva_cli.motion.records import thing
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.outlines.crank_outline import arc_floor, has_arcs
+from geneva_cli.parts.outlines.crank_outline import arc_floor
 from geneva_cli.parts.outlines.cut_outlines import cut_lock
 from geneva_cli.parts.sizes import (
     KeySizes,
@@ -191,7 +191,8 @@ def _usual_sizes(assembly: Assembly, path: RollerPaths) -> tuple[Sizes, float]:
     relief = value_or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     if any(s.apart for s in kinds):  # gears between rollers widen the relief
-        space = min(space, arc_floor(assembly, lock)) if has_arcs(assembly, lock) else math.inf
+        floor = arc_floor(assembly, lock)
+        space = min(space, floor) if floor else math.inf
     within = min(space, depth - relief)
     bore = _crank_bore(full, within, L) if spec.drive.LOCKS else 0.0
     wall = wall_min(size, L)

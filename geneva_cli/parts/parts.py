@@ -5,27 +5,28 @@ A kind names its own in its record. What builds them is imported at its first us
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, ClassVar, Self, TypeAlias
+from collections import Counter
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self, TypeAlias
 
-from geneva_cli.geometry.plates import Member
+from geneva_cli.geometry.plates import Member, Plate
+from geneva_cli.geometry.shapes import Arc, Circle, Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import named, parts_class, thing
 from geneva_cli.parts.assembly import input_of
-from geneva_cli.parts.turn.pairs import TurnedParts, WorkLimit
+from geneva_cli.parts.shafts.screws import Screws, tapped
+from geneva_cli.parts.turn.turned_parts import TurnedParts, WorkLimit
 
 if TYPE_CHECKING:
-    from geneva_cli.geometry.fit.arcs import Curve
-    from geneva_cli.geometry.shapes import Circle, Segment
-    from geneva_cli.parts.mounted_plate import FrameAndShafts
+    from geneva_cli.geometry.fit import Writer
     from geneva_cli.parts.outlines.outlines import Outlines
     from geneva_cli.parts.projection import NamedParts
-    from geneva_cli.parts.shafts.screws import Screws
     from geneva_cli.parts.turn.full_turn import FullTurn
 
-Writer: TypeAlias = "Callable[[Curve, float, float], Sequence[Segment]]"  # fits a curve
+FRAME = "frame"  # name of the plate with the holes of the shafts
 NamedBuilds: TypeAlias = "list[tuple[str, Callable[[], Parts]]]"
 
 
@@ -156,6 +157,45 @@ class Parts(TurnedParts):
     @abstractmethod
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""
+
+
+class FrameAndShafts(NamedTuple):
+    """The frame, what is on it, and the shafts, whether they reach it or not."""
+
+    plate: Plate
+    shafts: tuple[Member, ...]
+    spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
+    screwed: tuple[tuple[Circle, str], ...] = ()  # clearance holes of screws, and what they fix
+    bridge: Member | None = None  # bears the crank's shaft from above
+    unborne: tuple[tuple[str, str], ...] = ()  # shafts that do not reach it, and why
+
+    @property
+    def threads(self) -> tuple[Circle, ...]:
+        """The tapped holes of the frame."""
+        return tuple(tapped(hole) for hole, _ in self.screwed)
+
+    @property
+    def screws(self) -> tuple[Screws, ...]:
+        """The screws that fix parts to the frame, and those of its mounting holes."""
+        kinds = Counter((part, hole.radius) for hole, part in self.screwed)
+        fixed = [Screws(part, n, 2.0 * r, "the frame") for (part, r), n in kinds.items()]
+        mounts = mounts_of(self.plate)
+        if mounts:
+            fixed.append(Screws("frame", len(mounts), 2.0 * mounts[0].radius, "its base"))
+        return tuple(fixed)
+
+
+def mounts_of(frame: Plate) -> list[Circle]:
+    """Return the mounting holes of a frame: those about its corners; none of a carrier."""
+    if frame.name != FRAME or not isinstance(frame.outline, Contour):
+        return []
+    corners = [piece.centre for piece in frame.outline.segments if isinstance(piece, Arc)]
+    near = 1e-9  # of a corner: rounding
+    return [
+        hole
+        for hole in frame.holes
+        if isinstance(hole, Circle) and any(math.dist(hole.centre, at) <= near for at in corners)
+    ]
 
 
 class EdgedParts(Parts):

@@ -17,7 +17,7 @@ from geneva_cli.loads.tolerance.locking import Lock
 from geneva_cli.motion.machine_spec import Spec
 from geneva_cli.parts.assembly import Assembly, gear_plane, is_bridged, links_at
 from geneva_cli.parts.outlines.crank_outline import is_whole
-from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
+from geneva_cli.parts.outlines.outlines import wheel_hub_length
 from geneva_cli.parts.shafts.bores import reach_or_bore
 from geneva_cli.parts.sizes import Sizes, arm_hub, bridge_low, hole_radius, plane_span
 from geneva_cli.spec.default_sizes import half_or, value_or

@@ -18,7 +18,7 @@ from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.full_turn import SAME
-from geneva_cli.parts.wheel_body import known_wheel_body
+from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.spec.tables import Motor
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.turn_checks import motion_play_max, slips_deg
@@ -43,7 +43,7 @@ def warnings(parts: Parts) -> list[Notice]:
     return [
         *motion_warnings(mechanism),
         *of_loads,
-        *carried_warnings(mechanism, known_wheel_body(mechanism)),
+        *carried_warnings(mechanism, wheel_body(mechanism)),
         *key_warnings(mechanism.spec),
         *of_strength,
         *turn_warnings(parts),

@@ -7,7 +7,7 @@ import pytest
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.loops import loops, shown
-from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.shapes import Arc, Circle, Line, two_arcs
 
 
@@ -24,7 +24,7 @@ def test_nesting_tells_plates_from_holes():
     """Areas by hand: the material lies on the left of each outline."""
     pieces = [*square(10.0), *square(5.0), *circle(0.0, 0.0, 2.0), *circle(30.0, 0.0, 1.0)]
     random.Random(1).shuffle(pieces)
-    seen = sorted((loop.depth, round(area(loop.contour), 9)) for loop in loops(pieces))
+    seen = sorted((loop.depth, round(moments(loop.contour).area, 9)) for loop in loops(pieces))
     four_pi, pi = (round(v * math.pi, 9) for v in (4.0, 1.0))
     assert seen == [(0, pi), (0, 400.0), (1, -100.0), (2, four_pi)]
 
@@ -66,7 +66,7 @@ def test_tangent_pieces_do_not_cross():
         Line((0.0, -2.0), (10.0, -2.0)),
     ]
     (loop,) = loops([end, *back])
-    assert area(loop.contour) == pytest.approx(40.0 + 2.0 * math.pi, rel=1e-3)
+    assert moments(loop.contour).area == pytest.approx(40.0 + 2.0 * math.pi, rel=1e-3)
 
 
 def test_places_are_shown_without_needless_digits():

@@ -10,7 +10,7 @@ import pytest
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.loops import loops
 from geneva_cli.geometry.measure import at
-from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.output.foreign import read_drawing
 from geneva_cli.output.foreign.drawn import CURVE_MM, ellipse_pieces
@@ -30,7 +30,7 @@ def svg(folder, body, head='width="100mm" height="100mm" viewBox="0 0 100 100"')
 
 
 def areas(drawn):
-    return sorted(abs(area(loop.contour)) for loop in loops(drawn.pieces))
+    return sorted(abs(moments(loop.contour).area) for loop in loops(drawn.pieces))
 
 
 ENTITIES = {

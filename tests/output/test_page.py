@@ -17,7 +17,7 @@ from geneva_cli.output import page
 from geneva_cli.output.scene import value_at
 from geneva_cli.parts.assembly import links_at
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.pairs import Pose
+from geneva_cli.parts.turn.stops import Pose
 from geneva_cli.study.animation.animated_turn import MachineTurn
 from geneva_cli.study.animation.turning_scene import scene
 

@@ -13,7 +13,7 @@ from witness import mp
 from geneva_cli import Design, External
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import Group, Member, Plate
 from geneva_cli.geometry.shapes import Arc, Circle, Contour, Cubic, Line, about, backwards, closed
 from geneva_cli.geometry.sheet import Drawing
@@ -56,7 +56,7 @@ def require_solid(file, number, plate):
     """Closed, with a handle for each hole, and as large as the outline less its holes."""
     solid = Solid(file, number)
     assert solid.euler == 2 * (1 - len(plate.holes))
-    face = abs(area(plate.outline)) - sum(abs(area(hole)) for hole in plate.holes)
+    face = abs(moments(plate.outline).area) - sum(abs(moments(hole).area) for hole in plate.holes)
     for volume in solid.volumes():
         assert volume == pytest.approx(face * (plate.high - plate.low), rel=VOLUME)
     assert solid.off < NEAR

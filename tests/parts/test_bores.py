@@ -10,7 +10,7 @@ from shapely.geometry import Point
 
 from geneva_cli import Design, External, Size, load
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.plates import in_place, plates
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.parts.parts import parts_of
@@ -43,7 +43,7 @@ def row(design, name):
 )
 def test_their_area(size, inside, direction):
     shape = bore_of(Size(**size), "wheel", 5.0).shape("BORE", direction)
-    assert abs(area(shape)) == pytest.approx(inside, rel=1e-12)
+    assert abs(moments(shape).area) == pytest.approx(inside, rel=1e-12)
     assert radius_of(shape) == pytest.approx(5.0, rel=1e-12)
     # the first piece faces the direction, at right angles
     (x, y), (u, v) = shape.segments[0].start, shape.segments[0].end

@@ -10,7 +10,7 @@ from words import Spec, Wheel
 from geneva_cli.design import Design
 from geneva_cli.geometry.plates import mass_properties
 from geneva_cli.geometry.shapes import Contour, Line
-from geneva_cli.parts.outlines.wheel_circles import wheel_plate
+from geneva_cli.parts.outlines.outlines import wheel_plate
 from geneva_cli.parts.wheel_body import wheel_body
 from geneva_cli.spec.tables import Size
 

@@ -4,39 +4,14 @@ The witnesses: polygons of shapely at some positions of a turn, and closed forms
 """
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
-import shapely
-from drawing_witness import polygon
-from shapely import affinity
-from test_outline import STRAIGHT, L, disc, made, name, turned
+from test_outline import STRAIGHT, L, made, name
+from turn_witness import overlapping
 
 from geneva_cli.parts.parts import Parts
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
-
-
-def overlaps(found: Parts, count: int = 60) -> Iterator[float]:
-    """Input angles at which polygons overlap by more than twice what they stray: the crank's parts
-    are taken smaller by that, and must not even touch the wheel."""
-    assembly, size = found.assembly, found.sizes
-    flat = 1e-5 * assembly.L
-    less = 2.0 * flat + found.close
-    wheel = polygon(found.outlines.wheel, flat)
-    if assembly.sign < 0.0:
-        wheel = disc(size.outer).difference(wheel)
-    shapely.prepare(wheel)
-    at = assembly.start_deg + np.linspace(0.0, assembly.turn_deg, count, endpoint=False)
-    turns, poses = assembly.wheel(at), assembly.crank(at)
-    roller = disc(size.roller - less)
-    cranks = [polygon(contour, flat).buffer(-less) for contour in found.outlines.crank]
-    for i in range(count):
-        pins = [assembly.pin(k, at[i : i + 1])[0] for k in range(len(assembly.rollers))]
-        parts = [affinity.translate(roller, *pin) for pin in pins]
-        parts += [affinity.translate(turned(crank, poses[i]), assembly.L) for crank in cranks]
-        if any(wheel.intersects(turned(part, -turns[i])) for part in parts):
-            yield float(at[i])
 
 
 def finds_slot(found: Parts) -> float:
@@ -84,7 +59,8 @@ def test_straight_slots_turn_with_their_clearances(case: dict) -> None:
     assert turn.driving.mm == pytest.approx(gap, abs=found.close + past)
     assert turn.lock is not None
     assert turn.lock.mm == pytest.approx(case.get("lock_clearance_mm", 0.0), abs=found.close)
-    assert not list(overlaps(found))
+    at_deg = found.assembly.start_deg + found.assembly.turn_deg * np.arange(60) / 60
+    assert not any(overlapping(found, at_deg))
 
 
 def opening(rim: float, radius: float) -> float:

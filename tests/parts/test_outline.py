@@ -19,7 +19,7 @@ from shapely.geometry import LineString, Point, Polygon
 from words import LAWS, Drive, Motion, Spec, Wheel
 
 from geneva_cli.geometry.measure import turned as turn
-from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.shapes import Arc, Contour
 from geneva_cli.motion.mechanism import build
 from geneva_cli.motion.motion import Motion as Given
@@ -246,7 +246,7 @@ def test_areas_lengths_and_walls_of_radial_slots(case: dict) -> None:
         walls = 2 * abs(mpmath.sqrt(rim**2 - w**2) - bottom) + mpmath.pi * w
         round_ = z * (walls + arc + 2 * rim * (b - seen - mouth))
         assert float(rim) == pytest.approx(size.rim, rel=1e-15)
-        assert area(found.outlines.wheel) == pytest.approx(float(wanted), rel=1e-13)
+        assert moments(found.outlines.wheel).area == pytest.approx(float(wanted), rel=1e-13)
         assert length(found.outlines.wheel) == pytest.approx(float(round_), rel=1e-13)
         assert size.recess == pytest.approx(float(recess), rel=1e-15)
         assert size.slot_end == pytest.approx(float(bottom - sign * w), rel=1e-13)

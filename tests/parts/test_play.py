@@ -6,17 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import repo
-import shapely
-from drawing_witness import polygon
 from scipy.optimize import brentq
-from shapely import affinity
-from shapely.geometry import Point
-from test_outline import disc, made, turned
+from test_outline import made
+from turn_witness import overlapping
 from words import Motion, load
 
 from geneva_cli.parts.parts import Parts, parts_of
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.play import free_angles, windows
+from geneva_cli.parts.turn.play import wheel_stops, windows
 from geneva_cli.verdict.checks import TURNING, applicable
 
 DESIGNS = repo.DESIGNS
@@ -119,28 +116,6 @@ def machine(tmp_path: Path, text: str) -> Parts:
     return parts_of(load(str(spec))).turned
 
 
-def free(found: Parts, at_deg: float, lead_deg: float) -> bool:
-    """Whether parts of fine chords are apart, the wheel being turned on from its place."""
-    assembly, flat = found.assembly, 1e-6 * found.assembly.L
-    less = 2.0 * flat + found.close
-    wheel = polygon(found.outlines.wheel, flat)
-    if assembly.sign < 0.0:
-        wheel = disc(found.sizes.outer).difference(wheel)
-    at = np.array([at_deg])
-    roller = Point(0.0, 0.0).buffer(found.sizes.roller - less, quad_segs=800)
-    parts = [
-        affinity.translate(
-            turned(polygon(crank, flat).buffer(-less), float(assembly.crank(at)[0])), assembly.L
-        )
-        for crank in found.outlines.crank
-    ]
-    for number in range(len(assembly.rollers)):
-        parts.append(affinity.translate(roller, *assembly.pin(number, at)[0]))
-    shapely.prepare(wheel)
-    turn = float(assembly.wheel(at)[0]) + math.radians(lead_deg)
-    return not any(wheel.intersects(turned(part, -turn)) for part in parts)
-
-
 SIZES = {
     "rim of 84": ("z = 6\n[size]\nwheel_radius_mm = 84", 0.4318, True),
     "rim of 70": ("z = 6\n[size]\nwheel_radius_mm = 70", 16.2511, False),
@@ -159,12 +134,15 @@ def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     turn = full_turn(found)
     assert turn.hand_over.deg == pytest.approx(play, rel=1e-3)
     p = turn.play
-    i = int(np.argmax(np.where(p.guided, 0.0, p.either)))
+    either = np.maximum(p.back, p.on)
+    i = int(np.argmax(np.where(p.guided, 0.0, either)))
     # all the way to there the wheel is free, and a little farther it is not
     way = 1.0 if p.on[i] > p.back[i] else -1.0
-    for share in (0.0, 0.2, 0.4, 0.6, 0.8, 0.99, 0.9999):
-        assert free(found, p.input_deg[i], way * share * p.either[i])
-    assert not free(found, p.input_deg[i], way * (1.0002 * p.either[i] + 0.01))
+    leads = either[i] * np.array((0.0, 0.2, 0.4, 0.6, 0.8, 0.99, 0.9999, 1.0002))
+    leads[-1] += 0.01
+    at_deg = np.full(len(leads), p.input_deg[i])
+    blocked = overlapping(found, at_deg, way * np.radians(leads), flat=1e-6)
+    assert blocked == [False] * 7 + [True]
     row = next(c for c in applicable(TURNING, found, turn) if c.name == "hand_over_play_deg")
     assert row.passes == held
 
@@ -205,7 +183,8 @@ def test_play_where_the_roller_changes_walls(name: str) -> None:
     )
     window = next(w for w in windows(parts) if not w.rests)
     at_deg = np.linspace(window.start, window.end, 20_000)
-    play = np.degrees(np.minimum(*free_angles(parts, at_deg, True)))
+    leads, _ = wheel_stops(parts, at_deg, True)
+    play = np.degrees(leads.min(axis=0))
     dense = play[parts.past_mouth(0, at_deg) > 0.0].max()
     # the play changes by a hundredth of itself between two positions of the scan
     assert full_turn(parts).motion.deg == pytest.approx(dense, rel=0.01)

@@ -21,7 +21,7 @@ from geneva_cli import (
     Spherical,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry.moments import area
+from geneva_cli.geometry.moments import moments
 from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.loads.impacts.entry import mouth_contacts
 from geneva_cli.loads.strength.horn import horns
@@ -63,7 +63,7 @@ def polygon(lock: float, tip: float) -> shapely.Polygon:
 @pytest.mark.parametrize(("lock", "tip"), [(40.0, 0.0), (43.0, 3.0), (THIN, 0.5), (THIN, 2.0)])
 def test_the_wheel_is_that_of_polygons(lock: float, tip: float) -> None:
     outlines = wheel(lock_radius_mm=lock, horn_tip_mm=tip).parts.outlines
-    assert area(outlines.wheel) == pytest.approx(polygon(lock, tip).area, rel=2e-6)
+    assert moments(outlines.wheel).area == pytest.approx(polygon(lock, tip).area, rel=2e-6)
 
 
 @pytest.mark.parametrize(("own", "sign"), [(External(Z), 1), (Internal(Z), -1)])
@@ -96,7 +96,7 @@ def test_rounding_square_corners_takes_their_areas(own: Gearing) -> None:
     """Each of two corners a slot loses a square of the radius less a quarter of a circle."""
     keys = {"horn_tip_mm": 6.0}
     sharp, round_ = (wheel(own, **keys, mouth_radius_mm=c).parts.outlines.wheel for c in (0.0, 1.5))
-    lost = abs(area(sharp) - area(round_))
+    lost = abs(moments(sharp).area - moments(round_).area)
     assert lost == pytest.approx(2 * Z * 1.5**2 * (1.0 - math.pi / 4.0), rel=1e-9)
     arcs = [p for p in round_.segments if isinstance(p, Arc) and abs(p.radius - 1.5) < 1e-9]
     assert len(arcs) == 2 * Z

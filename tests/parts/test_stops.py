@@ -14,7 +14,7 @@ from geneva_cli.geometry.shapes import Arc, Line
 from geneva_cli.motion.mechanism import build
 from geneva_cli.parts.parts import parts_of
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.play import free_angles, search_deg, smallest_clearance, windows
+from geneva_cli.parts.turn.play import search_deg, smallest_clearance, wheel_stops, windows
 
 BARE = ("turret", "internal-z6", "four-bar-z4", "press-curved", "three-rollers-z4", "spherical-z6")
 LOOSE = (
@@ -57,7 +57,7 @@ def test_a_stop_is_the_first_place_where_parts_overlap(name):
         >= 0.0
     )
     assert apart.mean() > 0.9
-    for way, free in zip((-1.0, 1.0), free_angles(parts, at), strict=True):
+    for way, free in zip((-1.0, 1.0), wheel_stops(parts, at)[0], strict=True):
         assert ((free >= 0.0) & (free <= most)).all()
         assert (free[~apart] == 0.0).all()
         share = np.linspace(0.0, 1.0, LOOKS)[:, None]
@@ -98,6 +98,7 @@ def test_nearly_straight_walls_stop_like_straight_ones(sagitta):
     for own, other in ((parts.gaps.rollers, gaps.rollers), (parts.gaps.locking, gaps.locking)):
         # the walls' own difference, and rounding of 100 mm
         assert np.abs(own(pose, lead) - other(pose, lead)).max() < sagitta + 1e-13
-    straight, curved = free_angles(parts, at_deg), free_angles(with_shape(parts, gaps=gaps), at_deg)
+    straight, _ = wheel_stops(parts, at_deg)
+    curved, _ = wheel_stops(with_shape(parts, gaps=gaps), at_deg)
     # where the roller is 50 mm or more from the wheel's axis; contacts of corners graze
     assert np.abs(np.subtract(straight, curved)).max() < sagitta / 50.0 + 1e-7

@@ -15,7 +15,7 @@ from words import Motion
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.play import free_angles, search_deg, smallest_clearance, windows
+from geneva_cli.parts.turn.play import search_deg, smallest_clearance, wheel_stops, windows
 
 LAWS = ("modified-sine", "cycloidal", "modified-trapezoid", "3-4-5", "harmonic")
 PLACES, DENSE = 80, 1500  # positions of the wheel in each motion and dwell
@@ -33,7 +33,7 @@ def require_first_contacts(parts, at_deg):
     most = math.radians(search_deg(parts))
     many = gaps.pose(np.tile(at_deg, TURNS))
     share = np.linspace(0.0, 1.0, TURNS)[:, None]
-    for way, free in zip((-1.0, 1.0), free_angles(parts, at_deg), strict=True):
+    for way, free in zip((-1.0, 1.0), wheel_stops(parts, at_deg)[0], strict=True):
         turned = np.where(apart, share * free, 0.0)
         gap = smallest_clearance(gaps, many, way * turned.ravel(), gaps.near).reshape(turned.shape)
         assert (gap[:, apart] >= -parts.close - ROUNDING).all(), "a stop is missed"
@@ -48,7 +48,7 @@ def require_largest_plays(parts):
     window = next(w for w in windows(parts) if not w.rests)
     at_deg = np.linspace(window.start, window.end, DENSE)
     at_deg = at_deg[parts.past_mouth(window.motion, at_deg) > 0.0]
-    play = np.degrees(free_angles(parts, at_deg))
+    play = np.degrees(wheel_stops(parts, at_deg)[0])
     noise = math.degrees(WALLS * parts.close / parts.sizes.rim)
     assert play.min(axis=0).max() <= max(SCAN * turn.motion.deg, noise), turn.motion
     either = max(turn.ahead.deg, turn.behind.deg)

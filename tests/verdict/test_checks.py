@@ -14,7 +14,7 @@ from geneva_cli.motion import machine_spec as machine_spec
 from geneva_cli.motion.mechanism import build
 from geneva_cli.numerics.tolerances import keeps
 from geneva_cli.parts.parts import parts_of
-from geneva_cli.parts.turn.pairs import WorkLimit
+from geneva_cli.parts.turn.turned_parts import WorkLimit
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.motion_warnings import motion_warnings

@@ -12,8 +12,7 @@ from geneva_cli.geometry.plates import Plate
 from geneva_cli.geometry.shapes import ORIGIN, Arc, Circle, Contour, Shape, polygon
 from geneva_cli.geometry.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.mounted_plate import mounts_of
-from geneva_cli.parts.outlines.wheel_circles import about_axis
+from geneva_cli.parts.parts import mounts_of
 from geneva_cli.parts.shafts.bores import Bore, around, bore_of, radius_of, section_note
 from geneva_cli.spec.tables import Size
 from geneva_cli.spec.written import length, number
@@ -79,10 +78,13 @@ def draw_shaft(view: View, shaft: Plate) -> None:
 
 def holes_of(plates: Iterable[Plate]) -> tuple[list[Shape], list[Circle]]:
     """Return the bores of plates on one axis, and their other round holes, such as bolts."""
-    holes = [hole for plate in plates for hole in plate.holes if hole.layer == "BORE"]
-    bores = dict.fromkeys(about_axis(holes))
-    bolts = (hole for hole in holes if isinstance(hole, Circle) and hole not in bores)
-    return list(bores), list(dict.fromkeys(bolts))
+    bores, bolts = dict[Shape, None](), dict[Circle, None]()
+    for hole in (hole for plate in plates for hole in plate.holes if hole.layer == "BORE"):
+        if isinstance(hole, Circle) and math.hypot(*hole.centre) != 0.0:
+            bolts[hole] = None
+        else:
+            bores[hole] = None
+    return list(bores), list(bolts)
 
 
 def bored(view: View, bores: Sequence[Shape], size: Size, part: str) -> None:

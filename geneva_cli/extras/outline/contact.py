@@ -108,26 +108,29 @@ def contacts(
     best = np.full(n, near)
     sides, point = np.zeros((2, 4, n)), np.zeros((n, 2))
     for first in range(0, n, 16):
-        for met in free.meetings(crank_angle[first : first + 16]):
-            row = met.row + first
+        for row, start, end, start_level, end_level, *both in free.meetings(
+            crank_angle[first : first + 16]
+        ):
+            row = row + first
             # an arc about the wheel's axis pushes nothing; its ends are those of other pieces too
-            is_round = met.wheel.half + met.other.half > 0.0
-            for place, levels in ((met.start, met.start_level), (met.end, met.end_level)):
+            is_round = both[0][-1] + both[1][-1] > 0.0
+            for place, levels in ((start, start_level), (end, end_level)):
                 shift = period * np.round((place - wheel[row]) / period)
                 off = np.abs(place - wheel[row] - shift)
                 k = np.flatnonzero((off < best[row]) & ~is_round)
                 level, off, rows = levels[k], off[k], row[k]
-                ours, theirs = _side(met.other.at(k), level), _side(met.wheel.at(k), level)
+                crank_side, wheel_side = (Branches(*each.take(k, axis=1)) for each in both)
+                ours, theirs = _side(crank_side, level), _side(wheel_side, level)
                 theirs[1] += wheel[rows] + shift[k]
                 # the sine between normal and the direction from the wheel's axis
                 p, w = (side[0] * np.exp(1j * side[1]) for side in (ours, theirs))
                 normal = np.where(theirs[3] > 0.5, np.exp(1j * theirs[1]), p - w)
                 normal = np.where(ours[3] > 0.5, np.exp(1j * ours[1]), normal)
-                z = level * np.exp(1j * free.stops.place(met.other.at(k), level))
+                z = level * np.exp(1j * free.stops.place(crank_side, level))
                 size = np.abs(normal) * np.abs(z)
                 sine = np.abs((normal.conjugate() * z).imag) / np.maximum(size, 1e-300)
                 sine = np.where(np.abs(normal) > 1e-9 * np.abs(z), sine, 0.0)
-                own = free.stops.place(met.wheel.at(k), level) + shift[k]
+                own = free.stops.place(wheel_side, level) + shift[k]
                 able = np.flatnonzero(sine > lever)
                 for i in able[np.argsort(-off[able], kind="stable")]:  # the nearest one comes last
                     best[rows[i]] = off[i]

@@ -68,9 +68,9 @@ def smallest_wall(contours: Sequence[Contour], some: Whole | None = None) -> Wal
 
     def feet(points: Array) -> tuple[Whole, Array]:
         """The nearest points of pieces to points: rows and feet."""
-        seen = outline.distances(points.real[:, None], points.imag[:, None])
-        row, piece = np.nonzero(seen.distance > LEAST_MM)
-        facing, along = seen.facing[row, piece], seen.along[row, piece]
+        away_mm, _, facing, along = outline.distances(points.real[:, None], points.imag[:, None])
+        row, piece = np.nonzero(away_mm > LEAST_MM)
+        facing, along = facing[row, piece], along[row, piece]
         corner = np.where(along < 0.0, piece, following[piece])
         is_arc, direction = outline.arc[piece], chord[piece]
         centre = outline.cx[piece] + 1j * outline.cy[piece]

@@ -17,14 +17,14 @@ from geneva_cli.geometry.sheet import rectangle
 from geneva_cli.kinds.linear.rack import RackSizes, crank_arm, rack_bore, rack_sizes, slot_places
 from geneva_cli.loads.strength.arm_and_key import NO_ARM, NO_KEY, ArmDimensions
 from geneva_cli.motion.mechanism import Mechanism
-from geneva_cli.parts.gears.gear_pair import gear_shafts, gear_span
-from geneva_cli.parts.mounted_plate import (
-    FrameAndShafts,
+from geneva_cli.parts.frame import (
     corner_radius,
     hole_without_shaft,
     mounted_plate,
     shaft_holes,
 )
+from geneva_cli.parts.gears.gear_pair import gear_shafts, gear_span
+from geneva_cli.parts.parts import FrameAndShafts
 from geneva_cli.parts.shafts.bores import bore_of, reach_or_bore
 from geneva_cli.parts.shafts.screws import bolt_radius, tapped
 from geneva_cli.parts.shafts.shaft import Shaft, shaft_ends
@@ -71,7 +71,7 @@ def shafts_and_frame(mechanism: Mechanism) -> FrameAndShafts:
     if mechanism.spec.gears:
         own += gear_shafts(mechanism, None, heights.plain, True, radius)
     axles = tuple(one.member for one in own)
-    bored = list(shaft_holes(size, axles, heights.top))
+    bored = shaft_holes(size, axles, heights.top)
     if not radius:
         bored.insert(0, hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L))
     rows = zip(("guide rail", "guide wall"), _screws(sizes), strict=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -11,18 +10,17 @@ from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.geometry.shapes import Contour
 from geneva_cli.kept import cached_property
 from geneva_cli.kinds.linear.rack import RackSizes, locking_sector, rack_contour
-from geneva_cli.numerics.arrays import Array, Whole, within_half_turn
+from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.stops import (
     Branches,
+    Pose,
     Stops,
     cut,
     inset_ends,
     masked,
-    merged,
-    rotated,
 )
 
 
@@ -33,41 +31,42 @@ class SlidingStops(Stops):
     level of the centre. Of a line, ``size`` is 0 and ``excess`` is the slope.
     """
 
-    def rollers(self, centres: Array, inset: float) -> Branches:
-        """Return the branches of rollers about n centres, in the fixed frame."""
+    def rollers(self, centres: Array, inset: float) -> Array:
+        """Return rollers about n centres in the fixed frame, as branches on one side of them."""
         (x, y), radius, row = centres.T, self.roller - inset, np.arange(len(centres))
         zero = 0.0 * x
         arc = x - radius, x + radius, zero, zero, zero + radius, x, y / self.L
-        return merged(Branches(row, *arc, zero + sign, zero) for sign in (1.0, -1.0))
+        return np.array((row, *arc, zero + 1.0, zero))
 
-    def points(self, row: Whole, points: Array) -> Branches:
-        """Return the branches of points (n, 2)."""
-        (x, y), zero = points.T, np.zeros(len(points))
-        return Branches(row, x, x, zero, zero, zero, zero, y / self.L, zero, zero)
+    def corners(self, outline: Polyarc, pose: Pose) -> Array:
+        """Return the convex corners of the crank in n poses, as branches of one level."""
+        corners = np.column_stack((outline.x0, outline.y0))[outline.turn_start > 0.0]
+        x, y = rotated(corners, pose.crank)
+        row, zero = np.repeat(np.arange(len(x)), len(corners)), np.zeros(x.size)
+        level, at = self.L + x.ravel(), y.ravel() / self.L
+        return np.array((row, level, level, zero, zero, zero, zero, at, zero, zero))
 
-    def branches(self, outline: Polyarc, origin: Array, angle: Array, inset: float) -> Branches:
-        """Return the branches of an outline at n places (n, 2), turned by n angles."""
-        ends = inset_ends(outline, inset)
-        points = np.array([origin[:, None] + rotated(each[0], angle) for each in ends.points])
-        x, y = np.moveaxis(points, -1, 0)  # (2, n, k)
+    def branches(self, outline: Polyarc, angle: Array | None, inset: float) -> Array:
+        """Return the branches ``inset`` mm inside the rack, or inside the crank at n angles."""
+        axis, turn = (0.0, np.zeros(1)) if angle is None else (self.L, angle)
+        ends, trims, radii = inset_ends(outline, inset)
+        (x0, y0), (x1, y1) = rotated(ends[0, 0], turn), rotated(ends[1, 0], turn)
+        x, y = axis + np.array((x0, x1)), np.array((y0, y1))  # (2, n, k)
         bent, flat = np.flatnonzero(outline.arc), np.flatnonzero(~outline.arc)
-        left, radius = outline.sense[bent] > 0.0, ends.radius[bent]
+        left, radius = outline.sense[bent] > 0.0, radii[bent]
         centre = np.column_stack((outline.cx, outline.cy))[bent]
-        cx, cy = np.moveaxis(origin[:, None] + rotated(centre, angle), -1, 0)
-        zero = 0.0 * cx
+        cx, cy = rotated(centre, turn)
+        cx, zero = axis + cx, 0.0 * cx
         known = np.stack((x[..., bent], np.abs(y[..., bent] - cy) / self.L))
         known = np.where(left, known, known[:, ::-1])
         extremes = np.array(((cx - radius, zero), (cx + radius, zero)))
-        trims = np.where(left, ends.trims[:, bent], ends.trims[::-1, bent]) / radius
-        towards = np.arctan2(outline.my, outline.mx)[bent] + angle[:, None]
+        trim = np.where(left, trims[:, bent], trims[::-1, bent]) / radius
+        towards = np.arctan2(outline.my, outline.mx)[bent] + turn[:, None]
         middle = within_half_turn(towards)
         half = np.arctan2(outline.sin_half[bent], outline.cos_half[bent])
-        span = middle - half + trims[0], middle + half - trims[1]
-        parts = []
-        for there, low, high, sign in cut(*span, known, extremes):
-            levels, places = zip(low, high, strict=True)
-            arc = zero + radius, cx, cy / self.L
-            parts.append(masked(there, *levels, *places, *arc, zero + sign, zero))
+        span = middle - half + trim[0], middle + half - trim[1]
+        curve = zero + radius, cx, cy / self.L
+        parts = cut(np.ones(cx.shape, dtype=bool), span, known, extremes, curve)
         x, y = x[..., flat], y[..., flat] / self.L
         rise, run = y[1] - y[0], x[1] - x[0]
         # lines along the travel have one level, up to their rounding
@@ -78,7 +77,7 @@ class SlidingStops(Stops):
         parts.append(masked(across, *line, zero + 1.0, zero))
         line = x[0], x[0], zero, zero, zero, zero, 0.5 * (y[0] + y[1])
         parts.append(masked(~across, *line, zero, 0.5 * np.abs(rise)))
-        return merged(parts)
+        return np.concatenate(parts, axis=1)
 
     def place(self, branch: Branches, level: Array) -> Array:
         """Return the places of branches at levels."""
@@ -88,15 +87,15 @@ class SlidingStops(Stops):
         away = np.where(level <= branch.low, branch.at_low, away)
         return branch.ahead + branch.sign * np.where(level >= branch.high, branch.at_high, away)
 
-    def tangents(self, one: Branches, two: Branches) -> Iterator[Array]:
-        """Yield the levels at which branches may be tangent."""
+    def tangents(self, one: Branches, two: Branches) -> tuple[Array, Array]:
+        """Return the levels at which branches may be tangent."""
         both = (one.size > 0.0) & (two.size > 0.0)
         arc, line = one.size > 0.0, np.where(one.size > 0.0, two.excess, one.excess) * self.L
         off = np.where(arc, one.size, two.size) * line / np.sqrt(1.0 + line * line)
-        for way in (1.0, -1.0):
-            arcs = one.excess * two.size + way * two.excess * one.size
-            beside = np.where(arc, one.excess, two.excess) + way * off
-            yield np.where(both, arcs / (two.size + way * one.size), beside)
+        centre, p, q = np.where(arc, one.excess, two.excess), one.size, two.size
+        same = (one.excess * q + two.excess * p) / (q + p)
+        across = (one.excess * q - two.excess * p) / (q - p)
+        return np.where(both, same, centre + off), np.where(both, across, centre - off)
 
     def lean(self, level: Array, pins: Array, close: float) -> Array:
         """Return the sine of the pressure angle where rollers touch, ``close`` mm inside them."""
@@ -113,17 +112,21 @@ class RackGaps(Gaps):
 
     sizes: RackSizes
 
-    def _sector(self) -> None:
-        """Reduce the rack to one slot and its neighbours; the slots are two radii apart."""
-        self.pitch, radius = 2.0, self.assembly.L
-        self.around = self.wheel.subset(np.flatnonzero(np.abs(self.wheel.oy) <= 3.5 * radius))
+    def __init__(
+        self, assembly: Assembly, sizes: RackSizes, wheel: Contour, crank: list[Contour]
+    ) -> None:
+        super().__init__(assembly, sizes, wheel, crank)
+        # one slot and its neighbours, which are two radii apart
+        self.pitch, radius, rack = 2.0, assembly.L, self.wheel
+        self.around = rack.subset(np.flatnonzero(np.abs(rack.oy) <= 3.5 * radius))
+        # a slot and the recess after it, whose pieces begin between two recesses
+        self.one = rack.subset(np.flatnonzero((rack.y0 >= -radius) & (rack.y0 < radius)))
 
     @cached_property
-    def _stops(self) -> Stops:
-        """Stops of a slot and the recess after it, whose pieces begin between two recesses."""
-        radius, start = self.assembly.L, self.wheel.y0
-        one = self.wheel.subset(np.flatnonzero((start >= -radius) & (start < radius)))
-        return SlidingStops(one, self.pitch, self.crank, radius, self.sizes.roller)
+    def stops(self) -> Stops:
+        """The stops of the rack, slid back and on."""
+        crank = [self.crank] if self.crank else []
+        return SlidingStops(self.one, self.pitch, crank, self.assembly.L, self.sizes.roller)
 
 
 class RackOutlines(NamedTuple):
@@ -140,3 +143,10 @@ def turned_rack(assembly: Assembly, sizes: RackSizes) -> RackOutlines:
     sector = locking_sector(sizes)
     crank, rack = [sector] if sector else [], rack_contour(sizes, 5)
     return RackOutlines(assembly, sizes, crank, RackGaps(assembly, sizes, rack, crank))
+
+
+def rotated(points: Array, angle: Array) -> tuple[Array, Array]:
+    """Return points (k, 2), turned by n angles: x and y, (n, k) both."""
+    c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    x, y = points.T
+    return c * x - s * y, s * x + c * y

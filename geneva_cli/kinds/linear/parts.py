@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.plates import Group, Member, Plate, least_wall
@@ -31,15 +31,12 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.arm import roller_plates
 from geneva_cli.parts.assembly import assembled
 from geneva_cli.parts.gears.gear_pair import gear_pair
-from geneva_cli.parts.parts import EdgedParts, NamedBuilds
+from geneva_cli.parts.parts import EdgedParts, FrameAndShafts, NamedBuilds
 from geneva_cli.parts.projection import NamedParts
 from geneva_cli.parts.shafts.screws import Screws
 from geneva_cli.parts.sizes import drawn_thicknesses, pin_radius
-from geneva_cli.parts.turn.bounds import FlatPairs
+from geneva_cli.parts.turn.turn_certificate import FlatPairs
 from geneva_cli.spec.least_wall import wall_min
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.mounted_plate import FrameAndShafts
 
 
 class RackParts(EdgedParts):
@@ -67,7 +64,7 @@ class RackParts(EdgedParts):
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far the roller is in its slot, beyond the rack's edge, mm, (n,)."""
-        return self.sizes.edge - self.assembly.driving(motion, at)[:, 0]
+        return self.sizes.edge - self.assembly.pin(motion, at, drives=True)[:, 0]
 
     def pairs(self, target: float) -> FlatPairs:
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""

@@ -3,7 +3,7 @@
 All walls lead to the sphere's centre, and so do the rollers' cones. So gaps are angles at the
 centre; they are returned as arc lengths on the sphere, mm.
 
-On intervals of the input angle they are bounded as on a plane (``parts.turn.bounds``). A point at
+On intervals of the input angle they are bounded as on a plane, in ``turn_certificate``. A point at
 an angle r from an axis moves at most sin r times the angle by which its part turns about it. A
 roller's path is exact: an arc about the crank's axis while the wheel rests, and a piece of the
 meridian in its own slot.
@@ -21,9 +21,10 @@ from geneva_cli.geometry.sphere_arcs import Circle, SphereArcs, farthest, from_c
 from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.kinds.spherical.regions import QUARTER, at_mid_motion, edge
 from geneva_cli.kinds.spherical.stops import SphereStops, about, polar
-from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.numerics.arrays import Array
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.turn.pairs import Bounds, Intervals, Pose, Stop, Window, raised
+from geneva_cli.parts.turn.stops import Pose
+from geneva_cli.parts.turn.turned_parts import Intervals, Window
 
 STEP = math.radians(1.0)  # greatest turn of a piece of the crank, tested for being in the wheel
 # Fractions of an arc at which it is sampled: its start and middle, and points next to its corners.
@@ -41,9 +42,7 @@ class BallGaps:
         self.wheel = SphereArcs(edges)
         self.around = SphereArcs(edge(ball), closed=False)  # one slot; all others are equal
         self.sectors = [SphereArcs(region.boundary) for region in sectors]
-        self._stops = SphereStops(
-            self.around, 2.0 * ball.half_step, self.sectors, self._out_each, ball.roller
-        )
+        self.stops = SphereStops(self.around, self.sectors, self._out_each, ball)
         self.crank_frame = np.array(at_mid_motion(ball))  # rows: the crank's axes, in the wheel's
         self._rollers = np.array([place(ball.arm, azimuth) for azimuth in ball.rollers])
         corners = [
@@ -71,10 +70,6 @@ class BallGaps:
             away = self.to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
             columns.append(self.ball.radius_mm * (away - self.ball.roller))
         return np.minimum(np.column_stack(columns), near)
-
-    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
-        """Return the stops of the wheel, turned back and on, as ``Clearances`` describes."""
-        return self._stops.first(pose, most, close / self.ball.radius_mm)
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap between the locking sectors and the wheel, mm (n,); see ``rollers``."""
@@ -111,9 +106,9 @@ class BallGaps:
         return self.ball.radius_mm * least
 
     def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, directions (n, 3)."""
+        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 3)."""
         pose = self.pose(input_deg)
-        return about(pose.pins[:, motion], -(pose.wheel + lead))
+        return self.ball.radius_mm * about(pose.pins[:, motion], -(pose.wheel + lead))
 
     def to_wheel(self, points: Array) -> Array:
         """Return the distances of points in the wheel's frame from its edge, radians."""
@@ -144,7 +139,7 @@ class SpherePairs:
         self.apart = max(target, 0.0) / self.ball.radius_mm  # up to which parts matter, radians
         self.pieces = short_arcs(crank, STEP) if crank else None
 
-    def lock(self, window: Window, on: Intervals) -> Bounds:
+    def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]:
         """Return the gap of locking sectors and wheel: bounds up to ``apart``.
 
         The wheel leaves a cap free about the middle of each recess. In the dwell and beside it, the
@@ -155,15 +150,14 @@ class SpherePairs:
         # farther than it turns
         sectors_travel = math.sin(min(ball.lock + self.apart, QUARTER)) * on.crank
         least = gap - ball.radius_mm * (on.wheel + sectors_travel)
-
-        def in_recess(which: Whole) -> Array:
-            """Return how far the sectors stay within the cap of the nearer recess, mm."""
-            assert pieces is not None  # without sectors no gap is doubtful
-            some, (wheel, crank, _) = on.at(which), on.at_middle.at(which)
+        which = np.flatnonzero(least < self.target)
+        if pieces is not None and len(which):
+            wheel, crank = on.at_middle.wheel[which], on.at_middle.crank[which]
             # the middles of the recesses at both ends of the window, in the wheel's frame
             turn = gaps.assembly.wheel(np.array((window.start, window.end)))
             recesses = about(np.tile(gaps.crank_frame[2], (2, 1)), -turn)
-            nearer = (some.middle - window.start >= window.end - some.middle).astype(int)
+            at = 0.5 * (on.start[which] + on.end[which])
+            nearer = (at - window.start >= window.end - at).astype(int)
             offset = gaps.in_crank(about(recesses[nearer], wheel), crank)
             # the pieces of the sectors that may come within the rim; an angle computed from its
             # cosine is wrong by up to 1e-7 radians
@@ -171,51 +165,48 @@ class SpherePairs:
             beyond = np.arccos(np.clip(height, -1.0, 1.0)) - pieces.size - ball.rim
             inside = beyond <= sectors_travel[which][:, None] + self.apart + 1e-7
             far = np.where(inside, farthest(pieces, offset), 0.0)
-            moved = math.sin(ball.axes) * some.wheel + np.hypot(*offset[:, :2].T) * some.crank
-            free = gaps.to_wheel(recesses)[nearer]
-            return ball.radius_mm * (free - far.max(axis=1) - moved)
+            moved = math.sin(ball.axes) * on.wheel[which]
+            moved = moved + np.hypot(*offset[:, :2].T) * on.crank[which]
+            # how far the sectors stay within the cap of the nearer recess
+            free = gaps.to_wheel(recesses)[nearer] - far.max(axis=1) - moved
+            least[which] = np.maximum(least[which], ball.radius_mm * free)
+        return gap, np.minimum(least, ball.radius_mm * self.apart)
 
-        least = raised(least, least < self.target, in_recess)
-        return Bounds(gap, np.minimum(least, ball.radius_mm * self.apart))
+    def roller(
+        self, number: int, window: Window, span: tuple[float, float] | None, on: Intervals
+    ) -> tuple[Array, Array]:
+        """Return the gap of a roller in its slot between two angles, or outside the one it drives.
 
-    def free(self, roller: int, window: Window, on: Intervals) -> Bounds:
-        """Return the gap of a roller outside the slot that it drives.
-
-        It is the gap in the middle, less the roller's travel in the wheel's frame. While the wheel
-        rests, the centre is also on its circle about the crank's axis.
+        In its slot it moves along a meridian. Outside, the gap is that in the middle, less the
+        roller's travel in the wheel's frame. While the wheel rests, the centre is also on its
+        circle about the crank's axis.
         """
-        centre, ball = self._centre(roller, on.at_middle), self.ball
+        ball, gaps, pose, pins = self.ball, self.gaps, on.at_middle, on.at_middle.pins[:, number]
+        centre, gap = about(pins, -pose.wheel), gaps.rollers(pose)[:, number]
+        if span:
+            middle = gaps.pose(np.array([0.5 * (span[0] + span[1])]))
+            x, y, _ = about(middle.pins[:, number], -middle.wheel)[0]
+            out = np.array((x, y, 0.0)) / math.hypot(x, y)
+            across = np.array((-out[1], out[0], 0.0))
+            circle = Circle(across, np.array(POLE), out, QUARTER)
+            # the distance from the wheel's axis changes by no more than the roller moves
+            half = math.sin(ball.arm) * on.crank
+            return gap, self._along(circle, centre, half, gap)
         away = polar(centre)
         # the wheel is within its rim's circle
         beyond = ball.radius_mm * (away - ball.rim - ball.roller)
-        gap = np.maximum(self.gaps.rollers(on.at_middle)[:, roller], beyond)
+        gap = np.maximum(gap, beyond)
         travel = math.sin(ball.arm) * on.crank + np.sin(away) * on.wheel
         least = gap - ball.radius_mm * travel
-
-        def on_circle(which: Whole) -> Array:
+        which = np.flatnonzero(least < self.target)
+        if window.rests and len(which):
             # the crank's axes in the frame of the resting wheel
-            lead = np.full(3, self.gaps.assembly.wheel(np.array([window.start]))[0])
-            x, y, axis = about(self.gaps.crank_frame, -lead)
+            lead = np.full(3, gaps.assembly.wheel(np.array([window.start]))[0])
+            x, y, axis = about(gaps.crank_frame, -lead)
             circle = Circle(axis, x, y, ball.arm)
-            return self._along(circle, centre[which], on.crank[which], gap[which])
-
-        return Bounds(gap, raised(least, window.rests & (least < self.target), on_circle))
-
-    def driving(self, roller: int, span: tuple[float, float], on: Intervals) -> Bounds:
-        """Return the gap of a roller in its slot between two input angles: on its meridian."""
-        middle = self.gaps.pose(np.array([0.5 * (span[0] + span[1])]))
-        x, y, _ = self._centre(roller, middle)[0]
-        out = np.array((x, y, 0.0)) / math.hypot(x, y)
-        across = np.array((-out[1], out[0], 0.0))
-        circle = Circle(across, np.array(POLE), out, QUARTER)
-        gap = self.gaps.rollers(on.at_middle)[:, roller]
-        # the distance from the wheel's axis changes by no more than the roller moves
-        half = math.sin(self.ball.arm) * on.crank
-        return Bounds(gap, self._along(circle, self._centre(roller, on.at_middle), half, gap))
-
-    def _centre(self, roller: int, pose: Pose) -> Array:
-        """Return a roller's centre in the wheel's frame, (n, 3)."""
-        return about(pose.pins[:, roller], -pose.wheel)
+            closer = self._along(circle, centre[which], on.crank[which], gap[which])
+            least[which] = np.maximum(least[which], closer)
+        return gap, least
 
     def _along(self, circle: Circle, centre: Array, half: Array, gap: Array) -> Array:
         """Return the gap of a roller whose centre moves along a circle, mm."""

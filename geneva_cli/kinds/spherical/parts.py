@@ -109,13 +109,10 @@ class SphereParts(Parts):
         """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
         return SpherePairs(self.shells.gaps, self.shells.crank, target)
 
-    def in_wheel(self, motion: int, at: Array, lead: Array | float = 0.0) -> Array:
-        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 3)."""
-        return self.ball.radius_mm * self.shells.gaps.in_wheel(motion, at, lead)
-
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
-        polar = np.arccos(np.clip(self.shells.gaps.in_wheel(motion, at)[:, 2], -1.0, 1.0))
+        height = self.shells.gaps.pose(at).pins[:, motion, 2]  # the same in the wheel's frame
+        polar = np.arccos(np.clip(height, -1.0, 1.0))
         return self.ball.radius_mm * (self.ball.mouth - polar)
 
     @cached_property

@@ -6,60 +6,83 @@ more than half the sphere.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from geneva_cli.geometry.sphere_arcs import SphereArcs
+from geneva_cli.kinds.spherical.ball import Ball
 from geneva_cli.numerics.arrays import Array, within_half_turn
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.turn.stops import CONCENTRIC, Branches, Stops, cut, masked, merged
-
-Placed = Callable[[Array], Array]
+from geneva_cli.parts.turn.stops import (
+    CONCENTRIC,
+    Branches,
+    Pose,
+    Stops,
+    cut,
+    masked,
+)
 
 
 class SphereStops(Stops):
-    """Stops of one machine's wheel on a sphere, whose ``edge`` repeats after ``pitch`` radians.
+    """Stops of one machine's wheel on a sphere, by the ``edge`` of one of its equal slots.
 
     Levels are angles from z. Of a branch, ``size`` is the angle of its cap, and ``excess`` that of
     the cap's axis from z. ``out`` transforms directions (k, 3) of the crank's frame to the fixed
-    one at n angles of the crank: (n, k, 3). A ``roller`` is a cap of this angle.
+    one at n angles of the crank: (n, k, 3). A roller is a cap.
     """
 
     def __init__(
         self,
         edge: SphereArcs,
-        pitch: float,
         crank: Sequence[SphereArcs],
         out: Callable[[Array, Array], Array],
-        roller: float,
+        ball: Ball,
     ) -> None:
-        self.edge, self.pitch, self.sectors, self.out = edge, pitch, crank, out
-        self.roller = roller
+        self.outline, self.crank, self.out = edge, crank, out
+        self.pitch, self.roller, self.radius_mm = 2.0 * ball.half_step, ball.roller, ball.radius_mm
 
-    def wheel(self, inset: float) -> Branches:
-        """Return the branches of the wheel, ``inset`` radians within its edge."""
-        return _branches(self.edge, inset, lambda points: points[None])
+    def first(self, pose: Pose, most: float, close: float) -> tuple[Array, Array]:
+        """Return the stops as on a plane, of parts that may overlap by ``close`` mm."""
+        return super().first(pose, most, close / self.radius_mm)
 
-    def rollers(self, centres: Array, inset: float) -> Branches:
-        """Return the branches of rollers about n centres, directions (n, 3)."""
+    def rollers(self, centres: Array, inset: float) -> Array:
+        """Return rollers about n centres, directions (n, 3), as branches on one side of them."""
         far, ahead, zero = polar(centres), azimuth(centres), np.zeros(len(centres))
         cap = zero + self.roller - inset, far, ahead
         (low, at_low), (high, at_high) = _extremes(far, cap[0])
-        ends, row = (low, high, at_low, at_high), np.arange(len(centres))
-        return merged(Branches(row, *ends, *cap, zero + sign, zero) for sign in (1.0, -1.0))
+        row = np.arange(len(centres))
+        return np.array((row, low, high, at_low, at_high, *cap, zero + 1.0, zero))
 
-    def locking(self, crank: Array, inset: float) -> Iterator[tuple[Branches, Branches]]:
-        """Yield the branches of each sector at n angles of the crank: sides and convex corners."""
-        for sector in self.sectors:
-            points = self.out(sector.start[sector.first > SAME_ANGLE], crank)
-            row = np.repeat(np.arange(len(crank)), points.shape[1])
-            level, at = polar(points).ravel(), azimuth(points).ravel()
-            zero = np.zeros(len(row))
-            yield (
-                _branches(sector, inset, lambda points: self.out(points, crank)),
-                Branches(row, level, level, zero, zero, zero, level, at, zero, zero),
-            )
+    def corners(self, outline: SphereArcs, pose: Pose) -> Array:
+        """Return the convex corners of a sector in n poses, as branches of one level."""
+        points = self.out(outline.start[outline.first > SAME_ANGLE], pose.crank)
+        row = np.repeat(np.arange(len(pose.crank)), points.shape[1])
+        level, at, zero = polar(points).ravel(), azimuth(points).ravel(), np.zeros(len(row))
+        return np.array((row, level, level, zero, zero, zero, level, at, zero, zero))
+
+    def branches(self, outline: SphereArcs, angle: Array | None, inset: float) -> Array:
+        """Return the branches ``inset`` radians inside the edge, or a sector at n angles."""
+        trims = inset * np.tan(0.5 * np.clip((outline.first, outline.last), 0.0, 3.0))
+        trims, size = trims / np.sin(outline.angle), outline.angle - inset
+        axis, x, y = outline.axis[None], outline.x[None], outline.y[None]
+        if angle is not None:
+            axis, x, y = self.out(axis[0], angle), self.out(x[0], angle), self.out(y[0], angle)
+        far, ahead = polar(axis), azimuth(axis)
+        start = np.arctan2(y[..., 2], -x[..., 2]) + trims[0]
+        sweep, zero = outline.sweep - trims.sum(axis=0), 0.0 * far
+        same = np.sin(far) < CONCENTRIC
+        at, cap = np.abs(far - size), (zero + size, far, ahead)
+        middle = azimuth(_point(axis, x, y, size, trims[0] + 0.5 * sweep))
+        round_ = at, at, zero, zero, zero + size, far, middle, zero, zero + 0.5 * sweep
+        known = []
+        for turn in (trims[0], trims[0] + sweep):
+            point = _point(axis, x, y, size, turn)
+            off = within_half_turn(azimuth(point) - ahead)
+            known.append((polar(point), np.abs(off)))
+        levels = np.array(known).swapaxes(0, 1)
+        parts = cut(~same, (start, start + sweep), levels, _extremes(far, size), cap)
+        return np.concatenate((masked(same, *round_), *parts), axis=1)
 
     def place(self, branch: Branches, level: Array) -> Array:
         """Return the places of branches at levels: azimuths."""
@@ -70,42 +93,17 @@ class SphereStops(Stops):
         angle = np.where(level <= branch.low, branch.at_low, angle)
         return branch.ahead + branch.sign * np.where(level >= branch.high, branch.at_high, angle)
 
-    def tangents(self, one: Branches, two: Branches) -> Iterator[Array]:
-        """Yield the levels at which branches may be tangent."""
+    def tangents(self, one: Branches, two: Branches) -> tuple[Array, Array]:
+        """Return the levels at which branches may be tangent."""
         p, q = np.cos(one.excess) * np.sin(two.size), np.cos(two.excess) * np.sin(one.size)
-        yield np.arccos((p + q) / np.sin(two.size + one.size))
-        yield np.arccos((p - q) / np.sin(two.size - one.size))
+        both = np.arccos((p + q) / np.sin(two.size + one.size))
+        return both, np.arccos((p - q) / np.sin(two.size - one.size))
 
     def lean(self, level: Array, pins: Array, close: float) -> Array:
         """Return the sine of the pressure angle where rollers touch, ``close`` inside them."""
         radius, far = self.roller - close, polar(pins)
         lean: Array = np.cos(far) - np.cos(radius) * np.cos(level)
         return lean / (np.sin(radius) * np.sin(level))
-
-
-def _branches(arcs: SphereArcs, inset: float, placed: Placed) -> Branches:
-    """Return the branches of a boundary, ``inset`` radians inside it, ``placed`` at n angles."""
-    trims = inset * np.tan(0.5 * np.clip((arcs.first, arcs.last), 0.0, 3.0)) / np.sin(arcs.angle)
-    size = arcs.angle - inset
-    axis, x, y = (placed(each) for each in (arcs.axis, arcs.x, arcs.y))
-    far, ahead = polar(axis), azimuth(axis)
-    start = np.arctan2(y[..., 2], -x[..., 2]) + trims[0]
-    sweep, zero = arcs.sweep - trims.sum(axis=0), 0.0 * far
-    same = np.sin(far) < CONCENTRIC
-    at = np.abs(far - size)
-    middle = azimuth(_point(axis, x, y, size, trims[0] + 0.5 * sweep))
-    parts = [masked(same, at, at, zero, zero, zero + size, far, middle, zero, zero + 0.5 * sweep)]
-    known = []
-    for turn in (trims[0], trims[0] + sweep):
-        point = _point(axis, x, y, size, turn)
-        off = within_half_turn(azimuth(point) - ahead)
-        known.append((polar(point), np.abs(off)))
-    levels = np.array(known).swapaxes(0, 1)
-    for there, low, high, sign in cut(start, start + sweep, levels, _extremes(far, size)):
-        (a, b), (at_a, at_b) = zip(low, high, strict=True)
-        cap = zero + size, far, ahead, zero + sign
-        parts.append(masked(there & ~same, a, b, at_a, at_b, *cap, zero))
-    return merged(parts)
 
 
 def _extremes(far: Array, size: Array) -> Array:

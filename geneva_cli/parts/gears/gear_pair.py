@@ -24,7 +24,7 @@ from geneva_cli.parts.shafts.bores import Bore, round_bore
 from geneva_cli.parts.shafts.shaft import Shaft, ShaftBore, bore_at, shaft_ends
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.parts import Writer
+    from geneva_cli.geometry.fit import Writer
 
 # Of the axes' distance: coarsest tolerance of the fitted curves, which roll on each other, so that
 # their lengths must agree to better than 1e-9.

@@ -22,8 +22,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import gear_plane, links_at, same, turn_deg
 from geneva_cli.parts.links.link_sizes import LinkSizes, places
 from geneva_cli.parts.links.links import Links, joined, placed_holes
-from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import wheel_hub_length
+from geneva_cli.parts.outlines.outlines import Outlines, wheel_hub_length
 from geneva_cli.parts.shafts.shaft import (
     bore_at,
     wheel_shaft_ends,

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache, partial
-from itertools import combinations
+from itertools import chain, combinations
+from operator import attrgetter
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -19,7 +20,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.geometry.shapes import (
     ORIGIN,
     Arc,
-    Circle,
     Contour,
     Line,
     Segment,
@@ -61,39 +61,43 @@ def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
 
 def reliefs(assembly: Assembly) -> list[Relief]:
     """Return the reliefs around the crank: directions of the line of centres in motions."""
-    unordered = []
-    for i, (engagement, behind) in enumerate(assembly.motions):
-        middle = assembly.lock(behind)
-        ends = (assembly.lock(behind + at) for at in (engagement.entry_deg, engagement.exit_deg))
-        start, end = sorted(middle + math.remainder(x - middle, math.tau) for x in ends)
-        unordered.append(Relief(start, end, i))
-    first = unordered[0].start
-    out = []
-    for one in unordered:
-        start = first + (one.start - first + SAME_ANGLE) % math.tau - SAME_ANGLE
-        out.append(one._replace(start=start, end=start + one.end - one.start))
+    out, first = list[Relief](), 0.0
+    ahead = math.pi if assembly.sign > 0.0 else 0.0  # of the crank at input 0
+    for i, (engagement, mid) in enumerate(assembly.motions):
+        at = mid + np.array([0.0, engagement.entry_deg, engagement.exit_deg])
+        middle, one, other = (ahead - assembly.crank(at)).tolist()
+        one = middle + math.remainder(one - middle, math.tau)
+        other = middle + math.remainder(other - middle, math.tau)
+        low, high = min(one, other), max(one, other)
+        first = first if i else low
+        start = first + (low - first + SAME_ANGLE) % math.tau - SAME_ANGLE
+        out.append(Relief(start, start + high - low, i))
     return sorted(out)
 
 
+def sectors(around: list[Relief]) -> list[tuple[float, float]]:
+    """Return the sectors in which the disc locks: directions on the crank, radians, from and to."""
+    out = []
+    for i, one in enumerate(around):
+        last = i + 1 == len(around)
+        after = around[0].start + math.tau if last else around[i + 1].start
+        if after - one.end > SAME_ANGLE:
+            out.append((one.end, after))
+    return out
+
+
 def arc_floor(assembly: Assembly, lock: float) -> float:
-    """Return the least distance from the axis of an arc that meets the disc at right angles."""
-    half = max(one.half for one in reliefs(assembly))
-    wide = half > 0.5 * math.pi - SAME_ANGLE
-    return 0.0 if wide else lock * math.tan(0.25 * math.pi - 0.5 * half)
+    """Return the least distance from the axis of arcs that relieve the disc; 0 where none can.
 
-
-def has_arcs(assembly: Assembly, lock: float) -> bool:
-    """Return True if arcs relieve the disc; if gears widen the reliefs, they must leave a bore."""
-    paired = any(engagement.apart for engagement in assembly.kinds)
-    floor = arc_floor(assembly, lock)
+    They meet the disc at right angles. If gears widen the reliefs, they must leave a bore.
+    """
+    half = max(map(attrgetter("half"), reliefs(assembly)))
+    if half > 0.5 * math.pi - SAME_ANGLE:
+        return 0.0
+    floor = lock * math.tan(0.25 * math.pi - 0.5 * half)
     # L/18 about the axis is enough for a bore
-    return floor >= (1.0 / 18.0) * assembly.L if paired else floor > 0.0
-
-
-def followed(around: list[Relief]) -> list[tuple[Relief, float]]:
-    """Return each relief, and where the next one starts; between the two the disc locks."""
-    starts = [one.start for one in around[1:]] + [around[0].start + math.tau]
-    return list(zip(around, starts, strict=True))
+    narrow = floor < (1.0 / 18.0) * assembly.L
+    return 0.0 if narrow and any(map(attrgetter("apart"), assembly.kinds)) else max(floor, 0.0)
 
 
 def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
@@ -104,25 +108,27 @@ def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
     recess, passes the line and leaves the disc. It reaches farthest round the crank by then.
     """
     joined: list[Relief] = []
+    L, lock, recess = assembly.L, sizes.lock, sizes.recess
     for one in reliefs(assembly):
         engagement, behind = assembly.motions[one.motion]
-        L, half_step, middle = assembly.L, engagement.half_step, 0.5 * (one.start + one.end)
+        half_step, middle = engagement.half_step, 0.5 * (one.start + one.end)
         # samples 1/2000 of the motion apart bring a greatest value to 1e-5 degrees
         at = np.linspace(engagement.entry_deg, engagement.exit_deg, 2001)
         turned = engagement.motion(at, 0).c[0]
-        start, end, spare = one.start, one.end, sizes.relief / sizes.lock
+        start, end, spare = one.start, one.end, sizes.relief / lock
         corners = mouths.get(engagement) or next(iter(mouths.values()))  # slots are equal
         for side, p in zip((1.0, -1.0), corners, strict=True):
-            cosines = [(L * L + p * p - k * k) / (2.0 * L * p) for k in (sizes.lock, sizes.recess)]
-            if max(cosines) >= 1.0:  # the corner never comes into the disc
+            leaves = (L * L + p * p - lock * lock) / (2.0 * L * p)  # as cosines
+            rests = (L * L + p * p - recess * recess) / (2.0 * L * p)
+            if max(leaves, rests) >= 1.0:  # the corner never comes into the disc
                 continue
-            leaves, rests = (math.acos(max(cosine, -1.0)) for cosine in cosines)
+            leaves, rests = math.acos(max(leaves, -1.0)), math.acos(max(rests, -1.0))
             last = side * (leaves - half_step + rests)
             corner = side * (half_step - rests) + np.append(turned, last)
             x, y = p * np.cos(corner) - L, p * np.sin(corner)
             crank = assembly.crank(behind + np.append(at, np.interp(last, turned, at)))
             off = within_half_turn(np.arctan2(y, x) - crank - middle)
-            off = off[np.hypot(x, y) < sizes.lock * (1.0 + SAME_LENGTH)]
+            off = off[np.hypot(x, y) < lock * (1.0 + SAME_LENGTH)]
             if off.min(initial=0.0) < -one.half - SAME_ANGLE:
                 start = min(start, middle + float(off.min()) - spare)
             if off.max(initial=0.0) > one.half + SAME_ANGLE:
@@ -136,30 +142,23 @@ def widened(assembly: Assembly, sizes: Sizes, mouths: Mouths) -> list[Relief]:
     return joined
 
 
-def sectors(around: list[Relief]) -> list[tuple[float, float]]:
-    """Return the sectors in which the disc locks: directions on the crank, radians, from and to."""
-    return [(one.end, after) for one, after in followed(around) if after - one.end > SAME_ANGLE]
-
-
 def keyway_direction(assembly: Assembly) -> float:
     """Return the keyway's direction: the middle of a locking sector, away from reliefs."""
-    return next((0.5 * (start + end) for start, end in sectors(reliefs(assembly))), math.pi)
+    (start, end), *_ = sectors(reliefs(assembly)) or [(math.pi, math.pi)]
+    return 0.5 * (start + end)
 
 
-def _horns(assembly: Assembly, own: Sizes) -> Mouths:
-    return horn_corners(assembly, own.roller, own.half_width, own.recess, own.rim, own.horn_tip)
-
-
-def lock_of(where: Assembly, size: Sizes, cut: Sequence[float] = ()) -> Lock:
+def lock_of(where: Assembly, size: Sizes, cut: Iterable[float] = ()) -> Lock:
     """Return the lock of parts of these sizes, in its narrowest sector between two reliefs."""
-    mouths = _horns(where, size)
+    mouths = horn_corners(where, size.roller, size.half_width, size.recess, size.rim, size.horn_tip)
     # arcs end where the motions do
     arcs = not is_whole(where, size) or where.mechanism.spec.size.relief == "arc"
-    locking = sectors(reliefs(where) if arcs else widened(where, size, mouths))
-    half = min((*(0.5 * (end - start) for start, end in locking), *cut), default=math.nan)
-    edge = where.full.spec.size.lock_edge_mm or 0.0
-    corners = [radius for mouth in mouths.values() for radius in mouth]
+    halves = [*cut]
+    for start, end in sectors(reliefs(where) if arcs else widened(where, size, mouths)):
+        halves.append(0.5 * (end - start))
+    edge, corners = where.full.spec.size.lock_edge_mm or 0.0, [*chain(*mouths.values())]
     first = corners[0] if size.horn_tip else size.rim
+    half = min(halves, default=math.nan)
     lock = Lock(where.L, where.sign, size.lock, size.recess, first, half, edge)
     if max(corners) - min(corners) < SAME_LENGTH * where.L:
         return lock
@@ -184,21 +183,21 @@ def crank_contours(
         return _rings(assembly, sizes, swept, spare)
     around = reliefs(assembly)
     if relief == "sector":
-        mouths = _horns(assembly, sizes)
-        around = widened(assembly, sizes, mouths)
-    if sum(one.end - one.start for one in around) > math.tau - SAME_ANGLE:
+        lengths = sizes.roller, sizes.half_width, sizes.recess, sizes.rim, sizes.horn_tip
+        around = widened(assembly, sizes, horn_corners(assembly, *lengths))
+    if 2.0 * sum(map(attrgetter("half"), around)) > math.tau - SAME_ANGLE:
         raise GenevaError(
             "nothing is left of the locking disc: its reliefs go all the way round; use fewer "
             f"rollers, or a smaller one than {sizes.roller:g} mm",
             ("size", "roller_radius_mm"),
         )
-    segments: list[Segment] = []
-    for one, after in followed(around):
+    segments, locking = list[Segment](), dict(sectors(around))
+    for one in around:
         middle = 0.5 * (one.start + one.end)
         if relief == "sector":  # down to where the wheel never comes
             floor = assembly.L - sizes.rim - sizes.relief
             bottom = about(ORIGIN, floor, one.start, one.end - one.start)
-            start, end = (polar(ORIGIN, sizes.lock, at) for at in (one.start, one.end))
+            start, end = polar(ORIGIN, sizes.lock, one.start), polar(ORIGIN, sizes.lock, one.end)
             segments += [Line(start, bottom.start), bottom, Line(bottom.end, end)]
         elif one.half > 0.5 * math.pi - SAME_ANGLE:
             raise GenevaError(
@@ -213,8 +212,8 @@ def crank_contours(
             half = math.pi / 2.0 - one.half
             radius = sizes.lock * math.tan(one.half)
             segments.append(about(centre, radius, middle + math.pi + half, -2.0 * half))
-        if after - one.end > SAME_ANGLE:
-            segments.append(about(ORIGIN, sizes.lock, one.end, after - one.end))
+        if one.end in locking:
+            segments.append(about(ORIGIN, sizes.lock, one.end, locking[one.end] - one.end))
     return [closed("CRANK", segments)]
 
 
@@ -224,28 +223,23 @@ def takes_arcs(assembly: Assembly, sizes: Sizes) -> bool:
     They leave some of the disc at the crank's axis and between two motions, and a wall to the
     spec's bore and hub, unless a sector is no deeper.
     """
-    size = assembly.full.spec.size
-    dwells = all(after - one.end > SAME_ANGLE for one, after in followed(reliefs(assembly)))
-    if not (is_whole(assembly, sizes) and dwells and has_arcs(assembly, sizes.lock)):
+    size, floor = assembly.full.spec.size, arc_floor(assembly, sizes.lock)
+    dwells = len(sectors(reliefs(assembly))) == len(assembly.motions)
+    if not (is_whole(assembly, sizes) and dwells and floor > 0.0):
         return False
     bore = 0.5 * (size.crank_bore_mm or 0.0)
     _, hub = reach_and_hub(size, "crank", bore, sizes.wall_min)
     wall = size.allowances.around_shaft_mm + sizes.wall_min
     needed = max(bore + wall if bore else 0.0, hub if size.has_hub("crank") else 0.0)
-    sector = assembly.L - sizes.rim - sizes.relief
-    return arc_floor(assembly, sizes.lock) >= min(needed, sector)
+    return floor >= min(needed, assembly.L - sizes.rim - sizes.relief)
 
 
-def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
-    """Return rollers, pins and bore in its shape."""
-    shapes: list[Shape] = []
-    for centre in roller_centres(assembly):
-        shapes += [Circle("ROLLER", centre, sizes.roller)]
-        shapes += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
-    if sizes.crank_bore:
-        own = bore_of(assembly.mechanism.spec.size, "crank", sizes.crank_bore)
-        shapes.append(own.shape("BORE", keyway_direction(assembly)))
-    return shapes
+def crank_bore(assembly: Assembly, sizes: Sizes) -> tuple[Shape, ...]:
+    """Return the crank's bore in its shape; none without one."""
+    if not sizes.crank_bore:
+        return ()
+    own = bore_of(assembly.mechanism.spec.size, "crank", sizes.crank_bore)
+    return (own.shape("BORE", keyway_direction(assembly)),)
 
 
 def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:

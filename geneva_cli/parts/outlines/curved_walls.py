@@ -9,6 +9,8 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -63,6 +65,17 @@ class WallPlace(NamedTuple):
         return here, tangents[1].tolist(), speed
 
 
+@dataclass(frozen=True)
+class _CurvedSlot:
+    """A curved slot; two are equal if what their walls depend on is equal."""
+
+    engagement: Engagement
+    lengths: tuple[float, ...]
+    form: tuple[float, str]
+    assembly: Assembly = field(compare=False)
+    sizes: Sizes = field(compare=False)
+
+
 def curved_walls(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
@@ -71,9 +84,17 @@ def curved_walls(
     They are within ``tolerance`` mm of the true walls, and never inside them: the slot of a roller
     larger by half the tolerance is fitted. Raises GenevaError where the walls do not close.
     """
+    lengths = assembly.L, assembly.sign, sizes.roller, sizes.half_width, sizes.rim
+    return _fitted(_CurvedSlot(engagement, lengths, (tolerance, curves), assembly, sizes))
+
+
+# drawings, sheet and solids of one machine have the same walls, and so do machines of other locks
+@lru_cache(maxsize=16)
+def _fitted(slot: _CurvedSlot) -> Contour:
+    assembly, engagement, (tolerance, curves) = slot.assembly, slot.engagement, slot.form
     half = 0.5 * tolerance
     runs: list[list[Segment]] = []
-    larger = sizes._replace(half_width=sizes.half_width + half)
+    larger = slot.sizes._replace(half_width=slot.sizes.half_width + half)
     pieces = chain(assembly, larger, walls(assembly, larger, engagement))
     for i, piece in enumerate(pieces):
         other = len(pieces) - 1 - i

@@ -19,7 +19,7 @@ from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.parts.outlines.wheel_outline import CURVED, turned_walls, wheel_contour
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.pairs import Pose
+from geneva_cli.parts.turn.stops import Pose
 
 SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relief must clear
 
@@ -31,14 +31,48 @@ def drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
 
 @lru_cache(maxsize=KEPT)  # a sweep cuts the locks of its designs first, and then turns the parts
 def _drawn(assembly: Assembly, sizes: Sizes) -> Outlines:
-    kinds, L = assembly.kinds, assembly.L
-    walls = turned_walls(assembly, sizes)
-    close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L
+    """Return the outlines with the spec's relief, or else the first kind that clears the wheel.
+
+    An arc leaves the most of the disc and is one cut. If it collides or leaves too little, the
+    whole sector is cut down to where the wheel never comes.
+    """
+    walls, stopped = turned_walls(assembly, sizes), assembly.full.spec.wheel.stopped
+    close = SAME_LENGTH * assembly.L
+    for kind in assembly.kinds:
+        close = max(close, CURVED * assembly.L if kind.slot.curved else 0.0)
     wheel = wheel_contour(assembly, sizes, walls)
-    crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), sizes, close)
-    if assembly.full.spec.wheel.stopped:
+    bare = Gaps(assembly, sizes, wheel, [])
+    if stopped:
         wheel = wheel_contour(assembly, sizes, walls, convex=True)
+    if not sizes.lock:
+        return Outlines(assembly, sizes, walls, wheel, [], "none", bare, close)
+    whole, requested = is_whole(assembly, sizes), assembly.mechanism.spec.size.relief
+    relief = requested or ("arc" if takes_arcs(assembly, sizes) else "sector")
+    swept, spare = cache(lambda i: bare.swept(i, SWEPT_DEG)), 0.0
+    for _ in range(6):
+        crank = crank_contours(assembly, sizes, relief, swept, spare)
+        gaps, tried = bare.with_crank(crank), relief == "arc" and not requested
+        if whole and not tried:
+            break
+        overlap = _overlap(gaps, close)
+        if overlap <= close:
+            break
+        # Between two of these positions the wheel comes nearer still: three times the overlap.
+        spare += 0.0 if tried else 3.0 * overlap + 10.0 * close
+        relief = requested or "sector"
     return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close)
+
+
+def _overlap(gaps: Gaps, close: float) -> float:
+    """Return the greatest overlap of crank and wheel in all motions, mm, 0 for none."""
+    least = 0.0
+    for engagement, mid in gaps.assembly.motions:
+        count = 2 + int(engagement.motion_deg / SWEPT_DEG)
+        at = mid + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
+        # without the rollers, which lock nothing
+        pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
+        least = min(least, float(gaps.locking(pose, near=close).min()))
+    return -least
 
 
 def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
@@ -59,50 +93,9 @@ def cut_lock(assembly: Assembly, sizes: Sizes) -> Lock:
 
 def cut_arcs(contours: Iterable[Contour], radius: float, away: float, near: float) -> Iterator[Arc]:
     """Yield the arcs of a radius whose centres are ``away`` from the axis, both within ``near``."""
-    for arc in (piece for contour in contours for piece in contour.segments):
-        if (
-            isinstance(arc, Arc)
-            and max(abs(arc.radius - radius), abs(math.hypot(*arc.centre) - away)) < near
-        ):
-            yield arc
-
-
-def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:
-    """Return the crank with the spec's relief, or else the first kind that clears the wheel.
-
-    An arc leaves the most of the disc and is one cut. If it collides or leaves too little, the
-    whole sector is cut down to where the wheel never comes.
-    """
-    assembly = bare.assembly
-    if not sizes.lock:
-        return [], "none", bare
-    requested = assembly.mechanism.spec.size.relief
-    whole = is_whole(assembly, sizes)
-    swept = cache(lambda i: bare.swept(i, SWEPT_DEG))
-    if not requested and takes_arcs(assembly, sizes):
-        crank = crank_contours(assembly, sizes, "arc", swept)
-        gaps = bare.with_crank(crank)
-        if _overlap(gaps, close) <= close:
-            return crank, "arc", gaps
-    kind, spare = requested or "sector", 0.0
-    for _ in range(6):
-        crank = crank_contours(assembly, sizes, kind, swept, spare)
-        gaps = bare.with_crank(crank)
-        if whole or (overlap := _overlap(gaps, close)) <= close:
-            break
-        # Between two of these positions the wheel comes nearer still: three times the overlap.
-        spare += 3.0 * overlap + 10.0 * close
-    return crank, kind, gaps
-
-
-def _overlap(gaps: Gaps, close: float) -> float:
-    """Return the greatest overlap of crank and wheel in all motions, mm, 0 for none."""
-    least = 0.0
-    for engagement, behind in gaps.assembly.motions:
-        count = 2 + int(engagement.motion_deg / SWEPT_DEG)
-        at = np.linspace(engagement.entry_deg, engagement.exit_deg, count)
-        at = behind + at + 0.3 * SWEPT_DEG
-        # without the rollers, which lock nothing
-        pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
-        least = min(least, float(gaps.locking(pose, near=close).min()))
-    return -least
+    for contour in contours:
+        for arc in contour.segments:
+            if not isinstance(arc, Arc) or abs(arc.radius - radius) >= near:
+                continue
+            if abs(math.hypot(*arc.centre) - away) < near:
+                yield arc

@@ -8,8 +8,7 @@ towards the other slot. So each keeps the wall on its recess's side, with an arc
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from functools import lru_cache
+from itertools import chain
 
 import numpy as np
 
@@ -33,52 +32,32 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.slots.roller_paths import Tip, corner, least_mouth, mouth, rest, rounded, tip
-from geneva_cli.parts.turn.pairs import CONTACT
+from geneva_cli.parts.turn.turned_parts import CONTACT
 
 CURVED = CONTACT  # of the centre distance: accuracy of curved walls for the full turn
 
 
-@dataclass(frozen=True)
-class _CurvedSlot:
-    """A curved slot; two are equal if what their walls depend on is equal."""
-
-    engagement: Engagement
-    lengths: tuple[float, ...]
-    form: tuple[float, str]
-    assembly: Assembly = field(compare=False)
-    sizes: Sizes = field(compare=False)
-
-
-# drawings, sheet and solids of one machine have the same walls, and so do machines of other locks
-@lru_cache(maxsize=16)
-def _curved(slot: _CurvedSlot) -> Contour:
-    from geneva_cli.parts.outlines.curved_walls import curved_walls
-
-    return curved_walls(slot.assembly, slot.sizes, slot.engagement, *slot.form)
+def turned_walls(assembly: Assembly, sizes: Sizes) -> dict[Engagement, Contour]:
+    """Return the walls of each kind of slot, as accurate as the full turn needs them."""
+    walls = {}
+    for kind in assembly.kinds:
+        walls[kind] = slot_walls(assembly, sizes, kind, 0.5 * CURVED * assembly.L)
+    return walls
 
 
 def slot_walls(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
-    """Return the walls of a slot, straight or curved; ``curves`` is "arcs" or "cubics"."""
-    if not engagement.slot.curved:
-        return straight_walls(assembly, sizes, engagement)
-    lengths = assembly.L, assembly.sign, sizes.roller, sizes.half_width, sizes.rim
-    return _curved(_CurvedSlot(engagement, lengths, (tolerance, curves), assembly, sizes))
+    """Return a slot's walls, counterclockwise from one corner of its mouth to the other.
 
-
-def turned_walls(assembly: Assembly, sizes: Sizes) -> dict[Engagement, Contour]:
-    """Return the walls of each kind of slot, as accurate as the full turn needs them."""
-    fine = 0.5 * CURVED * assembly.L
-    return {one: slot_walls(assembly, sizes, one, fine) for one in assembly.kinds}
-
-
-def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> Contour:
-    """Return a straight slot's walls, counterclockwise from one corner of its mouth to the other.
-
-    A pair of slots has the arc between them too. The wall that faces the crank's axis at entry ends
-    where the roller enters, the other where it leaves: at different radii if slots are offset.
+    Those of a curved slot are "arcs" or "cubics" within a tolerance, mm. A pair of slots has the
+    arc between them too. The wall that faces the crank's axis at entry ends where the roller
+    enters, the other where it leaves: at different radii if slots are offset.
     """
+    if engagement.slot.curved:
+        from geneva_cli.parts.outlines.curved_walls import curved_walls
+
+        return curved_walls(assembly, sizes, engagement, tolerance, curves)
     apart, engagement = engagement.apart, engagement.through
     L, w, out = assembly.L, sizes.half_width, assembly.sign
     # direction of the slot's axis, and its distance from the wheel's centre
@@ -93,15 +72,16 @@ def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> 
     along = array(L * (x.c[0] * c + y.c[0] * s))
     bottom = float(along.min() if out > 0.0 else along.max()) - out * sizes.slot_bottom
     # if the spec sets the rim, it moves all mouths by as much as the widest one
-    raised = sizes.rim - max(mouth(assembly, one, sizes.roller) for one in assembly.kinds)
-    starts = []
+    widest, starts = 0.0, list[float]()
+    for one in assembly.kinds:
+        widest = max(widest, mouth(assembly, one, sizes.roller))
     for side in (-1.0, 1.0):
         rim, across = mouth(assembly, engagement, sizes.roller), level + side * w
         if level:
             x0, y0 = rest(assembly, engagement, -1.0)
             end = -1.0 if (y0 * c - x0 * s > level) == (side > 0.0) else 1.0
             rim = math.hypot(*corner(assembly, engagement, end, sizes.roller))
-        start = math.sqrt(max((rim + raised) ** 2 - across * across, 0.0))
+        start = math.sqrt(max((rim + (sizes.rim - widest)) ** 2 - across * across, 0.0))
         if not out * (start - bottom) > 0.0:
             raise GenevaError(
                 f"wheel_radius_mm = {sizes.rim:g}: the rim does not reach the slots' ends, which "
@@ -132,26 +112,25 @@ def wheel_contour(
     crank at both ends. ``slots`` has the walls of each kind of slot, in the wheel's frame, with
     that slot ahead.
     """
-    around = assembly.slots
-    walls = [[*turned(slots[engagement], direction).segments] for engagement, direction in around]
-    rims: list[list[Segment]] = []
+    around, walls, rims = assembly.slots, list[list[Segment]](), list[list[Segment]]()
+    for engagement, direction in around:
+        walls.append([*turned(slots[engagement], direction).segments])
     for i, (_, start) in enumerate(around):
         following = (i + 1) % len(around)
-        span = (around[following][1] - start) % math.tau
-        recess = next(
-            start + off
-            for at in assembly.rests
-            if (off := (at - start) % math.tau) < span or span == 0.0
-        )
+        before, after = walls[i], walls[following]
         if convex and i == len(around) // 2:
-            rims.append([_about(ORIGIN, walls[i][-1].end, walls[following][0].start, 1.0)])
-        else:
-            rims.append(_rim(assembly, sizes, walls[i], walls[following], recess))
+            rims.append([_about(ORIGIN, before[-1].end, after[0].start, 1.0)])
+            continue
+        span = (around[following][1] - start) % math.tau
+        for at in assembly.rests:  # the first between the two is the recess
+            off = (at - start) % math.tau
+            if off < span or span == 0.0:
+                break
+        rims.append(_rim(assembly, sizes, before, after, start + off))
     if sizes.mouth_radius:
         for i, rim in enumerate(rims):
             _round_mouths(assembly, sizes, walls[i], rim, walls[(i + 1) % len(walls)])
-    both = zip(walls, rims, strict=True)
-    return closed("WHEEL", [segment for wall, rim in both for segment in (*wall, *rim)])
+    return closed("WHEEL", chain.from_iterable(chain(*zip(walls, rims, strict=True))))
 
 
 def _round_mouths(
@@ -207,8 +186,9 @@ def _rim(
     at = first + (at - first) % math.tau
     axis = polar(ORIGIN, L, at)
     distances = math.dist(start, axis), math.dist(end, axis)
-    sharp = [d for d, flat in zip(distances, flats, strict=True) if not flat]
-    if sizes.lock and min(sharp, default=math.inf) <= sizes.recess:
+    near = math.inf if flats[0] else distances[0]
+    near = min(near, math.inf if flats[1] else distances[1])
+    if sizes.lock and near <= sizes.recess:
         raise GenevaError(
             f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be "
             f"below {sizes.lock + min(distances) - sizes.recess:.6g}, or the roller smaller",
@@ -256,7 +236,8 @@ def _cut_back(
 
 def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
     """Return an arc about an axis, counterclockwise (+1) or clockwise (-1)."""
-    a, b = (math.atan2(y - axis[1], x - axis[0]) for x, y in (start, end))
+    a = math.atan2(start[1] - axis[1], start[0] - axis[0])
+    b = math.atan2(end[1] - axis[1], end[0] - axis[0])
     sweep = sense * (sense * (b - a) % math.tau)
     return Arc(start, end, math.tan(0.25 * sweep))
 

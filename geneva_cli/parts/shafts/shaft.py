@@ -18,9 +18,8 @@ from geneva_cli.geometry.shapes import ORIGIN, Circle, Point, Shape
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import assembled, links_at, same
-from geneva_cli.parts.outlines.crank_outline import crank_circles, is_whole, keyway_direction
+from geneva_cli.parts.outlines.crank_outline import crank_bore, is_whole, keyway_direction
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import about_axis
 from geneva_cli.parts.shafts.bores import Bore, bore_of, has_shape, round_bore
 from geneva_cli.spec.tables import Size
 
@@ -81,8 +80,7 @@ def crank_hub(parts: Outlines) -> Plate | None:
         )
     if high <= low:
         return None
-    bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
-    outline = Circle("HUB", ORIGIN, sizes.crank_hub)
+    bores, outline = crank_bore(parts.assembly, sizes), Circle("HUB", ORIGIN, sizes.crank_hub)
     return Plate("crank's hub", "HUB", outline, bores, low, high)
 
 

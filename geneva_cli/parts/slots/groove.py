@@ -20,7 +20,6 @@ from geneva_cli.numerics.arrays import Array
 from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
 from geneva_cli.parts.links.links import Links
 from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import about_axis
 from geneva_cli.parts.shafts.screws import screw_through
 from geneva_cli.parts.shafts.shaft import bore_at
 from geneva_cli.table import Table
@@ -202,8 +201,8 @@ def groove_stack(
     assert bars.sizes is not None
     inner, outer = sorted(flanks, key=lambda one: max(math.hypot(*p.start) for p in one.segments))
     low, high = bars.sizes.span(BELOW)
-    bore = about_axis(base.holes)
-    mounts = (hole for hole in base.holes if hole not in bore)
+    bore = tuple(one for one in base.holes if isinstance(one, Circle) and one.centre == ORIGIN)
+    mounts = base.holes[len(bore) :]
     return (
         base,
         Plate("groove plate's ring", "FRAME", base.outline, (outer, *mounts), low, high),

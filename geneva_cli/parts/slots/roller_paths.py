@@ -14,7 +14,6 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.geometry import offsets
 from geneva_cli.geometry.measure import fraction_at, segment_length
 from geneva_cli.geometry.shapes import Arc, Contour, Line, Point, Segment
 from geneva_cli.motion.engagement import Engagement
@@ -35,20 +34,23 @@ class RollerPaths(NamedTuple):
 def roller_paths(assembly: Assembly) -> RollerPaths:
     """Return the paths of a machine's rollers."""
     L, ends, near = assembly.L, [], []
-    for kind in (s.through for s in assembly.kinds):
+    for slot in assembly.kinds:
+        kind = slot.through
         x, y = kind.slot(np.linspace(kind.entry_deg, kind.exit_deg, TURN_SAMPLES + 1), 0)
         points = L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
         reach = np.hypot(*points.T)
         ends.append(float(reach.min() if assembly.sign > 0.0 else reach.max()))
-        # adjacent slots while the wheel rests
-        near += [np.hypot(*(points - rest(assembly, kind, end)).T).min() for end in (-1.0, 1.0)]
-        if kind.built is not None:  # their mouths may be nearer
-            near += [math.dist(_mouth(assembly, kind, e), rest(assembly, kind, e)) for e in (-1, 1)]
-    turn = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False)
-    leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
-    for i in leaders.values():  # others follow their leaders
-        near.append(np.hypot(*(assembly.pin(i, turn) - (L, 0.0)).T).min())
-    return RollerPaths(tuple(ends), float(min(near)))
+        for end in (-1.0, 1.0):  # adjacent slots while the wheel rests
+            axis = rest(assembly, kind, end)
+            near.append(float(np.hypot(*(points - axis).T).min()))
+            if kind.built is not None:  # their mouths may be nearer
+                near.append(math.dist(_mouth(assembly, kind, end), axis))
+    turn, known = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False), set()
+    for i, (engagement, _) in enumerate(assembly.rollers):
+        if engagement not in known:  # others follow their leaders
+            near.append(float(np.hypot(*(assembly.pin(i, turn) - (L, 0.0)).T).min()))
+            known.add(engagement)
+    return RollerPaths(tuple(ends), min(near))
 
 
 def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
@@ -61,9 +63,8 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
         nearest = min if assembly.sign > 0.0 else max
         if engagement.built is not None:
             return math.hypot(*_mouth(assembly, engagement, 1.0), r)
-        ends = engagement.entry_deg, engagement.exit_deg
-        reaches = (scalar(engagement.reach(at_deg)) for at_deg in ends)
-        return math.hypot(assembly.L * nearest(reaches), r)
+        entry, exit_ = engagement.reach(engagement.entry_deg), engagement.reach(engagement.exit_deg)
+        return math.hypot(assembly.L * nearest(scalar(entry), scalar(exit_)), r)
     return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
 
 
@@ -105,11 +106,13 @@ def horn_corners(
 
     They are those of its mouth's corners where the roller comes and goes, or of tips cut to flats.
     """
-    widest = {kind: mouth(assembly, kind, r) for kind in assembly.kinds}
-    shift = rim - max(widest.values())
+    kinds, widest = assembly.kinds, []
+    for kind in kinds:
+        widest.append(mouth(assembly, kind, r))
+    shift = rim - max(widest)
     least = least_mouth(assembly.L, recess, rim) if assembly.sign > 0.0 else 0.0
     out = {}
-    for kind, wide in widest.items():
+    for kind, wide in zip(kinds, widest, strict=True):
         ends = []
         for end in (-1.0, 1.0):
             at = math.hypot(*corner(assembly, kind, end, r)) if kind.slot.offset else wide
@@ -163,9 +166,11 @@ def roller_centres(assembly: Assembly) -> tuple[Point, ...]:
 
 def roller_reaches(assembly: Assembly) -> list[float]:
     """Return the distances of the rollers from the crank's axis, at mid-motion, each once."""
-    leaders = {engagement: i for i, (engagement, _) in enumerate(assembly.rollers)}
-    at = [(i, np.array([assembly.rollers[i][1]])) for i in leaders.values()]
-    return [math.hypot(*(assembly.pin(i, mid) - (assembly.L, 0.0))[0]) for i, mid in at]
+    out: dict[Engagement, float] = {}
+    for i, (engagement, mid) in enumerate(assembly.rollers):
+        x, y = assembly.pin(i, np.array([mid]))[0]
+        out[engagement] = math.hypot(x - assembly.L, y)
+    return list(out.values())
 
 
 class Tip(NamedTuple):
@@ -203,6 +208,8 @@ def tip(wall: Line, centre: Point, recess: float, width: float) -> Tip | None:
 
 def rounded(before: Line | Arc, after: Line | Arc, radius: float, sign: float) -> list[Segment]:
     """Return two pieces with an arc between them; ``sign`` is 1 with the material on the left."""
+    from geneva_cli.geometry import offsets
+
     centre = offsets.corner(before, after, sign * radius)
     ends = []
     for piece in (before, after):

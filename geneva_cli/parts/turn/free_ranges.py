@@ -17,7 +17,7 @@ import numpy as np
 
 from geneva_cli.geometry.distance import Polyarc
 from geneva_cli.numerics.arrays import Array, Mask, Whole
-from geneva_cli.parts.turn.stops import Meetings, Stops
+from geneva_cli.parts.turn.stops import Branches, Meetings, Stops
 
 SAME = 1e-12  # radians: intervals of adjacent pieces leave no gap
 BLOCK = 32  # crank angles that are computed together, as much the same pieces are near then
@@ -59,8 +59,8 @@ class FreeRanges:
         self._meets(sector)
 
     def _meets(self, wheel: Polyarc) -> None:
-        self.stops = Stops(wheel, self.period, self.crank, self.L, 0.0)
-        self.own = self.stops.wheel(0.0)
+        self.stops = Stops(wheel, self.period, [self.crank], self.L, 0.0)
+        self.own = self.stops.branches(wheel, None, 0.0)
 
     def with_slack(self, slack: float) -> FreeRanges:
         """Return the ranges in which parts may overlap by another ``slack``, mm."""
@@ -107,10 +107,10 @@ class FreeRanges:
         """Return the free ranges at crank angles (n,), radians."""
         rows, starts, ends = [np.zeros(0, dtype=int)], [np.zeros(0)], [np.zeros(0)]
         for first in range(0, len(crank_angle), BLOCK):
-            for met in self.meetings(crank_angle[first : first + BLOCK]):
-                rows.append(first + met.row)
-                starts.append(met.start)
-                ends.append(met.end)
+            for row, start, end, *_ in self.meetings(crank_angle[first : first + BLOCK]):
+                rows.append(first + row)
+                starts.append(start)
+                ends.append(end)
         intervals = np.concatenate(rows), np.concatenate(starts), np.concatenate(ends)
         return Ranges(intervals, len(crank_angle), self.period)
 
@@ -119,13 +119,13 @@ class FreeRanges:
         middle, half = 0.5 * (crank_angle[0] + crank_angle[-1]), 0.5 * np.ptp(crank_angle)
         reach = self.crank.size + half * np.hypot(self.crank.ox, self.crank.oy)
         far = np.hypot(*self._fixed(float(middle)))
-        levels = self.own.low.min(initial=np.inf), self.own.high.max(initial=0.0)
-        some = np.flatnonzero((far - reach <= levels[1]) & (far + reach >= levels[0]))
+        own = Branches(*self.own)
+        low, high = own.low.min(initial=np.inf), own.high.max(initial=0.0)
+        some = np.flatnonzero((far - reach <= high) & (far + reach >= low))
         if not len(some):
             return
-        axis = np.tile((self.L, 0.0), (len(crank_angle), 1))
         direction = self.crank_direction(crank_angle)
-        crank = self.stops.branches(self.crank.subset(some), axis, direction, self.slack)
+        crank = self.stops.branches(self.crank.subset(some), direction, self.slack)
         yield from self.stops.meetings(crank, self.own, self.window)
 
 

@@ -10,8 +10,7 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Iterator
-from typing import Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -22,20 +21,27 @@ from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.turn.pairs import Lengths, Pose, Stop
-from geneva_cli.parts.turn.stops import Stops
+from geneva_cli.parts.turn.stops import Pose, Stops
 
-Owned: TypeAlias = tuple[Whole, Array, Array]  # points x, y, and the pose that each belongs to
+if TYPE_CHECKING:
+
+    class PlaneLengths(Protocol):
+        """Lengths of the parts of a machine in the plane, mm."""
+
+        @property
+        def roller(self) -> float:
+            """Radius of the roller."""
+
+        @property
+        def rim(self) -> float:
+            """Distance of the rim from the wheel's axis; of a rack's edge from the origin."""
+
+        @property
+        def lock(self) -> float:
+            """Radius of the locking disc."""
+
 
 NEAR = 0.02  # of the centre distance: wider gaps are returned as this
-
-
-class PlaneLengths(Lengths, Protocol):
-    """Lengths of the parts of a machine in the plane, mm."""
-
-    @property
-    def lock(self) -> float:
-        """Radius of the locking disc."""
 
 
 class Gaps:
@@ -47,72 +53,80 @@ class Gaps:
         self.assembly, self.sizes, self.plane_motion = assembly, sizes, assembly.plane_motion
         self.wheel = Polyarc([wheel if assembly.sign > 0.0 else backwards(wheel)])
         self.near = NEAR * assembly.L
-        self._sector()
+        self.places = self.plane_motion.place(np.column_stack((self.wheel.ox, self.wheel.oy)))
         self.crank = Polyarc(crank) if crank else None
+        # a wheel whose slots are all equal is reduced to one slot, and to it and its neighbours
+        self.pitch, self.one, self.around = 0.0, self.wheel, self.wheel
+        count, outline = len(assembly.slots), self.wheel
+        each, rest = divmod(len(outline.x0), count)
+        if rest:
+            return
+        corners = np.column_stack((outline.x0, outline.y0))
+        # the outline of an internal wheel runs clockwise
+        angle = np.full(len(corners), math.tau / count * assembly.sign)
+        off = turned_points(np.roll(corners, each, axis=0), angle) - corners
+        bends = np.column_stack((outline.sense, outline.cos_half))
+        other = np.abs(np.roll(bends, each, axis=0) - bends).max()
+        if np.abs(off).max() >= SAME_LENGTH * assembly.L or other >= SAME_LENGTH:
+            return
+        self.pitch = math.tau / count
+        middle = np.arctan2(outline.y0 + outline.y1, outline.x0 + outline.x1)
+        reach = math.asin(min(1.0, (self.near + sizes.roller) / sizes.rim))
+        keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
+        self.one, self.around = outline.subset(np.arange(each)), outline.subset(keep)
 
     def with_crank(self, crank: list[Contour]) -> Gaps:
         """Return the gaps of this wheel and these rollers with another crank's outline."""
         out = copy.copy(self)
-        vars(out).pop("_stops", None)
+        vars(out).pop("stops", None)
         out.crank = Polyarc(crank) if crank else None
         return out
 
-    def _sector(self) -> None:
-        """Reduce a wheel whose slots are all equal to one slot and its neighbours."""
-        # the outline of an internal wheel runs clockwise
-        count, wheel = len(self.assembly.slots), self.wheel
-        each, rest = divmod(len(wheel), count)
-        self.pitch = 0.0
-        if not rest:
-            corners = np.column_stack((wheel.x0, wheel.y0))
-            angle = np.full(len(wheel), math.tau / count * self.assembly.sign)
-            off = turned_points(np.roll(corners, each, axis=0), angle) - corners
-            bends = np.column_stack((wheel.sense, wheel.cos_half))
-            other = np.abs(np.roll(bends, each, axis=0) - bends).max()
-            if np.abs(off).max() < SAME_LENGTH * self.assembly.L and other < SAME_LENGTH:
-                self.pitch = math.tau / count
-        middle = np.arctan2(self.wheel.y0 + self.wheel.y1, self.wheel.x0 + self.wheel.x1)
-        reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
-        keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
-        self.around = self.wheel.subset(keep) if self.pitch else self.wheel
+    @cached_property
+    def stops(self) -> Stops:
+        """The stops of the wheel, turned back and on."""
+        crank = [self.crank] if self.crank else []
+        return Stops(self.one, self.pitch or math.tau, crank, self.assembly.L, self.sizes.roller)
 
-    def _to_wheel(self, points: Array) -> Array:
+    def pose(self, input_deg: Array) -> Pose:
+        """Return the positions at input angles (n,), degrees."""
+        assembly = self.assembly
+        pins = np.empty((len(input_deg), len(assembly.rollers), 2))
+        for i in range(len(assembly.rollers)):
+            pins[:, i] = assembly.pin(i, input_deg)
+        crank = assembly.crank(input_deg, pins[:, 0])
+        return Pose(assembly.wheel(input_deg), crank, pins)
+
+    def in_wheel(self, motion: int, input_deg: Array, lead: Array | float = 0.0) -> Array:
+        """Return the centre of a motion's roller in the frame of the wheel, mm, (n, 2).
+
+        The wheel is turned on by ``lead`` radians.
+        """
+        turn = self.assembly.wheel(input_deg) + lead
+        return self.plane_motion.into(self.assembly.pin(motion, input_deg, drives=True), turn)
+
+    def to_wheel(self, points: Array) -> Array:
         """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
         if self.pitch:
             slot = np.round(self.plane_motion.place(points) / self.pitch)
             points = self.plane_motion.into(points, self.pitch * slot)
         return self.around.signed(points)
 
-    def pose(self, input_deg: Array) -> Pose:
-        """Return the positions at input angles (n,), degrees."""
-        pins = [self.assembly.pin(i, input_deg) for i in range(len(self.assembly.rollers))]
-        crank = self.assembly.crank(input_deg, pins[0])
-        return Pose(self.assembly.wheel(input_deg), crank, np.stack(pins, axis=1))
-
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
-        """Return the gap of each roller, mm (n, m), the wheel turned on by ``lead`` radians."""
+        """Return the gap of each roller to the wheel, mm (n, m), negative where they overlap.
+
+        The wheel is turned on by ``lead`` radians; wider gaps are returned as ``near`` mm.
+        """
         near = self.near if near is None else near
-        r, sign = self.sizes.roller, self.assembly.sign
-        columns = []
-        for i in range(len(self.assembly.rollers)):
+        count, r = pose.pins.shape[1], self.sizes.roller
+        out = np.full((len(pose.wheel), count), near)
+        for i in range(count):
             centres = self.plane_motion.into(pose.pins[:, i], pose.wheel + lead)
-            far = sign * (self.plane_motion.level(centres) - self.sizes.rim) - r
-            gap: Array = np.minimum(far, near)
-            close = far < near
-            if close.any():
-                gap[close] = np.minimum(self._to_wheel(centres[close]) - r, near)
-            columns.append(gap)
-        return np.column_stack(columns)
-
-    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
-        """Return the stops of the wheel, turned back and on; see ``Stops.first``."""
-        return self._stops.first(pose, most, close)
-
-    @cached_property
-    def _stops(self) -> Stops:
-        each = len(self.wheel) // len(self.assembly.slots)
-        one = self.wheel.subset(np.arange(each)) if self.pitch else self.wheel
-        return Stops(one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller)
+            level = self.plane_motion.level(centres)
+            far = self.assembly.sign * (level - self.sizes.rim) - r
+            close = np.flatnonzero(far < near)
+            out[close, i] = np.minimum(self.to_wheel(centres[close]) - r, near)
+        return out
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap between the outlines of crank and wheel, mm (n,); see ``rollers``."""
@@ -122,9 +136,10 @@ class Gaps:
             return out
         turn = pose.wheel + lead
         # Points of the wheel against the crank ...
-        axis, reach, moves = self._axis(turn), self.sizes.lock + near, self.plane_motion
+        moves, reach = self.plane_motion, self.sizes.lock + near
+        axis = moves.into(np.tile((self.assembly.L, 0.0), (len(turn), 1)), turn)
         half = moves.half_span(reach + float(self.wheel.size.max()), self.assembly.L)
-        nearby = _places_within(self._places, moves.PERIOD, -turn, half)
+        nearby = _places_within(self.places, moves.PERIOD, -turn, half)
         angle = pose.crank - moves.angle(turn)
         owner, points = _candidates(self.wheel, nearby, self.crank, (axis, angle), reach)
         seen = turned_points(points - axis[owner], -angle[owner])
@@ -136,7 +151,7 @@ class Gaps:
         inward = self.assembly.sign * (moves.level(corners) - self.sizes.rim)
         owner, which = np.nonzero(inward < near)
         if len(owner):
-            np.minimum.at(out, owner, self._to_wheel(corners[owner, which]))
+            np.minimum.at(out, owner, self.to_wheel(corners[owner, which]))
         return out
 
     def swept(self, number: int, step_deg: float) -> tuple[Array, Array]:
@@ -159,26 +174,20 @@ class Gaps:
         # only points near the direction of the crank's axis can be within reach of it
         half = moves.half_span(reach, L)
         step = max(1, (1 << 19) // len(points))  # 2^19 points at a time fit into the cache
-        blocks = []
-        for some in (at[i : i + step] for i in range(0, len(at), step)):
-            turn, pose = self.assembly.wheel(some), self.assembly.crank(some)
+        xs, ys = [], []
+        for begin in range(0, len(at), step):
+            some = at[begin : begin + step]
+            turn = self.assembly.wheel(some)
             owner, which = _places_within(places, moves.PERIOD, -turn, half)
-            x, y = (points[which] - self._axis(turn)[owner]).T
+            axis = moves.into(np.tile((L, 0.0), (len(turn), 1)), turn)
+            x, y = (points[which] - axis[owner]).T
             inside = np.flatnonzero(x * x + y * y < reach * reach)
             x, y, owner = x[inside], y[inside], owner[inside]
-            c, s = np.cos(turn - pose)[owner], np.sin(turn - pose)[owner]
-            blocks.append((x * c - y * s, x * s + y * c))
-        x, y = (np.concatenate(each) for each in zip(*blocks, strict=True))
-        return x, y
-
-    @cached_property
-    def _places(self) -> Array:
-        """Places of the pieces of the wheel's outline."""
-        return self.plane_motion.place(np.column_stack((self.wheel.ox, self.wheel.oy)))
-
-    def _axis(self, turn: Array) -> Array:
-        """Return the crank's axis in the wheel's frame, (n, 2)."""
-        return self.plane_motion.into(np.tile((self.assembly.L, 0.0), (len(turn), 1)), turn)
+            off = turn - self.assembly.crank(some)
+            c, s = np.cos(off)[owner], np.sin(off)[owner]
+            xs.append(x * c - y * s)
+            ys.append(x * s + y * c)
+        return np.concatenate(xs), np.concatenate(ys)
 
 
 def _places_within(place: Array, period: float, middle: Array, half: float) -> tuple[Whole, Whole]:
@@ -218,46 +227,28 @@ def _candidates(
     close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
     owner, piece = owner[close], piece[close]
     c, s = np.cos(angle)[owner], np.sin(angle)[owner]
-    # one row for each of the other's pieces, which are few
+    # one row for each of the other's pieces, which are few: centres of arcs, normals of lines
     arcs, lines = np.flatnonzero(other.arc)[:, None], np.flatnonzero(~other.arc)[:, None]
     x, y = other.cx[arcs], other.cy[arcs]
-    centres = origin[owner, 0] + (c * x - s * y), origin[owner, 1] + (s * x + c * y)
+    cx, cy = origin[owner, 0] + (c * x - s * y), origin[owner, 1] + (s * x + c * y)
     x, y = other.dy[lines], -other.dx[lines]
-    normals = c * x - s * y, s * x + c * y
+    nx, ny = c * x - s * y, s * x + c * y
     # the feet of perpendiculars from centres on lines
     flat = np.flatnonzero(~own.arc[piece])
     i = piece[flat]
-    ax, ay = centres[0][:, flat] - own.x0[i], centres[1][:, flat] - own.y0[i]
+    ax, ay = cx[:, flat] - own.x0[i], cy[:, flat] - own.y0[i]
     fraction = (ax * own.dx[i] + ay * own.dy[i]) / own.square[i]
     which, pair = np.nonzero((fraction > 0.0) & (fraction < 1.0))
     t, i = fraction[which, pair], i[pair]
-    columns = [
-        (owner, own.x0[piece], own.y0[piece]),
-        *_on_arcs(own, owner, piece, centres, normals),
-        (owner[flat[pair]], own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]),
-    ]
-    owner, x, y = (np.concatenate(each) for each in zip(*columns, strict=True))
-    inside = (x - origin[owner, 0]) ** 2 + (y - origin[owner, 1]) ** 2 < reach * reach
-    return owner[inside], np.column_stack((x[inside], y[inside]))
-
-
-def _on_arcs(
-    own: Polyarc,
-    owner: Whole,
-    piece: Whole,
-    centres: tuple[Array, Array],
-    normals: tuple[Array, Array],
-) -> Iterator[Owned]:
-    """Yield points of arcs in the directions of centres and normals, (k, pieces) each.
-
-    Coordinates are from each arc's centre, along its chord and outwards, over its radius. They are
-    computed from the chord's middle: the centre of a nearly straight arc is too far away.
-    """
+    feet = own.x0[i] + t * own.dx[i], own.y0[i] + t * own.dy[i]
+    owners, xs, ys = [owner, owner[flat[pair]]], [own.x0[piece], feet[0]], [own.y0[piece], feet[1]]
+    # Points of arcs in the directions of centres and normals. Coordinates are from each arc's
+    # centre, along its chord and outwards, over its radius. They are computed from the chord's
+    # middle: the centre of a nearly straight arc is too far away.
     bent = np.flatnonzero(own.arc[piece])
     i = piece[bent]
     mx, my, half, bend = own.mx[i], own.my[i], 0.5 * own.length[i], 1.0 / own.radius[i]
-    px, py = centres[0][:, bent] - own.ox[i], centres[1][:, bent] - own.oy[i]
-    nx, ny = normals[0][:, bent], normals[1][:, bent]
+    px, py, nx, ny = cx[:, bent] - own.ox[i], cy[:, bent] - own.oy[i], nx[:, bent], ny[:, bent]
     aside = np.concatenate((bend * (mx * py - my * px), mx * ny - my * nx))
     ahead = np.concatenate((bend * (mx * px + my * py) + own.cos_half[i], mx * nx + my * ny))
     size = np.maximum(np.sqrt(aside * aside + ahead * ahead), 1e-300)
@@ -270,6 +261,10 @@ def _on_arcs(
         # the arc's height above its chord there: its middle's, less that by which it falls off
         falls = along**2 / (1.0 + side * ahead[which, pair])
         out = bend[pair] * (half[pair] ** 2 / (1.0 + own.cos_half[k]) - falls)
-        x = own.ox[k] + out * own.mx[k] - along * own.my[k]
-        y = own.oy[k] + out * own.my[k] + along * own.mx[k]
-        yield owner[bent[pair]], x, y
+        owners.append(owner[bent[pair]])
+        xs.append(own.ox[k] + out * own.mx[k] - along * own.my[k])
+        ys.append(own.oy[k] + out * own.my[k] + along * own.mx[k])
+    owner = np.concatenate(owners)
+    points = np.column_stack((np.concatenate(xs), np.concatenate(ys)))
+    inside = ((points - origin[owner]) ** 2).sum(axis=1) < reach * reach
+    return owner[inside], points[inside]

@@ -7,14 +7,18 @@ wheel that is off by it must be pushed into line, not blocked.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import NamedTuple
+from operator import attrgetter
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, Mask, Whole, rising
+from geneva_cli.numerics.arrays import Array, Mask, Whole, joined, record_taken, rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-from geneva_cli.parts.turn.pairs import Clearances, Pose, Stop, TurnedParts, Window
+from geneva_cli.parts.turn.turned_parts import TurnedParts, Window
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.turn.stops import Pose
+    from geneva_cli.parts.turn.turned_parts import Clearances
 
 AROUND = 5  # parts into which an interval is divided about a peak
 SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
@@ -25,9 +29,9 @@ EXACT = 1e-10  # radians: smaller angles are rounding
 class Play(NamedTuple):
     """The wheel's play back and on, degrees, at ascending input angles.
 
-    A roller's centre is past its mouth's corners where ``guided``. ``speed`` is the roller's in the
-    wheel's frame, mm per degree. The pushes are pressure angles, degrees, where a roller stops the
-    wheel; 0 where the lock does.
+    A slot that drives from one wall has play one way only. A roller's centre is past its mouth's
+    corners where ``guided``. ``speed`` is the roller's in the wheel's frame, mm per degree. The
+    pushes are pressure angles, degrees, where a roller stops the wheel; 0 where the lock does.
     """
 
     input_deg: Array
@@ -38,58 +42,64 @@ class Play(NamedTuple):
     back_push: Array
     on_push: Array
 
-    @property
-    def both(self) -> Array:
-        """The smaller play of both directions: a slot that drives from one wall has none."""
-        return np.minimum(self.back, self.on)
 
-    @property
-    def either(self) -> Array:
-        """The larger play of both directions."""
-        return np.maximum(self.back, self.on)
-
-
-def windows(parts: TurnedParts) -> Iterator[Window]:
-    """Yield the motions and dwells of a turn."""
-    assembly, motions = parts.assembly, parts.assembly.motions
+def windows(parts: TurnedParts) -> list[Window]:
+    """Return the motions and dwells of a turn."""
+    assembly, motions, out = parts.assembly, parts.assembly.motions, []
     for i, (engagement, behind) in enumerate(motions):
         after, later = motions[(i + 1) % len(motions)]
         turns = assembly.turn_deg if i + 1 == len(motions) else 0.0
-        exit_, following = behind + engagement.exit_deg, later + turns + after.entry_deg
-        yield Window(behind + engagement.entry_deg, exit_, i, False)
+        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
+        spans: tuple[tuple[float, float, int | None], ...] = ((entry, exit_, i),)
+        if engagement.paired:
+            # between two rollers gears drive the wheel, from the deepest position to the other's
+            first, last = 2 * i, 2 * i + 1
+            leaves = entry + (assembly.rollers[first].mid - entry) % assembly.turn_deg
+            meets = entry + (assembly.rollers[last].mid - entry) % assembly.turn_deg
+            spans = (entry, leaves, first), (leaves, meets, None), (meets, exit_, last)
+        out.append(Window(entry, exit_, i, False, spans))
+        following = later + turns + after.entry_deg
         if following - exit_ > SAME_INPUT_DEG:
-            yield Window(exit_, following, i, True)
+            out.append(Window(exit_, following, i, True, ((exit_, following, None),)))
+    return out
 
 
-def play_of(parts: TurnedParts, fits: bool) -> Play:
-    """Return the play at a grid of positions, refined where it is greatest or closes fastest."""
+def play_of(parts: TurnedParts, fits: bool) -> tuple[Play, Array]:
+    """Return the play at a grid of positions, refined where it is greatest or closes fastest.
+
+    With it go the pressure angles, degrees, at which the wheel is pushed into line between them.
+    """
+    lever = parts.assembly.plane_motion.lever(parts.sizes.rim)  # of the rim
+    # The largest play, radians, that may be rounding, as tangent parts separate slowly: the angle
+    # at which two circles of the rim's radius overlap by ``close``.
+    least = math.sqrt(2.0 * parts.close / lever)
     # 24 positions on either side of entry and exit, where lock and roller change over
     close, grid = np.concatenate(([0.0], np.geomspace(0.01, 1.0, 24))), []
-    for a, b, _, rests in windows(parts):
+    every = windows(parts)
+    for a, b, _, rests, _ in every:
         near = close * min(15.0, 0.5 * (b - a))
         # in the rest of a motion an odd number, so that mid-motion is one
         grid += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
-    play = _play_at(parts, rising(np.concatenate(grid)), fits)
+    play = _play_at(parts, every, rising(np.concatenate(grid)), fits, least)
+    angle = _push_deg(play, lever, least)
     # 9 rounds: 5**-9 of some degrees is a millionth
     for _ in range(9):
-        angle = push_deg(parts, play)
         # where the play closes fastest, with the neighbours
         top = np.argsort(-angle, kind="stable")[: MOST if angle.max() > 0.0 else 0]
-        i = rising(np.concatenate((*_peaks(parts, play), top - 1, top, top + 1)))
+        i = rising(np.concatenate((*_peaks(parts, play, lever, least), top - 1, top, top + 1)))
         i = i[(i >= 0) & (i < len(play.input_deg) - 1)]
         low, wide = play.input_deg[i], np.diff(play.input_deg)[i]
         cut = wide > 1e-6  # narrower intervals are not divided
         more = (low[cut, None] + wide[cut, None] * (np.arange(1, AROUND) / AROUND)).ravel()
         if not len(more):
             break
-        columns = zip(play, _play_at(parts, more, fits), strict=True)
-        both = [np.concatenate(each) for each in columns]
-        order = np.argsort(both[0], kind="stable")
-        play = Play(*(each[order] for each in both))
-    return play
+        play = joined((play, _play_at(parts, every, more, fits, least)))
+        play = record_taken(play, np.argsort(play.input_deg, kind="stable"))
+        angle = _push_deg(play, lever, least)
+    return play, angle
 
 
-def push_deg(parts: TurnedParts, play: Play) -> Array:
+def _push_deg(play: Play, lever: float, least: float) -> Array:
     """Return the pressure angle, degrees, at which the wheel is pushed into line; 0 if it is not.
 
     It belongs to the intervals between positions. Where the play shrinks as the crank turns, a
@@ -101,39 +111,41 @@ def push_deg(parts: TurnedParts, play: Play) -> Array:
     free = ~(play.guided[:-1] | play.guided[1:])
     pushes = np.zeros(len(step))
     for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
-        closing = parts.rim_lever * np.radians(-np.diff(edge))
+        closing = lever * np.radians(-np.diff(edge))
         # a rim that moves more than 30 times the roller's travel is not pushed by the roller
         angle = np.where(closing > 30.0 * moved, 90.0, push[1:])
-        known = np.radians(edge[:-1]) > _touching(parts)
+        known = np.radians(edge[:-1]) > least
         pushes = np.maximum(pushes, np.where(free & known & (closing > 0.0), angle, 0.0))
     return pushes
 
 
-def _play_at(parts: TurnedParts, at: Array, fits: bool) -> Play:
-    assembly = parts.assembly
-    back, on = wheel_stops(parts, at, fits)
+def _play_at(parts: TurnedParts, every: list[Window], at: Array, fits: bool, least: float) -> Play:
+    """Return the play at input angles (n,), in the motions and dwells of the turn."""
+    assembly, gaps = parts.assembly, parts.gaps
+    leads, pressures = wheel_stops(parts, at, fits)
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
-    speed = np.zeros(len(at))
-    last = assembly.start_deg + assembly.turn_deg
-    for start, end, motion, rests in windows(parts):
+    speed, last = np.zeros(len(at)), assembly.start_deg + assembly.turn_deg
+    for start, end, motion, rests, _ in every:
         here = (at >= start - SAME_INPUT_DEG) & (at <= end + SAME_INPUT_DEG)
         if not here.any():
             continue
         low = np.maximum(at[here] - SMALL, assembly.start_deg)
         high = np.minimum(at[here] + SMALL, last)
-        before, after = np.split(parts.in_wheel(motion, np.concatenate((low, high))), 2)
+        before, after = np.split(gaps.in_wheel(motion, np.concatenate((low, high))), 2)
         moved = np.linalg.norm(after - before, axis=1) / (high - low)
         speed[here] = np.maximum(speed[here], moved)
         if rests:
             resting |= here
         else:
             guided[here] |= parts.past_mouth(motion, at[here]) > -SAME_INPUT_DEG * assembly.L
-    leads, known = (np.degrees(back.lead), np.degrees(on.lead)), _touching(parts)
-    pushes = (np.where(s.lead > known, np.degrees(s.pressure), 0.0) for s in (back, on))
-    return Play(at, *leads, guided & ~resting, speed, *pushes)
+    back, on = np.degrees(leads)
+    back_push, on_push = np.where(leads > least, np.degrees(pressures), 0.0)
+    return Play(at, back, on, guided & ~resting, speed, back_push, on_push)
 
 
-def _peaks(parts: TurnedParts, play: Play) -> tuple[Whole, Whole, Whole]:
+def _peaks(
+    parts: TurnedParts, play: Play, lever: float, least: float
+) -> tuple[Whole, Whole, Whole]:
     """Return the intervals in which the play may be greatest, in slots and elsewhere.
 
     Besides those about the greatest plays they are those in which the roller changes from one wall
@@ -142,12 +154,12 @@ def _peaks(parts: TurnedParts, play: Play) -> tuple[Whole, Whole, Whole]:
     """
     # walls hold up to a pressure angle of 84 degrees, whose cosine is 1/10: a smaller play between
     # the walls of a slot may be that of their tolerance alone
-    held = math.degrees(10.0 * parts.close / parts.rim_lever)
-    either = math.degrees(_touching(parts))
-    edges = np.array((play.back, play.back, play.on, play.on, play.both, play.both))
+    held = math.degrees(10.0 * parts.close / lever)
+    either, both = math.degrees(least), np.minimum(play.back, play.on)
+    edges = np.array((play.back, play.back, play.on, play.on, both, both))
     where = np.array((play.guided, ~play.guided) * 3)
-    least = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
-    value = np.where(where & (edges < search_deg(parts)) & (edges > least), edges, -1.0)
+    above = np.array(((either,), (either,), (either,), (either,), (held,), (either,)))
+    value = np.where(where & (edges < search_deg(parts)) & (edges > above), edges, -1.0)
     padded = np.pad(value, ((0, 0), (1, 1)), constant_values=-1.0)
     # around a local maximum below 0.8 of the greatest no greater play is expected
     great = np.maximum(0.8 * value.max(axis=1, keepdims=True), 0.0)
@@ -155,45 +167,35 @@ def _peaks(parts: TurnedParts, play: Play) -> tuple[Whole, Whole, Whole]:
     order = np.lexsort((-value[row, top], row))  # in each row the greatest first
     row, top = row[order], top[order]
     top = top[np.arange(len(row)) - np.searchsorted(row, row) < MOST]
-    most = np.minimum(*(np.maximum(edge[:-1], edge[1:]) for edge in (play.back, play.on)))
-    known = max(held, play.both[play.guided].max(initial=0.0))
+    ends = np.array((play.back, play.on))
+    most = np.maximum(ends[:, :-1], ends[:, 1:]).min(axis=0)
+    known = max(held, both[play.guided].max(initial=0.0))
     change = np.flatnonzero(play.guided[:-1] & play.guided[1:] & (most > known))
     return top - 1, top, change[np.argsort(-most[change], kind="stable")][:MOST]
 
 
 def search_deg(parts: TurnedParts) -> float:
     """Return the largest play that is searched for, half a step: beyond it the place is lost."""
-    return math.degrees(min(engagement.half_step for engagement, _ in parts.assembly.motions))
+    steps = map(attrgetter("engagement.half_step"), parts.assembly.motions)
+    return math.degrees(min(steps))
 
 
-def free_angles(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Array, Array]:
-    """Return the angles that the wheel can be turned back and on at input angles (n,), radians."""
-    back, on = wheel_stops(parts, at, fits)
-    return back.lead, on.lead
+def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Array, Array]:
+    """Return how far the wheel turns back and on at input angles (n,), radians: (2, n).
 
-
-def wheel_stops(parts: TurnedParts, at: Array, fits: bool = False) -> tuple[Stop, Stop]:
-    """Return the stops of the wheel, turned back and turned on at input angles (n,).
-
-    ``fits`` says that no parts overlap there. Gears hold the wheel both ways, without backlash.
+    With it go the pressure angles of rollers that stop it; see ``Stops.first``. ``fits`` says that
+    no parts overlap there. Gears hold the wheel both ways, without backlash.
     """
     gaps, close = parts.gaps, parts.close
     pose, held = gaps.pose(at), parts.assembly.geared(at)
     if not fits:  # parts that overlap from the start leave no play
         held |= smallest_clearance(gaps, pose, np.zeros(len(at)), close) < -close
-    back, on = gaps.stops(pose, math.radians(search_deg(parts)), close)
-    for each in (*back, *on):
-        each[held] = 0.0
-    return back, on
+    leads, pressures = gaps.stops.first(pose, math.radians(search_deg(parts)), close)
+    leads[:, held] = pressures[:, held] = 0.0
+    return leads, pressures
 
 
 def smallest_clearance(gaps: Clearances, pose: Pose, lead: Array, near: float) -> Array:
     """Return the smallest clearance of all parts in each pose, mm (n,); see ``Clearances``."""
     rolling = gaps.rollers(pose, lead, near).min(axis=1)
     return np.minimum(gaps.locking(pose, lead, near), rolling)
-
-
-def _touching(parts: TurnedParts) -> float:
-    """Return the largest play, radians, that may be rounding: tangent parts separate slowly."""
-    # the angle at which two circles of the rim's radius overlap by ``close``
-    return math.sqrt(2.0 * parts.close / parts.rim_lever)

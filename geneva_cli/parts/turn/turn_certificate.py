@@ -1,49 +1,47 @@
 """Certificate of the full turn: a proved lower bound of the gap at every input angle.
 
-Distances at single positions are taken as exact, up to their rounding.
+A gap is at least that in the middle of an interval, less how far the parts move from there.
+``geneva help accuracy`` derives the bounds. Distances at single positions are taken as exact, up to
+their rounding.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array
-from geneva_cli.parts.turn.pairs import Bounds, Clearances, Intervals, TurnedParts, Window
+from geneva_cli.geometry.distance import farthest, from_segments, short_pieces
+from geneva_cli.geometry.shapes import Contour
+from geneva_cli.motion.engagement import ConstantRate, Engagement
+from geneva_cli.motion.plane_motion import turned_points
+from geneva_cli.numerics.arrays import Array, rising
+from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.turn.play import windows
+from geneva_cli.parts.turn.stops import Pose
+from geneva_cli.parts.turn.turned_parts import Intervals, TurnedParts, Window
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.turn.turned_parts import Clearances
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
-
-
-class Open(NamedTuple):
-    """An interval, degrees, on which the gap is not proved: in its middle, and least."""
-
-    start_deg: float
-    end_deg: float
-    gap_mm: float
-    least_mm: float
+UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
 
 
 class Certificate(NamedTuple):
     """A proved lower bound of the gap, mm, and the number of intervals that it took.
 
-    If an interval is ``open``, it holds elsewhere only. ``between`` names the parts there.
+    If an interval is ``open``, it holds elsewhere only. This has the ends of the interval, degrees,
+    the gap in its middle and what is proved on it, mm. ``between`` names the parts there.
     """
 
     least_mm: float
     intervals: int
-    open: Open | None = None
+    open: tuple[float, float, float, float] | None = None
     between: str = ""
-
-
-def tolerance_mm(parts: TurnedParts) -> float:
-    """Return the tolerance of a certificate by default: how far it is from the smallest gap."""
-    # 1 um, or twice the overlap that counts as touching, if that is more
-    return max(1e-3, 2.0 * parts.contact)
 
 
 def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
@@ -55,29 +53,32 @@ def certificate(parts: TurnedParts, gap_mm: float, to_mm: float) -> Certificate:
     spare = 1e-11 * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
     pairs, least, count = parts.pairs(target), math.inf, 0
-    todo: list[tuple[str, Callable[[Intervals], Bounds], tuple[float, float]]] = []
+    todo: list[tuple[str, Callable[[Intervals], tuple[Array, Array]], tuple[float, float]]] = []
     for window in windows(parts):
         if parts.locked:
             ends = window.start, window.end
             todo.append(("locking disc and wheel", partial(pairs.lock, window), ends))
-        for span, driver in spans(parts, window):
+        for start, end, driver in window.spans:
             for roller in range(len(parts.assembly.rollers)):
-                if roller == driver:
-                    todo.append(("roller and slot", partial(pairs.driving, roller, span), span))
-                else:
-                    todo.append(("roller and wheel", partial(pairs.free, roller, window), span))
+                drives, span = roller == driver, (start, end)
+                name = "roller and slot" if drives else "roller and wheel"
+                own = partial(pairs.roller, roller, window, span if drives else None)
+                todo.append((name, own, span))
     for between, pair, ends in todo:
         bound = _halved(parts.gaps, pair, ends, target)
         least, count = min(least, bound.least_mm - spare), count + bound.intervals
         if bound.open:
-            start, end = (parts.assembly.shown_deg(x) for x in bound.open[:2])
-            shown = bound.open._replace(start_deg=start, end_deg=end)
-            return Certificate(least, count, shown, between)
+            start, end, gap, proved = bound.open
+            shown = parts.assembly.shown_deg
+            return Certificate(least, count, (shown(start), shown(end), gap, proved), between)
     return Certificate(least, count)
 
 
 def _halved(
-    gaps: Clearances, pair: Callable[[Intervals], Bounds], ends: tuple[float, float], target: float
+    gaps: Clearances,
+    pair: Callable[[Intervals], tuple[Array, Array]],
+    ends: tuple[float, float],
+    target: float,
 ) -> Certificate:
     """Return a lower bound of a pair's gap, by halving intervals until it is ``target`` mm on each.
 
@@ -88,15 +89,14 @@ def _halved(
     least, count = math.inf, 0
     while len(start):
         count += len(start)
-        bounds = pair(intervals(gaps, start, end))
-        closed = bounds.least >= target
-        least = min(least, float(bounds.least[closed].min(initial=math.inf)))
-        start, end = start[~closed], end[~closed]
-        middle, bound = (each[~closed] for each in bounds)
+        middle, bound = pair(intervals(gaps, start, end))
+        closed = bound >= target
+        least = min(least, float(bound[closed].min(initial=math.inf)))
+        start, end, middle, bound = np.array((start, end, middle, bound))[:, ~closed]
         collides = bool((middle < target).any())
         if collides or count + 2 * len(start) > MOST:
             i = int(np.argmin(middle if collides else bound))
-            left = Open(*(float(each[i]) for each in (start, end, middle, bound)))
+            left = float(start[i]), float(end[i]), float(middle[i]), float(bound[i])
             return Certificate(least, count, left)
         half = 0.5 * (start + end)
         start, end = np.concatenate((start, half)), np.concatenate((half, end))
@@ -108,31 +108,181 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
 
     Where the wheel turns back, its turn is a whole one: no point moves farther than that.
     """
-    pose = gaps.pose(np.concatenate((start, 0.5 * (start + end), end)))
-    crank = np.unwrap(pose.crank.reshape(3, -1), axis=0)
-    steps = np.diff(pose.wheel.reshape(3, -1), axis=0)
+    pose, count = gaps.pose(np.concatenate((start, 0.5 * (start + end), end))), len(start)
+    wheel, crank = pose.wheel.reshape(3, count), pose.crank.reshape(3, count)
+    steps = np.diff(wheel, axis=0)
     # the wheel's angle is rounded by less than 1e-12 radians
     turn = np.where((steps < -1e-12).any(axis=0), math.tau, steps.max(axis=0))
-    count = len(start)
-    poses = [pose.at(slice(i * count, (i + 1) * count)) for i in range(3)]
-    return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn, *poses)
+    crank_turn = np.abs(np.diff(np.unwrap(crank, axis=0), axis=0)).max(axis=0)
+    poses = map(Pose, wheel, crank, pose.pins.reshape(3, count, *pose.pins.shape[1:]))
+    return Intervals(start, end, crank_turn, turn, *poses)
 
 
-def spans(parts: TurnedParts, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
-    """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
+class FlatPairs:
+    """Pairs of flat parts, with gaps up to ``target`` mm; the wheel reaches the level ``rim``."""
 
-    Between two rollers of a motion gears drive the wheel, from the deepest position to that of the
-    other.
+    def __init__(self, gaps: Gaps, crank: Sequence[Contour], target: float, rim: float) -> None:
+        self.gaps, self.target, self.rim = gaps, target, rim
+        self.apart = max(target, 0.0)  # the distance up to which parts matter
+        self._travels: dict[tuple[str, Engagement], Travel] = {}
+        # the crank in arcs of a degree, each of which is tested for being in the wheel, and the
+        # greatest distance of the crank from its axis, mm
+        self.pieces = short_pieces(crank, math.radians(1.0)) if crank else None
+        self.disc = float(farthest(self.pieces, 0.0, 0.0).max()) if self.pieces else 0.0
+
+    def lock(self, window: Window, on: Intervals) -> tuple[Array, Array]:
+        """Return the gap of locking disc and wheel: bounds up to ``apart``.
+
+        In the dwell and beside it, the part of the crank that is within the wheel's rim lies in the
+        circle that the wheel leaves free about the middle of each recess.
+        """
+        gaps, pieces, pose = self.gaps, self.pieces, on.at_middle
+        moves, sign, L = gaps.plane_motion, gaps.assembly.sign, gaps.assembly.L
+        gap = gaps.locking(pose)
+        far = self.rim if sign > 0.0 else L + self.disc + self.apart
+        least = gap - (moves.lever(far) * on.wheel + (self.disc + self.apart) * on.crank)
+        some = np.flatnonzero(least < self.target)
+        if pieces is None or not len(some):
+            return gap, np.minimum(least, self.apart)
+        wheel, crank = pose.wheel[some], pose.crank[some]
+        # the middles of the recesses at both ends of the window, in the wheel's frame
+        turn = gaps.assembly.wheel(np.array((window.start, window.end)))
+        recesses = moves.into(np.array(((L, 0.0), (L, 0.0))), turn)
+        at = 0.5 * (on.start[some] + on.end[some])
+        nearer = (at - window.start >= window.end - at).astype(int)
+        offset = turned_points(moves.into(recesses[nearer], -wheel) - (L, 0.0), -crank)
+        # the pieces of the crank that may come within the wheel's rim
+        c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
+        x, y = L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
+        beyond = sign * (moves.level(np.stack((x, y), axis=-1)) - self.rim)
+        moved = self.disc * on.crank[some, None] + self.apart
+        row, piece = np.nonzero(beyond - pieces.size <= moved)
+        reach = np.zeros(len(some))  # of the crank from the middle of the nearer recess
+        np.maximum.at(reach, row, farthest(pieces.subset(piece), *offset[row].T))
+        away = moves.lever(L) * on.wheel[some] + np.hypot(*offset.T) * on.crank[some]
+        free = gaps.wheel.signed(recesses)[nearer]
+        least[some] = np.maximum(least[some], free - reach - away)
+        return gap, np.minimum(least, self.apart)
+
+    def roller(
+        self, number: int, window: Window, span: tuple[float, float] | None, on: Intervals
+    ) -> tuple[Array, Array]:
+        """Return the gap of a roller in its slot between two angles, or outside the one it drives.
+
+        In its slot it moves along the axis, or near chords of the curve. Outside, the gap is that
+        in the middle, less the roller's travel in the wheel's frame. While the wheel rests, the
+        centre is also near the chord of its path.
+        """
+        gaps, moves, pose = self.gaps, self.gaps.plane_motion, on.at_middle
+        assembly, (engagement, mid) = gaps.assembly, gaps.assembly.rollers[number]
+        centre, gap = moves.into(pose.pins[:, number], pose.wheel), gaps.rollers(pose)[:, number]
+        begin = assembly.from_mid(on.start, mid)
+        most, aside = self._path(number).on(begin, begin + (on.end - on.start))
+        travel = most + moves.lever(moves.level(centre)) * on.wheel
+        some, least = np.arange(len(gap)), np.full(len(gap), -math.inf)
+        if span is None:
+            beyond = assembly.sign * (moves.level(centre) - self.rim)
+            gap = np.maximum(gap, beyond - gaps.sizes.roller)
+            least = gap - travel
+            some = np.flatnonzero(window.rests & (least < self.target))
+        if span and not engagement.slot.curved:
+            places = gaps.pose(np.array([span[0], 0.5 * (span[0] + span[1])]))
+            first, other = moves.into(places.pins[:, number], places.wheel)
+            axis = (first - other) / math.dist(first, other)
+            start, end = centre - travel[:, None] * axis, centre + travel[:, None] * axis
+            aside = np.abs((centre - first) @ (-axis[1], axis[0]))
+        elif len(some):
+            start = moves.into(on.at_start.pins[some, number], on.at_start.wheel[some])
+            end = moves.into(on.at_end.pins[some, number], on.at_end.wheel[some])
+            if span:  # a curved slot's, as the roller travels in the wheel's frame
+                moving, mid = assembly.motions[number]
+                _, aside = self._slot(moving).on(on.start - mid, on.end - mid)
+        if not len(some):
+            return gap, least
+        # A segment that is shorter than its middle's distance from the outline does not cross it.
+        radius, off = gaps.sizes.roller, np.hypot(*(0.5 * (start + end) - centre[some]).T)
+        short = 0.5 * np.hypot(*(end - start).T) < radius + gap[some] - off
+        if short.any():
+            free = from_segments(gaps.wheel, start[short], end[short], radius + gaps.near)
+            some = some[short]
+            least[some] = np.maximum(least[some], free - aside[some] - radius)
+        return gap, least
+
+    def _slot(self, moving: Engagement) -> Travel:
+        """Return the travel of a roller in its curved slot, in the wheel's frame."""
+        if ("slot", moving) not in self._travels:
+            from geneva_cli.numerics.intervals import curve_rates
+
+            edges = cells(moving, moving.entry_deg, moving.exit_deg)
+            rates = curve_rates(moving.slot, edges[:-1], edges[1:])
+            self._travels["slot", moving] = Travel(edges, rates, self.gaps.assembly.L)
+        return self._travels["slot", moving]
+
+    def _path(self, roller: int) -> Travel:
+        """Return the travel of a roller through a whole turn in the fixed frame."""
+        engagement, _ = self.gaps.assembly.rollers[roller]
+        if ("path", engagement) in self._travels:  # which several rollers share
+            return self._travels["path", engagement]
+        turn_deg, L = self.gaps.assembly.turn_deg, self.gaps.assembly.L
+        body, groove = engagement.body, engagement.groove
+        if engagement.on_arm and groove is None and isinstance(body, ConstantRate):
+            # a circle about the crank's axis, at a constant speed
+            x, y = engagement.path(0.0, 0)
+            speed = abs(body.rate) * math.hypot(x.c[0] - engagement.hub, y.c[0])
+            edges = np.array((-0.5, 0.5)) * turn_deg
+            rates = np.array(((speed,), (speed * abs(body.rate),)))
+        else:
+            from geneva_cli.numerics.intervals import curve_rates
+
+            edges = cells(engagement, -0.5 * turn_deg, 0.5 * turn_deg)
+            start, end = edges[:-1], edges[1:]
+            moving, dwell = np.full(len(start), True), None
+            if groove is not None:
+                from geneva_cli.motion.groove_path import dwell_rates
+
+                dwell = dwell_rates(groove)
+                if dwell:
+                    moving = (engagement.entry_deg <= start) & (end <= engagement.exit_deg)
+            rates = np.empty((2, len(start)))
+            rates[:, moving] = curve_rates(engagement.path, start[moving], end[moving])
+            if dwell:
+                rates[:, ~moving] = np.array(dwell)[:, None]
+        travel = self._travels["path", engagement] = Travel(edges, rates, L, turn_deg)
+        return travel
+
+
+class Travel:
+    """Bounds of the speed and the second derivative of a curve between two input angles.
+
+    ``rates`` (2, n) has them on the n cells between ``edges``, degrees from mid-motion, in units of
+    ``length`` mm; infinite if unknown. A curve that runs all round repeats after ``turn_deg``.
     """
-    start, end, motion, rests = window
-    assembly = parts.assembly
-    if rests or not assembly.motions[motion].engagement.paired:
-        yield (start, end), None if rests else motion
-        return
-    first, last = 2 * motion, 2 * motion + 1
-    leaves, meets = (
-        start + (assembly.rollers[i].mid - start) % assembly.turn_deg for i in (first, last)
-    )
-    yield (start, leaves), first
-    yield (leaves, meets), None
-    yield (meets, end), last
+
+    def __init__(self, edges: Array, rates: Array, length: float, turn_deg: float = 0.0) -> None:
+        speed, bend = np.minimum(length * rates, UNKNOWN)
+        self.edges = edges
+        if turn_deg:  # an interval may begin in one turn and end in the next
+            speed, bend = np.tile(speed, 2), np.tile(bend, 2)
+            self.edges = np.concatenate((edges, edges[1:] + turn_deg))
+        self.bend, self.unknown = bend, np.where(speed < UNKNOWN, 0.0, UNKNOWN)
+        known = np.where(speed < UNKNOWN, speed, 0.0)
+        self.moved = np.concatenate(([0.0], np.cumsum(known * np.radians(np.diff(self.edges)))))
+
+    def on(self, start: Array, end: Array) -> tuple[Array, Array]:
+        """Return how far the curve is at most on intervals from its place in their middles.
+
+        With it goes how far it is at most from its chord.
+        """
+        at = np.array((start, 0.5 * (start + end), end))
+        most = np.diff(np.interp(at, self.edges, self.moved), axis=0).max(axis=0)
+        touch = (self.edges[:-1] <= end[:, None]) & (self.edges[1:] >= start[:, None])
+        unknown = np.where(touch, self.unknown, 0.0).max(axis=1)
+        bend = np.where(touch, self.bend, 0.0).max(axis=1)
+        return np.maximum(most, unknown), bend * np.radians(end - start) ** 2 / 8.0
+
+
+def cells(engagement: Engagement, start: float, end: float) -> Array:
+    """Return the ends of cells; no formula changes within a cell of the motion."""
+    # on cells longer than a degree of the input the bounds are much wider
+    seams = [x for x in engagement.motion.seams_deg if start < x < end]
+    return rising(np.append(np.linspace(start, end, math.ceil(end - start) + 1), seams))

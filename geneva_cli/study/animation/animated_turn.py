@@ -18,7 +18,7 @@ from geneva_cli.motion.pivots import AxisPlace, Joint, Link
 from geneva_cli.motion.plane_motion import turned_points
 from geneva_cli.numerics.arrays import Array
 from geneva_cli.output.scene import Bar, CarriedShapes, Place, Push, Track
-from geneva_cli.parts.assembly import Passage, assembled_by_input, links_at
+from geneva_cli.parts.assembly import Passage, assembled, links_at
 from geneva_cli.parts.links.links import drawn_links
 from geneva_cli.parts.outlines.outlines import Outlines
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
@@ -31,7 +31,7 @@ class MachineTurn:
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
-        self.assembly = assembled_by_input(mechanism)
+        self.assembly = assembled(mechanism, by_input=True)
         self.L, self.turn_deg = self.assembly.L, self.assembly.turn_deg
         self.passages = self.assembly.motions
         self.start = self.passages[0].entry
@@ -201,7 +201,7 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
         sound = np.isfinite(force)
         if not sound.any():
             continue
-        pin = turn.assembly.driving(i, one.mid + local)
+        pin = turn.assembly.pin(i, one.mid + local, drives=True)
         normal = _normals(one, local, turn, pin)
         arm = pin[:, 0] * normal[:, 1] - pin[:, 1] * normal[:, 0]
         if not turn.mechanism.output.turns:

@@ -240,7 +240,9 @@ class WheelScene:
         """All wheels; without shapes, as symbols."""
         one, machine = turn.passages[0], turn.mechanism
         # distances of the first roller from the wheel's axis in its slot
-        reach = np.hypot(*turn.assembly.driving(0, np.linspace(one.entry, one.exit, 181)).T)
+        reach = np.hypot(
+            *turn.assembly.pin(0, np.linspace(one.entry, one.exit, 181), drives=True).T
+        )
         least, most = float(reach.min()), float(reach.max())
         if not shapes:  # a disc with a line along each slot
             angles = np.arange(machine.spec.wheel.z) * math.tau / machine.spec.wheel.z

@@ -13,6 +13,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.motion.compatible import concerns
 from geneva_cli.motion.mechanism import Mechanism
 from geneva_cli.motion.records import KINDS, of_wheel
 from geneva_cli.numerics.tolerances import keeps
@@ -198,7 +199,10 @@ def standing(mechanism: Mechanism) -> Checks:
     """The checks of the parts of a machine at rest."""
     own, added = Checks(), Checks()
     for kind in of_wheel(mechanism.spec.wheel.NAME):
-        (own if kind.parts else added).update(kind.parts_checks)
+        if kind.parts:
+            own |= kind.parts_checks
+        elif concerns(kind, mechanism.spec):
+            added |= kind.parts_checks
     return own | added if own else {**STATIC, **added, **PROCESS}
 
 
@@ -248,7 +252,7 @@ def every_check(
                 yield Check(name, None, "at most", limit, None, why)
     elif parts:
         from geneva_cli.parts.parts import parts_of
-        from geneva_cli.parts.turn.pairs import WorkLimit
+        from geneva_cli.parts.turn.turned_parts import WorkLimit
 
         machine = machine or parts_of(mechanism)
         try:
@@ -317,10 +321,7 @@ def pushed_round(mechanism: Mechanism) -> list[Check]:
 
 
 def proofs(parts: Parts, to_mm: float | None = None) -> list[Check]:
-    """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
-
-    ``to_mm`` is the tolerance of the proof, by default ``certificate.tolerance_mm``.
-    """
+    """The proof that no parts collide in a whole turn; none if they cannot be made or turned."""
     if not parts.mechanism.spec.is_turned or parts.mechanism.no_turn:
         return []
     try:

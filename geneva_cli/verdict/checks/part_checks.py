@@ -21,8 +21,7 @@ from geneva_cli.parts.arm import walls as arm_walls
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.links.link_shafts import planes
 from geneva_cli.parts.outlines.crank_outline import is_whole, rollers_gap
-from geneva_cli.parts.outlines.outlines import Outlines
-from geneva_cli.parts.outlines.wheel_circles import wheel_circles, wheel_hub
+from geneva_cli.parts.outlines.outlines import Outlines, wheel_holes, wheel_hub
 from geneva_cli.parts.parts import EdgedParts
 from geneva_cli.parts.shafts.bores import has_shape
 from geneva_cli.parts.slots.roller_paths import roller_centres
@@ -85,7 +84,7 @@ def _dial_wall(outlines: Outlines) -> float:
     """The least wall around the bore with its keyway and around the dial's bolts."""
     inside = outlines.assembly.sign < 0.0  # the contour is that of the opening
     edge = Polyarc([backwards(outlines.wheel) if inside else outlines.wheel])
-    holes = [s for s in wheel_circles(outlines.assembly, outlines.sizes) if s.layer == "BORE"]
+    holes = wheel_holes(outlines.assembly, outlines.sizes)
     found = [-beyond(edge, hole) for hole in holes]
     found += [apart(one, two) for one, two in combinations(holes, 2)]
     for hole in holes if inside else ():

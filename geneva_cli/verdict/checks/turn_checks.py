@@ -11,9 +11,8 @@ from operator import attrgetter
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.parts import Parts
-from geneva_cli.parts.turn.bounds import UNKNOWN
 from geneva_cli.parts.turn.full_turn import FullTurn
-from geneva_cli.parts.turn.turn_certificate import certificate, tolerance_mm
+from geneva_cli.parts.turn.turn_certificate import UNKNOWN, certificate
 from geneva_cli.verdict.checks import Check, compared
 
 DRY_FRICTION = 0.3  # of a sliding pair that nobody greases: steel on steel or PLA on PLA
@@ -112,12 +111,13 @@ def within_tolerances(names: Collection[str], parts: Parts, turn: FullTurn) -> I
 def proof(names: Collection[str], parts: Parts, to_mm: float | None) -> Iterator[Check]:
     """The proved lower bound of the gap, mm; none where parts are known to overlap.
 
-    ``to_mm`` is how far below the smallest gap the bound may be, by default ``tolerance_mm``.
+    ``to_mm`` is how far below the smallest gap the bound may be: by default 1 um, or twice the
+    overlap that counts as touching, if that is more.
     """
     gap, name = parts.turned.turn.smallest.mm, "gap_proved_mm"
     if gap < -parts.contact:
         return
-    to_mm = to_mm or tolerance_mm(parts)
+    to_mm = to_mm or max(1e-3, 2.0 * parts.contact)
     found = certificate(parts, gap, to_mm)
     if not found.open:
         why = f"collision-free, proved to {1e3 * to_mm:.3g} µm ({found.intervals:,} intervals)"

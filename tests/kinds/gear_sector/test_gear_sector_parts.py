@@ -124,7 +124,7 @@ def test_two_rollers_on_the_crank():
     assert listed["between a pair's slots"] + 2.0 * math.degrees(b) == pytest.approx(120.0)
     slots = np.linspace(engagement.entry_deg, -50.0, 9)
     for number, x in ((0, slots), (1, -slots)):
-        assert where.pin(number, x) == pytest.approx(where.driving(0, x), abs=1e-12 * L)
+        assert where.pin(number, x) == pytest.approx(where.pin(0, x, drives=True), abs=1e-12 * L)
     (room,) = (c.value for c in design.checks if c.name == "rollers_apart_mm")
     chord = 2.0 * L * math.sin(b) * math.sin(math.radians(50.0))
     assert room == pytest.approx(chord - 6.0, rel=1e-12)
